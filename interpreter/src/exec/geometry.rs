@@ -51,7 +51,7 @@ impl Geometry {
                 coordinates.set_zero_entry(*group, *axis, *value);
             }
         }
-        coordinates.select_zero_group(offsets.start_group);
+        coordinates.select_zero_group(offsets.start_group, false);
         Self {
             coordinates,
             limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),

@@ -6,6 +6,7 @@
 mod actual;
 pub(super) mod calls;
 pub(super) mod check;
+pub(super) mod cycle_end;
 pub(super) mod executor;
 pub(super) mod files;
 pub(super) mod flow;

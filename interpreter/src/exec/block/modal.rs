@@ -127,6 +127,8 @@ pub(in crate::exec) enum Selection {
 pub(in crate::exec) struct Modal {
     pub(in crate::exec) path: PathMode,
     pub(in crate::exec) plane: Plane,
+    /// G20 to G23: the first and the second main axis are mirrored.
+    pub(in crate::exec) mirrored: [bool; 2],
     pub(in crate::exec) inch: bool,
     pub(in crate::exec) absolute: bool,
     pub(in crate::exec) feed_type: FeedType,
@@ -188,6 +190,7 @@ impl Modal {
         Self {
             path: PathMode::Linear,
             plane: Plane::Xy,
+            mirrored: [false; 2],
             inch: false,
             absolute: true,
             feed_type: FeedType::PerMinute,

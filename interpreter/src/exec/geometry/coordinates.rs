@@ -1,12 +1,13 @@
 //! Positions of the axes, offsets and frames: from programmed values to targets of the axes.
 //!
 //! `target = offsets + frame(programmed)`. The frame is made of contour rotation (first), mirroring and coordinate
-//! systems; offsets are zero offset, G92, tool and measuring offset. A change of offsets or frames moves nothing: an axis takes the
-//! active offset over when it is next programmed absolutely.
+//! systems with the offsets that were programmed in them; offsets are zero offset and G92 below all systems, tool and measuring
+//! offset. A change of offsets or frames moves nothing: an axis takes the active offset over when it is next programmed absolutely.
 //!
-//! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS. Assumption: axes that a
-//! rotation couples take their offsets over together.
+//! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS, offsets in the coordinate system. Assumption: axes
+//! that a rotation couples take their offsets over together.
 
+mod layer;
 mod machine;
 
 use super::frame::Frame;
@@ -14,6 +15,7 @@ use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
+use layer::Layer;
 use machine::Suspended;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,22 +54,18 @@ pub(in crate::exec) struct Coordinates {
     word: AxisVec,
     /// First, second and third main axis.
     main: [Option<usize>; 3],
-    /// Active zero-offset group, 0 = none (G53).
-    zero_group: u32,
     zero_table: BTreeMap<u32, AxisVec>,
-    /// Values of `V.G.NP_AKT`, which hold until another group is selected.
-    zero_written: BTreeMap<usize, f64>,
     /// Axes whose entry of a group is left out (G160).
     zero_masked: BTreeSet<(u32, usize)>,
-    preset: AxisVec,
-    /// Position presets (`#PSET`).
-    position_preset: AxisVec,
+    /// Offsets below all coordinate systems.
+    lowest: Layer,
+    /// Active coordinate systems, the last one innermost.
+    systems: Vec<Layer>,
     tool: AxisVec,
     /// Measuring offsets (G101).
     measuring: AxisVec,
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
-    systems: Vec<Frame>,
     stored: BTreeMap<u32, Frame>,
     /// What `#MCS ON` has put aside.
     suspended: Option<Box<Suspended>>,
@@ -86,17 +84,14 @@ impl Coordinates {
             applied: AxisVec::zeros(n),
             word: start.clone(),
             main,
-            zero_group: 0,
             zero_table: BTreeMap::new(),
-            zero_written: BTreeMap::new(),
             zero_masked: BTreeSet::new(),
-            preset: AxisVec::zeros(n),
-            position_preset: AxisVec::zeros(n),
+            lowest: Layer::new(Frame::IDENTITY, n),
+            systems: Vec::new(),
             tool: AxisVec::zeros(n),
             measuring: AxisVec::zeros(n),
             mirrored: vec![false; n],
             rotation: None,
-            systems: Vec::new(),
             stored: BTreeMap::new(),
             suspended: None,
             frame: Frame::IDENTITY,
@@ -139,14 +134,15 @@ impl Coordinates {
         self.frame_changed();
     }
 
-    /// Offset that an absolute word of this axis would take over.
+    /// Offset that an absolute word of this axis would take over, apart from what the frame holds.
     #[inline]
     pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
-        self.zero_offset(axis)
-            + self.preset[axis]
-            + self.position_preset[axis]
-            + self.tool[axis]
-            + self.measuring[axis]
+        let offset = self.layer_offset(&self.lowest, axis) + self.tool[axis] + self.measuring[axis];
+        if self.systems.is_empty() || self.main_index(axis).is_some() {
+            return offset;
+        }
+        // the frame has the main axes only
+        offset + self.systems.iter().map(|layer| self.layer_offset(layer, axis)).sum::<f64>()
     }
 
     /// Offset contained in the target of an axis.
@@ -163,61 +159,6 @@ impl Coordinates {
         self.measuring[axis] = value_mm;
     }
 
-    /// Active zero offset.
-    #[inline]
-    pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
-        if let Some(written) = self.zero_written.get(&axis) {
-            return *written;
-        }
-        if self.zero_table.is_empty() || self.zero_masked.contains(&(self.zero_group, axis)) {
-            return 0.0;
-        }
-        self.zero_entry(self.zero_group, axis)
-    }
-
-    /// Entry of the zero-offset table.
-    pub(in crate::exec) fn zero_entry(&self, group: u32, axis: usize) -> f64 {
-        self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])
-    }
-
-    pub(in crate::exec) fn set_zero_entry(&mut self, group: u32, axis: usize, value_mm: f64) {
-        let n = self.target.len();
-        self.zero_table.entry(group).or_insert_with(|| AxisVec::zeros(n))[axis] = value_mm;
-    }
-
-    /// G53 (group 0), G54 to G59, G159.
-    pub(in crate::exec) fn select_zero_group(&mut self, group: u32) {
-        self.zero_group = group;
-        self.zero_written.clear();
-    }
-
-    /// `V.G.NP_AKT`: another zero offset in use; the table keeps its own.
-    pub(in crate::exec) fn set_zero_offset(&mut self, axis: usize, value_mm: f64) {
-        self.zero_written.insert(axis, value_mm);
-    }
-
-    /// G160: leaves the entry of an axis out of a group, or takes it in again.
-    pub(in crate::exec) fn mask_zero_entry(&mut self, group: u32, axis: usize, masked: bool) {
-        if masked {
-            self.zero_masked.insert((group, axis));
-        } else {
-            self.zero_masked.remove(&(group, axis));
-        }
-    }
-
-    /// `#PSET`: where the axis is has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
-    /// not move.
-    pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
-        let before = self.position_preset[axis];
-        let after = match value_mm {
-            Some(value) => before + (self.target[axis] - self.applied[axis]) - value,
-            None => 0.0,
-        };
-        self.position_preset[axis] = after;
-        self.applied[axis] += after - before;
-        self.recompute_program();
-    }
-
     /// `#SUPPRESS OFFSETS`: targets of axes without offsets.
     pub(in crate::exec) fn program_without_offsets(&mut self, words: &[Target]) {
         for &Target { axis, value, .. } in words {
@@ -228,28 +169,9 @@ impl Coordinates {
         self.recompute_program();
     }
 
-    /// G92 offset.
-    pub(in crate::exec) fn preset(&self, axis: usize) -> f64 {
-        self.preset[axis]
-    }
-
-    /// Programmed distance of an axis from the turning centre in mm.
-    pub(in crate::exec) fn turning_distance(&self, axis: usize) -> f64 {
-        self.programmed(axis) + self.preset(axis)
-    }
-
-    /// Machine position of the turning centre in mm.
-    pub(in crate::exec) fn turning_centre(&self, axis: usize) -> f64 {
-        self.target[axis] - self.turning_distance(axis)
-    }
-
     /// Programmed position of the main axes, 0 for one that is missing.
     pub(in crate::exec) fn programmed_point(&self) -> [f64; 3] {
         std::array::from_fn(|m| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis)))
-    }
-
-    pub(in crate::exec) fn set_preset(&mut self, axis: usize, value_mm: f64) {
-        self.preset[axis] = value_mm;
     }
 
     /// Tool offsets: all axes are replaced.
@@ -295,10 +217,6 @@ impl Coordinates {
         Ok(())
     }
 
-    pub(in crate::exec) fn systems(&self) -> usize {
-        self.systems.len()
-    }
-
     pub(in crate::exec) fn store_system(&mut self, id: u32, frame: Frame) {
         self.stored.insert(id, frame);
     }
@@ -309,23 +227,6 @@ impl Coordinates {
 
     pub(in crate::exec) fn stored_systems(&self) -> usize {
         self.stored.len()
-    }
-
-    pub(in crate::exec) fn push_system(&mut self, frame: Frame) {
-        self.systems.push(frame);
-        self.frame_changed();
-    }
-
-    /// True if there was one.
-    pub(in crate::exec) fn pop_system(&mut self) -> bool {
-        let popped = self.systems.pop().is_some();
-        self.frame_changed();
-        popped
-    }
-
-    pub(in crate::exec) fn clear_systems(&mut self) {
-        self.systems.clear();
-        self.frame_changed();
     }
 
     /// Frame over the main axes.
@@ -347,8 +248,11 @@ impl Coordinates {
             Some(r) => mirror.after(&Frame::rotation(r.plane[0], r.plane[1], r.deg, r.centre)),
             None => mirror,
         };
-        for system in self.systems.iter().rev() {
-            frame = system.after(&frame);
+        for layer in self.systems.iter().rev() {
+            for (t, axis) in frame.t.iter_mut().zip(self.main) {
+                *t += axis.map_or(0.0, |axis| self.layer_offset(layer, axis));
+            }
+            frame = layer.system.after(&frame);
         }
         self.plain = frame.is_identity();
         self.frame = frame;
@@ -450,7 +354,7 @@ mod tests {
         let mut c = at(&[0.0, 0.0, 0.0]);
         c.set_zero_entry(1, 0, 10.0);
         c.set_zero_entry(1, 1, 5.0);
-        c.select_zero_group(1);
+        c.select_zero_group(1, false);
         c.program([word(0, 0.0, false)]);
         assert_eq!(c.target()[..], [0.0, 0.0, 0.0]);
         c.program([word(0, 0.0, true)]);
@@ -475,7 +379,7 @@ mod tests {
     fn rotation_acts_before_offsets() {
         let mut c = at(&[0.0, 0.0, 0.0]);
         c.set_zero_entry(1, 0, 100.0);
-        c.select_zero_group(1);
+        c.select_zero_group(1, false);
         c.set_rotation(Some(Rotation { plane: [0, 1], deg: 90.0, centre: [0.0, 0.0] }));
         c.program([word(0, 10.0, true)]);
         assert_eq!(c.target()[..], [100.0, 10.0, 0.0]);

@@ -19,6 +19,13 @@ use crate::exec::motion::state::Function;
 use crate::exec::step::{BandingRun, Event};
 use crate::syntax::ast::Span;
 
+/// G108 with which nothing was done.
+fn unused(span: Span) -> Box<Fault> {
+    let text = "G108 ends here without a motion that waited for the signal";
+    let hint = "such a motion has an M function that is MNE_SNS in P-CHAN-00041";
+    Fault::new(Condition::Odd, text, span).warning().hint(hint)
+}
+
 impl Decoder {
     /// G108, G107.
     pub(in crate::exec) fn set_banding(&mut self, on: bool, g: &GWord) -> Outcome<()> {
@@ -28,8 +35,17 @@ impl Decoder {
                 g.span,
             ));
         }
-        self.motion.measuring.banding = on;
+        if std::mem::replace(&mut self.motion.measuring.banding, on) && !on {
+            self.report.note(unused(g.span));
+        }
         Ok(())
+    }
+
+    /// The program ends.
+    pub(in crate::exec) fn banding_ends(&mut self) {
+        if std::mem::take(&mut self.motion.measuring.banding) {
+            self.report.note(unused(Span::default()));
+        }
     }
 
     /// The motion of this block waits for the signal, if edge banding is on and it has the M function for it; the place of

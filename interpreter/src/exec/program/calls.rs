@@ -1,7 +1,6 @@
 //! Program levels: subroutines, cycles and the ends of programs.
 //!
-//! Source: TF5200 programming manual, subroutine techniques. Assumption: modal state that a cycle changes is restored
-//! at its end, plain subroutines share everything with their caller.
+//! Source: TF5200 programming manual, subroutine techniques. Plain subroutines share everything with their caller.
 
 use super::executor::Executor;
 use super::state::{Level, ModalCycle, Passed};
@@ -43,7 +42,7 @@ impl Executor {
         info.program = part.name.clone().unwrap_or_else(|| Arc::clone(&info.file));
         let saved = cycle.map(|passed| {
             self.decoder.values.variables.enter_cycle(passed);
-            Box::new(self.decoder.modal.clone())
+            Box::new(self.decoder.enter_cycle())
         });
         if !self.levels.is_empty() {
             self.decoder.values.variables.enter_level();
@@ -69,14 +68,9 @@ impl Executor {
     fn pop_level(&mut self) {
         let Some(level) = self.levels.pop() else { return };
         self.decoder.values.variables.leave_level();
-        if let Some(modal) = level.cycle {
+        if let Some(before) = level.cycle {
             self.decoder.values.variables.leave_cycle();
-            if !std::mem::take(&mut self.decoder.calls.retain_cycle_changes)
-                && self.decoder.modal != *modal
-            {
-                self.decoder.modal = *modal;
-                self.decoder.motion.dynamics_changed();
-            }
+            self.decoder.leave_cycle(*before);
         }
         if let Some(level) = self.levels.last() {
             let info = &mut self.decoder.calls.info;
@@ -130,6 +124,7 @@ impl Executor {
             return;
         }
         self.contouring_at_end();
+        self.decoder.banding_ends();
         self.end(EndReason::Finished);
     }
 

@@ -103,7 +103,7 @@ impl Index {
         self.labels.get(section, label)
     }
 
-    /// Where a block is in the structure of its section; `None` inside `#COMMENT`.
+    /// Where a block is in the structure of its section; `None` inside `#COMMENT` and `#RT CYCLE`.
     pub(super) fn block(&self, position: Position) -> Option<LabelPlace> {
         // the last statement up to the block says what the block is in
         let Some((id, _)) = self.entries.last_up_to(position.offset) else {
@@ -114,7 +114,7 @@ impl Index {
         let keyword = entry.keyword;
         let closes = keyword.opener().and_then(Keyword::closer) == Some(keyword);
         let parent = match (keyword, entry.open) {
-            (Keyword::CommentBegin, _) if !itself => return None,
+            (keyword, _) if keyword.is_silent() && !itself => return None,
             (_, None) => entry.parent,
             (
                 Keyword::ConditionalIf | Keyword::ConditionalElse | Keyword::ConditionalEnd,

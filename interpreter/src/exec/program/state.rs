@@ -1,8 +1,8 @@
 //! What a program keeps from block to block: its levels with their control blocks, what it calls, the numbers it knows.
 
+use super::cycle_end::BeforeCycle;
 use super::index::{EntryId, Index, Keyword, Labels};
 use super::info::ProgramInfo;
-use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
 use crate::machine::Channel;
 use crate::source::Position;
@@ -24,7 +24,7 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec) passes: u32,
     pub(in crate::exec) frames: Vec<Frame>,
     /// Modal state to return to: the level is a cycle.
-    pub(in crate::exec) cycle: Option<Box<Modal>>,
+    pub(in crate::exec) cycle: Option<Box<BeforeCycle>>,
     /// Between `#VAR` and `#ENDVAR`.
     pub(in crate::exec) declarations: bool,
     /// A control block without its end took the rest of the text.
@@ -72,7 +72,7 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) tool_change_file: Option<String>,
     /// Cycle that is called after every motion or block.
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
-    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
+    /// `#RETAIN CYCLE CHANGES`, P-CHAN-00210: the cycle in work gives nothing back.
     pub(in crate::exec) retain_cycle_changes: bool,
 }
 

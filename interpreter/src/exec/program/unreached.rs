@@ -64,7 +64,7 @@ impl Executor {
         while at.offset < to && *left > 0 {
             if let Some(id) = index.at(at) {
                 let entry = index.entry(id);
-                if matches!(entry.keyword, Keyword::CommentBegin | Keyword::ConditionalIf) {
+                if entry.keyword.is_silent() || entry.keyword == Keyword::ConditionalIf {
                     let end = entry.end.map_or(to, |end| index.entry(end).position.offset);
                     silent = silent.max(Some(end));
                 }

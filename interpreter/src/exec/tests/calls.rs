@@ -351,3 +351,37 @@ fn local_cycles_need_no_blank() {
         super::clean("%L CYC\nG91 G01 X@P1 F1000\nM17\n%MAIN\nLLCYCLE[NAME=CYC @P1=4]\nM30\n");
     assert_eq!(run.end[0], 4.0);
 }
+
+/// G functions that stand alone are back at the end of a cycle, those with values or axes stay (P-CHAN-00210, 476043659).
+#[test]
+fn what_a_cycle_changes() {
+    let table = "V.G.NP[1].V.X=100\nV.G.NP[2].V.X=10\nF1000\nG54\n";
+    let end = |settings: &[&str], before: &str, cycle: &str, after: &str| {
+        let files = [
+            ("main.nc", format!("{table}{before}\nL CYCLE [NAME=c.nc]\n{after}\nM30\n")),
+            ("c.nc", format!("{cycle}\nM17\n")),
+            ("d.nc", "G55 G91\nM17\n".to_owned()),
+        ];
+        let files: Vec<(&str, &str)> = files.iter().map(|(n, t)| (*n, t.as_str())).collect();
+        let run = listed(settings, &files);
+        assert!(run.ids().is_empty(), "{:?}", super::shown(&run.diagnostics));
+        run.end
+    };
+    let x = |before: &str, cycle: &str| end(&[], before, cycle, "G71 X1 Y2")[0];
+    assert_eq!(x("", "G55"), 101.0);
+    assert_eq!(x("", "G53"), 101.0);
+    assert_eq!(x("G159=2", "G54"), 11.0);
+    assert_eq!(x("", "G159=2"), 11.0);
+    assert_eq!(x("", "G92 X5"), 106.0);
+    assert_eq!(x("G71", "G21"), 101.0);
+    assert_eq!(x("G71 G21", "G20"), 99.0);
+    assert_eq!(x("G71", "G351 X-1"), 99.0);
+    assert_eq!(x("", "#RETAIN CYCLE CHANGES\nG55"), 11.0);
+    // the inner cycle's own matter
+    assert_eq!(x("", "#RETAIN CYCLE CHANGES\nL CYCLE [NAME=d.nc]\nG55"), 11.0);
+    assert_eq!(x("", "G55\nL CYCLE [NAME=d.nc]"), 101.0);
+    // a system that stays open keeps its offset
+    assert_eq!(x("#CS ON [1,0,0]", "G55"), 102.0);
+    assert_eq!(x("", "#CS ON [1,0,0]\nG55"), 112.0);
+    assert_eq!(end(&["channel.cycle_changes_modal=1"], "", "G55 G91", "X1")[0], 1.0);
+}

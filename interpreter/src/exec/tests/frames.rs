@@ -119,3 +119,46 @@ fn coordinate_systems_turned_in_space() {
         [x + 3.0, y, z + 2.0]
     });
 }
+
+/// Offsets programmed in a coordinate system (1086442763) lie in its axes, add to those below, and end with it; tool offsets belong
+/// to no system.
+#[test]
+fn offsets_belong_to_their_system() {
+    let end = |text: &str| {
+        let table = "V.G.NP[1].V.X=100\nV.G.NP[2].V.X=7\nV.G.NP[2].V.Y=1\nV.G.WZ[1].L=30\n";
+        clean(&format!("{table}F1000\n{text}\nM30\n")).end
+    };
+    let turned = "#CS ON [0,0,0,0,0,90]\n";
+    // X of the system is Y of the machine
+    assert_near(&end(&format!("{turned}G92 X5\nX1 Y2")), &[-2.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{turned}G55\nX1 Y2")), &[-3.0, 8.0, 0.0]);
+    assert_near(&end(&format!("{turned}G55 G92 X5\nX1 Y2")), &[-3.0, 13.0, 0.0]);
+    // what was active before stays, and lies in its own axes
+    assert_near(&end(&format!("G54\n{turned}G55\nX1 Y2")), &[97.0, 8.0, 0.0]);
+    assert_near(&end(&format!("G54\n{turned}G53\nX1 Y2")), &[98.0, 1.0, 0.0]);
+    assert_near(&end(&format!("G92 Y3\n{turned}G91 G92 X5\nG90 X1 Y2")), &[-2.0, 9.0, 0.0]);
+    // a system on a system with an offset: the second one stands where the offset leads
+    let second = "#CS ON [10,0,0,0,0,90]\n";
+    assert_near(&end(&format!("{turned}G92 X5\n{second}X1 Y2")), &[-1.0, 13.0, 0.0]);
+    assert_near(&end(&format!("{turned}G92 X5\n{second}G92 Y4\nX1 Y2")), &[-1.0, 9.0, 0.0]);
+    // the end of a system takes its offsets along, and brings those below back
+    let inside = format!("G54\n{turned}G55 G92 X5\nX1 Y2\n");
+    assert_near(&end(&format!("{inside}#CS OFF\nX1 Y2")), &[101.0, 2.0, 0.0]);
+    assert_near(&end(&format!("{inside}#CS OFF ALL\nX1 Y2")), &[101.0, 2.0, 0.0]);
+    assert_near(&end(&format!("{inside}#CS OFF\n{turned}X1 Y2")), &[98.0, 1.0, 0.0]);
+    assert_near(&end(&format!("{inside}#MCS ON\nX0 Y0\n#MCS OFF\nX1 Y2")), &[97.0, 13.0, 0.0]);
+    // a new offset moves nothing, and increments know none
+    assert_near(&end(&format!("{turned}X1 Y2\nG92 X5\nG91 X1")), &[-2.0, 2.0, 0.0]);
+    assert_near(&end(&format!("{turned}X1 Y2\nG92 X5 Y5\nY3")), &[-8.0, 1.0, 0.0]);
+    // written tables and the offset in use
+    assert_near(&end(&format!("{turned}G55\nV.G.NP[2].V.X=20\nX1 Y2")), &[-3.0, 21.0, 0.0]);
+    assert_near(&end(&format!("{turned}G55\nV.G.NP_AKT.V.X=20\nX1 Y2")), &[-3.0, 21.0, 0.0]);
+    assert_near(&end(&format!("G54\n{turned}P1=V.G.NP_AKT.V.X\nX1 Y P1")), &[100.0, 1.0, 0.0]);
+    assert_near(&end("#CS ON [0,0,0,90,0,0]\nG92 Z2\nD1 X1 Y2 Z3"), &[1.0, -5.0, 32.0]);
+    // mirrored and turned coordinates of the program, as below all systems
+    assert_near(&end(&format!("{turned}G71 G21 G92 X5\nX1 Y2")), &[-2.0, 4.0, 0.0]);
+    assert_near(
+        &end(&format!("{turned}#ROTATION ON [ANGLE=90]\nG92 X5\nX1 Y2")),
+        &[-1.0, 3.0, 0.0],
+    );
+}

@@ -103,6 +103,8 @@ parameters! {
         .default_is(Default::Text("NOT_USED")), as RAPID_OVERRIDE: Text;
     chan("P-CHAN-00208", "vector.deceleration", Raw::Real64, "path deceleration limit")
         .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_DEC: Number;
+    chan("P-CHAN-00210", "cycle_changes_modal", Raw::Boolean, "1: G functions, centres and feed of a cycle stay at its end")
+        .default(0.0), as CYCLE_CHANGES_STAY: Switch;
     chan("P-CHAN-00235", "exact_stop_after_g00", Raw::Boolean, "implicit G60 after G00")
         .default(0.0), as EXACT_STOP_AFTER_G00: Switch;
     chan("P-CHAN-00245", "trans_limit_with_curvature", Raw::Uns32, "extra limit between lines from estimated curvature")

@@ -62,11 +62,11 @@ impl Decoder {
         for g in &words.g {
             let outcome = match g.row.act {
                 Act::ZeroGroup(group) => {
-                    self.geometry.coordinates.select_zero_group(group);
+                    self.geometry.coordinates.select_zero_group(group, false);
                     Ok(())
                 }
                 Act::ZeroGroupValue => zero_group(g).map(|group| {
-                    self.geometry.coordinates.select_zero_group(group);
+                    self.geometry.coordinates.select_zero_group(group, true);
                 }),
                 Act::Mirror(first, second) => {
                     self.mirror(first, second);
@@ -173,6 +173,7 @@ impl Decoder {
     }
 
     fn mirror(&mut self, first: bool, second: bool) {
+        self.modal.mirrored = [first, second];
         for (main, mirrored) in [(0, first), (1, second)] {
             if let Some(axis) = self.geometry.coordinates.main_axis(main) {
                 self.geometry.coordinates.set_mirrored(axis, mirrored);

@@ -74,6 +74,7 @@ impl Executor {
                 let number = self.block_number(&tree.block);
                 self.source_of(file, at, number);
                 self.execute(&tree.block, entry);
+                self.behind_real_time_cycle(entry);
             }
         }
         if self.decoder.contour.waiting() >= EVENTS_MAX {
@@ -101,6 +102,18 @@ impl Executor {
             self.parser = Parser::new(names.iter().map(String::as_str));
         }
         std::mem::take(&mut self.decoder.calls.macros_changed) || names
+    }
+
+    /// What stands in `#RT CYCLE` is not executed.
+    fn behind_real_time_cycle(&mut self, entry: Option<EntryId>) {
+        let (Some(id), Some(level)) = (entry, self.levels.last()) else { return };
+        let entry = level.index.entry(id);
+        if entry.keyword == Keyword::RealTimeBegin {
+            match entry.end.map(|end| level.index.entry(end).position) {
+                Some(end) => self.jump_behind(end),
+                None => self.skip_to_level_end(),
+            }
+        }
     }
 
     /// Comment blocks, inactive branches and remarks: true if the entry needs no parsing.

@@ -1,7 +1,8 @@
 //! Builds the index of a file: its sections, labels and control statements with their partners.
 
 use super::head::{
-    Head, SAYING, blank, contains_goto, ends_program, head, is_command, name_of, says_nothing, word,
+    Head, SAYING, blank, contains_goto, ends_program, head, is_command, name_of, real_time_cycle,
+    says_nothing, word,
 };
 use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
@@ -40,7 +41,8 @@ struct Builder<'a> {
     conditional_open: Vec<EntryId>,
     /// Last clause of each open structure.
     last_clause: BTreeMap<EntryId, EntryId>,
-    comment: Option<EntryId>,
+    /// Open comment or cycle in real time.
+    silent: Option<EntryId>,
     pub(super) section: Option<usize>,
     has_main: bool,
     /// `%` blocks inside the main program, with the end of the program seen before each.
@@ -55,12 +57,9 @@ impl Builder<'_> {
     fn block(&mut self, raw: &RawBlock<'_>, skip: SkipLevels) {
         let head = head(raw.text);
         let first = head.rest.bytes().next();
-        if let Some(open) = self.comment {
-            if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
-                self.alone(raw, &head, Condition::CommentEndNotAlone);
-                let id = self.push(raw.position, head.at, Keyword::CommentEnd);
-                self.index.entries.change(open, |e| e.end = Some(id));
-                self.comment = None;
+        if let Some(open) = self.silent {
+            if first == Some(b'#') {
+                self.end_of_silence(raw, &head, open);
             }
             return;
         }
@@ -200,7 +199,10 @@ impl Builder<'_> {
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
                 self.alone(raw, head, Condition::CommentBeginNotAlone);
-                self.comment = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
+                self.silent = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
+            }
+            "RT" if real_time_cycle(head.rest) == Some(true) => {
+                self.silent = Some(self.push(raw.position, head.at, Keyword::RealTimeBegin));
             }
             "IF" => {
                 let id = self.push(raw.position, head.at, Keyword::ConditionalIf);
@@ -231,6 +233,24 @@ impl Builder<'_> {
             }
             _ => {}
         }
+    }
+
+    /// A command inside of a comment or a cycle in real time, which may be its end.
+    fn end_of_silence(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, open: EntryId) {
+        let end = if self.index.entry(open).keyword == Keyword::CommentBegin {
+            if !is_command(head.rest, "COMMENT", "END") {
+                return;
+            }
+            self.alone(raw, head, Condition::CommentEndNotAlone);
+            Keyword::CommentEnd
+        } else if real_time_cycle(head.rest) == Some(false) {
+            Keyword::RealTimeEnd
+        } else {
+            return;
+        };
+        let id = self.push(raw.position, head.at, end);
+        self.index.entries.change(open, |e| e.end = Some(id));
+        self.silent = None;
     }
 
     /// `#COMMENT BEGIN` and `#COMMENT END` are alone in their blocks.
@@ -332,7 +352,7 @@ pub(in crate::exec) fn build(
         conditional: Vec::new(),
         conditional_open: Vec::new(),
         last_clause: BTreeMap::new(),
-        comment: None,
+        silent: None,
         section: None,
         has_main: false,
         remarks: Vec::new(),
@@ -342,7 +362,7 @@ pub(in crate::exec) fn build(
     };
     reader.seek(Position::START);
     loop {
-        if builder.section.is_some() && builder.comment.is_none() {
+        if builder.section.is_some() && builder.silent.is_none() {
             reader.skip_lines(SAYING, says_nothing);
         }
         let Some(raw) = reader.next_block()? else { break };

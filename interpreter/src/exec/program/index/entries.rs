@@ -248,11 +248,10 @@ impl Entries {
         })
     }
 
-    /// Comments and `#IF` statements.
+    /// Comments, cycles in real time and `#IF` statements.
     pub(super) fn silencing(&self) -> impl Iterator<Item = Entry> {
         let recent = self.recent.iter().map(|(entry, _)| entry);
-        let silences =
-            |e: &&Entry| matches!(e.keyword, Keyword::CommentBegin | Keyword::ConditionalIf);
+        let silences = |e: &&Entry| e.keyword.is_silent() || e.keyword == Keyword::ConditionalIf;
         // their partners are not looked for: they are special
         self.special.values().chain(recent).filter(silences).copied()
     }

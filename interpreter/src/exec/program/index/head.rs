@@ -138,6 +138,19 @@ pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
     behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
 }
 
+/// `#RT CYCLE`, `#RT CYCLE DEF` (true) and `#RT CYCLE END`; `None` for other commands, also for those that manage such cycles.
+pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
+    if !is_command(rest, "RT", "CYCLE") {
+        return None;
+    }
+    let behind = rest[1 + "RT".len()..].trim_start();
+    match word(behind["CYCLE".len()..].trim_start()).as_str() {
+        "" | "DEF" => Some(true),
+        "END" => Some(false),
+        _ => None,
+    }
+}
+
 /// True if `$GOTO` follows the condition.
 pub(super) fn contains_goto(rest: &str) -> bool {
     let code = rest.split([';', '(']).next().unwrap_or("");

@@ -27,6 +27,9 @@ pub(in crate::exec) enum Keyword {
     Continue,
     CommentBegin,
     CommentEnd,
+    /// `#RT CYCLE`: its statements are those of another language.
+    RealTimeBegin,
+    RealTimeEnd,
     ConditionalIf,
     ConditionalElse,
     ConditionalEnd,
@@ -36,7 +39,7 @@ pub(in crate::exec) enum Keyword {
 
 impl Keyword {
     /// Every keyword, in the order of their codes (`keyword as u8`).
-    const ALL: [Self; 25] = [
+    const ALL: [Self; 27] = [
         Self::If,
         Self::IfGoto,
         Self::ElseIf,
@@ -58,6 +61,8 @@ impl Keyword {
         Self::Continue,
         Self::CommentBegin,
         Self::CommentEnd,
+        Self::RealTimeBegin,
+        Self::RealTimeEnd,
         Self::ConditionalIf,
         Self::ConditionalElse,
         Self::ConditionalEnd,
@@ -116,11 +121,18 @@ impl Keyword {
             Self::Continue => "$CONTINUE",
             Self::CommentBegin => "#COMMENT BEGIN",
             Self::CommentEnd => "#COMMENT END",
+            Self::RealTimeBegin => "#RT CYCLE",
+            Self::RealTimeEnd => "#RT CYCLE END",
             Self::ConditionalIf => "#IF",
             Self::ConditionalElse => "#ELSE",
             Self::ConditionalEnd => "#ENDIF",
             Self::Remark => "%",
         }
+    }
+
+    /// Blocks between it and its end are not looked at.
+    pub(in crate::exec) fn is_silent(self) -> bool {
+        matches!(self, Self::CommentBegin | Self::RealTimeBegin)
     }
 
     /// What closes a statement that opens a block.

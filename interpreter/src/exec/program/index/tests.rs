@@ -131,6 +131,20 @@ fn nothing_inside_comment_blocks_counts() {
     assert_eq!(i.sections.len(), 1);
 }
 
+#[test]
+fn nothing_inside_cycles_in_real_time_counts() {
+    for begin in ["#RT CYCLE", "#rt cycle [ID=1]", "N5 #RT  CYCLE DEF [ID = 2]", "#RT CYCLE ; a"] {
+        let text = format!("{begin}\n$IF ONCE 1\n#COMMENT BEGIN\n%L X\n#RT CYCLE END\nX1\n");
+        let (i, d) = index(&text);
+        assert!(d.is_empty());
+        assert_eq!(i.entries.len(), 2, "{begin}");
+        assert_eq!(i.entry(0).end, Some(1), "{begin}");
+        assert_eq!(i.sections.len(), 1);
+    }
+    let (i, _) = index("#RT CYCLE START [ID=1]\n$IF 1\n$ENDIF\n#RT CYCLE DELETE [ID=1]\n");
+    assert_eq!(i.entries.len(), 2);
+}
+
 /// Statements of a program, with their partners as they were written.
 #[derive(Default)]
 struct Written {
@@ -265,6 +279,8 @@ fn mistakes_mean_the_same_in_long_programs() {
         "#ENDIF",
         "#COMMENT BEGIN",
         "#COMMENT END",
+        "#RT CYCLE",
+        "#RT CYCLE END",
         "$SWITCH 1",
         "$CASE 1",
         "$ENDSWITCH",

@@ -1,0 +1,186 @@
+//! Coordinate systems one inside another, each with zero offsets, G92 and position presets of its own.
+//!
+//! Offsets that are programmed while a system is active lie in its axes, add to those below it, and go with it. A new system has
+//! none. Tool and measuring offsets belong to no system.
+//!
+//! Source: TF5200 programming manual 1086442763, offsets in the coordinate system; P-CHAN-00397 = 1. Assumption: an offset in a
+//! turned system points along the turned axes, as coordinates in it do.
+
+use super::super::frame::Frame;
+use super::Coordinates;
+use kontur_motion::axis::AxisVec;
+use std::collections::BTreeMap;
+
+/// A zero-offset group without entries.
+const NO_GROUP: u32 = u32::MAX;
+
+/// A coordinate system and the offsets in it.
+#[derive(Clone, Debug)]
+pub(super) struct Layer {
+    /// Where it stands in the system below, with the offsets of that one.
+    pub(super) system: Frame,
+    /// Active zero-offset group, 0 = G53.
+    zero_group: u32,
+    /// It was selected by G159.
+    zero_group_by_value: bool,
+    /// Values of `V.G.NP_AKT`, which hold until another group is selected.
+    zero_written: BTreeMap<usize, f64>,
+    /// G92.
+    preset: AxisVec,
+    /// `#PSET`.
+    position_preset: AxisVec,
+}
+
+impl Layer {
+    /// Without offsets.
+    pub(super) fn new(system: Frame, axes: usize) -> Self {
+        Self {
+            system,
+            zero_group: NO_GROUP,
+            zero_group_by_value: false,
+            zero_written: BTreeMap::new(),
+            preset: AxisVec::zeros(axes),
+            position_preset: AxisVec::zeros(axes),
+        }
+    }
+}
+
+impl Coordinates {
+    /// The innermost system.
+    fn layer(&self) -> &Layer {
+        self.systems.last().unwrap_or(&self.lowest)
+    }
+
+    /// Changes offsets of the innermost system.
+    fn change(&mut self, change: impl FnOnce(&mut Layer)) {
+        change(self.systems.last_mut().unwrap_or(&mut self.lowest));
+        self.offsets_changed();
+    }
+
+    /// Offsets in systems are part of the frame.
+    fn offsets_changed(&mut self) {
+        if !self.systems.is_empty() {
+            self.frame_changed();
+        }
+    }
+
+    /// All offsets of one layer.
+    #[inline]
+    pub(super) fn layer_offset(&self, layer: &Layer, axis: usize) -> f64 {
+        self.layer_zero(layer, axis) + layer.preset[axis] + layer.position_preset[axis]
+    }
+
+    #[inline]
+    fn layer_zero(&self, layer: &Layer, axis: usize) -> f64 {
+        if let Some(written) = layer.zero_written.get(&axis) {
+            return *written;
+        }
+        if self.zero_table.is_empty() || self.zero_masked.contains(&(layer.zero_group, axis)) {
+            return 0.0;
+        }
+        self.zero_entry(layer.zero_group, axis)
+    }
+
+    /// Active zero offset in the innermost system.
+    pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
+        self.layer_zero(self.layer(), axis)
+    }
+
+    /// Entry of the zero-offset table.
+    pub(in crate::exec) fn zero_entry(&self, group: u32, axis: usize) -> f64 {
+        self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])
+    }
+
+    pub(in crate::exec) fn set_zero_entry(&mut self, group: u32, axis: usize, value_mm: f64) {
+        let n = self.target.len();
+        self.zero_table.entry(group).or_insert_with(|| AxisVec::zeros(n))[axis] = value_mm;
+        self.offsets_changed();
+    }
+
+    /// G53 (group 0), G54 to G59; G159 is `by_value`.
+    pub(in crate::exec) fn select_zero_group(&mut self, group: u32, by_value: bool) {
+        self.change(|layer| {
+            layer.zero_group = group;
+            layer.zero_group_by_value = by_value;
+            layer.zero_written.clear();
+        });
+    }
+
+    /// Group in the innermost system, and whether G159 selected it.
+    pub(in crate::exec) fn zero_group(&self) -> (u32, bool) {
+        let layer = self.layer();
+        (layer.zero_group, layer.zero_group_by_value)
+    }
+
+    /// `V.G.NP_AKT`: another zero offset in use; the table keeps its own.
+    pub(in crate::exec) fn set_zero_offset(&mut self, axis: usize, value_mm: f64) {
+        self.change(|layer| {
+            layer.zero_written.insert(axis, value_mm);
+        });
+    }
+
+    /// G160: leaves the entry of an axis out of a group, or takes it in again.
+    pub(in crate::exec) fn mask_zero_entry(&mut self, group: u32, axis: usize, masked: bool) {
+        if masked {
+            self.zero_masked.insert((group, axis));
+        } else {
+            self.zero_masked.remove(&(group, axis));
+        }
+        self.offsets_changed();
+    }
+
+    /// `#PSET`: where the axis is has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
+    /// not move. Not in a system.
+    pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
+        let before = self.lowest.position_preset[axis];
+        let after = match value_mm {
+            Some(value) => before + (self.target[axis] - self.applied[axis]) - value,
+            None => 0.0,
+        };
+        self.lowest.position_preset[axis] = after;
+        self.applied[axis] += after - before;
+        self.recompute_program();
+    }
+
+    /// G92 offset in the innermost system.
+    pub(in crate::exec) fn preset(&self, axis: usize) -> f64 {
+        self.layer().preset[axis]
+    }
+
+    pub(in crate::exec) fn set_preset(&mut self, axis: usize, value_mm: f64) {
+        self.change(|layer| layer.preset[axis] = value_mm);
+    }
+
+    /// Programmed distance of an axis from the turning centre in mm.
+    pub(in crate::exec) fn turning_distance(&self, axis: usize) -> f64 {
+        let presets = self.systems.iter().map(|layer| layer.preset[axis]).sum::<f64>();
+        self.programmed(axis) + self.lowest.preset[axis] + presets
+    }
+
+    /// Machine position of the turning centre in mm.
+    pub(in crate::exec) fn turning_centre(&self, axis: usize) -> f64 {
+        self.target[axis] - self.turning_distance(axis)
+    }
+
+    /// Active coordinate systems.
+    pub(in crate::exec) fn systems(&self) -> usize {
+        self.systems.len()
+    }
+
+    pub(in crate::exec) fn push_system(&mut self, frame: Frame) {
+        let axes = self.target.len();
+        self.systems.push(Layer::new(frame, axes));
+        self.frame_changed();
+    }
+
+    /// Its offsets go with it; nothing happens if there is none.
+    pub(in crate::exec) fn pop_system(&mut self) {
+        self.systems.pop();
+        self.frame_changed();
+    }
+
+    pub(in crate::exec) fn clear_systems(&mut self) {
+        self.systems.clear();
+        self.frame_changed();
+    }
+}

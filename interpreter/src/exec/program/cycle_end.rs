@@ -1,0 +1,70 @@
+//! What a cycle gives back at its end: G functions that stand alone, centre and radius of arcs, the feed.
+//!
+//! G functions with values or axis words (G92, G129, G159=2, G351) and what `#` commands set stay. `#RETAIN CYCLE CHANGES` and
+//! P-CHAN-00210 = 1 let all stay, as in subroutines. Source: channel parameters 476043659.
+//!
+//! Assumption: a system of `#CS` that the cycle leaves open, or closes, keeps the zero offset that it has; G69 in a cycle stays,
+//! as G68 has values.
+
+use crate::exec::block::modal::Modal;
+use crate::exec::decoder::Decoder;
+
+/// State before a cycle.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct BeforeCycle {
+    modal: Modal,
+    systems: usize,
+    /// Zero-offset group, and whether G159 selected it.
+    zero_group: (u32, bool),
+    /// The same of the cycle around.
+    retains: bool,
+}
+
+impl Decoder {
+    pub(super) fn enter_cycle(&mut self) -> BeforeCycle {
+        let retains = self.machine.channel.cycle_changes_stay;
+        BeforeCycle {
+            modal: self.modal.clone(),
+            systems: self.geometry.coordinates.systems(),
+            zero_group: self.geometry.coordinates.zero_group(),
+            retains: std::mem::replace(&mut self.calls.retain_cycle_changes, retains),
+        }
+    }
+
+    pub(super) fn leave_cycle(&mut self, before: BeforeCycle) {
+        let BeforeCycle { modal, systems, zero_group, retains } = before;
+        if std::mem::replace(&mut self.calls.retain_cycle_changes, retains) {
+            return;
+        }
+        let coordinates = &mut self.geometry.coordinates;
+        let (group, by_value) = zero_group;
+        let (now, stays) = coordinates.zero_group();
+        if systems == coordinates.systems() && group != now && !stays {
+            coordinates.select_zero_group(group, by_value);
+        }
+        let mirrored = modal.mirrored;
+        if mirrored != self.modal.mirrored {
+            for (main, mirrored) in mirrored.into_iter().enumerate() {
+                if let Some(axis) = self.geometry.coordinates.main_axis(main) {
+                    self.geometry.coordinates.set_mirrored(axis, mirrored);
+                }
+            }
+        }
+        let now = &self.modal;
+        let restored = Modal {
+            engagement_radius_mm: now.engagement_radius_mm,
+            corner_stretch: now.corner_stretch,
+            turns_back: now.turns_back,
+            perpendicular_change: now.perpendicular_change,
+            compensation_suppressed: now.compensation_suppressed,
+            slope: now.slope,
+            old_slope: now.old_slope,
+            transition_min_mm_s: now.transition_min_mm_s,
+            ..modal
+        };
+        if self.modal != restored {
+            self.modal = restored;
+            self.motion.dynamics_changed();
+        }
+    }
+}

@@ -1,0 +1,472 @@
+//! What a program means, worked out on its tree.
+//!
+//! Coordinates are affine maps that are put together anew for every word: offsets of the machine, then for each coordinate system
+//! its place, its rotation and its own offsets, then mirroring, then contour rotation. Nothing is kept but the position of the machine.
+
+use crate::map::{Map, UNIT};
+use crate::path::{Driven, Piece, Point};
+use crate::tree::{Expr, Function, Motion, Operator, Program, Statement, Word};
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+/// Offsets of the machine, or of one coordinate system.
+#[derive(Clone, Debug)]
+struct Layer {
+    place: Map,
+    group: u32,
+    /// The group came from G159.
+    by_value: bool,
+    preset: Point,
+}
+
+#[derive(Clone, Debug)]
+struct Coordinates {
+    layers: Vec<Layer>,
+    mirrored: [bool; 3],
+    rotation: Option<(f64, [f64; 2])>,
+}
+
+/// What a subroutine shares with its caller and a cycle gives back.
+#[derive(Clone, Debug)]
+struct Modal {
+    path: u32,
+    plane: u32,
+    absolute: bool,
+    absolute_centres: bool,
+    /// G20 to G23.
+    mirrors: [bool; 2],
+}
+
+/// How statements go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Flow {
+    On,
+    Break,
+    Continue,
+}
+
+pub struct Model<'a> {
+    program: &'a Program,
+    modal: Modal,
+    coordinates: Coordinates,
+    table: BTreeMap<(u32, usize), f64>,
+    machine: Point,
+    /// P parameters, V.P, elements of arrays.
+    values: BTreeMap<String, f64>,
+    /// V.L of the levels.
+    local: Vec<BTreeMap<String, f64>>,
+    /// @P of the cycle in work.
+    passed: Vec<Vec<f64>>,
+    pub driven: Driven,
+    /// Blocks carried out.
+    pub steps: usize,
+}
+
+/// What the plane of G17, G18 or G19 has as first, second and third axis.
+pub fn axes_of(plane: u32) -> [usize; 3] {
+    match plane {
+        17 => [0, 1, 2],
+        18 => [2, 0, 1],
+        _ => [1, 2, 0],
+    }
+}
+
+impl<'a> Model<'a> {
+    pub fn new(program: &'a Program) -> Self {
+        let layer = Layer { place: UNIT, group: 0, by_value: false, preset: [0.0; 3] };
+        Self {
+            program,
+            modal: Modal {
+                path: 1,
+                plane: 17,
+                absolute: true,
+                absolute_centres: false,
+                mirrors: [false; 2],
+            },
+            coordinates: Coordinates { layers: vec![layer], mirrored: [false; 3], rotation: None },
+            table: BTreeMap::new(),
+            machine: [0.0; 3],
+            values: BTreeMap::new(),
+            local: vec![BTreeMap::new()],
+            passed: Vec::new(),
+            driven: Driven::default(),
+            steps: 0,
+        }
+    }
+
+    pub fn run(&mut self) -> Point {
+        let program = self.program;
+        self.all(&program.main);
+        self.machine
+    }
+
+    fn map(&self) -> Map {
+        let mut map = UNIT;
+        for layer in &self.coordinates.layers {
+            let zero = |axis| self.table.get(&(layer.group, axis)).copied().unwrap_or(0.0);
+            let offset: Point = std::array::from_fn(|axis| zero(axis) + layer.preset[axis]);
+            map = map.then_inner(&layer.place).then_inner(&Map::shift(offset));
+        }
+        let signs = self.coordinates.mirrored.map(|on| if on { -1.0 } else { 1.0 });
+        map = map.then_inner(&Map::scale(signs));
+        if let Some((deg, [a, b])) = self.coordinates.rotation {
+            let turned = Map::shift([a, b, 0.0])
+                .then_inner(&Map::turn(0, 1, deg))
+                .then_inner(&Map::shift([-a, -b, 0.0]));
+            map = map.then_inner(&turned);
+        }
+        map
+    }
+
+    /// Another plane ends a contour rotation.
+    fn plane(&mut self, g: u32) {
+        if g != self.modal.plane {
+            self.coordinates.rotation = None;
+        }
+        self.modal.plane = g;
+    }
+
+    fn select(&mut self, group: u32) {
+        (self.layer().group, self.layer().by_value) = (group, group > 6);
+    }
+
+    fn layer(&mut self) -> &mut Layer {
+        self.coordinates.layers.last_mut().unwrap()
+    }
+
+    fn all(&mut self, statements: &[Statement]) -> Flow {
+        for statement in statements {
+            let flow = self.one(statement);
+            if flow != Flow::On {
+                return flow;
+            }
+        }
+        Flow::On
+    }
+
+    fn one(&mut self, statement: &Statement) -> Flow {
+        self.steps += 1;
+        assert!(self.steps < 100_000, "the program does not end");
+        match statement {
+            Statement::Assign(to, value) => {
+                let value = self.value(value);
+                self.assign(to, value);
+            }
+            Statement::Move(motion) => self.motion(motion),
+            Statement::Local(name, value) => {
+                let value = self.value(value);
+                self.local.last_mut().unwrap().insert(name.clone(), value);
+            }
+            Statement::Array(name, values) => {
+                for (i, value) in values.iter().enumerate() {
+                    self.values.insert(format!("{name}[{i}]"), *value);
+                }
+            }
+            Statement::Plane(g) => self.plane(*g),
+            Statement::Absolute(absolute) => self.modal.absolute = *absolute,
+            Statement::AbsoluteCentres(on) => self.modal.absolute_centres = *on,
+            Statement::Group(group) => self.select(*group),
+            Statement::Table(group, axis, value) => {
+                let value = self.value(value);
+                self.table.insert((*group, *axis), value);
+            }
+            Statement::Preset(words) => {
+                let before = if self.modal.absolute { 0.0 } else { 1.0 };
+                for Word { axis, value } in words {
+                    let value = self.value(value);
+                    let preset = &mut self.layer().preset[*axis];
+                    *preset = before * *preset + value;
+                }
+            }
+            Statement::Mirror(g) => {
+                self.modal.mirrors = [[21, 23].contains(g), [22, 23].contains(g)];
+                let mirrored = &mut self.coordinates.mirrored;
+                (mirrored[0], mirrored[1]) = (self.modal.mirrors[0], self.modal.mirrors[1]);
+                if *g == 20 {
+                    mirrored[2] = false;
+                }
+            }
+            Statement::MirrorAxis(axis, on) => self.coordinates.mirrored[*axis] = *on,
+            Statement::Rotation(_, deg, centre) => {
+                self.plane(17);
+                self.coordinates.rotation = Some((*deg, *centre));
+            }
+            Statement::RotationOff(_) => self.coordinates.rotation = None,
+            Statement::System(values) | Statement::StoredSystem(_, values) => {
+                let [x, y, z, a, b, c] = *values;
+                let place = Map::shift([x, y, z])
+                    .then_inner(&Map::turn(0, 1, c))
+                    .then_inner(&Map::turn(2, 0, b))
+                    .then_inner(&Map::turn(1, 2, a));
+                self.coordinates.layers.push(Layer {
+                    place,
+                    group: 7777,
+                    by_value: false,
+                    preset: [0.0; 3],
+                });
+            }
+            Statement::SystemOff(all) => {
+                let left = self.coordinates.layers.len() - 1;
+                self.coordinates.layers.truncate(if *all { 1 } else { left.max(1) });
+            }
+            Statement::Machine(body) => {
+                let layer = Layer { place: UNIT, group: 7777, by_value: false, preset: [0.0; 3] };
+                let bare =
+                    Coordinates { layers: vec![layer], mirrored: [false; 3], rotation: None };
+                let before = std::mem::replace(&mut self.coordinates, bare);
+                let flow = self.all(body);
+                self.coordinates = before;
+                return flow;
+            }
+            Statement::Break => return Flow::Break,
+            Statement::Continue => return Flow::Continue,
+            Statement::Call(number) => self.call(*number),
+            Statement::Cycle(number, values) => {
+                let passed = values.iter().map(|value| self.value(value)).collect();
+                self.passed.push(passed);
+                let (modal, group) = (self.modal.clone(), self.layer().group);
+                self.call(*number);
+                // P-CHAN-00210: G functions that stand alone go back to what they were
+                if !self.layer().by_value {
+                    self.select(group);
+                }
+                if self.modal.mirrors != modal.mirrors {
+                    let [x, y] = modal.mirrors;
+                    (self.coordinates.mirrored[0], self.coordinates.mirrored[1]) = (x, y);
+                }
+                self.modal = modal;
+                self.passed.pop();
+            }
+            _ => return self.control(statement),
+        }
+        Flow::On
+    }
+
+    fn call(&mut self, number: usize) {
+        let subroutine = &self.program.subroutines[number];
+        self.local.push(BTreeMap::new());
+        self.all(&subroutine.body);
+        self.local.pop();
+    }
+
+    fn control(&mut self, statement: &Statement) -> Flow {
+        match statement {
+            Statement::If(branches, otherwise) => {
+                for (condition, body) in branches {
+                    if self.holds(condition) {
+                        return self.all(body);
+                    }
+                }
+                otherwise.as_ref().map_or(Flow::On, |body| self.all(body))
+            }
+            Statement::For(counter, bounds, body) => {
+                let [first, last, step] = bounds.clone().map(|bound| self.value(&bound));
+                let name = Expr::Name(counter.clone());
+                self.assign(&name, first);
+                loop {
+                    let now = self.value(&name);
+                    if if step > 0.0 { now > last } else { now < last } {
+                        return Flow::On;
+                    }
+                    if self.all(body) == Flow::Break {
+                        return Flow::On;
+                    }
+                    let now = self.value(&name);
+                    self.assign(&name, now + step);
+                }
+            }
+            Statement::While(condition, body) => {
+                while self.holds(condition) && self.all(body) != Flow::Break {}
+                Flow::On
+            }
+            Statement::Do(body, condition) => {
+                while self.all(body) != Flow::Break && self.holds(condition) {}
+                Flow::On
+            }
+            Statement::Repeat(body, condition) => {
+                while self.all(body) != Flow::Break && !self.holds(condition) {}
+                Flow::On
+            }
+            Statement::Switch(value, cases, default) => {
+                let value = self.value(value);
+                let first =
+                    cases.iter().position(|(case, _, _)| (self.value(case) - value).abs() < 0.001);
+                for (_, body, ends) in cases.iter().skip(first.unwrap_or(cases.len())) {
+                    match self.all(body) {
+                        Flow::On if *ends => return Flow::On,
+                        Flow::Break => return Flow::On,
+                        Flow::On => {}
+                        Flow::Continue => return Flow::Continue,
+                    }
+                }
+                match self.all(default) {
+                    Flow::Continue => Flow::Continue,
+                    _ => Flow::On,
+                }
+            }
+            Statement::Skip(condition, _, body) => {
+                if self.holds(condition) {
+                    Flow::On
+                } else {
+                    self.all(body)
+                }
+            }
+            _ => unreachable!("{statement:?}"),
+        }
+    }
+
+    fn motion(&mut self, motion: &Motion) {
+        self.plane(motion.plane.unwrap_or(self.modal.plane));
+        self.modal.absolute = motion.absolute.unwrap_or(self.modal.absolute);
+        self.modal.path = motion.path.unwrap_or(self.modal.path);
+        if let Some(group) = motion.group {
+            self.select(group);
+        }
+        let map = self.map();
+        let from = map.back(self.machine);
+        let mut to = from;
+        for word in &motion.words {
+            let value = self.value(&word.value);
+            to[word.axis] = if self.modal.absolute { value } else { from[word.axis] + value };
+        }
+        let start = self.machine;
+        self.machine = map.of(to);
+        let piece = if self.modal.path < 2 {
+            Piece::line(motion.number, start, self.machine)
+        } else {
+            self.arc(motion, &map, from, to)
+        };
+        if piece.length > 1e-9 {
+            self.driven.push(piece);
+        }
+    }
+
+    fn arc(&self, motion: &Motion, map: &Map, from: Point, to: Point) -> Piece {
+        let [a, b, third] = axes_of(self.modal.plane);
+        let against_the_clock = self.modal.path == 3;
+        let (dx, dy) = (to[a] - from[a], to[b] - from[b]);
+        let way = libm::hypot(dx, dy);
+        let centre = if let Some(radius) = motion.radius {
+            // the short arc against the clock has its centre on the left of the chord
+            let height = (radius * radius - way * way / 4.0).max(0.0).sqrt();
+            let left = if against_the_clock == (radius > 0.0) { height } else { -height };
+            let middle = [(from[a] + to[a]) / 2.0, (from[b] + to[b]) / 2.0];
+            [middle[0] - left * dy / way, middle[1] + left * dx / way]
+        } else {
+            let base = if self.modal.absolute_centres { [0.0; 3] } else { from };
+            let given = |axis: usize| {
+                let letter = ['I', 'J', 'K'][axis];
+                motion.centre.iter().find(|(l, _)| *l == letter).map_or(0.0, |(_, value)| *value)
+            };
+            [base[a] + given(a), base[b] + given(b)]
+        };
+        let angle_of = |p: Point| libm::atan2(p[b] - centre[1], p[a] - centre[0]);
+        let mut angle = angle_of(to) - angle_of(from);
+        if !against_the_clock {
+            angle = -angle;
+        }
+        while angle <= 1e-9 {
+            angle += TAU;
+        }
+        while angle > TAU + 1e-9 {
+            angle -= TAU;
+        }
+        // radius vector, and the same a quarter turn on
+        let (x, y) = (from[a] - centre[0], from[b] - centre[1]);
+        let sense = if against_the_clock { 1.0 } else { -1.0 };
+        let (mut u, mut v, mut c, mut rise) = ([0.0; 3], [0.0; 3], from, [0.0; 3]);
+        (u[a], u[b], v[a], v[b]) = (x, y, -sense * y, sense * x);
+        (c[a], c[b], rise[third]) = (centre[0], centre[1], to[third] - from[third]);
+        let uv = [map.direction(u), map.direction(v)];
+        Piece::arc(motion.number, map.of(c), uv, angle, map.direction(rise))
+    }
+
+    fn assign(&mut self, to: &Expr, value: f64) {
+        let key = self.key(to);
+        if key.starts_with("V.L.") {
+            let level = self.local.iter().rposition(|level| level.contains_key(&key));
+            let level = level.unwrap_or(self.local.len() - 1);
+            self.local[level].insert(key, value);
+        } else if let Some(number) = key.strip_prefix("@P") {
+            let number: usize = number.parse().unwrap();
+            self.passed.last_mut().unwrap()[number - 1] = value;
+        } else {
+            self.values.insert(key, value);
+        }
+    }
+
+    /// Where a value is kept.
+    fn key(&self, expr: &Expr) -> String {
+        match expr {
+            Expr::Name(name) => name.clone(),
+            Expr::Element(name, index) => format!("{name}[{}]", self.value(index)),
+            Expr::Indirect(number) => format!("P{}", self.values[&format!("P{number}")]),
+            _ => unreachable!("{expr:?}"),
+        }
+    }
+
+    fn holds(&self, condition: &Expr) -> bool {
+        self.value(condition).abs() >= 0.5
+    }
+
+    fn value(&self, expr: &Expr) -> f64 {
+        match expr {
+            Expr::Number(x) => *x,
+            Expr::Of(function, inner) => {
+                let x = self.value(inner);
+                match function {
+                    Function::Sin => libm::sin(x.to_radians()),
+                    Function::Cos => libm::cos(x.to_radians()),
+                    Function::Abs => x.abs(),
+                    Function::Sqrt => x.sqrt(),
+                    Function::Int => x.trunc(),
+                    Function::Round => x.round(),
+                    Function::Floor => x.floor(),
+                    Function::Minus => -x,
+                }
+            }
+            Expr::Both(operator, a, b) => {
+                let (a, b) = (self.value(a), self.value(b));
+                let truth = |x: bool| if x { 1.0 } else { 0.0 };
+                match operator {
+                    Operator::Add => a + b,
+                    Operator::Subtract => a - b,
+                    Operator::Times => a * b,
+                    Operator::Divide => a / b,
+                    Operator::Mod => a % b,
+                    Operator::Power => libm::pow(a, b),
+                    Operator::Less => truth(a < b),
+                    Operator::Greater => truth(a > b),
+                    Operator::AtMost => truth(a <= b),
+                    Operator::Equal => truth(a == b),
+                    Operator::And => truth(a.abs() >= 0.5 && b.abs() >= 0.5),
+                    Operator::Or => truth(a.abs() >= 0.5 || b.abs() >= 0.5),
+                    Operator::Min => a.min(b),
+                    Operator::Max => a.max(b),
+                    Operator::Angle => libm::atan2(a, b).to_degrees(),
+                }
+            }
+            Expr::Name(name) => self.named(name),
+            Expr::Element(..) | Expr::Indirect(_) => self.values[&self.key(expr)],
+        }
+    }
+
+    fn named(&self, name: &str) -> f64 {
+        let axis = |name: &str| "XYZ".find(name).unwrap();
+        let layer = self.coordinates.layers.last().unwrap();
+        if let Some(name) = name.strip_prefix("V.A.ABS.") {
+            self.map().back(self.machine)[axis(name)]
+        } else if let Some(name) = name.strip_prefix("V.A.BZP.") {
+            layer.preset[axis(name)]
+        } else if let Some(name) = name.strip_prefix("V.G.NP_AKT.V.") {
+            self.table.get(&(layer.group, axis(name))).copied().unwrap_or(0.0)
+        } else if let Some(number) = name.strip_prefix("@P") {
+            self.passed.last().unwrap()[number.parse::<usize>().unwrap() - 1]
+        } else if name.starts_with("V.L.") {
+            let found = self.local.iter().rev().find_map(|level| level.get(name));
+            *found.unwrap_or_else(|| panic!("{name}"))
+        } else {
+            *self.values.get(name).unwrap_or_else(|| panic!("{name}"))
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Lines, arcs and helices of the model, by their lengths.
+
+pub type Point = [f64; 3];
+
+pub fn plus(a: Point, b: Point, times: f64) -> Point {
+    std::array::from_fn(|i| a[i] + times * b[i])
+}
+
+pub fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn norm(a: Point) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// `centre + cos(t) u + sin(t) v + t / angle * rise`, `t` from 0 to `angle`; a line is its rise.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// Number of the motion block.
+    pub number: usize,
+    centre: Point,
+    u: Point,
+    v: Point,
+    angle: f64,
+    rise: Point,
+    pub length: f64,
+}
+
+impl Piece {
+    pub fn line(number: usize, from: Point, to: Point) -> Self {
+        let rise = plus(to, from, -1.0);
+        let zero = [0.0; 3];
+        Self { number, centre: from, u: zero, v: zero, angle: 0.0, rise, length: norm(rise) }
+    }
+
+    /// An arc about a centre from `centre + u` towards `v`, which is as long as `u` and perpendicular to it.
+    pub fn arc(number: usize, centre: Point, [u, v]: [Point; 2], angle: f64, rise: Point) -> Self {
+        let length = (dot(u, u) * angle * angle + dot(rise, rise)).sqrt();
+        Self { number, centre, u, v, angle, rise, length }
+    }
+
+    /// Where the path is at this share of the piece.
+    pub fn at(&self, share: f64) -> Point {
+        let (s, c) = libm::sincos(self.angle * share);
+        plus(plus(plus(self.centre, self.u, c), self.v, s), self.rise, share)
+    }
+}
+
+/// Everything that was driven.
+#[derive(Clone, Debug, Default)]
+pub struct Driven {
+    pub pieces: Vec<Piece>,
+    /// Path lengths at their beginnings.
+    starts: Vec<f64>,
+    pub length: f64,
+}
+
+impl Driven {
+    pub fn push(&mut self, piece: Piece) {
+        self.starts.push(self.length);
+        self.length += piece.length;
+        self.pieces.push(piece);
+    }
+
+    /// The piece at a path length, and the way from its beginning.
+    pub fn find(&self, s: f64) -> Option<(&Piece, f64)> {
+        let next = self.starts.partition_point(|start| *start <= s);
+        let i = next.checked_sub(1)?;
+        Some((&self.pieces[i], (s - self.starts[i]).max(0.0)))
+    }
+}

@@ -1,0 +1,142 @@
+//! A program as a tree: what the random programs are made of, written as text by `text` and carried out by `model`.
+
+/// Functions of one value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Function {
+    Sin,
+    Cos,
+    Abs,
+    Sqrt,
+    Int,
+    Round,
+    Floor,
+    Minus,
+}
+
+/// Operators, and the functions of two values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operator {
+    Add,
+    Subtract,
+    Times,
+    Divide,
+    Mod,
+    Power,
+    Less,
+    Greater,
+    AtMost,
+    Equal,
+    And,
+    Or,
+    Min,
+    Max,
+    Angle,
+}
+
+#[derive(Clone, Debug)]
+pub enum Expr {
+    Number(f64),
+    /// `P3`, `V.P.A`, `V.L.B`, `@P2`, and system variables as they are written.
+    Name(String),
+    /// `V.P.TABLE[index]`, `P100[index]`.
+    Element(String, Box<Expr>),
+    /// `PP3`, the parameter whose number a parameter holds.
+    Indirect(u32),
+    Of(Function, Box<Expr>),
+    Both(Operator, Box<Expr>, Box<Expr>),
+}
+
+/// A coordinate word: `0` to `2` for X, Y and Z.
+#[derive(Clone, Debug)]
+pub struct Word {
+    pub axis: usize,
+    pub value: Expr,
+}
+
+/// A motion block. What stands in `absolute`, `plane` and `group` is programmed in the same block.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    pub number: usize,
+    /// G00 to G03; `None` is the modal one.
+    pub path: Option<u32>,
+    pub absolute: Option<bool>,
+    pub plane: Option<u32>,
+    pub group: Option<u32>,
+    pub words: Vec<Word>,
+    pub centre: Vec<(char, f64)>,
+    pub radius: Option<f64>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Statement {
+    Assign(Expr, Expr),
+    /// `#VAR` of a V.L variable.
+    Local(String, Expr),
+    /// `#VAR` of an array.
+    Array(String, Vec<f64>),
+    Move(Motion),
+    /// Words that are written as they are and change one thing.
+    Plane(u32),
+    Absolute(bool),
+    AbsoluteCentres(bool),
+    /// G53 to G59 (0 to 6), G159 above.
+    Group(u32),
+    /// `V.G.NP[group].V.X=`.
+    Table(u32, usize, Expr),
+    /// G92.
+    Preset(Vec<Word>),
+    /// G20 to G23.
+    Mirror(u32),
+    /// G351: axis and sign.
+    MirrorAxis(usize, bool),
+    /// `#ROTATION ON [..]`, or G68 with `true`.
+    Rotation(bool, f64, [f64; 2]),
+    /// `#ROTATION OFF`, or G69 with `true`.
+    RotationOff(bool),
+    System([f64; 6]),
+    /// `#CS DEF` of a number and its selection.
+    StoredSystem(u32, [f64; 6]),
+    SystemOff(bool),
+    /// `#MCS ON` to `#MCS OFF`.
+    Machine(Vec<Statement>),
+    /// Conditions with their branches, and the `$ELSE` branch.
+    If(Vec<(Expr, Vec<Statement>)>, Option<Vec<Statement>>),
+    /// Counter, first and last value, step.
+    For(String, [Expr; 3], Vec<Statement>),
+    While(Expr, Vec<Statement>),
+    /// `$DO` to `$ENDDO` repeats while the condition holds.
+    Do(Vec<Statement>, Expr),
+    /// `$REPEAT` to `$UNTIL` repeats until it holds.
+    Repeat(Vec<Statement>, Expr),
+    /// Value; cases, `true` with `$BREAK`; default.
+    Switch(Expr, Vec<(Expr, Vec<Statement>, bool)>, Vec<Statement>),
+    Break,
+    Continue,
+    /// `$IF .. $GOTO N..` over some statements to a block number.
+    Skip(Expr, usize, Vec<Statement>),
+    /// A local or a global subroutine by its number.
+    Call(usize),
+    /// A cycle with its parameters.
+    Cycle(usize, Vec<Expr>),
+}
+
+/// How a subroutine is called.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Local,
+    Global,
+    LocalCycle,
+    GlobalCycle,
+}
+
+#[derive(Clone, Debug)]
+pub struct Subroutine {
+    pub kind: Kind,
+    pub body: Vec<Statement>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub subroutines: Vec<Subroutine>,
+    pub main: Vec<Statement>,
+}
