@@ -265,12 +265,20 @@ impl Window<'_> {
             let s = &stretches[k];
             let best = self.limit(s.first);
             let behind = v[k + 1];
-            let reach = s.slope.reach_down(behind.v_mm_s, s.length);
-            v[k] = best.lower(Cap::new(reach, behind.why));
+            // a lower speed than the one behind is reached in any case
+            v[k] = if best.v_mm_s < behind.v_mm_s {
+                best
+            } else {
+                let reach = s.slope.reach_down(behind.v_mm_s, s.length);
+                best.lower(Cap::new(reach, behind.why))
+            };
             v[k].v_mm_s = self.entry_speed(s, v[k].v_mm_s, behind.v_mm_s);
         }
         for k in 1..m {
             let s = &stretches[k - 1];
+            if k > 1 && v[k].v_mm_s < v[k - 1].v_mm_s {
+                continue;
+            }
             let reach = if k == 1 {
                 s.reach_from(self.v_start.v_mm_s, self.a_start)
             } else {

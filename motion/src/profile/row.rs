@@ -1,6 +1,7 @@
 //! The speed over a path length: a row of phases, whoever has planned it.
 
 use super::phase::Phase;
+use std::sync::Arc;
 
 /// State of the path coordinate at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,12 +17,20 @@ pub struct State {
 }
 
 /// A speed that never goes backwards, in phases of constant jerk or of one sine-square ramp.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Profile {
-    /// Phases in order with the times at which they start; there may be empty ones.
-    phases: Vec<(f64, Phase)>,
+    /// Phases in order with the times at which they start; there may be empty ones. Shared, because a search makes a plan
+    /// again and again, and most of it stays.
+    phases: Arc<[(f64, Phase)]>,
     duration: f64,
     end: State,
+}
+
+impl PartialEq for Profile {
+    fn eq(&self, other: &Self) -> bool {
+        self.end == other.end
+            && (Arc::ptr_eq(&self.phases, &other.phases) || self.phases == other.phases)
+    }
 }
 
 impl Profile {
@@ -34,7 +43,7 @@ impl Profile {
             timed.push((duration, phase));
             duration += phase.t;
         }
-        Self { phases: timed, duration, end }
+        Self { phases: timed.into(), duration, end }
     }
 
     /// Phases that follow each other over a length.
@@ -55,7 +64,7 @@ impl Profile {
         let length = self.end.s_mm;
         let moved = next.phases.iter().map(|(_, p)| p.placed_at(length + p.s));
         let end = State { s_mm: length + next.end.s_mm, ..next.end };
-        Self::new(self.phases.into_iter().map(|(_, p)| p).chain(moved), end)
+        Self::new(self.phases.iter().map(|(_, p)| *p).chain(moved), end)
     }
 
     /// The parts before and after a path length, the acceleration there as it is; `None` if that cuts a sine-square ramp, or
