@@ -361,15 +361,20 @@ impl<'a> Around<'a> {
     /// idea of what is within reach, another block may be the nearest.
     pub(crate) fn worst_component(&self, point: &[f64]) -> f64 {
         let mut vector = AxisVec::zeros(point.len());
-        let Some(nearest) = self.nearest(point, &mut vector) else { return 0.0 };
-        let within = (1.0 + WARY) * (1.0 + WARY) * nearest.distance * nearest.distance;
-        let mut worst = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        for Candidate { passed, .. } in &self.blocks {
-            if passed.vector_to(point, &mut vector) <= within {
-                worst = vector.iter().fold(worst, |m, c| m.max(c.abs()));
+        let mut least = f64::INFINITY;
+        let mut found: SmallVec<[(f64, f64); 16]> = SmallVec::new();
+        for Candidate { passed, counts, .. } in &self.blocks {
+            let square = passed.vector_to(point, &mut vector);
+            if *counts {
+                least = least.min(square);
             }
+            found.push((square, vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()))));
         }
-        worst
+        if least.is_infinite() {
+            return 0.0;
+        }
+        let within = (1.0 + WARY) * (1.0 + WARY) * least;
+        found.iter().filter(|f| f.0 <= within).map(|f| f.1).fold(0.0, f64::max)
     }
 }
 

@@ -102,3 +102,25 @@ fn a_smooth_contour_never_rests() {
         }
     }
 }
+
+/// A corner between lines of short blocks: the rise behind the corner is planned in one window and goes on in the next.
+/// A hundred times the look-ahead is not faster, so the look-ahead holds nothing down, and no setpoint of a rise says so.
+#[test]
+fn a_rise_that_goes_on_in_the_next_window_keeps_its_reason() {
+    let mut points: Vec<[f64; 2]> = (0..=60).map(|i| [0.0, 0.2 * f64::from(i)]).collect();
+    points.extend((1..=120).map(|i| [0.2 * f64::from(i), 12.0]));
+    let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+    for kind in [Trapez, Hsc] {
+        for window in 10..40 {
+            let [short, long] = [window, 100 * window].map(|window| {
+                let job = Job { window, ..Job::new(1.0, kind) };
+                job.drive(&points, &[20.0])
+            });
+            assert_eq!(short.len(), long.len(), "{kind:?} {window}");
+            for (near, far) in short.iter().zip(&long) {
+                let rises = near.a_mm_s2 > 1e-6;
+                assert!(!rises || near.limit == far.limit, "{kind:?} {window}: {near:?} {far:?}");
+            }
+        }
+    }
+}

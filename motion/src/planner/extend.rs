@@ -239,11 +239,14 @@ impl Planner {
                 changes.push(Change(What::Enters(passed.clone())));
             }
         }
+        let end = entry.profile.end();
+        // a rise that is left on its way goes on for the reason it began with
+        let why = if end.a_mm_s2 > 0.0 { entry.why_up } else { entry.why_down };
         let mut start = Start {
             moment: entry.end,
             s_mm: entry.s0 + entry.profile.length(),
-            speed: Cap::new(entry.profile.end().v_mm_s, entry.why_down),
-            a_mm_s2: entry.profile.end().a_mm_s2,
+            speed: Cap::new(end.v_mm_s, why),
+            a_mm_s2: end.a_mm_s2,
         };
         if entry.stops {
             start.moment = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));

@@ -98,9 +98,9 @@ mod tests {
             let length = block.path.length();
             let queued = Arc::new(Queued::new(block, CycleTime::from_us(1000).unwrap()));
             contour.enter(0.0, s_mm, Arc::clone(&queued));
-            let (cycles, speed, jump, axis) = (0.0, 1.0, 1.0, 0);
+            let (cycles, jump, axis) = (0.0, 1.0, 0);
             let (boundary, block) = (None, None);
-            marks.push(Mark { cycles, boundary, block, queued, s_mm, speed, jump, axis, point });
+            marks.push(Mark { cycles, boundary, block, queued, s_mm, jump, axis, point });
             s_mm += length;
         }
         (marks, contour)

@@ -1,7 +1,7 @@
 //! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
 
 use super::blame::Findings;
-use super::view::{Mark, View};
+use super::view::View;
 use super::{Demands, Trial};
 use crate::overshoot::gentle;
 use crate::queue::Queued;
@@ -131,7 +131,7 @@ impl View<'_> {
                 let haste = if all { 0.7 } else { 1.0 };
                 let now = demands.acceleration[b];
                 let ratio = haste * 0.99 * tolerance / (tolerance + excess);
-                let gentle = gentle_ratio(trial, mark, queued, tolerance);
+                let gentle = self.gentle_ratio(b, queued, tolerance);
                 demands.acceleration[b] = if now >= 1.0 {
                     ratio.min(2.0 * gentle)
                 } else {
@@ -140,6 +140,23 @@ impl View<'_> {
                 };
             }
         }
+    }
+
+    /// Part of the acceleration with which a lone start or stop on the block keeps the tolerance.
+    fn gentle_ratio(&self, block: usize, queued: &Queued, tolerance: f64) -> f64 {
+        let kernels = self.trial.kernels;
+        let v = self.peak_of(block);
+        let a = 0.5 * v * v / queued.slope.down_distance(v, 0.0);
+        let axes = 0..queued.ends.tangent_in.len();
+        let gentlest = axes
+            .filter_map(|i| {
+                let kernel = kernels.get(i).filter(|k| k.has_negative_taps())?;
+                let share = if queued.bend > 0.0 { 1.0 } else { queued.ends.tangent_in[i].abs() };
+                let seconds = self.trial.cycle.seconds();
+                Some(gentle(kernel, seconds, (v, queued.length), a, tolerance / share.max(1e-9)))
+            })
+            .fold(a, f64::min);
+        gentlest / a
     }
 }
 
@@ -167,22 +184,6 @@ fn spread_cycles2(kernel: &Kernel) -> f64 {
         tap.weight.abs() * d * d
     };
     kernel.taps().iter().map(part).sum()
-}
-
-/// Part of the acceleration with which a lone start or stop on the block keeps the tolerance.
-fn gentle_ratio(trial: &Trial<'_>, mark: &Mark, queued: &Queued, tolerance: f64) -> f64 {
-    let v = mark.speed;
-    let a = 0.5 * v * v / queued.slope.down_distance(v, 0.0);
-    let axes = 0..queued.ends.tangent_in.len();
-    let gentlest = axes
-        .filter_map(|i| {
-            let kernel = trial.kernels.get(i).filter(|k| k.has_negative_taps())?;
-            let share = if queued.bend > 0.0 { 1.0 } else { queued.ends.tangent_in[i].abs() };
-            let seconds = trial.cycle.seconds();
-            Some(gentle(kernel, seconds, (v, queued.length), a, tolerance / share.max(1e-9)))
-        })
-        .fold(a, f64::min);
-    gentlest / a
 }
 
 /// How many steps to take at once where so many have been without effect.

@@ -4,7 +4,7 @@ use super::{BORDER_CYCLES, Kernels, Monitor, Trial};
 use crate::axis::AxisVec;
 use crate::contour::{Contour, SAME_START_MM};
 use crate::queue::Queued;
-use crate::timeline::{PathState, Reader};
+use crate::timeline::{Entry, PathState, Reader};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
@@ -24,8 +24,6 @@ pub(super) struct Mark {
     pub(super) queued: Arc<Queued>,
     /// Path length at the start of the block.
     pub(super) s_mm: f64,
-    /// Highest speed planned for it in mm/s.
-    pub(super) speed: f64,
     /// Largest jump of direction of an axis with a kernel, and that axis.
     pub(super) jump: f64,
     pub(super) axis: usize,
@@ -94,6 +92,16 @@ impl<'a> View<'a> {
         last.map_or(*now as f64, |e| e.end.cycles(*cycle))
     }
 
+    /// Highest speed in mm/s planned for a block of the window and those planned with it.
+    pub(super) fn peak_of(&self, block: usize) -> f64 {
+        let mut behind = 0;
+        let holds = |e: &&Entry| {
+            behind += e.blocks.len();
+            block < behind
+        };
+        self.trial.plan.iter().find(holds).map_or(0.0, |e| e.profile.peak())
+    }
+
     /// Planned speed at a boundary of the window.
     pub(super) fn speed_at(&self, boundary: usize) -> f64 {
         let mut index = 0;
@@ -112,7 +120,7 @@ impl<'a> View<'a> {
 fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let reach = f64::from(trial.kernels.length());
     let mut out: Vec<Mark> = Vec::new();
-    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64, speed: f64| {
+    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64| {
         let (mut jump, mut axis) = (0.0, 0);
         // the rest of a block goes on without a corner
         let start = s - queued.offset;
@@ -134,18 +142,16 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
         // at the start of the path itself only a wait is possible
         let boundary = block.filter(|b| *b > 0 || trial.at_rest);
         let queued = Arc::clone(queued);
-        out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis, point });
+        out.push(Mark { cycles, boundary, block, queued, s_mm: s, jump, axis, point });
     };
     let now = trial.now as f64;
     for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
-        let queued = &passed.queued;
-        let speed = if passed.above_feed { queued.ceiling } else { queued.velocity };
-        add(passed.cycles, queued, None, passed.s_mm, speed.v_mm_s);
+        add(passed.cycles, &passed.queued, None, passed.s_mm);
     }
     let mut index = 0;
     for entry in trial.plan {
         for (cycles, s, queued) in entry.entries(trial.cycle) {
-            add(cycles, queued, Some(index), s, entry.profile.peak());
+            add(cycles, queued, Some(index), s);
             index += 1;
         }
     }
