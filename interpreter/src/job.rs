@@ -33,7 +33,7 @@ mod tests;
 pub use crate::exec::{
     Access, Checked, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value,
 };
-pub use crate::record::facts::{AxisFacts, Facts, FileNames};
+pub use crate::record::facts::{Apart, AxisFacts, Facts, FileNames};
 pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
 pub use apart::Work;
 pub use lists::MachineLists;
@@ -154,9 +154,11 @@ fn facts(program: &str, machine: &Machine, simulation: &Simulation, several_file
             name: axis.name().to_owned(),
             rotary: axis.kind() != AxisKind::Linear,
             spindle: axis.kind() == AxisKind::Spindle,
-            modal: chain.has_tool_point(),
-            load_apart: !chain.shows_load_twice(),
-            additional: grinds || axis.has_additional_interface(),
+            apart: Apart {
+                tool_point: chain.has_tool_point(),
+                load: !chain.shows_load_twice(),
+                additional: grinds || axis.has_additional_interface(),
+            },
             v_max: axis.dynamics().v_max_mm_s,
             a_max: axis.dynamics().a_max_mm_s2,
             window: stop(i).window_mm,

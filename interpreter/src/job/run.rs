@@ -104,7 +104,7 @@ impl Run {
     pub fn with_inputs(mut self, changes: Changes) -> Self {
         if self.simulation.connect(changes) {
             // one of them may be an error of an encoder
-            self.facts.axes.iter_mut().for_each(|axis| axis.load_apart = true);
+            self.facts.axes.iter_mut().for_each(|axis| axis.apart.load = true);
         }
         self
     }

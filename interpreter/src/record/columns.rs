@@ -219,20 +219,21 @@ fn quantities<'a>(
     axis: &'a AxisFacts,
     wanted: impl Fn(&str) -> bool + 'a,
 ) -> impl Iterator<Item = Column> + 'a {
-    QUANTITIES.iter().filter(move |q| wanted(q.0) && (axis.modal || !q.1.starts_with("tcp"))).map(
-        move |&(group, word, unit, value)| Column {
+    QUANTITIES
+        .iter()
+        .filter(move |q| wanted(q.0) && (axis.apart.tool_point || !q.1.starts_with("tcp")))
+        .map(move |&(group, word, unit, value)| Column {
             name: format!("{}_{word}{}", axis.name, unit.suffix(axis.unit())),
             content: Content::Axis(index, value),
             decimals: unit.decimals(),
             group,
             repeats: match word {
-                "load" => !axis.load_apart,
-                "add" => !axis.additional,
+                "load" => !axis.apart.load,
+                "add" => !axis.apart.additional,
                 _ => false,
             },
             unit: unit.name(axis.unit()),
-        },
-    )
+        })
 }
 
 /// The columns that `signals` asks for: groups, column names and [`DEFAULT_SIGNALS`], separated by commas, in the order of
@@ -265,7 +266,7 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::FileNames;
+    use crate::job::{Apart, FileNames};
 
     fn facts() -> Facts {
         let axis = |name: &str, rotary, spindle| AxisFacts {
@@ -298,9 +299,9 @@ mod tests {
     /// What repeats another column is there where it does not, and where it is asked for.
     #[test]
     fn repeating_columns_are_there_when_asked_for() {
-        let of = |signals: &str, load_apart, additional| {
+        let of = |signals: &str, load, additional| {
             let mut facts = facts();
-            (facts.axes[0].load_apart, facts.axes[0].additional) = (load_apart, additional);
+            facts.axes[0].apart = Apart { load, additional, ..Apart::default() };
             let names = select(signals, &facts).unwrap().into_iter().map(|c| c.name);
             names
                 .filter(|n| n.contains("_load_") || n.contains("_add_"))

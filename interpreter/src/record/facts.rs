@@ -33,14 +33,8 @@ pub struct AxisFacts {
     pub rotary: bool,
     /// A spindle.
     pub spindle: bool,
-    /// The plant model has a tool point of its own (`X_tcp_mm`).
-    pub modal: bool,
-    /// The load can be elsewhere than the actual position says (`X_load_mm`): an elastic plant, an encoder with steps, or
-    /// inputs that may disturb it.
-    pub load_apart: bool,
-    /// Positions can be added after the axis filters (`X_add_mm`): the additional interface is on, or the tool list
-    /// has a grinding tool for `#OTC`.
-    pub additional: bool,
+    /// Positions that are not those of the others.
+    pub apart: Apart,
     /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
     pub v_max: f64,
     /// Largest acceleration in mm/s2 or deg/s2 (P-AXIS-00008).
@@ -49,6 +43,19 @@ pub struct AxisFacts {
     pub window: f64,
     /// Time limit to reach it in s (P-AXIS-00532), if there is one.
     pub settling_s: Option<f64>,
+}
+
+/// Which positions of an axis are not those of the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Apart {
+    /// The plant model has a tool point of its own (`X_tcp_mm`).
+    pub tool_point: bool,
+    /// The load can be elsewhere than the actual position says (`X_load_mm`): an elastic plant, an encoder with steps, or
+    /// inputs that may disturb it.
+    pub load: bool,
+    /// Positions can be added after the axis filters (`X_add_mm`): the additional interface is on, or the tool list
+    /// has a grinding tool for `#OTC`.
+    pub additional: bool,
 }
 
 impl AxisFacts {
