@@ -215,6 +215,43 @@ fn random_lines() {
     assert!(stopped > count(40) / 4, "{stopped}");
 }
 
+/// The halt and an exact stop at the end of its block (G60) are two stops; an independent axis drives on during both.
+#[test]
+fn beside_an_exact_stop_and_an_independent_axis() {
+    let of = |exact: &str| {
+        let program = format!(
+            "#SLOPE [TYPE=STEP]\nN10 G90 G00 X0 Y0\nN20 G108\nN30 Z[INDP_ASYN G90 G01 POS=60 FEED=600]\n\
+             N40 {exact} G01 X150 Y0 F3000 M97\nN50 X150 Y40\nN60 M30\n"
+        );
+        let run = run_with_inputs(banding(&[]), &program, &[(0.0, "X_probe_mm", 50.0)]);
+        assert!(errors(&run).is_empty() && !run.totals.aborted, "{:?}", run.diagnostics);
+        run
+    };
+    let (run, without) = (of("G60"), of(""));
+    for run in [&run, &without] {
+        let stop = rests(run, 5);
+        assert!(stop.len() > 10);
+        for r in &stop {
+            near(at(r)[0], 55.0, 1e-7);
+            near(at(r)[1], 0.0, 1e-7);
+        }
+        // 600 mm/min
+        for w in stop.windows(2) {
+            near(w[1].axes[2].ipo - w[0].axes[2].ipo, 0.01, 1e-9);
+        }
+        let end = run.records.last().unwrap();
+        assert_eq!(at(end), [150.0, 40.0]);
+        near(end.axes[2].ipo, 60.0, 1e-9);
+    }
+    // the next block begins with the axes in their windows, or with the lag of braking
+    let lag = |run: &Run| {
+        let next = run.records.iter().find(|r| r.line == 6).unwrap();
+        (next.axes[0].act - 150.0).abs()
+    };
+    assert!(lag(&run) < 0.011, "{}", lag(&run));
+    assert!(lag(&without) > 0.011, "{}", lag(&without));
+}
+
 /// Other kinds of synchronisation are named: here nothing waits for the PLC.
 #[test]
 fn other_synchronisations_are_named() {

@@ -63,7 +63,7 @@ fn settings_name_axes_that_exist() {
 
 #[test]
 fn one_unreadable_program_does_not_end_a_check() {
-    let f = Folder::new().with("a.nc", "G7\nM30\n").with("c.nc", "G8888\nM30\n");
+    let f = Folder::new().with("a.nc", "G7\nM30\n").with("c.nc", "G88888\nM30\n");
     let said = f.call(&["check", "@a.nc", "@b.nc", "@c.nc"]);
     assert_eq!(said.exit, Exit::Io);
     for part in ["20131", "b.nc: ", "20107"] {

@@ -151,6 +151,7 @@ const ROWS: &[Row] = &[
     unsupported("CS DEL"),
     off_only("CS MODE"),
     unsupported("CS SELECT"),
+    unsupported("CS SET"),
     unsupported("DEL DIST2GO"),
     couplings::DISABLE_AX_LINK,
     off_only("EDGE MACHINING"),

@@ -18,6 +18,7 @@ mod space;
 pub(super) mod spindles;
 pub(super) mod state;
 pub(super) mod straight;
+mod targets;
 mod technology;
 mod threads;
 pub(super) mod wear;
@@ -31,13 +32,10 @@ use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
-use super::geometry::coordinates::Target;
-use super::geometry::modulo;
 use super::step::Sync;
 use super::values::number::LARGEST_MM;
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed, SlopeKind};
 use kontur_motion::path::{LinePath, Path, Tilt};
 
@@ -219,56 +217,6 @@ impl Decoder {
         }
         self.sync(Sync::Dwell { seconds });
         Ok(())
-    }
-
-    /// Takes the coordinate words over into the target; where the axes stood comes back.
-    fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
-        for (axis, _, at) in &words.axes {
-            self.moves_no_slave(*axis, *at)?;
-        }
-        let mut start = self.geometry.coordinates.target().clone();
-        let mut targets: smallvec::SmallVec<[Target; 8]> = words
-            .axes
-            .iter()
-            .enumerate()
-            .map(|(i, (axis, value, _))| {
-                let absolute = words.is_absolute(i, self.modal.absolute);
-                let value = value * self.coordinate_unit(*axis, absolute);
-                Target { axis: *axis, value, absolute }
-            })
-            .collect();
-        targets.extend(self.motion.contour_line.targets.drain(..));
-        let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
-        for target in targets.iter_mut().filter(|t| t.absolute) {
-            if self.machine.axes[target.axis].is_modulo() {
-                let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
-                let turn = turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?;
-                let offset = match suppressed {
-                    Some(_) => 0.0,
-                    None => self.geometry.coordinates.active_offset(target.axis),
-                };
-                target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
-            }
-        }
-        match suppressed {
-            Some((_, _, at)) if targets.iter().any(|t| !t.absolute) => {
-                let text = "#SUPPRESS OFFSETS acts only with G90";
-                return Err(Fault::new(Condition::SuppressWithIncremental, text, *at));
-            }
-            Some((_, _, at)) if !self.geometry.coordinates.frame().is_identity() => {
-                let what = "#SUPPRESS OFFSETS in a frame";
-                return Err(Fault::unsupported(what, *at));
-            }
-            Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
-            None => self.geometry.coordinates.program(targets.iter().copied()),
-        }
-        self.follow_masters();
-        // a slave stands on the path, also where the path begins
-        for slave in self.motion.couplings.slaves() {
-            start[slave] = self.geometry.coordinates.target()[slave];
-        }
-        self.follow_turning_centre(&start);
-        Ok(start)
     }
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {

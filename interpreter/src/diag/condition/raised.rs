@@ -67,6 +67,7 @@ conditions! {
     AxisMissing = Vendor 20003: Warning None 1 1, "G function needs an axis", cause "e.g. G160=2 without axis", hint "the function acts on the axes in its block: G160=2 X1";
     SpindleSpeedZero = Vendor 20007: Error ProgramAbort 3 1, "spindle speed 0", cause "G63 with S0", hint "program the speed before: S1000 M3";
     FeedZero = Vendor 20008: Error ProgramAbort 3 1, "feed is 0 in a motion block", cause "first G01/G02/G03 without F (P-CHAN-00099 = 0)", hint "write F in this block or before it";
+    CoordinateTooLarge = Vendor 20011: Error ProgramAbort 3 1, "coordinate outside the data format", cause "X94967596", hint "coordinates reach up to 214748.3647 mm or deg";
     InsertionWithoutSize = Vendor 20012: Error ProgramAbort 3 1, "chamfer or rounding without size", cause "I missing or 0 at G301/G302", hint "write the size: G301 I2; it holds for the following ones too";
     DwellTwoTimes = Vendor 20013: Error ProgramAbort 3 1, "G04 in both forms at once", cause "G04 2 X3", hint "leave one of the two times out";
     DwellWrongAxis = Vendor 20014: Error ProgramAbort 3 1, "G04 names a wrong axis", cause "only the first main axis", hint "write G04 2.5, or the time after the first main axis";
@@ -79,7 +80,7 @@ conditions! {
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
     BlockNumberBehindWords = Vendor 20105: Error ProgramAbort 3 1, "second block number in one block", cause "N20 X10 N30", hint "leave one of the two out";
-    GNumberTooLarge = Vendor 20107: Error ProgramAbort 3 1, "G number outside the data format", hint "G functions have numbers up to 999";
+    GNumberTooLarge = Vendor 20107: Error ProgramAbort 3 1, "G number outside the data format", hint "G functions have numbers up to 9999";
     TwoMotionModes = Vendor 20108: Error ProgramAbort 3 1, "two motion modes in one block", cause "G01 … G00", hint "one of G00, G01, G02, G03, G04 per block";
     TwoFeedInterpolations = Vendor 20109: Error ProgramAbort 3 1, "two of G08/G193/G293", hint "one of G08, G193, G293 per block";
     TwoCompensationFeeds = Vendor 20110: Error ProgramAbort 3 1, "two of G10/G11", hint "one of G10, G11 per block";
@@ -205,7 +206,7 @@ conditions! {
     NoCornerParameters = Vendor 20795: Error ProgramAbort 3 1, "corner deceleration without parameters", cause "G13 before #CORNER PARAM", hint "write #CORNER PARAM [DIST=.. UNIT=PERCENT FEED=..] before it";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
-    CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "five systems are stored at most, with the numbers 1 to 5";
+    CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "five systems are stored at most, with numbers above 0";
     NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "$GOTO is not followed by a label", hint "write $GOTO N20 or $GOTO [NAME]";

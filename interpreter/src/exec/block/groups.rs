@@ -371,8 +371,8 @@ const ROWS: &[Row] = &[
 
 /// Highest number of the data format; above it 20107, unassigned numbers below it are 20131.
 ///
-/// Assumption: three digits; the document gives an example with five.
-pub(in crate::exec) const NUMBER_MAX: u32 = 999;
+/// Assumption: four digits; the documents give 20131 for G1234, and 20107 for a number with five.
+pub(in crate::exec) const NUMBER_MAX: u32 = 9999;
 
 /// The row of a number.
 pub(in crate::exec) fn row(number: u32) -> Option<&'static Row> {

@@ -92,14 +92,15 @@ fn id_of(decoder: &Decoder, group: &Group) -> Outcome<u32> {
     match &group.items[..] {
         [item] => match &item.kind {
             ItemKind::Value(ItemValue::Expr(expr)) => {
-                let most = u32::try_from(SYSTEMS_MAX).unwrap_or(u32::MAX);
                 let number = decoder.number(expr)?;
-                whole(number, 1, most).ok_or_else(|| {
+                whole(number, 1, u32::MAX).ok_or_else(|| {
                     let text = format!("the number {number} of a coordinate system");
                     Fault::new(Condition::CoordinateSystemNumber, text, expr.span).with(|d| {
-                        d.value(ValueKind::Wrong, number, "-")
-                            .value(ValueKind::LowerLimit, 1.0, "-")
-                            .value(ValueKind::UpperLimit, f64::from(most), "-")
+                        d.value(ValueKind::Wrong, number, "-").value(
+                            ValueKind::LowerLimit,
+                            1.0,
+                            "-",
+                        )
                     })
                 })
             }

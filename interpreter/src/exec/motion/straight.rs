@@ -9,6 +9,7 @@ use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::Span;
 use crate::syntax::{Plain, PlainValue, PlainWord};
 use kontur_motion::block::{Block, Feed};
@@ -64,7 +65,7 @@ impl Decoder {
                 let twice = words.targets.iter().any(|(target, _)| target.axis == axis);
                 let target = Target { axis, value, absolute: self.modal.absolute };
                 words.targets.push((target, word.span));
-                !twice
+                !twice && value.abs() <= LARGEST_MM
             }
             None if word.letter == b'F' => words.feed.replace((value, word.span)).is_none(),
             _ => false,

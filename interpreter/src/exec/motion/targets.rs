@@ -1,0 +1,67 @@
+//! Targets of a motion block: from its coordinate words to positions of the axes.
+
+use crate::diag::Condition;
+use crate::exec::block::words::Words;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Target;
+use crate::exec::geometry::modulo;
+use crate::exec::values::number::LARGEST_MM;
+use kontur_motion::axis::AxisVec;
+
+impl Decoder {
+    /// Takes the coordinate words over into the target; where the axes stood comes back.
+    pub(super) fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
+        for (axis, _, at) in &words.axes {
+            self.moves_no_slave(*axis, *at)?;
+        }
+        let mut start = self.geometry.coordinates.target().clone();
+        let mut targets: smallvec::SmallVec<[Target; 8]> = words
+            .axes
+            .iter()
+            .enumerate()
+            .map(|(i, (axis, value, _))| {
+                let absolute = words.is_absolute(i, self.modal.absolute);
+                let value = value * self.coordinate_unit(*axis, absolute);
+                Target { axis: *axis, value, absolute }
+            })
+            .collect();
+        let too_large = targets.iter().position(|t| t.value.abs() > LARGEST_MM);
+        if let Some((axis, value, at)) = too_large.and_then(|i| words.axes.get(i)) {
+            let text = format!("{}{value} is outside the data format", self.names.name(*axis));
+            return Err(Fault::new(Condition::CoordinateTooLarge, text, *at));
+        }
+        targets.extend(self.motion.contour_line.targets.drain(..));
+        let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
+        for target in targets.iter_mut().filter(|t| t.absolute) {
+            if self.machine.axes[target.axis].is_modulo() {
+                let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
+                let turn = turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?;
+                let offset = match suppressed {
+                    Some(_) => 0.0,
+                    None => self.geometry.coordinates.active_offset(target.axis),
+                };
+                target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
+            }
+        }
+        match suppressed {
+            Some((_, _, at)) if targets.iter().any(|t| !t.absolute) => {
+                let text = "#SUPPRESS OFFSETS acts only with G90";
+                return Err(Fault::new(Condition::SuppressWithIncremental, text, *at));
+            }
+            Some((_, _, at)) if !self.geometry.coordinates.frame().is_identity() => {
+                let what = "#SUPPRESS OFFSETS in a frame";
+                return Err(Fault::unsupported(what, *at));
+            }
+            Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
+            None => self.geometry.coordinates.program(targets.iter().copied()),
+        }
+        self.follow_masters();
+        // a slave stands on the path, also where the path begins
+        for slave in self.motion.couplings.slaves() {
+            start[slave] = self.geometry.coordinates.target()[slave];
+        }
+        self.follow_turning_centre(&start);
+        Ok(start)
+    }
+}

@@ -1,0 +1,11 @@
+; run: exit 0
+; page 206929163 counting loop ($FOR), 46 passes
+; end X0.642787610 Y-0.766044443 Z46
+P3=0 F6000
+N100 $FOR P1= 10, 100, 2
+N110 X SIN [P1 * 5]
+N120 Y COS [P1 * 5]
+N125 P3=P3+1
+N130 $ENDFOR
+N140 Z P3
+M30

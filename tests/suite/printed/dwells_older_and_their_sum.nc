@@ -1,0 +1,11 @@
+; run: exit 0
+; page 15556644491 dwells (G04, #TIME), older page, with their sum
+; end X10.39
+#TIMER START SYN [ID=1]
+N10 G04 X4.13
+N20 G04 2.13
+N30 #TIME 4.13
+#TIMER READ SYN [ID=1]
+#FLUSH WAIT
+G01 F6000 X[V.G.TIMER[1]/1000]
+M30

@@ -1,0 +1,10 @@
+; run: exit 0
+; page 251172235 diagnosis 20225, right
+; end X5
+N10 G00 X0 Y0 Z0
+N20 P1=5
+N30 $SWITCH P1
+N34 $CASE 5
+N36 X5
+N40 $ENDSWITCH
+N1000 M30

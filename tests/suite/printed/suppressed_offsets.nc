@@ -1,0 +1,12 @@
+; run: exit 0
+; page 207072907 suppressed offsets (#SUPPRESS OFFSETS)
+; passes X121 Y192
+; end X50 Y100
+%suppress_offsets
+N05 V.G.NP[1].V.X=11
+N10 V.G.NP[1].V.Y=22
+N15 G54
+N20 G92 X10 Y20
+N25 G00 X100 Y150
+N30 #SUPPRESS OFFSETS X50 Y100
+M30

@@ -1,0 +1,9 @@
+; check: exit 1
+; page 251167883 diagnosis 20224, wrong
+; error 20224 at 7:14
+N10 G00 X0 Y0 Z0
+N20 P1=5
+N50 $SWITCH P1
+N62 $DEFAULT G01 X100 F10000
+N65 $ENDSWITCH
+N1000 M30

@@ -1,0 +1,9 @@
+; run: exit 0
+; page 251150475 diagnosis 20220, right
+; end X100
+N10 G00 X0 Y0 Z0
+N20 P1=5
+N25 G01 X100 F10000
+N50 $SWITCH P1
+N65 $ENDSWITCH
+N1000 M30

@@ -1,0 +1,8 @@
+; check: exit 1
+; page 251150475 diagnosis 20220, wrong
+; error 20220 at 6:16
+N10 G00 X0 Y0 Z0
+N20 P1=5
+N50 $SWITCH P1 G01 X100 F10000
+N65 $ENDSWITCH
+N1000 M30
