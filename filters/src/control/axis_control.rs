@@ -105,6 +105,7 @@ pub struct ControlOutput {
 pub struct AxisControl {
     config: AxisControlConfig,
     cycle: CycleTime,
+    cycle_s: f64,
     /// Of speed command and feedforward.
     counts_per_mm_s: (f64, f64),
     buffer: SetpointBuffer,
@@ -121,6 +122,8 @@ pub struct AxisControl {
     position_mm: f64,
     inputs: AxisInputs,
     faults: Faults,
+    /// Following error in mm that belongs to no stable loop.
+    unstable_mm: f64,
     diverged: bool,
     moving: bool,
     open: bool,
@@ -163,6 +166,7 @@ impl AxisControl {
     /// [`PlantError`] if the plant is not physical.
     pub fn new(config: AxisControlConfig, cycle: CycleTime) -> Result<Self, PlantError> {
         let delay = config.delay_cycles.max(config.feedforward.delay_cycles());
+        let theoretical_mm = config.position.v_max_mm_s / config.position.lowest_gain();
         let mut control = Self {
             buffer: SetpointBuffer::new(delay, config.feedforward.shift_cycles),
             feedforward: Feedforward::new(config.feedforward, cycle),
@@ -176,8 +180,10 @@ impl AxisControl {
                 config.command_format.counts_per_mm_s(cycle.seconds()),
                 config.feedforward_format.counts_per_mm_s(cycle.seconds()),
             ),
+            unstable_mm: Self::DIVERGED * config.lag.lag_max_mm.max(theoretical_mm),
             config,
             cycle,
+            cycle_s: cycle.seconds(),
             set_mm: 0.0,
             tcp_mm_s: 0.0,
             position_mm: 0.0,
@@ -356,7 +362,7 @@ impl AxisControl {
         let position_mm = set_mm + self.inputs.additional_mm;
         self.moving = (position_mm - self.position_mm).abs() > 0.0;
         (self.set_mm, self.position_mm) = (set_mm, position_mm);
-        let cycle_s = self.cycle.seconds();
+        let cycle_s = self.cycle_s;
         let measured = *self.plant.measured();
         let actual_mm = self.controlled_mm();
 
@@ -442,8 +448,7 @@ impl AxisControl {
         if self.diverged {
             return None;
         }
-        let theoretical = self.config.position.v_max_mm_s / self.config.position.lowest_gain();
-        let limit_mm = Self::DIVERGED * self.config.lag.lag_max_mm.max(theoretical);
+        let limit_mm = self.unstable_mm;
         if lag_mm.abs() <= limit_mm && self.plant.advance(input) {
             return None;
         }
@@ -455,8 +460,7 @@ impl AxisControl {
     ///
     /// A drive that closes the position loop itself makes its own command.
     fn felt_mm_s(&self, command: f64, additive: f64) -> f64 {
-        let c = &self.config;
-        let cycle_s = self.cycle.seconds();
+        let (c, cycle_s) = (&self.config, self.cycle_s);
         let command = match c.position.closed_in {
             PositionLoop::Cnc => c.command_format.sent(command, cycle_s),
             PositionLoop::Drive => command,

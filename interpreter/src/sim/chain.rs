@@ -44,12 +44,14 @@ pub(crate) struct AxisChain {
     wear_mm: f64,
     filter_window_mm: f64,
     delay_cycles: f64,
+    /// Whole cycles of the delay, and the rest.
+    delay: (usize, f64),
     /// Interpolated setpoints as far back as the delay reaches, newest last.
     ipo: VecDeque<f64>,
     set: f64,
     vel: f64,
     acc: f64,
-    cycle: CycleTime,
+    cycle_s: f64,
 }
 
 impl AxisChain {
@@ -79,11 +81,12 @@ impl AxisChain {
             wear_mm: 0.0,
             filter_window_mm: setup.filter_window_mm,
             delay_cycles: 0.0,
+            delay: (0, 0.0),
             ipo: VecDeque::new(),
             set: x,
             vel: 0.0,
             acc: 0.0,
-            cycle,
+            cycle_s: cycle.seconds(),
         };
         chain.align(x);
         Ok(chain)
@@ -92,6 +95,8 @@ impl AxisChain {
     /// The delay changed: the setpoints that it reaches back to are those of the present standstill.
     fn align(&mut self, x: f64) {
         self.delay_cycles = self.shaping.delay_cycles();
+        let whole = self.delay_cycles.floor();
+        self.delay = (whole as usize, self.delay_cycles - whole);
         let length = self.delay_cycles.ceil() as usize + 1;
         self.ipo.clear();
         self.ipo.resize(length, x);
@@ -260,7 +265,7 @@ impl AxisChain {
         self.ipo.push_back(ipo);
         self.ipo.pop_front();
         let set = self.shaping.step(ipo);
-        let t = self.cycle.seconds();
+        let t = self.cycle_s;
         let vel = (set - self.set) / t;
         let acc = (vel - self.vel) / t;
         let jerk = (acc - self.acc) / t;
@@ -317,10 +322,9 @@ impl AxisChain {
     /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.
     fn aligned(&self) -> f64 {
         let last = self.ipo.len() - 1;
-        let whole = self.delay_cycles.floor();
-        let part = self.delay_cycles - whole;
-        let newer = self.ipo[last - (whole as usize).min(last)];
-        let older = self.ipo[last - (whole as usize + usize::from(part > 0.0)).min(last)];
+        let (whole, part) = self.delay;
+        let newer = self.ipo[last - whole.min(last)];
+        let older = self.ipo[last - (whole + usize::from(part > 0.0)).min(last)];
         if part > 0.0 { newer + part * (older - newer) } else { newer }
     }
 }

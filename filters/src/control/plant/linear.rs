@@ -26,28 +26,47 @@ impl Continuous {
 
 /// A vector of states: an array where the usual drives have few of them.
 pub(super) trait States: AsRef<[f64]> + AsMut<[f64]> + Clone {
+    /// As many of them as there are states.
+    type Square: AsRef<[Self]> + std::fmt::Debug + Clone;
+
     /// The vector of these values.
     fn of(values: &[f64]) -> Self;
+
+    /// A vector for each state.
+    fn square(vector: impl Fn(usize) -> Self, n: usize) -> Self::Square;
 }
 
 impl<const N: usize> States for [f64; N] {
+    type Square = [Self; N];
+
     fn of(values: &[f64]) -> Self {
         std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+    }
+
+    fn square(vector: impl Fn(usize) -> Self, _: usize) -> Self::Square {
+        std::array::from_fn(vector)
     }
 }
 
 impl States for Vec<f64> {
+    type Square = Vec<Self>;
+
     fn of(values: &[f64]) -> Self {
         values.to_vec()
+    }
+
+    fn square(vector: impl Fn(usize) -> Self, n: usize) -> Self::Square {
+        (0..n).map(vector).collect()
     }
 }
 
 /// Discrete model with state. The position is kept apart and only ever moved by increments: so an axis at rest stays
 /// where it is bit by bit, and far from zero it loses nothing of its resolution.
 #[derive(Clone, Debug)]
-pub(super) struct LinearPlant<S> {
-    /// Columns of `phi`, then those of `gamma`.
-    columns: Vec<S>,
+pub(super) struct LinearPlant<S: States> {
+    /// Columns of the matrices.
+    phi: S::Square,
+    gamma: [S; INPUTS],
     positions: [S; 3],
     speeds: [S; 3],
     state: S,
@@ -79,10 +98,10 @@ impl<S: States> LinearPlant<S> {
         let (phi, gamma) = discretise(&model.a, &model.b, substep_s)?;
         let n = model.a.nrows();
         let column = |matrix: &DMatrix<f64>, i: usize| S::of(&matrix.as_slice()[i * n..][..n]);
-        let phi = (0..n).map(|i| column(&phi, i));
         let row = |row: &RowDVector<f64>| S::of(row.as_slice());
         Ok(Self {
-            columns: phi.chain((0..INPUTS).map(|i| column(&gamma, i))).collect(),
+            phi: S::square(|i| column(&phi, i), n),
+            gamma: std::array::from_fn(|i| column(&gamma, i)),
             positions: std::array::from_fn(|i| row(&model.positions[i])),
             speeds: std::array::from_fn(|i| row(&model.speeds[i])),
             state: S::of(&vec![0.0; n]),
@@ -111,19 +130,22 @@ impl<S: States> LinearPlant<S> {
     /// Advances by one cycle. `rests` says whether that changed nothing, bit for bit: with the same input no further
     /// cycle will. A disturbance that changes with time never rests.
     pub(super) fn advance(&mut self, input: &PlantInput, rests: &mut bool) -> Measured {
-        *rests = self.disturbance.is_none();
-        let start_s = self.cycle.time_of(self.cycles);
-        for i in 0..self.substeps {
-            let middle_s = start_s + self.substep_s * (f64::from(i) + 0.5);
-            let force = input.force_mm_s2 + self.disturbance_at(middle_s);
-            *rests &= self.substep(input, force);
+        if let Some(d) = self.disturbance {
+            let start_s = self.cycle.time_of(self.cycles);
+            for i in 0..self.substeps {
+                let middle_s = start_s + self.substep_s * (f64::from(i) + 0.5);
+                self.substep(input, input.force_mm_s2 + self.disturbance_at(&d, middle_s));
+            }
+            *rests = false;
+        } else {
+            // no force is 0, not -0
+            *rests = self.substep(input, input.force_mm_s2 + 0.0);
         }
         self.cycles += 1;
         self.measured()
     }
 
-    fn disturbance_at(&self, time_s: f64) -> f64 {
-        let Some(d) = self.disturbance else { return 0.0 };
+    fn disturbance_at(&self, d: &Disturbance, time_s: f64) -> f64 {
         let speed = self.value(&self.speeds[1]);
         let share =
             if d.full_speed_mm_s > 0.0 { (speed.abs() / d.full_speed_mm_s).min(1.0) } else { 1.0 };
@@ -143,12 +165,18 @@ impl<S: States> LinearPlant<S> {
         let (state, next) = (self.state.as_ref(), self.next.as_mut());
         let n = next.len();
         next.fill(-0.0);
-        for (i, column) in self.columns.iter().enumerate() {
-            let x = if i < n { state[i] } else { inputs[i - n] };
+        let mut add = |column: &S, x: f64| {
             let column = &column.as_ref()[..n];
             for row in 0..n {
                 next[row] += column[row] * x;
             }
+        };
+        let phi = &self.phi.as_ref()[..n];
+        for i in 0..n {
+            add(&phi[i], state[i]);
+        }
+        for (column, input) in self.gamma.iter().zip(inputs) {
+            add(column, input);
         }
         let before_mm = self.base_mm;
         self.base_mm += next[0];
