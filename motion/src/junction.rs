@@ -26,6 +26,7 @@ use crate::cap::{Cap, SpeedLimit};
 use crate::limits::{contour_acceleration, longest_ramp};
 use crate::path::Path;
 use kontur_filters::time::CycleTime;
+use std::sync::Arc;
 
 /// Direction changes below this are rounding of the program's numbers, not kinks.
 pub(crate) const TANGENT: f64 = 1e-9;
@@ -118,8 +119,14 @@ pub(crate) fn admissible_jump(
     kernel_active: bool,
 ) -> f64 {
     let t = cycle.seconds();
+    // blocks that share their limits say the same
+    let alike = Arc::ptr_eq(&from.dynamics, &to.dynamics)
+        && from.slope == to.slope
+        && is_rapid(from) == is_rapid(to)
+        && from.tolerance.acc_fact.to_bits() == to.tolerance.acc_fact.to_bits();
     [from, to]
         .into_iter()
+        .take(if alike { 1 } else { 2 })
         .map(|b| {
             let fact = if kernel_active { b.tolerance.acc_fact } else { 1.0 };
             let acc = if b.dynamics.transition_jerk == TransitionJerkMode::DirectJerk

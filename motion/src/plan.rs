@@ -178,8 +178,11 @@ impl Plan {
 
     /// Takes the first segments out, which become final.
     pub(crate) fn pass(&mut self, count: usize) -> Vec<Segment> {
-        let final_ones = self.asked().take(count).collect();
-        self.segments.drain(..count);
+        let Self { segments, demands, .. } = self;
+        let passed = segments.drain(..count).enumerate();
+        let final_ones = passed
+            .map(|(i, s)| Segment { asked: s.asked.or_else(|| demands.of(i)), ..s })
+            .collect();
         self.demands.pass(count);
         if let Some(draft) = &mut self.draft {
             draft.pass(count);

@@ -210,22 +210,29 @@ impl Planner {
 
     fn commit(&mut self, mut entries: Vec<Entry>, count: usize) {
         self.plan.reserve = entries.split_off(count).into();
-        let mut blocks = 0;
-        let demands = &self.plan.demands;
-        let dwells = entries.iter().map(|entry| {
-            blocks += entry.blocks.len();
-            demands.stop[blocks].unwrap_or(0)
-        });
-        let dwells: Vec<u32> = dwells.collect();
-        let mut segments = self.plan.pass(blocks).into_iter();
-        for (mut entry, dwell) in entries.into_iter().zip(dwells) {
-            entry.caps = held_to(segments.by_ref().take(entry.blocks.len()));
-            self.append(entry, dwell);
+        let blocks = entries.iter().map(|entry| entry.blocks.len()).sum();
+        let mut dwells: Vec<u32> = Vec::with_capacity(count);
+        let mut behind = 0;
+        for entry in &entries {
+            behind += entry.blocks.len();
+            dwells.push(self.plan.demands.stop[behind].unwrap_or(0));
         }
+        let mut segments = self.plan.pass(blocks).into_iter();
+        for (entry, dwell) in entries.iter_mut().zip(dwells) {
+            entry.caps = held_to(segments.by_ref().take(entry.blocks.len()));
+            self.enter(entry, dwell);
+        }
+        self.timeline.extend(entries);
     }
 
     /// Puts an entry behind the others on the timeline; what follows a stop starts after `dwell` cycles.
     pub(super) fn append(&mut self, entry: Entry, dwell: u32) {
+        self.enter(&entry, dwell);
+        self.timeline.push(entry);
+    }
+
+    /// Goes on behind an entry that becomes final.
+    fn enter(&mut self, entry: &Entry, dwell: u32) {
         for (cycles, s, queued) in entry.entries(self.cycle) {
             self.contour.enter(cycles, s, Arc::clone(queued));
             if let (Some(changes), Some(passed)) = (&mut self.changes, self.contour.last()) {
@@ -243,7 +250,6 @@ impl Planner {
             (start.speed.v_mm_s, start.a_mm_s2) = (0.0, 0.0);
         }
         self.plan.start = start;
-        self.timeline.push(entry);
     }
 }
 

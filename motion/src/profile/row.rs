@@ -1,7 +1,11 @@
 //! The speed over a path length: a row of phases, whoever has planned it.
 
 use super::phase::Phase;
+use smallvec::SmallVec;
 use std::sync::Arc;
+
+/// Phases of a profile of TRAPEZ, SIN2 and HSC: two legs of three, and what is cruised.
+const USUAL_PHASES: usize = 7;
 
 /// State of the path coordinate at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,13 +33,13 @@ impl Profile {
     /// Phases that follow each other, and the state at their end.
     pub(super) fn new(phases: impl IntoIterator<Item = Phase>, end: State) -> Self {
         let mut duration = 0.0;
-        let timed = phases.into_iter().map(|phase| {
-            let start = duration;
+        // laid down in place, then copied once: an `Arc` of a chain of iterators asks each of them for every phase
+        let mut timed: SmallVec<[(f64, Phase); USUAL_PHASES]> = SmallVec::new();
+        phases.into_iter().for_each(|phase| {
+            timed.push((duration, phase));
             duration += phase.t;
-            (start, phase)
         });
-        let phases = timed.collect();
-        Self { phases, duration, end }
+        Self { phases: Arc::from(&timed[..]), duration, end }
     }
 
     /// Phases that follow each other over a length.
