@@ -1,4 +1,4 @@
-//! Finite impulse responses on the cycle grid, and the ring buffer that runs one.
+//! Finite impulse responses on the cycle grid, and what runs one.
 //!
 //! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels and differ in nothing
 //! else. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.
@@ -18,6 +18,7 @@
 //! assert_eq!((step[0], step[19], step[20]), (0.5, 0.5, 1.0));
 //! ```
 
+use crate::ring::Ring;
 use crate::stage::Stage;
 use std::sync::Arc;
 
@@ -205,7 +206,7 @@ impl KernelFilter {
 
     /// Whether everything that is kept is equal: another cycle of the same input only counts.
     pub fn rests(&self) -> bool {
-        self.rest_cycles as usize > self.history.values.len()
+        self.rest_cycles as usize > self.history.len()
     }
 
     /// A cycle with the input of the last one, while the filter [rests](Self::rests).
@@ -266,54 +267,6 @@ impl Stage for KernelFilter {
 
     fn delay_cycles(&self) -> f64 {
         self.kernel.delay_cycles()
-    }
-}
-
-/// The newest inputs, at least one, as many as a power of two.
-#[derive(Clone, Debug)]
-struct Ring {
-    values: Vec<f64>,
-    newest: usize,
-}
-
-impl Ring {
-    /// Room for delays up to `length`, filled with `x`.
-    fn new(length: u32, x: f64) -> Self {
-        Self { values: vec![x; Self::capacity(length)], newest: 0 }
-    }
-
-    fn capacity(length: u32) -> usize {
-        (length as usize + 1).next_power_of_two()
-    }
-
-    fn push(&mut self, x: f64) {
-        self.newest = (self.newest + 1) & (self.values.len() - 1);
-        self.values[self.newest] = x;
-    }
-
-    fn newest(&self) -> f64 {
-        self.values[self.newest]
-    }
-
-    fn past(&self, delay: u32) -> f64 {
-        self.values[self.newest.wrapping_sub(delay as usize) & (self.values.len() - 1)]
-    }
-
-    fn fill(&mut self, x: f64) {
-        self.values.fill(x);
-    }
-
-    /// Makes room for delays up to `length`; what is older than the history so far counts as its oldest value.
-    fn grow(&mut self, length: u32) {
-        let (old, new) = (self.values.len(), Self::capacity(length));
-        if new <= old {
-            return;
-        }
-        // Oldest first, then the room for older ones in front of it.
-        self.values.rotate_left((self.newest + 1) & (old - 1));
-        let oldest = self.values[0];
-        self.values.splice(0..0, std::iter::repeat_n(oldest, new - old));
-        self.newest = new - 1;
     }
 }
 
@@ -423,20 +376,5 @@ mod tests {
         }
         assert_eq!(filter.step(moved).to_bits(), moved.to_bits());
         filter.set_kernel(Arc::new(Kernel::identity())).unwrap();
-    }
-
-    #[test]
-    fn growing_keeps_the_history() {
-        let mut ring = Ring::new(3, 0.0);
-        for i in 1..=6 {
-            ring.push(f64::from(i));
-        }
-        ring.grow(10);
-        assert_eq!(ring.values.len(), 16);
-        let past: Vec<f64> = (0..7).map(|delay| ring.past(delay)).collect();
-        assert_eq!(past, [6.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0]);
-        ring.push(7.0);
-        let past: Vec<f64> = [0, 1, 4].map(|delay| ring.past(delay)).to_vec();
-        assert_eq!(past, [7.0, 6.0, 3.0]);
     }
 }

@@ -44,6 +44,7 @@ pub mod iir;
 pub mod issue;
 pub mod kernel;
 pub mod response;
+pub mod ring;
 pub mod shaping;
 pub mod stage;
 pub mod time;

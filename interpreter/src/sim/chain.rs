@@ -6,10 +6,10 @@ use kontur_filters::control::axis_control::{AxisControl, AxisInputs};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
+use kontur_filters::ring::Ring;
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Speed of the motor in mm/s (deg/s) below which an axis counts as at rest.
@@ -45,9 +45,9 @@ pub(crate) struct AxisChain {
     filter_window_mm: f64,
     delay_cycles: f64,
     /// Whole cycles of the delay, and the rest.
-    delay: (usize, f64),
-    /// Interpolated setpoints as far back as the delay reaches, newest last.
-    ipo: VecDeque<f64>,
+    delay: (u32, f64),
+    /// Interpolated setpoints as far back as the delay reaches.
+    ipo: Ring,
     set: f64,
     vel: f64,
     acc: f64,
@@ -82,7 +82,7 @@ impl AxisChain {
             filter_window_mm: setup.filter_window_mm,
             delay_cycles: 0.0,
             delay: (0, 0.0),
-            ipo: VecDeque::new(),
+            ipo: Ring::new(0, x),
             set: x,
             vel: 0.0,
             acc: 0.0,
@@ -96,10 +96,8 @@ impl AxisChain {
     fn align(&mut self, x: f64) {
         self.delay_cycles = self.shaping.delay_cycles();
         let whole = self.delay_cycles.floor();
-        self.delay = (whole as usize, self.delay_cycles - whole);
-        let length = self.delay_cycles.ceil() as usize + 1;
-        self.ipo.clear();
-        self.ipo.resize(length, x);
+        self.delay = (whole as u32, self.delay_cycles - whole);
+        self.ipo = Ring::new(self.delay_cycles.ceil() as u32, x);
     }
 
     /// Takes the kernel of FIR, HSC or Vibration Guard.
@@ -111,8 +109,7 @@ impl AxisChain {
         kernel: Option<Arc<Kernel>>,
     ) -> Result<(), SwitchWhileMoving> {
         self.shaping.set_kernel(kernel)?;
-        let x = self.ipo.back().copied().unwrap_or(self.set);
-        self.align(x);
+        self.align(self.ipo.newest());
         Ok(())
     }
 
@@ -133,7 +130,7 @@ impl AxisChain {
 
     /// What the filters lack to have arrived.
     pub(crate) fn unsettled(&self) -> Option<Remaining> {
-        let distance_mm = self.ipo.back().copied().unwrap_or(self.set) - self.set;
+        let distance_mm = self.ipo.newest() - self.set;
         let window_mm = self.filter_window_mm;
         (!self.settled()).then_some(Remaining { distance_mm, window_mm, filters: true })
     }
@@ -262,8 +259,7 @@ impl AxisChain {
             self.shaping.rest();
             return None;
         }
-        self.ipo.push_back(ipo);
-        self.ipo.pop_front();
+        self.ipo.push(ipo);
         let set = self.shaping.step(ipo);
         let t = self.cycle_s;
         let vel = (set - self.set) / t;
@@ -321,10 +317,8 @@ impl AxisChain {
 
     /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.
     fn aligned(&self) -> f64 {
-        let last = self.ipo.len() - 1;
         let (whole, part) = self.delay;
-        let newer = self.ipo[last - whole.min(last)];
-        let older = self.ipo[last - (whole + usize::from(part > 0.0)).min(last)];
-        if part > 0.0 { newer + part * (older - newer) } else { newer }
+        let newer = self.ipo.past(whole);
+        if part > 0.0 { newer + part * (self.ipo.past(whole + 1) - newer) } else { newer }
     }
 }
