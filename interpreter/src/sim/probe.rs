@@ -9,6 +9,7 @@ use super::inputs::Inputs;
 use super::{Phase, Simulation};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::Probed;
+use crate::record::AxisRecord;
 use kontur_motion::axis::AxisVec;
 
 /// A measuring run.
@@ -82,12 +83,20 @@ impl Simulation {
 
     /// Actual positions of the path axes.
     pub(super) fn actual_mm(&self) -> AxisVec {
-        self.record.axes.iter().map(|a| a.act).take(self.path_axes()).collect()
+        self.of_path_axes(|axis| axis.act)
     }
 
     /// Lags of the path axes.
     pub(super) fn lag_mm(&self) -> AxisVec {
-        self.record.axes.iter().map(|a| a.lag).take(self.path_axes()).collect()
+        self.of_path_axes(|axis| axis.lag)
+    }
+
+    fn of_path_axes(&self, value: impl Fn(&AxisRecord) -> f64) -> AxisVec {
+        let mut values = AxisVec::zeros(self.path_axes());
+        for (out, axis) in values.iter_mut().zip(&self.record.axes) {
+            *out = value(axis);
+        }
+        values
     }
 
     /// Looks for the signal after a cycle; the path bends from the next one on.

@@ -78,7 +78,8 @@ impl ExactStopMonitor {
 
     /// Time in s since t1 while the axis settles, then t2 - t1 of the last stop; 0 before the first one.
     pub fn settling_s(&self) -> f64 {
-        self.cycle.time_of(self.cycles)
+        // asked in every cycle, mostly before the first stop
+        if self.cycles == 0 { 0.0 } else { self.cycle.time_of(self.cycles) }
     }
 
     /// No stop is awaited.

@@ -70,9 +70,12 @@ pub struct SetpointMonitor {
     cycle_s: f64,
     past_mm: [f64; 3],
     levels: [Level; 3],
-    /// Magnitude of each derivative up to which there is nothing to say.
-    good: [f64; 3],
+    /// Magnitude of each difference of set positions in mm up to which there is nothing to say about the derivative.
+    good_mm: [f64; 3],
 }
+
+/// Share of a threshold below which no rounding makes up for the rest.
+const CLEARLY: f64 = 1.0 - 1e-12;
 
 /// Threshold of a limit. Sampled differences carry rounding noise: a value at its threshold is not above it.
 fn threshold(ratio: f64, limit: f64) -> f64 {
@@ -87,13 +90,14 @@ impl SetpointMonitor {
                 threshold(t.warn_ratio, limit).min(threshold(t.error_ratio, limit))
             })
         };
-        let good = [
-            good(config.v_max_mm_s, Some(config.velocity)),
-            good(config.a_max_mm_s2, config.acceleration.watched()),
-            good(config.j_max_mm_s3, config.jerk.watched()),
+        let t = cycle.seconds();
+        let good_mm = [
+            good(config.v_max_mm_s, Some(config.velocity)) * t * CLEARLY,
+            good(config.a_max_mm_s2, config.acceleration.watched()) * (t * t) * CLEARLY,
+            good(config.j_max_mm_s3, config.jerk.watched()) * (t * t * t) * CLEARLY,
         ];
         let (past_mm, levels) = ([0.0; 3], [Level::Good; 3]);
-        Self { config, cycle_s: cycle.seconds(), past_mm, levels, good }
+        Self { config, cycle_s: t, past_mm, levels, good_mm }
     }
 
     /// Axis at rest at a position.
@@ -105,14 +109,15 @@ impl SetpointMonitor {
     /// One cycle: a fault for every derivative whose level rises.
     pub(crate) fn step(&mut self, set_mm: f64, faults: &mut Faults) {
         let [p1, p2, p3] = self.past_mm;
-        let t = self.cycle_s;
         let (d1, d2, d3) = (set_mm - p1, p1 - p2, p2 - p3);
         self.past_mm = [set_mm, p1, p2];
-        let values = [d1 / t, (d1 - d2) / (t * t), (d1 - 2.0 * d2 + d3) / (t * t * t)];
-        let good = values.iter().zip(&self.good).all(|(value, good)| value.abs() <= *good);
+        let differences = [d1, d1 - d2, d1 - 2.0 * d2 + d3];
+        let good = differences.iter().zip(&self.good_mm).all(|(mm, good)| mm.abs() <= *good);
         if good && self.levels == [Level::Good; 3] {
             return;
         }
+        let t = self.cycle_s;
+        let values = [differences[0] / t, differences[1] / (t * t), differences[2] / (t * t * t)];
         let c = self.config;
         let watched = [
             (Derivative::Velocity, values[0], c.v_max_mm_s, Some(c.velocity)),
@@ -190,6 +195,31 @@ mod tests {
             [&none, &none, &warning, &none, &error, &none, &none, &warning].map(Clone::clone)
         );
         assert_eq!(faults(config, &[-0.25]), [error], "either direction");
+    }
+
+    /// Speeds a few of the smallest steps around a threshold, in cycles of any length: there is a fault if the quotient is above
+    /// it, and none if not.
+    #[test]
+    fn a_threshold_is_met_to_the_last_bit() {
+        for (limit, us) in [(200.0, 1000), (0.3, 250), (1e5 / 3.0, 125), (17.7, 2000)] {
+            let cycle = CycleTime::from_us(us).unwrap();
+            let config = SetpointMonitorConfig::new(limit, 1e18, 1e18);
+            let above = threshold(config.velocity.warn_ratio, limit);
+            let mut step_mm = above * cycle.seconds();
+            for _ in 0..8 {
+                step_mm = step_mm.next_down();
+            }
+            for _ in 0..16 {
+                step_mm = step_mm.next_up();
+                for step_mm in [step_mm, step_mm * (1.0 - 1e-12), step_mm * (1.0 - 3e-12)] {
+                    let mut m = SetpointMonitor::new(config, cycle);
+                    let mut faults = Faults::default();
+                    m.start(0.0);
+                    m.step(step_mm, &mut faults);
+                    assert_eq!(!faults.is_empty(), step_mm / cycle.seconds() > above, "{step_mm}");
+                }
+            }
+        }
     }
 
     /// 5 and 9 % above 200 mm/s.
