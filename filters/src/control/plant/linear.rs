@@ -176,11 +176,11 @@ impl<S: States> LinearPlant<S> {
             }
         };
         let phi = &self.phi.as_ref()[..n];
-        for (column, x) in phi.iter().zip(state) {
-            add(column, *x);
+        for i in 0..n {
+            add(&phi[i], state[i]);
         }
-        for (column, x) in self.gamma.iter().zip(inputs) {
-            add(column, x);
+        for (column, input) in self.gamma.iter().zip(inputs) {
+            add(column, input);
         }
         let before_mm = self.base_mm;
         self.base_mm += next[0];
