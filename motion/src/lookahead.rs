@@ -265,8 +265,8 @@ impl Window<'_> {
             let s = &stretches[k];
             let best = self.limit(s.first);
             let behind = v[k + 1];
-            // a lower speed than the one behind is reached in any case
-            v[k] = if best.v_mm_s < behind.v_mm_s {
+            // what is not above the speed behind is reached in any case
+            v[k] = if best.v_mm_s <= behind.v_mm_s {
                 best
             } else {
                 let reach = s.slope.reach_down(behind.v_mm_s, s.length);
@@ -276,7 +276,7 @@ impl Window<'_> {
         }
         for k in 1..m {
             let s = &stretches[k - 1];
-            if k > 1 && v[k].v_mm_s < v[k - 1].v_mm_s {
+            if k > 1 && v[k].v_mm_s <= v[k - 1].v_mm_s {
                 continue;
             }
             let reach = if k == 1 {
