@@ -93,6 +93,7 @@ mod kernels;
 mod leaves;
 mod measure;
 mod search;
+mod set_points;
 mod tighten;
 mod view;
 
@@ -103,6 +104,7 @@ use crate::timeline::{Entry, Timeline};
 pub(crate) use demands::Demands;
 pub use kernels::Kernels;
 use kontur_filters::time::CycleTime;
+use set_points::SetPoints;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use view::View;
@@ -180,6 +182,7 @@ impl Monitor {
 
     /// What of the final part of a trial does not keep the tolerance.
     pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
-        View::new(trial, self).search(&[(trial.now + 1, u64::MAX)], |_, _| ())
+        let view = View::new(trial, self);
+        view.search(&[(trial.now + 1, u64::MAX)], &mut SetPoints::new(&view), |_, _| ())
     }
 }

@@ -5,6 +5,7 @@ use super::demands::Demands;
 use super::even::{foresee, foresees};
 use super::measure::{Record, Violation};
 use super::search::joined;
+use super::set_points::SetPoints;
 use super::view::View;
 use super::{Monitor, Trial, Unkept, Verdict};
 use crate::queue::Queued;
@@ -125,6 +126,7 @@ impl View<'_> {
         };
         let of = |which: &dyn Fn(Seen) -> bool| self.trial.reached_by(|e| which(e.seen));
         let patient = round < ROUNDS_OF_PATIENCE;
+        let mut points = SetPoints::new(self);
         let mut depth = Depth::Glance;
         let mut worst = None;
         if patient {
@@ -133,12 +135,13 @@ impl View<'_> {
         if worst.is_none() {
             depth = Depth::Leaves;
             let new = of(&|seen| matches!(seen, Seen::Nothing | Seen::Glanced));
-            worst = self.leaving(&new, &mut found);
+            worst = self.leaving(&new, &mut points, &mut found);
         }
         if worst.is_none() || !patient {
             depth = Depth::Misses;
             let changed = of(&|seen| !matches!(seen, Seen::Kept(_)));
-            let both = [worst, self.missing(&changed, &mut found)].into_iter().flatten();
+            let both =
+                [worst, self.missing(&changed, &mut points, &mut found)].into_iter().flatten();
             worst = both.max_by(|a, b| a.deviation_mm.total_cmp(&b.deviation_mm));
         }
         if worst.is_none() {
@@ -147,7 +150,7 @@ impl View<'_> {
                 Seen::Stays(at) | Seen::Kept(at) => !at.is_whole_cycles_from(e.start),
                 Seen::Nothing | Seen::Glanced => false,
             });
-            worst = self.search(&moved, &mut found);
+            worst = self.search(&moved, &mut points, &mut found);
         }
         Found { worst, exceeded, depth }
     }

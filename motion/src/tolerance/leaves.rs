@@ -4,7 +4,8 @@ use super::bound::Companion;
 use super::harvest::Harvest;
 use super::measure::{Record, SPACING, Violation, within};
 use super::search::chunks;
-use super::view::{Buffer, View};
+use super::set_points::SetPoints;
+use super::view::View;
 use super::{BORDER_CYCLES, Unkept};
 use crate::deviation::{Excursion, SetPath};
 
@@ -14,23 +15,23 @@ const DOUBT: f64 = 0.9;
 impl View<'_> {
     /// Measures the set path in some cycles, ranges in order, and hands the worst violations, at most one for half a kernel,
     /// to `found`; returns the worst of all.
-    pub(super) fn leaving(
-        &self,
+    pub(super) fn leaving<'v>(
+        &'v self,
         among: &[(u64, u64)],
+        points: &mut SetPoints<'v>,
         mut found: impl FnMut(&Violation, &Record),
     ) -> Option<Unkept> {
         let mut worst: Option<Unkept> = None;
-        let mut buffer = Buffer::new(self);
-        let n = buffer.set().len();
+        let n = points.axes();
         let mut companion = Companion::new(&self.marks, &self.contour, n);
         for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
             let first = self.first_for((from, to));
             let mut record = Record::starting(first);
             let mut set = SetPath::starting(first, n);
             let mut harvest = Harvest::new(self, &mut worst, &mut found);
-            self.suspects((from, to), &mut buffer, &mut companion, |k, buffer, suspect| {
-                record.push(buffer.s());
-                set.push(buffer.set());
+            self.suspects((from, to), points, &mut companion, |k, points, suspect| {
+                record.push(points.s());
+                set.push(points.set());
                 if k >= from
                     && suspect
                     && let Some(v) = self.leaves_at(k, &set)

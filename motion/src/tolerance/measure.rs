@@ -2,7 +2,8 @@
 
 use super::harvest::Harvest;
 use super::search::Suspects;
-use super::view::{Buffer, View};
+use super::set_points::SetPoints;
+use super::view::View;
 use super::{MARGIN_MM, Unkept};
 use crate::axis::AxisVec;
 use crate::deviation::{ALIKE, Excursion, SetPath};
@@ -147,21 +148,19 @@ impl View<'_> {
     /// worst at most of half a kernel, and keeps the worst of all.
     pub(super) fn missed(
         &self,
-        from: u64,
-        to: u64,
+        (from, to): (u64, u64),
         suspects: &Suspects,
+        points: &mut SetPoints<'_>,
         found: &mut impl FnMut(&Violation, &Record),
         worst: &mut Option<Unkept>,
     ) {
         let Self { trial, marks, contour, .. } = self;
         let length = u64::from(trial.kernels.length());
         let reach = length as f64;
-        let mut buffer = Buffer::new(self);
-        let n = buffer.set().len();
+        let n = points.axes();
         let first = from.saturating_sub(2 * length + 4);
         let mut record = Record::starting(first);
         let mut set = SetPath::starting(first, n);
-        buffer.seek(first);
         let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
         let mut harvest = Harvest::new(self, worst, found);
         let mut between = AxisVec::zeros(n);
@@ -169,9 +168,9 @@ impl View<'_> {
         let mut hint = from;
         let (mut looked, mut last): (Option<f64>, Option<Foot>) = (None, None);
         for k in first..=to {
-            buffer.step(k);
-            record.push(buffer.s());
-            set.push(buffer.set());
+            points.step(k);
+            record.push(points.s());
+            set.push(points.set());
             if k < from {
                 continue;
             }

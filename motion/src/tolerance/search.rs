@@ -6,12 +6,13 @@
 use super::Unkept;
 use super::bound::Companion;
 use super::measure::{Record, Violation, within};
-use super::view::{Buffer, View};
+use super::set_points::SetPoints;
+use super::view::View;
 use crate::contour::WARY;
 use crate::timeline::{PathState, Reader};
 
 /// Cycles measured in one go.
-const CHUNK: u64 = 8192;
+pub(super) const CHUNK: u64 = 8192;
 /// Share by which the way of one cycle may differ from that of another on a stretch of constant speed.
 const EVEN: f64 = 1e-7;
 
@@ -76,31 +77,33 @@ impl Suspects {
 impl View<'_> {
     /// Measures the plan in some cycles, ranges in order, both ways: what leaves the contour and, where nothing does, what of it
     /// is missed. Every stretch's worst violations, at most one for half a kernel, go to `found`; returns the worst of all.
-    pub(super) fn search(
-        &self,
+    pub(super) fn search<'v>(
+        &'v self,
         among: &[(u64, u64)],
+        points: &mut SetPoints<'v>,
         mut found: impl FnMut(&Violation, &Record),
     ) -> Option<Unkept> {
-        self.leaving(among, &mut found).or_else(|| self.missing(among, found))
+        let leaves = self.leaving(among, points, &mut found);
+        leaves.or_else(|| self.missing(among, points, found))
     }
 
     /// Measures what of the contour is missed in some cycles; as [`Self::search`].
-    pub(super) fn missing(
-        &self,
+    pub(super) fn missing<'v>(
+        &'v self,
         among: &[(u64, u64)],
+        points: &mut SetPoints<'v>,
         mut found: impl FnMut(&Violation, &Record),
     ) -> Option<Unkept> {
         let reach = u64::from(self.trial.kernels.length());
         let mut worst: Option<Unkept> = None;
-        let mut buffer = Buffer::new(self);
-        let mut companion = Companion::new(&self.marks, &self.contour, buffer.set().len());
+        let mut companion = Companion::new(&self.marks, &self.contour, points.axes());
         for stretch in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
-            let suspects = self.suspects(stretch, &mut buffer, &mut companion, |_, _, _| ());
+            let suspects = self.suspects(stretch, points, &mut companion, |_, _, _| ());
             // the filters let go what they hold before it is known to be missed
             let ends = suspects.cycles.iter().map(|(a, b)| (*a, b + reach + 2));
             let held = ends.map(|(a, b)| (a.max(stretch.0), b.min(stretch.1)));
             for (from, to) in joined(held.filter(|(a, b)| a <= b).collect(), reach) {
-                self.missed(from, to, &suspects, &mut found, &mut worst);
+                self.missed((from, to), &suspects, points, &mut found, &mut worst);
             }
         }
         worst
@@ -146,31 +149,30 @@ impl View<'_> {
     pub(super) fn suspects(
         &self,
         (from, to): (u64, u64),
-        buffer: &mut Buffer<'_>,
+        points: &mut SetPoints<'_>,
         companion: &mut Companion<'_>,
-        mut each: impl FnMut(u64, &Buffer<'_>, bool),
+        mut each: impl FnMut(u64, &SetPoints<'_>, bool),
     ) -> Suspects {
         let length = self.trial.kernels.length();
         let reach = f64::from(length);
         let first = self.first_for((from, to));
-        buffer.seek(first);
         companion.jump();
         let mut out = Suspects::default();
         let mut before: Option<[f64; 2]> = None;
         let mut last: Option<u64> = None;
         let mut begin: Option<f64> = None;
         for k in first..=to {
-            buffer.step(k);
-            let middle = buffer.middle();
-            let known = middle >= *begin.get_or_insert(buffer.s());
-            let apart = companion.step(buffer.set(), middle);
+            points.step(k);
+            let middle = points.middle();
+            let known = middle >= *begin.get_or_insert(points.s());
+            let apart = companion.step(points.set(), middle);
             let [older, newer] = before.unwrap_or([middle; 2]);
             before = Some([newer, middle]);
             let moment = k as f64;
             let tolerance = self.tolerance(moment - reach, moment + reach);
             // what is a little longer than the shortest vector may be taken for it
             let suspect = (known || k >= from) && (1.0 + WARY) * apart > within(tolerance);
-            each(k, buffer, suspect);
+            each(k, points, suspect);
             if suspect {
                 out.add(k, older, middle);
                 last = Some(k);
