@@ -114,7 +114,7 @@ fn coordinate_systems() {
     assert_eq!(run("#CS DEF [0][1,2,3]\nM30\n").ids(), ["20820"]);
     // any number above 0, five systems at most (252660619)
     assert_end("#CS DEF [6][1,2,3]\n#CS DEF [70][4]\n#CS ON [6]\nX1 F100", [2.0, 0.0, 0.0]);
-    let five: String = (1..=5).map(|i| format!("#CS DEF [{}][{i}]\n", 10 * i)).collect();
+    let five = [10, 20, 30, 40, 50].map(|i| format!("#CS DEF [{i}][{i}]\n")).concat();
     assert!(clean(&format!("{five}#CS DEF [20][7]\nM30\n")).ids().is_empty());
     assert_eq!(run(&format!("{five}#CS DEF [6][1,2,3]\nM30\n")).ids(), ["20820"]);
     assert_eq!(run("#TRAFO ON\nM30\n").ids(), ["K-0019"]);
