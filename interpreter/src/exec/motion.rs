@@ -61,6 +61,11 @@ struct PlaneImage {
     tilt: Option<Box<Tilt>>,
 }
 
+/// The G60 of a block.
+fn exact_stop_once<'w>(words: &'w Words<'_>) -> Option<&'w GWord> {
+    words.g.iter().find(|g| g.row.act == Act::ExactStopOnce)
+}
+
 impl Decoder {
     /// Moves, measures or dwells.
     pub(super) fn motion_or_dwell(
@@ -76,6 +81,7 @@ impl Decoder {
             self.modal.path = mode;
         }
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
+            self.stop_without_motion(words);
             let outcome = self.dwell(g, words);
             self.report.keep(outcome);
             return;
@@ -107,6 +113,7 @@ impl Decoder {
             return;
         }
         if takes_axes.is_some() || (words.axes.is_empty() && !full_circle) {
+            self.stop_without_motion(words);
             self.unused_words(words, takes_axes);
             return;
         }
@@ -118,11 +125,28 @@ impl Decoder {
                 .and_then(|()| self.motion(words, is_arc, span))
         };
         self.report.keep(outcome);
-        let once = words.g.iter().any(|g| g.row.act == Act::ExactStopOnce);
+        self.stop_exactly(words);
+    }
+
+    /// The axes arrive at the end of a motion, if G60, G360 or P-CHAN-00235 ask for it.
+    fn stop_exactly(&mut self, words: &Words<'_>) {
         let after_rapid =
             self.modal.path == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
-        if once || self.modal.exact_stop || after_rapid {
+        if exact_stop_once(words).is_some() || self.modal.exact_stop || after_rapid {
             self.sync(Sync::ExactStop);
+        }
+    }
+
+    /// 20003: G60 in a block that moves nothing.
+    ///
+    /// Assumption: the documents print the warning alone. As at the end of every block with G60 the speed is zero; waiting is
+    /// for the axes of the block, and it has none.
+    fn stop_without_motion(&mut self, words: &Words<'_>) {
+        if let Some(g) = exact_stop_once(words) {
+            let text = "G60 without motion: the path stops here and waits for no axis";
+            let hint = "write G60 in the block at whose end the axes have to arrive";
+            self.report.note(Fault::new(Condition::AxisMissing, text, g.span).hint(hint));
+            self.sync(Sync::Dwell { seconds: 0.0 });
         }
     }
 

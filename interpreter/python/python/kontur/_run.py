@@ -160,7 +160,8 @@ def run(
 
     ``machine``: folder with parameter lists, or the start-up list; without it the built-in ``xyz``.
     ``settings``: list parameters in place of the machine's, ``{"X.getriebe[0].kv": 5000}``.
-    ``signals``: groups or names of columns, separated by commas. ``decimate``: every so many cycles a row.
+    ``signals``: groups or names of columns, separated by commas; ``default`` leaves out what only repeats others.
+    ``decimate``: every so many cycles a row.
     Others: see :class:`kontur._words.Options`.
 
     The interpreter lock is released while it computes; Ctrl-C ends it with ``KeyboardInterrupt``.

@@ -14,7 +14,6 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::step::Sync;
 use crate::machine::Axis;
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 
@@ -260,13 +259,6 @@ impl Decoder {
                 let text = format!("G{}: {how}", g.row.number);
                 let key = format!("G{}", g.row.number);
                 self.report.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
-            }
-            Act::ExactStopOnce if words.axes.is_empty() => {
-                // Assumption: the documents print the warning alone. As at the end of every block with G60 the speed is
-                // zero; waiting is for the axes of the block, and it has none
-                let text = "G60 without motion: the path stops here and waits for no axis";
-                self.report.note(Fault::new(Condition::AxisMissing, text, g.span));
-                self.sync(Sync::Stop);
             }
             _ => {}
         }

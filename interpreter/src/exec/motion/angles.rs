@@ -75,7 +75,9 @@ impl Decoder {
         let direction = [cos_deg(angle), sin_deg(angle)];
         match (self.motion.contour_line.open.take(), end) {
             (None, [None, None]) => {
-                let inserts = words.group(Group::Insertion).is_some()
+                let [insertion, transition] = [Group::Insertion, Group::Transition];
+                let inserts = words.group(insertion).is_some()
+                    || words.group(transition).is_some()
                     || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
                 if inserts || !words.axes.is_empty() {
                     let what = "the first of two contour lines with other words of motion";
@@ -156,6 +158,7 @@ impl Decoder {
         first.dimensions.push((0, true));
         let here = std::mem::replace(&mut self.report.source, *source);
         let outcome = self.motion(&first, false, span);
+        self.stop_exactly(&first);
         self.report.source = here;
         outcome
     }

@@ -61,11 +61,36 @@ fn exact_stops() {
     let run = clean("G60 X1 F100\nX2\nG360 X3\nX4\nG359 X5\nM30\n");
     let shape: Vec<_> = run.steps.iter().map(|s| matches!(s, super::Step::Sync { .. })).collect();
     assert_eq!(shape, [false, true, false, false, true, false, true, false, false]);
-    // a block without axes has a speed of zero at its end, too, but no axis to wait for
-    let alone = super::run("G00 X1\nG60 G01 F100\nX2\nM30\n");
-    assert_eq!(alone.ids(), ["20003"]);
-    assert_eq!(alone.syncs(), [&Sync::Stop]);
-    assert!(matches!(alone.steps[..], [_, super::Step::Sync { .. }, ..]), "{:?}", alone.steps);
+}
+
+/// In a block that moves nothing G60 is a stop in place, wherever a dwell may be; a full circle moves without axis words.
+#[test]
+fn exact_stops_without_motion() {
+    let tool = "V.G.WZ_AKT.R=1\nG41 X0 Y0 F100\n";
+    for (before, after) in [
+        ("G00 X1", "G01 F100\nX2"),
+        ("G261\nX1 F100", "Y1"),
+        ("G360\nX1 F100", "Y1"),
+        (&format!("{tool}X9"), "Y9\nX20\nG40 X30"),
+        ("X1 F100", "G301 I0.1\nY1\nX3"),
+    ] {
+        for alone in ["G60", "G60 G92 X0", "G60 S100", "G60 M8"] {
+            let dwell = alone.replace("G60", "G04 0\n");
+            let [stop, dwell] =
+                [alone, &dwell].map(|it| super::run(&format!("{before}\n{it}\n{after}\nM30\n")));
+            let without = dwell.ids();
+            assert!(stop.ids().iter().filter(|id| *id != "20003").eq(&without), "{before} {alone}");
+            assert_eq!(stop.ids().len(), without.len() + 1, "{before} {alone}");
+            assert_eq!(stop.syncs(), dwell.syncs(), "{before} {alone}");
+        }
+    }
+    let circle = clean("X10 F100\nG60 G02 I5\nG01 X20\nM30\n");
+    assert_eq!(circle.syncs(), [&Sync::ExactStop]);
+    assert!(matches!(circle.steps[2], super::Step::Sync { .. }), "{:?}", circle.steps);
+    // both of two contour lines end in a stop
+    let lines = clean("G360\n#ANG=30 F100\nX20 Y20 #ANG=60\nG359 X0\nM30\n");
+    assert_eq!(lines.syncs(), [&Sync::ExactStop; 2]);
+    assert_eq!(super::run("G60 #ANG=30 F100\nX20 Y20 #ANG=60\nM30\n").ids(), ["K-0019"]);
 }
 
 #[test]
