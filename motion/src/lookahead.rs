@@ -200,7 +200,8 @@ impl<'a> Window<'a> {
                 if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.v_mm_s)
                 {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
-                    let ridden = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
+                    let divides = |b| self.only_divides(b);
+                    let ridden = (worst.is_some() || s.is_uneven(blocks, divides, profile.peak()))
                         .then(|| cells(blocks, feeds, caps, s.first, s.end))
                         .flatten()
                         .and_then(|cells| ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s));

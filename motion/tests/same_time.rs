@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Job, axis, channel, contour};
-use kontur_kit::{Random, count};
+use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
@@ -51,17 +51,16 @@ impl Case {
     }
 }
 
-fn cases() -> impl Iterator<Item = (usize, Case)> {
-    let count = count(60);
-    let mut r = Random::from_state(21);
-    (0..count).map(move |n| (n, Case::new(&mut r)))
+fn cases(default: usize) -> impl Iterator<Item = (usize, Case)> {
+    let mut r = Random::from_state(20 + seed());
+    (0..count(default)).map(move |n| (n, Case::new(&mut r)))
 }
 
 /// Reversed, mirrored, every line in two, every point moved by up to 1e-9 mm.
 #[test]
 fn another_form_of_a_contour_takes_the_same_time() {
     let mut most = 0.0_f64;
-    for (n, case) in cases() {
+    for (n, case) in cases(400) {
         let mut r = Random::from_state(n as u64);
         let each = |f: &mut dyn FnMut(&[f64; 3]) -> [f64; 3]| -> Points {
             case.points.iter().map(f).collect()
@@ -97,7 +96,7 @@ fn another_form_of_a_contour_takes_the_same_time() {
 #[test]
 fn a_higher_feed_or_more_look_ahead_is_never_slower() {
     let mut most = 0.0_f64;
-    for (n, case) in cases() {
+    for (n, case) in cases(60) {
         let corners = (case.points.len() - 1) as f64 * CYCLE_S;
         for kind in [Hsc, Trapez] {
             let mut best = f64::INFINITY;

@@ -71,7 +71,7 @@ impl Window<'_> {
     }
 
     /// True if the blocks on both sides of a boundary are parts of one line to the planner.
-    fn only_divides(&self, b: usize) -> bool {
+    pub(super) fn only_divides(&self, b: usize) -> bool {
         let [before, behind] = [b - 1, b].map(|i| &self.blocks[i]);
         let feed = self.feeds[b];
         let same = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs();

@@ -45,11 +45,23 @@ impl Stretch<'_> {
         self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
     }
 
-    /// True if one of its blocks allows more than all of them together, and is long enough at this speed to use it.
-    pub(super) fn is_uneven(&self, blocks: &[Arc<Queued>], v: f64) -> bool {
-        blocks[self.first..self.end].iter().any(|b| {
-            !b.slope.nearly_equals(&self.slope, UNEVEN)
-                && rates(b).is_some_and(|r| has_hill(b.length, v, &r))
+    /// True if one of its blocks, or one line in parts, allows more than all of them together, and is long enough at this speed
+    /// to use it. `divides`: the boundary before a block only divides a line.
+    pub(super) fn is_uneven(
+        &self,
+        blocks: &[Arc<Queued>],
+        divides: impl Fn(usize) -> bool,
+        v: f64,
+    ) -> bool {
+        let mut length = 0.0;
+        (self.first..self.end).any(|i| {
+            let block = &blocks[i];
+            if block.slope.nearly_equals(&self.slope, UNEVEN) {
+                return false;
+            }
+            let goes_on = i > self.first && divides(i);
+            length = if goes_on { length + block.length } else { block.length };
+            rates(block).is_some_and(|r| has_hill(length, v, &r))
         })
     }
 

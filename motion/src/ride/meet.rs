@@ -14,6 +14,8 @@ use crate::profile::{Phase, RampShape};
 const SAME: f64 = 1e-8;
 /// Relative gap that a connection may leave where it meets the fall.
 const MISS: f64 = 1e-7;
+/// Speed in mm/s below which a gap is relative to this one: where the fall comes to rest its own may be rounding.
+const LEAST_MM_S: f64 = 1e-4;
 /// Acceleration that is zero but for rounding.
 const FLAT_MM_S2: f64 = 1e-6;
 /// Rounds of bisection of the moment in which the rise is left.
@@ -217,7 +219,7 @@ impl Meet<'_> {
         let time = fall.time_at(here.s);
         let on_fall = fall.after(time);
         let closing = here.a * on_fall.v - on_fall.a * here.v;
-        let gap = (on_fall.v - here.v) / on_fall.v;
+        let gap = (on_fall.v - here.v) / on_fall.v.max(LEAST_MM_S);
         Beside { there: here, closing, joint: Joint { phase: f, time, gap } }
     }
 
