@@ -110,6 +110,23 @@ fn override_in_the_middle_and_from_the_start() {
     near(x_at(&run, 0.55), 63.75 + 6.25);
 }
 
+/// P-CHAN-00056: 150 % asked for, 120 % allowed by the list; without an entry nothing is limited. 100 mm at `v`, and ramps of
+/// 1000 mm/s2.
+#[test]
+fn the_channel_limits_the_override() {
+    for (settings, v) in [(&["channel.max_vb_override=1200"][..], 120.0), (&[], 150.0)] {
+        let run = run_with_inputs(linear(settings), LINE, &[(0.0, "override_percent", 150.0)]);
+        near(arrival_s(&run, 100.0), 100.0 / v + v / 1000.0);
+        assert_eq!(own_ids(&run), ["K-0142"]);
+    }
+    let run = run_with_inputs(
+        linear(&["channel.max_vb_override=1500"]),
+        LINE,
+        &[(0.0, "override_percent", 150.0)],
+    );
+    assert_eq!(own_ids(&run), Vec::<String>::new());
+}
+
 /// With ramps of 30 ms and 3500 mm/s2 the change from 100 to 50 mm/s reaches no constant acceleration: it takes
 /// `2 sqrt(50 / j)` with `j = 3500 / 0.03`, at 75 mm/s in the mean.
 #[test]
@@ -144,6 +161,8 @@ fn rapid_override() {
         ("NOT_USED", 100.0, vec!["K-0077"]),
         ("MINIMUM_OF_G0_G1", 50.0, vec![]),
         ("ACTIVE", 50.0, vec![]),
+        ("2", 50.0, vec![]),
+        ("ACTIVE_EXTENDED", 50.0, vec!["K-0075"]),
     ] {
         let settings =
             ["X.getriebe[0].vb_eilgang=200000", &format!("channel.g00_override_mode={mode}")];

@@ -273,6 +273,7 @@ impl Chain<'_> {
         plausible::check(&mut settled.tools, cycle, None, diagnostics);
         plausible::check(&mut settled.zero, cycle, None, diagnostics);
         plausible::check_presets(&settled.channel, diagnostics);
+        plausible::check_rapid_override(&settled.channel, diagnostics);
         plausible::check_synchronisation(&settled.channel, diagnostics);
         for axis in &mut settled.axes {
             let number = logical_number(&axis.parameters);

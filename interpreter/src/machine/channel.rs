@@ -87,6 +87,8 @@ pub struct Channel {
     pub curve_jerk: CurveJerk,
     /// Values of `#VECTOR LIMIT ON` before the program gives others (P-CHAN-00002, 00090, 00208, 00361).
     pub vector: VectorLimits,
+    /// Unit of time in s of ACC, DEC, RADIAL_ACC and RADIAL_JERK in `#VECTOR LIMIT` (P-CHAN-00351): 60 or 1.
+    pub vector_time_s: f64,
     /// The path acceleration limit also bounds arcs (P-CHAN-00350).
     pub vector_acc_on_arcs: bool,
     /// Limits of arcs whose centre and end do not fit.
@@ -111,6 +113,11 @@ pub struct Channel {
     pub override_mode: OverrideMode,
     /// Override in G00 (P-CHAN-00181).
     pub rapid_override: RapidOverride,
+    /// Largest ratio of the override from outside (P-CHAN-00056), where the list gives it.
+    ///
+    /// Assumption: without an entry nothing is limited, although the vendor's default is 1: an override above 100 % is
+    /// asked for in the inputs of a run, and a message names the default.
+    pub most_override: Option<f64>,
     /// Start values of G groups (P-CHAN-00063): group and G number; a preset of group 21 (feedforward) has no effect.
     pub g_groups: BTreeMap<u32, u32>,
     /// Durations of M functions in s (P-CHAN-00040).
@@ -234,6 +241,7 @@ impl Channel {
                 _ => CurveJerk::Geometric,
             },
             vector: vector(p),
+            vector_time_s: vector_time_s(p),
             vector_acc_on_arcs: p.get(of::PATH_ACC_ON_ARCS),
             arc_centre: ArcCentre {
                 shift_mm: p.get(of::CENTRE_SHIFT),
@@ -254,11 +262,12 @@ impl Channel {
                 1 => OverrideMode::OfProgrammed,
                 _ => OverrideMode::OfProgrammedWhileReduced,
             },
-            rapid_override: match p.get(of::RAPID_OVERRIDE).as_deref() {
-                Some("MINIMUM_OF_G0_G1") => RapidOverride::Minimum,
-                Some("ACTIVE") => RapidOverride::Active,
-                _ => RapidOverride::NotUsed,
+            rapid_override: match choice(of::RAPID_OVERRIDE) {
+                0 => RapidOverride::NotUsed,
+                1 => RapidOverride::Minimum,
+                _ => RapidOverride::Active,
             },
+            most_override: p.get(of::MOST_OVERRIDE).map(|permille| permille / 1000.0),
             g_groups: table(of::G_GROUP)
                 .into_iter()
                 .filter_map(|(group, g)| Some((group, whole(g)?)))
@@ -324,16 +333,15 @@ fn feed_unit(factor: f64) -> f64 {
     if factor > 0.0 { 100.0 / factor } else { 1.0 }
 }
 
+/// Unit of time of the path accelerations in s; the default is mm/min2 (P-CHAN-00351).
+fn vector_time_s(p: &Parameters) -> f64 {
+    if p.get(of::PATH_ACC_UNIT).as_deref() == Some("MM_S2") { 1.0 } else { 60.0 }
+}
+
 /// Start values of the path limits, in mm/s and mm/s2.
-///
-/// Assumption: without P-CHAN-00351 the accelerations are mm/min2, the unit of the older builds; their default of 1e8
-/// is 27.8 m/s2 then.
 fn vector(p: &Parameters) -> VectorLimits {
-    let per_second = p.get(of::PATH_ACC_UNIT).as_deref() == Some("MM_S2");
-    let acc = |param: Param<Number>| {
-        let a = p.get(param);
-        Some(if per_second { a } else { a / 3600.0 })
-    };
+    let t = vector_time_s(p);
+    let acc = |param: Param<Number>| Some(p.get(param) / (t * t));
     VectorLimits {
         vel_mm_s: Some(p.get(of::PATH_SPEED) / 60.0),
         acc_mm_s2: acc(of::PATH_ACC),

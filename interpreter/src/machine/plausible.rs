@@ -301,6 +301,21 @@ pub(super) fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagn
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
+/// K-0075: ACTIVE_EXTENDED of P-CHAN-00181 acts as ACTIVE.
+pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let Some(setting) = parameters.set_by(channel::RAPID_OVERRIDE) else { return };
+    if setting.value.number().and_then(whole) != Some(3) {
+        return;
+    }
+    let text = format!(
+        "{}: ACTIVE_EXTENDED acts as ACTIVE, measuring runs and homing follow the override of feed",
+        channel::RAPID_OVERRIDE.place()
+    );
+    let hint = "rapid_override_percent of --input acts on G00 alone";
+    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
+    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
+}
+
 /// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 says.
 pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let key = channel::M_SYNCHRONISATION.place().row.key;

@@ -169,6 +169,7 @@ pub(super) struct Inputs {
     /// Wear of a grinding wheel from outside.
     pub(super) wear_mm: f64,
     wear_limit_told: bool,
+    override_told: bool,
     /// Where it signals, for each path axis.
     pub(super) surfaces_mm: Vec<Option<f64>>,
     pub(super) axes: Vec<AxisInputs>,
@@ -193,6 +194,7 @@ impl Inputs {
             probe: false,
             wear_mm: 0.0,
             wear_limit_told: false,
+            override_told: false,
             surfaces_mm: Vec::new(),
             axes: vec![AxisInputs::default(); axes],
             seen: BTreeSet::new(),
@@ -229,14 +231,18 @@ impl Inputs {
         // a billionth of a cycle: times are decimal numbers, cycles binary ones
         let late = time_s + 1e-9 * machine.cycle.seconds();
         let mut any = false;
+        let limited = |ratio: f64| ratio.min(machine.channel.most_override.unwrap_or(ratio));
         while let Some(Change { signal, value, .. }) = self.next.filter(|c| c.time_s <= late) {
             any = true;
             if self.seen.insert(signal) {
                 notes.extend(signal.without_effect(machine));
             }
+            if matches!(signal, Signal::Override | Signal::RapidOverride) {
+                notes.extend(self.tells_largest_override(value / 100.0, machine));
+            }
             match signal {
-                Signal::Override => self.feed_ratio = value / 100.0,
-                Signal::RapidOverride => self.rapid_ratio = value / 100.0,
+                Signal::Override => self.feed_ratio = limited(value / 100.0),
+                Signal::RapidOverride => self.rapid_ratio = limited(value / 100.0),
                 Signal::Feedhold => self.feedhold = value > 0.0,
                 Signal::Probe => self.probe = value > 0.0,
                 Signal::Wear => self.wear_mm = value,
@@ -257,6 +263,22 @@ impl Inputs {
     /// True once: that the wear from outside is limited has not been said yet.
     pub(super) fn tells_wear_limit(&mut self) -> bool {
         !std::mem::replace(&mut self.wear_limit_told, true)
+    }
+
+    /// Once: that an override is limited (P-CHAN-00056), or would be on a control without an entry in its list.
+    fn tells_largest_override(&mut self, ratio: f64, machine: &Machine) -> Option<Diagnostic> {
+        let listed = machine.channel.most_override;
+        if ratio <= listed.unwrap_or(1.0) || std::mem::replace(&mut self.override_told, true) {
+            return None;
+        }
+        let [asked, most] = [ratio, listed.unwrap_or(1.0)].map(|r| 100.0 * r);
+        let text = match listed {
+            Some(_) => format!("override of {asked} % limited to {most} %"),
+            None => {
+                format!("override of {asked} %: a control without max_vb_override allows {most} %")
+            }
+        };
+        Some(Diagnostic::new(Condition::OverrideLimited, text))
     }
 
     fn axis(&mut self, i: usize) -> &mut AxisInputs {

@@ -15,7 +15,10 @@ const SAME: f64 = 1e-9;
 /// Assumption: between the kinks of usual polygons (below 15 degrees) and the corners of a drawing (from 45 degrees on).
 pub(super) const CORNER_DEG: f64 = 30.0;
 
-/// Steps in mm that are too short to have a direction.
+/// More than any axis turns in a cycle.
+const HALF_TURN_DEG: f64 = 180.0;
+
+/// Steps in mm (deg) that are too short to have a direction.
 const NO_STEP_MM: f64 = 1e-9;
 
 /// The deepest dip of the path speed without a corner.
@@ -54,8 +57,8 @@ struct Extreme {
 /// Collects the ripple, record by record.
 #[derive(Clone, Debug)]
 pub(super) struct Collector {
-    /// Linear axes of the path.
-    axes: Vec<usize>,
+    /// Axes of the path, and whether they are rotary.
+    axes: Vec<(usize, bool)>,
     /// Position of these axes in the last cycle, none before the first one.
     position: Vec<f64>,
     /// The last step, and the direction of the last one that has a direction; none before it.
@@ -73,9 +76,9 @@ pub(super) struct Collector {
 
 impl Collector {
     pub(super) fn new(facts: &Facts) -> Self {
-        let linear = |i: &usize| !facts.axes[*i].rotary && !facts.axes[*i].spindle;
+        let path = facts.axes.iter().enumerate().filter(|(_, axis)| !axis.spindle);
         Self {
-            axes: (0..facts.axes.len()).filter(linear).collect(),
+            axes: path.map(|(i, axis)| (i, axis.rotary)).collect(),
             position: Vec::new(),
             step: Vec::new(),
             direction: Vec::new(),
@@ -118,23 +121,33 @@ impl Collector {
         }
     }
 
-    /// Adds up by how much the path turns.
+    /// Adds up by how much the path turns: the linear axes, or the rotary ones where no other moves.
     fn turn(&mut self, record: &CycleRecord) {
-        let here = self.axes.iter().filter_map(|i| record.axes.get(*i)).map(|axis| axis.ipo);
+        let here = self.axes.iter().filter_map(|(i, _)| record.axes.get(*i)).map(|axis| axis.ipo);
         if self.position.is_empty() {
             self.position.extend(here);
             return;
         }
         self.step.clear();
-        let mut square = 0.0;
-        for (here, before) in here.zip(&mut self.position) {
-            let step = here - std::mem::replace(before, here);
-            square += step * step;
+        let mut squares = [0.0; 2];
+        for ((here, before), (_, rotary)) in here.zip(&mut self.position).zip(&self.axes) {
+            let mut step = here - std::mem::replace(before, here);
+            if *rotary && step.abs() > HALF_TURN_DEG {
+                // a modulo axis begins anew
+                step -= 2.0 * HALF_TURN_DEG.copysign(step);
+            }
+            squares[usize::from(*rotary)] += step * step;
             self.step.push(step);
         }
-        let length = f64::sqrt(square);
+        let of_rotary = squares[0] < NO_STEP_MM * NO_STEP_MM;
+        let length = squares[usize::from(of_rotary)].sqrt();
         if length < NO_STEP_MM {
             return;
+        }
+        for (step, (_, rotary)) in self.step.iter_mut().zip(&self.axes) {
+            if *rotary != of_rotary {
+                *step = 0.0;
+            }
         }
         if self.direction.is_empty() {
             self.direction.extend(self.step.iter().map(|x| x / length));
@@ -201,9 +214,21 @@ mod tests {
     use crate::job::AxisFacts;
     use crate::record::{AxisRecord, PathRecord};
 
-    /// Ripple of these speeds; the path turns by an angle in degrees in the cycles given.
     fn turning(speeds: &[f64], kinks: &[(usize, f64)], fed: &[usize]) -> Option<SpeedRipple> {
-        let facts = Facts { axes: vec![AxisFacts::default(); 2], ..Facts::default() };
+        of_axes([false; 2], speeds, kinks, fed)
+    }
+
+    /// Ripple of two axes that move at these speeds, beside one that stands still; the path turns by an angle in degrees in the
+    /// cycles given.
+    fn of_axes(
+        rotary: [bool; 2],
+        speeds: &[f64],
+        kinks: &[(usize, f64)],
+        fed: &[usize],
+    ) -> Option<SpeedRipple> {
+        let axis = |rotary| AxisFacts { rotary, ..AxisFacts::default() };
+        let axes = [rotary[0], rotary[1], false].map(axis).to_vec();
+        let facts = Facts { axes, ..Facts::default() };
         let mut collector = Collector::new(&facts);
         let (mut at, mut heading) = ([0.0, 0.0], 0.0_f64);
         for (k, v) in speeds.iter().enumerate() {
@@ -212,7 +237,10 @@ mod tests {
             at = [at[0] + v * 1e-3 * cos, at[1] + v * 1e-3 * sin];
             let limit = if fed.contains(&k) { SpeedLimit::Feed } else { SpeedLimit::Corner };
             let path = PathRecord { v_mm_s: *v, limit, ..PathRecord::default() };
-            let axes = at.map(|ipo| AxisRecord { ipo, ..AxisRecord::default() }).to_vec();
+            let turn = |i: usize| if rotary[i] { at[i].rem_euclid(360.0) } else { at[i] };
+            let axes = [turn(0), turn(1), 7.0]
+                .map(|ipo| AxisRecord { ipo, ..AxisRecord::default() })
+                .to_vec();
             let (k, line) = (k as u64, k as u32);
             collector.add(&CycleRecord { k, line, path, axes, ..CycleRecord::default() }, 1000);
         }
@@ -265,6 +293,18 @@ mod tests {
         // round a corner in small steps
         let speeds = [0.0, 10.0, 8.0, 6.0, 6.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 25.0)], &[]), None);
+    }
+
+    /// Turning back is a corner, beginning a turn anew is none.
+    #[test]
+    fn rotary_axes_turn_too() {
+        let ratio = |speeds: &[f64], kinks: &[(usize, f64)]| {
+            of_axes([true; 2], speeds, kinks, &[]).map(|r| r.ratio)
+        };
+        let speeds = [0.0, 10.0, 1.0, 10.0, 10.0, 9.0, 10.0, 0.0];
+        assert_eq!(ratio(&speeds, &[(2, 180.0)]), Some(0.1));
+        let fast = speeds.map(|v| 1e4 * v);
+        assert_eq!(ratio(&fast, &[]), Some(0.9));
     }
 
     #[test]

@@ -6,6 +6,9 @@ use crate::diag::Severity;
 use crate::record::{Rest, SpeedLimit};
 use std::fmt::Write as _;
 
+/// Differences in mm (deg) below this one are not seen in the text.
+const LEAST_SHOWN: f64 = 5e-7;
+
 fn many(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
@@ -52,15 +55,23 @@ impl Summary {
                 "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {CORNER_DEG} deg left out)"
             )?;
         }
-        if let Some(worst) = self.max_contour_error.as_ref().filter(|worst| worst.mm > 0.0) {
-            let place = self.place(&worst.file, worst.line, worst.block);
-            writeln!(
-                out,
-                "  contour error  at most {:.6} mm at t = {:.6} s, {place}",
-                worst.mm, worst.time_s
-            )?;
-        } else if self.max_contour_error.is_some() {
-            writeln!(out, "  contour error  none")?;
+        if let Some(worst) = &self.max_contour_error {
+            if worst.mm > 0.0 {
+                let place = self.place(&worst.file, worst.line, worst.block);
+                let (mm, time_s) = (worst.mm, worst.time_s);
+                write!(out, "  contour error  at most {mm:.6} mm at t = {time_s:.6} s, {place}")?;
+            } else {
+                write!(out, "  contour error  none")?;
+            }
+            // the set points may keep to a contour of which they leave something out
+            let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
+            if deviation > worst.mm + LEAST_SHOWN {
+                write!(
+                    out,
+                    "; up to {deviation:.6} with what of the contour is missed, see |dev|"
+                )?;
+            }
+            writeln!(out)?;
         }
         if self.cycles > 0 {
             self.write_axes(out)?;

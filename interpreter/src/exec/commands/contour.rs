@@ -302,17 +302,20 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 arguments! {
     /// Keys of `#VECTOR LIMIT`; without a value the configured limit.
     struct VectorArguments {
-        vel: MaybeNumber "VEL" in above_zero(), "mm/min", "P-CHAN-00090";
-        acc: MaybeNumber "ACC" in above_zero(), "mm/s2", "P-CHAN-00002";
-        dec: MaybeNumber "DEC" in above_zero(), "mm/s2", "P-CHAN-00208";
+        vel: MaybeNumber "VEL" in above_zero(), "mm/min (G70: inch/min)", "P-CHAN-00090";
+        acc: MaybeNumber "ACC" in above_zero(), "mm/min2, mm/s2 by P-CHAN-00351", "P-CHAN-00002";
+        dec: MaybeNumber "DEC" in above_zero(), "mm/min2, mm/s2 by P-CHAN-00351", "P-CHAN-00208";
         jerk: MaybeNumber "JERK" in above_zero(), "mm/s3", "";
-        radial_acc: MaybeNumber "RADIAL_ACC" in above_zero(), "mm/s2", "P-CHAN-00361";
-        radial_jerk: MaybeNumber "RADIAL_JERK" in above_zero(), "mm/s3", "";
+        radial_acc: MaybeNumber "RADIAL_ACC" in above_zero(), "mm/min2, mm/s2 by P-CHAN-00351", "P-CHAN-00361";
+        radial_jerk: MaybeNumber "RADIAL_JERK" in above_zero(), "mm/min3, mm/s3 by P-CHAN-00351", "";
         trans_acc: MaybeNumber "TRANS_ACC" in above_zero(), "mm/s2", "";
         feed: Flag "FEED", "", "for feed blocks alone";
         rapid: Flag "RAPID", "", "for rapid blocks alone";
     }
 }
+
+/// Acceleration of `#VECTOR LIMIT` below which its unit is doubted, in mm/s2.
+const TINY_MM_S2: f64 = 10.0;
 
 /// Row of `#VECTOR LIMIT`.
 pub(super) const VECTOR_LIMIT: Row = Row::run("VECTOR LIMIT", vector_limit)
@@ -320,12 +323,16 @@ pub(super) const VECTOR_LIMIT: Row = Row::run("VECTOR LIMIT", vector_limit)
     .meaning("limits speed and acceleration along the path")
     .keys(VectorArguments::KEYS)
     .note("a key without value takes the configured limit")
-    .example("#VECTOR LIMIT ON [ACC=2000]")
+    .example("#VECTOR LIMIT ON [ACC=1800000]")
     .related(&["P-CHAN-00002", "P-CHAN-00090", "P-CHAN-00208", "P-CHAN-00361", "P-CHAN-00351"]);
 
 /// `#VECTOR LIMIT ON [..]`, `ON ALL`, `OFF [VEL]`, `OFF`. FEED or RAPID restrict what is said to these blocks.
 ///
-/// Assumption: the meaning of FEED and RAPID, from their names; without them, or with both, all blocks are meant.
+/// The unit of ACC, DEC, RADIAL_ACC and RADIAL_JERK is the one of P-CHAN-00351, mm/min2 and mm/min3 by default.
+///
+/// Assumption: the meaning of FEED and RAPID, from their names; without them, or with both, all blocks are meant. JERK and
+/// TRANS_ACC, which P-CHAN-00351 does not name, are in mm/s3 and mm/s2. VEL follows G70 as the speed of `#TRANSVELMIN`
+/// does; accelerations and jerks, whose units are in mm, do not.
 fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let Some(on) = call.command.on else {
         let text = "#VECTOR LIMIT needs ON or OFF";
@@ -360,19 +367,27 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.motion.dynamics_changed();
         return Ok(());
     }
-    let unit = decoder.modal.unit_mm();
-    // VEL in mm/min, the others in mm/s2 and mm/s3
     let value = |key: Option<(Option<f64>, Span)>, scale: f64, listed: Option<f64>| {
         let (x, _) = key?;
         Some(if on { x.map(|x| x * scale).or(listed) } else { None })
     };
-    let vel = value(keys.vel, unit / 60.0, listed.vel_mm_s);
-    let acc = value(keys.acc, unit, listed.acc_mm_s2);
-    let dec = value(keys.dec, unit, listed.dec_mm_s2);
-    let jerk = value(keys.jerk, unit, listed.jerk_mm_s3);
-    let radial_acc = value(keys.radial_acc, unit, listed.radial_acc_mm_s2);
-    let radial_jerk = value(keys.radial_jerk, unit, listed.radial_jerk_mm_s3);
-    let trans_acc = value(keys.trans_acc, unit, listed.trans_acc_mm_s2);
+    let t = decoder.machine.channel.vector_time_s;
+    let per_time2 = (t * t).recip();
+    for (key, name) in [(keys.acc, "ACC"), (keys.dec, "DEC"), (keys.radial_acc, "RADIAL_ACC")] {
+        let Some((Some(x), span)) = key else { continue };
+        let acc_mm_s2 = x * per_time2;
+        if acc_mm_s2 < TINY_MM_S2 && t > 1.0 {
+            let text = format!("{name}={x} mm/min2 is {acc_mm_s2:.3} mm/s2");
+            decoder.report.note(Fault::new(Condition::PathAccelerationTiny, text, span));
+        }
+    }
+    let vel = value(keys.vel, decoder.modal.unit_mm() / 60.0, listed.vel_mm_s);
+    let acc = value(keys.acc, per_time2, listed.acc_mm_s2);
+    let dec = value(keys.dec, per_time2, listed.dec_mm_s2);
+    let jerk = value(keys.jerk, 1.0, listed.jerk_mm_s3);
+    let radial_acc = value(keys.radial_acc, per_time2, listed.radial_acc_mm_s2);
+    let radial_jerk = value(keys.radial_jerk, per_time2 / t, listed.radial_jerk_mm_s3);
+    let trans_acc = value(keys.trans_acc, 1.0, listed.trans_acc_mm_s2);
     for (v, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
         v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
         v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);

@@ -226,7 +226,7 @@ fn overrides() {
 #[test]
 fn vector_limits() {
     let run = clean(
-        "F100\n#VECTOR LIMIT ON [VEL=12000 ACC=500]\nX1\n#VECTOR LIMIT OFF [VEL]\nX2\n#VECTOR LIMIT OFF\nX3\nM30\n",
+        "F100\n#VECTOR LIMIT ON [VEL=12000 ACC=1800000]\nX1\n#VECTOR LIMIT OFF [VEL]\nX2\n#VECTOR LIMIT OFF\nX3\nM30\n",
     );
     let limits: Vec<_> = run
         .blocks()
@@ -236,10 +236,32 @@ fn vector_limits() {
     assert_eq!(limits, [(Some(200.0), Some(500.0)), (None, Some(500.0)), (None, None)]);
 }
 
+/// P-CHAN-00351: 1800000 mm/min2 are 500 mm/s2, 216000 mm/min3 are 1 mm/s3; JERK and TRANS_ACC are not among its keys. G70
+/// turns VEL into inch/min.
+#[test]
+fn units_of_vector_limits() {
+    let text = "F100\nG70\n#VECTOR LIMIT ON [VEL=60 ACC=1800000 DEC=3600 RADIAL_ACC=72000 RADIAL_JERK=216000 \
+                JERK=3000 TRANS_ACC=40]\nG71 X1\nM30\n";
+    for (unit, t) in [("MM_M2", 60.0), ("MM_S2", 1.0)] {
+        let run = run_on(&[&format!("channel.vector.acc_dec_unit={unit}")], text);
+        let blocks = run.blocks();
+        let v = &blocks[0].dynamics.vector;
+        let found = [v.vel_mm_s, v.acc_mm_s2, v.dec_mm_s2, v.radial_acc_mm_s2, v.radial_jerk_mm_s3];
+        let per = |x: f64, order: i32| x / f64::powi(t, order);
+        let expected = [25.4, per(1800000.0, 2), per(3600.0, 2), per(72000.0, 2), per(216000.0, 3)];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found.unwrap() - expected).abs() <= 1e-9 * expected, "{unit}: {v:?}");
+        }
+        assert_eq!((v.jerk_mm_s3, v.trans_acc_mm_s2), (Some(3000.0), Some(40.0)));
+        let doubted: &[&str] = if t > 1.0 { &["K-0139"] } else { &[] };
+        assert_eq!(run.ids(), doubted);
+    }
+}
+
 #[test]
 fn vector_limits_of_feed_or_rapid_blocks_alone() {
     let run = clean(
-        "F100\n#VECTOR LIMIT ON [VEL=600 FEED]\n#VECTOR LIMIT ON [VEL=1200 ACC=5 RAPID]\nX1\nG00 X2\n#VECTOR LIMIT OFF [VEL RAPID]\nX3\n#VECTOR LIMIT OFF [FEED]\nG01 X4\n#VECTOR LIMIT ON [VEL=60 FEED RAPID]\nX5\nG00 X6\nM30\n",
+        "F100\n#VECTOR LIMIT ON [VEL=600 FEED]\n#VECTOR LIMIT ON [VEL=1200 ACC=180000 RAPID]\nX1\nG00 X2\n#VECTOR LIMIT OFF [VEL RAPID]\nX3\n#VECTOR LIMIT OFF [FEED]\nG01 X4\n#VECTOR LIMIT ON [VEL=60 FEED RAPID]\nX5\nG00 X6\nM30\n",
     );
     let limits: Vec<_> = run
         .blocks()
@@ -248,11 +270,11 @@ fn vector_limits_of_feed_or_rapid_blocks_alone() {
         .collect();
     let expected = [
         (Some(10.0), None),
-        (Some(20.0), Some(5.0)),
-        (None, Some(5.0)),
+        (Some(20.0), Some(50.0)),
+        (None, Some(50.0)),
         (None, None),
         (Some(1.0), None),
-        (Some(1.0), Some(5.0)),
+        (Some(1.0), Some(50.0)),
     ];
     assert_eq!(limits, expected);
 }

@@ -16,6 +16,10 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
     ("MVS_SLP", 0x8000),
 ];
 
+/// Overrides of rapid blocks (P-CHAN-00181).
+const RAPID_OVERRIDES: &[(&str, u32)] =
+    &[("NOT_USED", 0), ("MINIMUM_OF_G0_G1", 1), ("ACTIVE", 2), ("ACTIVE_EXTENDED", 3)];
+
 parameters! {
     chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "which accelerations G130 and G131 weight: 0 all, 1 a_beschl, 2 a_brems")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as ACC_SELECTION: Whole;
@@ -55,6 +59,8 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;
     chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: 1, a measuring run without a signal of the probe is an error")
         .default(0.0).source("TF5200 channel parameters"), as MISSING_SIGNAL_IS_ERROR: Switch;
+    chan("P-CHAN-00056", "max_vb_override", Raw::Uns16, "largest override of --input; limits where the list gives it")
+        .range(Bound::At(0.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").source("TF5200 channel parameters"), as MOST_OVERRIDE: Optional;
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
         .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
@@ -99,8 +105,8 @@ parameters! {
         .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
     chan("P-CHAN-00172", "max_proz_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference relative to the radius; printed default 0.1")
         .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
-    chan("P-CHAN-00181", "g00_override_mode", Raw::Word(&["NOT_USED", "MINIMUM_OF_G0_G1", "ACTIVE"]), "override in G00")
-        .default_is(Default::Text("NOT_USED")), as RAPID_OVERRIDE: Text;
+    chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED that of feed, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE its own, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
     chan("P-CHAN-00208", "vector.deceleration", Raw::Real64, "path deceleration limit")
         .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_DEC: Number;
     chan("P-CHAN-00210", "cycle_changes_modal", Raw::Boolean, "1: G functions, centres and feed of a cycle stay at its end")
@@ -118,8 +124,8 @@ parameters! {
         .default(0.0), as CONSTANT_RAMP_TIME: Switch;
     chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "P-CHAN-00002 also limits arcs")
         .default(0.0), as PATH_ACC_ON_ARCS: Switch;
-    chan("P-CHAN-00351", "vector.acc_dec_unit", Raw::Word(&["MM_S2", "MM_MIN2"]), "unit of the path accelerations vector.*")
-        .default_is(Default::Text("MM_MIN2")), as PATH_ACC_UNIT: Text;
+    chan("P-CHAN-00351", "vector.acc_dec_unit", Raw::Word(&["MM_S2", "MM_M2"]), "unit of the accelerations vector.* and of ACC, DEC, RADIAL_ACC and RADIAL_JERK of #VECTOR LIMIT: MM_M2 mm/min2, MM_S2 mm/s2")
+        .default_is(Default::Text("MM_M2")), as PATH_ACC_UNIT: Text;
     chan("P-CHAN-00361", "vector.radial_acceleration", Raw::Real64, "v2/r limit on curves")
         .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_RADIAL_ACC: Number;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")

@@ -1,0 +1,4 @@
+; run --input override150.csv: exit 0
+; warning K-0142
+G01 X1 F1000
+M30
