@@ -15,6 +15,7 @@ mod inputs;
 mod out;
 mod patience;
 mod probe;
+mod real_time;
 mod smoothing;
 mod spindle;
 mod start;
@@ -26,7 +27,6 @@ pub use inputs::{Change, Changes, Signal};
 pub(crate) use out::{Measuring, Messages, Samples};
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
@@ -40,7 +40,6 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
-use kontur_motion::realtime::FeedholdBraking;
 use probe::Probing;
 use smoothing::Smoothing;
 use spindle::Spindle;
@@ -227,6 +226,7 @@ impl Simulation {
                     Err(e) => self.fail(&format!("look-ahead: {e}")),
                 },
                 Phase::Waiting(wait) => {
+                    let k = self.planner.setpoint().k;
                     let parts = Parts {
                         chains: &self.chains,
                         drivers: &self.drivers,
@@ -240,7 +240,7 @@ impl Simulation {
                         self.go_on();
                         continue;
                     }
-                    if bars && self.inputs.is_over() {
+                    if (bars || self.independent.is_held(k)) && self.inputs.is_over() {
                         self.held_for_ever();
                         return false;
                     }
@@ -279,77 +279,6 @@ impl Simulation {
     /// Ends the run: a fault in kontur itself.
     pub(crate) fn fail(&mut self, text: &str) {
         self.messages.own.push(fault::internal(text));
-        self.totals.aborted = true;
-        self.phase = Phase::Done;
-    }
-
-    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends after the cycle.
-    fn take_inputs(&mut self, k: u64) {
-        let time_s = self.cycle.time_of(k);
-        match self.inputs.take_due(time_s, &self.machine, &mut self.messages.own) {
-            Ok(false) => return,
-            Ok(true) => {}
-            Err(failure) => self.input_fails(*failure),
-        }
-        for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
-            chain.set_inputs(*inputs);
-        }
-        self.take_wear(k);
-        let channel = &self.machine.channel;
-        self.planner.set_override(self.inputs.ratios(channel.rapid_override));
-        self.hold_path();
-    }
-
-    /// Feedhold and the signal of the probe brake the path, or let it continue.
-    fn hold_path(&mut self) {
-        let own = self.machine.channel.own_feed_hold && self.inputs.feedhold;
-        let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
-        let probed = self.probing.as_ref().is_some_and(Probing::holds);
-        self.planner.feedhold(self.inputs.feedhold || probed, braking);
-    }
-
-    /// K-0132, once for each thread: the path does not go with the spindle.
-    fn watch_thread(&mut self) {
-        let Some(thread) = &mut self.thread else { return };
-        let why = self.inputs.changes_speed(thread.full_override);
-        if let (Some(why), false) = (why, thread.broken)
-            && matches!(self.phase, Phase::Running)
-        {
-            thread.broken = true;
-            let at = self.current;
-            let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
-            d.source = self.executor.locate(at);
-            self.messages.own.push(d);
-        }
-    }
-
-    fn input_fails(&mut self, failure: Diagnostic) {
-        self.messages.own.push(failure);
-        (self.totals.aborted, self.totals.input_failed) = (true, true);
-        self.phase = Phase::Done;
-    }
-
-    /// Notes whether feedhold or override 0 keeps the path at rest in this cycle; a hold without end ends the run.
-    fn look_for_hold(&mut self) {
-        self.is_held = false;
-        let setpoint = self.planner.setpoint();
-        let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
-        if !stands || !self.planner.is_held() {
-            return;
-        }
-        if self.drop_rest_of_run() {
-            return;
-        }
-        self.is_held = true;
-        if self.inputs.is_over() {
-            self.held_for_ever();
-        }
-    }
-
-    /// K-0083: nothing will release the path any more.
-    fn held_for_ever(&mut self) {
-        let k = self.planner.setpoint().k;
-        self.messages.own.push(fault::held(k, self.cycle, self.inputs.feedhold));
         self.totals.aborted = true;
         self.phase = Phase::Done;
     }

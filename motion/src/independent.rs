@@ -2,7 +2,8 @@
 //!
 //! When the next block may start (`INDP_SYN`, `INDP_ASYN`, `#WAIT INDP`) is the caller's.
 //!
-//! Made at the start of the motion and asked for its state in each cycle; [`IndependentMove::stop`] brakes it.
+//! Made at the start of the motion and asked for its state in each cycle; [`IndependentMove::steer`] gives it the override and
+//! the feedhold of that cycle, [`IndependentMove::stop`] ends it early.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -24,6 +25,7 @@ use crate::limits::PathSpeeds;
 use crate::path::{LinePath, Path};
 use crate::profile::{Infeasible, Profile, SlopeLimits, State};
 use crate::queue::Queued;
+use crate::realtime::{Override, OverrideMode, OverrideRatios};
 use crate::timeline::Moment;
 use kontur_filters::time::CycleTime;
 use smallvec::{SmallVec, smallvec};
@@ -55,6 +57,23 @@ pub struct IndependentState {
     pub a_mm_s2: f64,
 }
 
+/// Way in mm (deg) before the target from which on nothing acts on a motion any more.
+const ARRIVED_MM: f64 = 1e-9;
+
+/// What acts on a motion from outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Steering {
+    /// Override.
+    pub ratios: OverrideRatios,
+    /// What it is a percentage of (P-CHAN-00066).
+    pub mode: OverrideMode,
+    /// Feedhold.
+    pub held: bool,
+}
+
+/// Profiles in order with the time in s at their start and the distance there.
+type Course = SmallVec<[(f64, f64, Profile); 1]>;
+
 /// A motion of one axis from rest to rest.
 #[derive(Clone, Debug)]
 pub struct IndependentMove {
@@ -62,9 +81,13 @@ pub struct IndependentMove {
     from_mm: f64,
     to_mm: f64,
     /// `None` if there is nothing to do.
-    slope: Option<SlopeLimits>,
-    /// Profiles in order with the time in s at their start and the distance there.
-    parts: SmallVec<[(f64, f64, Profile); 1]>,
+    limits: Option<(SlopeLimits, PathSpeeds)>,
+    course: Course,
+    /// Distance at which the axis rests without a course.
+    rest_mm: f64,
+    steering: Steering,
+    /// The course ends at rest in front of the target, and goes on from there.
+    pauses: bool,
     stopped: bool,
 }
 
@@ -86,10 +109,10 @@ impl IndependentMove {
     ) -> Result<Self, Infeasible> {
         let line = LinePath::new(one(from_mm), one(to_mm), &[]);
         let Some(queued) = line.map(|l| Queued::new(block(l, speed, kind, *axis), cycle)) else {
-            let parts = SmallVec::new();
-            return Ok(Self { cycle, from_mm, to_mm, slope: None, parts, stopped: false });
+            return Ok(Self::with(cycle, (from_mm, to_mm), None, Course::new()));
         };
-        let PathSpeeds { programmed_mm_s, axis_mm_s, .. } = queued.speeds;
+        let mut speeds = queued.speeds;
+        let PathSpeeds { programmed_mm_s, axis_mm_s, .. } = speeds;
         let (slope, length) = (queued.slope, queued.length);
         let plan = |v: f64| slope.plan(0.0, 0.0, v, length);
         let mut profile = plan(programmed_mm_s.min(axis_mm_s))?;
@@ -104,14 +127,29 @@ impl IndependentMove {
                     *(if profile.duration() > time { &mut low } else { &mut high }) = middle;
                 }
             }
+            speeds.programmed_mm_s = profile.peak();
         }
-        let parts = smallvec![(0.0, 0.0, profile)];
-        Ok(Self { cycle, from_mm, to_mm, slope: Some(slope), parts, stopped: false })
+        let course = smallvec![(0.0, 0.0, profile)];
+        Ok(Self::with(cycle, (from_mm, to_mm), Some((slope, speeds)), course))
     }
 
-    /// Cycles from the start until the axis is at rest.
+    fn with(
+        cycle: CycleTime,
+        (from_mm, to_mm): (f64, f64),
+        limits: Option<(SlopeLimits, PathSpeeds)>,
+        course: Course,
+    ) -> Self {
+        let (steering, rest_mm) = (Steering::default(), 0.0);
+        let (pauses, stopped) = (false, false);
+        Self { cycle, from_mm, to_mm, limits, course, rest_mm, steering, pauses, stopped }
+    }
+
+    /// Cycles from the start until the axis is at rest for good; `u64::MAX` while it is held.
     pub fn cycles(&self) -> u64 {
-        let end = self.parts.last().map_or(0.0, |(start, _, c)| start + c.duration());
+        if self.pauses {
+            return u64::MAX;
+        }
+        let end = self.course.last().map_or(0.0, |(start, _, c)| start + c.duration());
         Moment::default().plus(end).next_tick(self.cycle)
     }
 
@@ -130,6 +168,75 @@ impl IndependentMove {
         }
     }
 
+    /// True if the motion rests in cycle `k` and continues when it is released.
+    pub fn is_held(&self, k: u64) -> bool {
+        let end = self.course.last().map_or(0.0, |(start, _, part)| start + part.duration());
+        self.pauses && Moment::default().plus(end).next_tick(self.cycle) <= k
+    }
+
+    /// Override and feedhold from cycle `k` on; states before it are not asked for any more.
+    ///
+    /// The acceleration is brought to zero first. Where that leaves no way (close to the target, SIN2 within a ramp), the motion
+    /// continues and takes it over in a later cycle: call it in every one. A motion that brakes does not go on faster before
+    /// it has done so.
+    pub fn steer(&mut self, k: u64, steering: Steering) {
+        let Some((_, speeds)) = &self.limits else { return };
+        if self.steering == steering || self.stopped || k >= self.cycles() {
+            return;
+        }
+        let feed = |steering: Steering| {
+            let Steering { ratios, mode, held } = steering;
+            let real_time = Override { ratios: ratios.clamped(), mode };
+            if held { 0.0 } else { real_time.velocity(speeds).v_mm_s }
+        };
+        let (now, feed) = (feed(self.steering), feed(steering));
+        if feed.to_bits() == now.to_bits() {
+            self.steering = steering;
+            return;
+        }
+        let State { s_mm, a_mm_s2, .. } = self.distance(k);
+        let arrives = (self.to_mm - self.from_mm).abs() - s_mm <= ARRIVED_MM;
+        let waits = arrives || feed > now && a_mm_s2 < 0.0;
+        if !waits && let Some(course) = self.course_from(k, feed) {
+            (self.course, self.rest_mm) = (course, s_mm);
+            (self.steering, self.pauses) = (steering, feed <= 0.0);
+        }
+    }
+
+    /// The way on from cycle `k` with a feed: to the target, or to rest where it is 0. `None` if there is none.
+    fn course_from(&self, k: u64, feed: f64) -> Option<Course> {
+        let (slope, _) = self.limits.as_ref()?;
+        let length = (self.to_mm - self.from_mm).abs();
+        let State { s_mm, v_mm_s, a_mm_s2, .. } = self.distance(k);
+        let (mut t, mut s, mut v) = (self.cycle.time_of(k), s_mm, v_mm_s);
+        let mut course = Course::new();
+        let settled = slope.settled(v, a_mm_s2);
+        let planned = self.course.get(self.part_at(t)).map_or(0.0, |(_, _, part)| part.peak());
+        if settled > v && settled > planned * (1.0 + 1e-9) {
+            return None;
+        }
+        if (settled - v).abs() > f64::EPSILON * v {
+            let change = slope.change(v, a_mm_s2, settled)?;
+            let next = (t + change.duration(), s + change.length(), settled);
+            course.push((t, s, change));
+            (t, s, v) = next;
+        }
+        let v = v.max(0.0);
+        let left = length - s;
+        let profile = if feed > 0.0 && v > feed {
+            slope.plan_from_above(v, 0.0, feed, left).ok()?
+        } else if feed > 0.0 {
+            slope.plan(v, 0.0, feed, left).ok()?
+        } else if v > 0.0 {
+            let braking = slope.down_distance(v, 0.0);
+            slope.plan(v, 0.0, v, (braking < left - ARRIVED_MM).then_some(braking)?).ok()?
+        } else {
+            return (left > ARRIVED_MM).then_some(course);
+        };
+        course.push((t, s, profile));
+        Some(course)
+    }
+
     /// Brakes from cycle `k` on, wherever that ends; states up to `k` stay.
     ///
     /// A positive acceleration is brought to zero first. Where SIN2 is about to reach its speed, a stop takes effect
@@ -138,46 +245,53 @@ impl IndependentMove {
     /// # Errors
     /// [`Infeasible`] is an internal error.
     pub fn stop(&mut self, k: u64) -> Result<(), Infeasible> {
-        let (Some(slope), Some((start, s0, span))) =
-            (self.slope.clone(), self.parts.first().cloned())
-        else {
-            return Ok(());
-        };
+        let Some((slope, _)) = self.limits.clone() else { return Ok(()) };
         let t = self.cycle.time_of(k);
-        let state = span.at(t);
+        let i = self.part_at(t);
+        let state = self.distance(k);
+        if self.pauses {
+            // it brakes already, or rests
+            (self.pauses, self.stopped) = (false, true);
+            return Ok(());
+        }
         // at rest already, or braking for the target
         if self.stopped || k >= self.cycles() || state.a_mm_s2 < 0.0 {
             return Ok(());
         }
         if k == 0 {
-            (self.to_mm, self.slope) = (self.from_mm, None);
-            self.parts.clear();
+            (self.to_mm, self.limits) = (self.from_mm, None);
+            self.course.clear();
             return Ok(());
         }
+        let Some((start, s0, span)) = self.course.get(i).cloned() else { return Ok(()) };
         let mut at = (t, state.s_mm);
         let mut v = state.v_mm_s;
-        let mut parts = smallvec![(start, s0, span.clone())];
+        let mut course: Course = smallvec![(start, s0, span.clone())];
         let settled = slope.settled(v, state.a_mm_s2);
         if settled > v {
             if settled > span.peak() * (1.0 + 1e-9) {
-                let up = span.phases().take(3).map(|p| p.0).sum();
-                (at, v) = ((up, span.at(up).s_mm), span.peak());
+                let up: f64 = span.phases().take(3).map(|p| p.0).sum();
+                (at, v) = ((start + up, s0 + span.at(up).s_mm), span.peak());
             } else if let Some(change) = slope.change(v, state.a_mm_s2, settled) {
                 let next = (at.0 + change.duration(), at.1 + change.length());
-                parts.push((at.0, at.1, change));
+                course.push((at.0, at.1, change));
                 (at, v) = (next, settled);
             }
         }
         let braking = slope.plan(v, 0.0, v, slope.down_distance(v, 0.0))?;
-        parts.push((at.0, at.1, braking));
-        (self.parts, self.stopped) = (parts, true);
+        course.push((at.0, at.1, braking));
+        (self.course, self.stopped) = (course, true);
         Ok(())
+    }
+
+    fn part_at(&self, t: f64) -> usize {
+        self.course.partition_point(|p| p.0 <= t).max(1) - 1
     }
 
     fn distance(&self, k: u64) -> State {
         let t = self.cycle.time_of(k);
-        let i = self.parts.partition_point(|p| p.0 <= t).max(1) - 1;
-        self.parts.get(i).map_or_else(State::default, |(start, s0, profile)| {
+        let rests = State { s_mm: self.rest_mm, ..State::default() };
+        self.course.get(self.part_at(t)).map_or(rests, |(start, s0, profile)| {
             let state = profile.at(t - start);
             State { s_mm: s0 + state.s_mm, ..state }
         })

@@ -10,9 +10,11 @@ mod common;
 
 use common::axis;
 use kontur_filters::time::CycleTime;
+use kontur_kit::{Random, count, seed};
 use kontur_motion::block::SlopeKind::{self, Sin2, Step, Trapez};
 use kontur_motion::independent::IndependentSpeed::{Feed, Rapid, ShareOfMaximum, Time};
-use kontur_motion::independent::{IndependentMove, IndependentSpeed};
+use kontur_motion::independent::{IndependentMove, IndependentSpeed, Steering};
+use kontur_motion::realtime::OverrideRatios;
 
 fn go(from: f64, to: f64, speed: IndependentSpeed, kind: SlopeKind) -> IndependentMove {
     let cycle = CycleTime::from_us(1000).unwrap();
@@ -99,5 +101,50 @@ fn stop_at_any_time() {
                 }
             }
         }
+    }
+}
+
+/// Override and feedhold at random times: continuous, inside the limits of the axis, at the target in the end, and never beyond it.
+/// A hold brings it to rest within its braking from full speed; a release lets it go on.
+#[test]
+fn steered_at_random_times() {
+    let mut r = Random::from_state(20 + seed());
+    for n in 0..count(300) {
+        let kind = r.pick(&[Step, Trapez, Sin2]);
+        let (to, feed) = (r.between(-200.0, 200.0), r.log(15.0, 200.0));
+        let mut m = go(0.0, to, Feed(feed), kind);
+        let ratios = [0.0, 0.2, 0.5, 1.0, 1.5];
+        let mut steering = Steering::default();
+        let (mut before, mut held) = (m.state(0), 0);
+        for k in 0..40_000 {
+            if r.chance(0.003) {
+                let ratios = OverrideRatios { feed: r.pick(&ratios), rapid: 1.0 };
+                steering = Steering { ratios, held: r.chance(0.3), ..steering };
+                held = 0;
+            }
+            if k > 20_000 {
+                steering = Steering::default();
+            }
+            m.steer(k, steering);
+            let (now, what) = (m.state(k), format!("{n} {kind:?} {k}"));
+            assert!(now.v_mm_s * to.signum() >= -1e-9, "{what}: {now:?}");
+            assert!(now.v_mm_s.abs() <= 1.5 * feed * (1.0 + 1e-6), "{what}: {now:?}");
+            assert!(now.a_mm_s2.abs() <= 1000.0 * (1.0 + 1e-6), "{what}: {now:?}");
+            assert!((to - now.position_mm) * to.signum() >= -1e-9, "{what}: {now:?}");
+            if k > 0 {
+                // a jerk of 20000 mm/s3, pi/2 times as much with SIN2
+                let step = now.position_mm - before.position_mm;
+                assert!((step - 0.5e-3 * (now.v_mm_s + before.v_mm_s)).abs() <= 0.5e-3, "{what}");
+                let jump = (now.a_mm_s2 - before.a_mm_s2).abs();
+                assert!(kind == Step || jump <= 31.5, "{what}: {before:?} {now:?}");
+            }
+            held += 1;
+            let holds = steering.held || steering.ratios.feed <= 0.0;
+            if holds && held > 1000 {
+                assert_eq!(now.v_mm_s, 0.0, "{what}: {steering:?}");
+            }
+            before = now;
+        }
+        assert_eq!(before.position_mm, to, "{n} {kind:?}");
     }
 }

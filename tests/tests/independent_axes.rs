@@ -173,15 +173,53 @@ fn filtered() {
     near(arrival_s(&run, 1, 0.0), 2.015 + 0.6);
 }
 
-/// Feedhold holds the path, not an independent axis.
+/// Feedhold holds the path and the axis beside it (P-AXIS-00540 = 0): X from 10 mm/s with 1000 mm/s2. Where the list gives it to the
+/// interface of the axis, X continues.
 #[test]
 fn under_feedhold() {
     let program = "%P\nG90 G01 Y100 F6000 X[INDP_ASYN G01 FEED=600 POS=20]\nM30\n";
     let inputs = [(0.5, "feedhold", 1.0), (3.0, "feedhold", 0.0)];
     let run = run_with_inputs(linear(&[]), program, &inputs);
     near(at(&run, 1, 2.9), 50.0);
-    near(arrival_s(&run, 0, 20.0), 2.01);
+    // 4.95 mm up to the feedhold, 0.05 mm of braking; 15 mm more at 10 mm/s
+    near(at(&run, 0, 2.9), 5.0);
+    near(arrival_s(&run, 0, 20.0), 3.0 + 1.51);
     near(arrival_s(&run, 1, 100.0), 3.6);
+    let run = run_with_inputs(linear(&["X.kenngr.indp_feedhold_mode=1"]), program, &inputs);
+    near(arrival_s(&run, 0, 20.0), 2.01);
+}
+
+/// The override of the channel (P-AXIS-00491 = 0), from the start and under way; of an axis that follows its own interface none acts.
+#[test]
+fn under_override() {
+    let program = "%P\nX[INDP_SYN G90 G01 FEED=6000 POS=100]\nM30\n";
+    let arrival = |mode: &str, inputs: &[(f64, &str, f64)]| {
+        let settings = [format!("X.kenngr.indp_override_mode={mode}")];
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        arrival_s(&run_with_inputs(linear(&settings), program, inputs), 0, 100.0)
+    };
+    let half = [(0.0, "override_percent", 50.0)];
+    near(arrival("0", &half), 2.05);
+    near(arrival("1", &half), 2.05);
+    near(arrival("2", &half), 1.1);
+    // 45 mm up to 0.5 s, 3.75 mm of braking to 50 mm/s in 0.05 s, 50 mm at that, 1.25 mm of braking
+    near(arrival("0", &[(0.5, "override_percent", 50.0)]), 1.6);
+    // with the axis at 100 % more is not taken from the channel
+    let more = [(0.0, "override_percent", 125.0)];
+    near(arrival("0", &more), 0.925);
+    near(arrival("1", &more), 1.1);
+    // held from the start by override 0
+    let late = [(0.0, "override_percent", 0.0), (1.0, "override_percent", 100.0)];
+    near(arrival("0", &late), 2.1);
+}
+
+/// A wait for an axis that nothing releases any more ends the run.
+#[test]
+fn held_indefinitely() {
+    let program = "%P\nX[INDP_SYN G90 G01 FEED=6000 POS=100]\nG01 Y1 F1000\nM30\n";
+    let run = run_with_inputs(linear(&[]), program, &[(0.5, "feedhold", 1.0)]);
+    assert_eq!(run.diagnostics.iter().map(|d| d.id.to_string()).collect::<Vec<_>>(), ["K-0083"]);
+    near(*ipo(&run, 0).last().unwrap(), 50.0);
 }
 
 /// An error of another axis stops an independent axis on its own way, inside its limits.

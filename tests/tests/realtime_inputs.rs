@@ -110,12 +110,12 @@ fn override_in_the_middle_and_from_the_start() {
     near(x_at(&run, 0.55), 63.75 + 6.25);
 }
 
-/// P-CHAN-00056: 150 % asked for, 120 % allowed by the list; without an entry nothing is limited. 100 mm at `v`, and ramps of
+/// P-CHAN-00056: 200 % asked for, 125 % allowed by the list; without an entry nothing is limited. 100 mm at `v`, and ramps of
 /// 1000 mm/s2.
 #[test]
 fn the_channel_limits_the_override() {
-    for (settings, v) in [(&["channel.max_vb_override=1200"][..], 120.0), (&[], 150.0)] {
-        let run = run_with_inputs(linear(settings), LINE, &[(0.0, "override_percent", 150.0)]);
+    for (settings, v) in [(&["channel.max_vb_override=1250"][..], 125.0), (&[], 200.0)] {
+        let run = run_with_inputs(linear(settings), LINE, &[(0.0, "override_percent", 200.0)]);
         near(arrival_s(&run, 100.0), 100.0 / v + v / 1000.0);
         assert_eq!(own_ids(&run), ["K-0142"]);
     }

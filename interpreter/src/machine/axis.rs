@@ -9,6 +9,7 @@ use super::table::{
 };
 use super::value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
+use kontur_motion::realtime::OverrideRatios;
 
 /// Kind of an axis (P-AXIS-00018).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +85,22 @@ impl Axis {
             axis_general::DIAMETER_RELATIVE
         };
         self.get(parameter)
+    }
+
+    /// What of an override of the channel acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
+    /// interface of the axis stays at that), or nothing.
+    pub(crate) fn independent_ratios(&self, channel: OverrideRatios) -> OverrideRatios {
+        let of = |ratio: f64| match self.get(axis_general::INDEPENDENT_OVERRIDE) {
+            0 => ratio,
+            1 => ratio.min(1.0),
+            _ => 1.0,
+        };
+        OverrideRatios { feed: of(channel.feed), rapid: of(channel.rapid) }
+    }
+
+    /// The feedhold of the channel holds the axis where it moves independently (P-AXIS-00540).
+    pub(crate) fn holds_independent(&self) -> bool {
+        !self.get(axis_general::INDEPENDENT_FEEDHOLD)
     }
 
     /// It takes part in measuring runs (P-AXIS-00118).

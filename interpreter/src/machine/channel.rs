@@ -267,7 +267,7 @@ impl Channel {
                 1 => RapidOverride::Minimum,
                 _ => RapidOverride::Active,
             },
-            most_override: p.get(of::MOST_OVERRIDE).map(|permille| permille / 1000.0),
+            most_override: p.set_by(of::MOST_OVERRIDE).map(|_| p.get(of::MOST_OVERRIDE)),
             g_groups: table(of::G_GROUP)
                 .into_iter()
                 .filter_map(|(group, g)| Some((group, whole(g)?)))

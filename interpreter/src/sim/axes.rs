@@ -49,11 +49,14 @@ impl Simulation {
         }
         self.take_inputs(k);
         self.watch_thread();
+        let alone = !self.independent.is_unused();
+        if alone {
+            self.steer_independent(k);
+        }
         let setpoint = self.planner.setpoint();
         let ds = setpoint.s_mm - self.record.path.s_mm;
         let mut faults = Vec::new();
         let mut positions = setpoint.position.clone();
-        let alone = !self.independent.is_unused();
         for (p, position) in positions.iter_mut().enumerate() {
             *position += if alone { self.independent.way_mm(p, k) } else { 0.0 };
         }

@@ -1,13 +1,14 @@
 //! Independent axes: motions of single axes beside the path, each on its own timeline.
 //!
 //! The path does not contain them (see [`IndependentMotion`]): the setpoint of an axis is that of the path plus its way.
-//! Assumption: override, feedhold and the weights of G130 to G133 do not act on them; an error stops them with their own
-//! deceleration.
+//! The override of feed (P-AXIS-00491) and the feedhold (P-AXIS-00540) of the channel act on them, unless the list gives these to the
+//! interface of the axis, which nothing moves here. Assumption: the weights of G130 to G133 do not act on them; an error stops
+//! them, and a feedhold holds them, with their own deceleration (P-AXIS-00556 is not read). Rests of oscillations continue.
 
 use crate::exec::{IndependentMotion, OscillatingMotion};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
-use kontur_motion::independent::IndependentMove;
+use kontur_motion::independent::{IndependentMove, Steering};
 use kontur_motion::profile::Infeasible;
 
 /// A motion under way.
@@ -35,7 +36,7 @@ struct Oscillation {
 
 impl Oscillation {
     /// The motion that follows one that ends in cycle `k`; `None` where it comes to its end.
-    fn next(&mut self, k: u64) -> Option<Underway> {
+    fn next(&mut self, k: u64, steering: Steering) -> Option<Underway> {
         let at = self.to;
         if at == 1 {
             self.left = self.left.map(|left| left.saturating_sub(1));
@@ -45,7 +46,9 @@ impl Oscillation {
         }
         self.to = 1 - at;
         let k = k + self.rest_cycles[at];
-        Some(Underway { motion: self.ways[at].clone(), from_mm: self.reversal_mm[at], k })
+        let mut motion = self.ways[at].clone();
+        motion.steer(0, steering);
+        Some(Underway { motion, from_mm: self.reversal_mm[at], k })
     }
 }
 
@@ -69,6 +72,8 @@ struct Lane {
     coupling: Option<Coupling>,
     /// Its way is not at rest yet behind its filters.
     settles: bool,
+    /// What acts on it from outside.
+    steering: Steering,
     underway: Option<Underway>,
     oscillation: Option<Box<Oscillation>>,
 }
@@ -101,8 +106,9 @@ impl IndependentAxes {
         cycle: CycleTime,
     ) -> Result<(), Infeasible> {
         let IndependentMotion { from_mm, to_mm, speed, slope } = motion;
-        let motion = IndependentMove::new(from_mm, to_mm, speed, slope, dynamics, cycle)?;
+        let mut motion = IndependentMove::new(from_mm, to_mm, speed, slope, dynamics, cycle)?;
         if let Some(lane) = self.lanes.get_mut(axis) {
+            motion.steer(0, lane.steering);
             lane.underway = Some(Underway { motion, from_mm, k });
             self.used = true;
         }
@@ -128,13 +134,29 @@ impl IndependentAxes {
             to: 0,
             left: count,
         };
-        let motion = way(from_mm, first)?;
+        let mut motion = way(from_mm, first)?;
         if let Some(lane) = self.lanes.get_mut(axis) {
+            motion.steer(0, lane.steering);
             lane.underway = Some(Underway { motion, from_mm, k });
             lane.oscillation = Some(Box::new(oscillation));
             self.used = true;
         }
         Ok(())
+    }
+
+    /// What acts on an axis from outside, from cycle `k` on.
+    pub(super) fn steer(&mut self, axis: usize, k: u64, steering: Steering) {
+        let Some(lane) = self.lanes.get_mut(axis) else { return };
+        lane.steering = steering;
+        if let Some(underway) = &mut lane.underway {
+            underway.motion.steer(k.saturating_sub(underway.k), steering);
+        }
+    }
+
+    /// A motion is under way that feedhold or override 0 keeps at rest in cycle `k`.
+    pub(super) fn is_held(&self, k: u64) -> bool {
+        let held = |u: &Underway| u.motion.is_held(k.saturating_sub(u.k));
+        self.lanes.iter().any(|lane| lane.underway.as_ref().is_some_and(held))
     }
 
     /// An oscillation ends when the axis comes to its second position; all of them if no axis is named.
@@ -157,7 +179,7 @@ impl IndependentAxes {
         if cycles >= underway.motion.cycles() && k >= underway.k {
             let end = underway.k + underway.motion.cycles();
             lane.done_mm = way_mm;
-            lane.underway = lane.oscillation.as_mut().and_then(|o| o.next(end));
+            lane.underway = lane.oscillation.as_mut().and_then(|o| o.next(end, lane.steering));
             if lane.underway.is_none() {
                 lane.oscillation = None;
             }

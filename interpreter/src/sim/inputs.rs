@@ -21,7 +21,7 @@ pub enum Signal {
     RapidOverride,
     /// `feedhold`: 1 holds the path, 0 releases it; default 0. How it brakes is P-CHAN-00097.
     ///
-    /// Assumption: dwells, waits and independent axes continue under feedhold; it holds the path.
+    /// Assumption: dwells and waits continue under feedhold; it holds the path, and independent axes (P-AXIS-00540).
     Feedhold,
     /// `probe`: 1 is the signal of the probe in measuring runs (G100, G310); default 0.
     Probe,

@@ -1,0 +1,92 @@
+//! What the inputs of a run do to the path and to what moves beside it: override, feedhold, and a hold without end.
+
+use super::{Phase, Probing, Simulation, fault};
+use crate::diag::Diagnostic;
+use kontur_motion::independent::Steering;
+use kontur_motion::realtime::FeedholdBraking;
+
+impl Simulation {
+    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends after the cycle.
+    pub(super) fn take_inputs(&mut self, k: u64) {
+        let time_s = self.cycle.time_of(k);
+        match self.inputs.take_due(time_s, &self.machine, &mut self.messages.own) {
+            Ok(false) => return,
+            Ok(true) => {}
+            Err(failure) => self.input_fails(*failure),
+        }
+        for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
+            chain.set_inputs(*inputs);
+        }
+        self.steer_independent(k);
+        self.take_wear(k);
+        let channel = &self.machine.channel;
+        self.planner.set_override(self.inputs.ratios(channel.rapid_override));
+        self.hold_path();
+    }
+
+    /// Feedhold and the signal of the probe brake the path, or let it continue.
+    pub(super) fn hold_path(&mut self) {
+        let own = self.machine.channel.own_feed_hold && self.inputs.feedhold;
+        let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
+        let probed = self.probing.as_ref().is_some_and(Probing::holds);
+        self.planner.feedhold(self.inputs.feedhold || probed, braking);
+    }
+
+    /// K-0132, once for each thread: the path does not go with the spindle.
+    pub(super) fn watch_thread(&mut self) {
+        let Some(thread) = &mut self.thread else { return };
+        let why = self.inputs.changes_speed(thread.full_override);
+        if let (Some(why), false) = (why, thread.broken)
+            && matches!(self.phase, Phase::Running)
+        {
+            thread.broken = true;
+            let at = self.current;
+            let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
+            d.source = self.executor.locate(at);
+            self.messages.own.push(d);
+        }
+    }
+
+    pub(super) fn input_fails(&mut self, failure: Diagnostic) {
+        self.messages.own.push(failure);
+        (self.totals.aborted, self.totals.input_failed) = (true, true);
+        self.phase = Phase::Done;
+    }
+
+    /// Notes whether feedhold or override 0 keeps the path at rest in this cycle; a hold without end ends the run.
+    pub(super) fn look_for_hold(&mut self) {
+        self.is_held = false;
+        let setpoint = self.planner.setpoint();
+        let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
+        if !stands || !self.planner.is_held() {
+            return;
+        }
+        if self.drop_rest_of_run() {
+            return;
+        }
+        self.is_held = true;
+        if self.inputs.is_over() {
+            self.held_for_ever();
+        }
+    }
+
+    /// K-0083: nothing will release the path any more.
+    pub(super) fn held_for_ever(&mut self) {
+        let k = self.planner.setpoint().k;
+        self.messages.own.push(fault::held(k, self.cycle, self.inputs.feedhold));
+        self.totals.aborted = true;
+        self.phase = Phase::Done;
+    }
+
+    /// Gives override and feedhold to the axes that move beside the path, in every cycle of such a motion.
+    pub(super) fn steer_independent(&mut self, k: u64) {
+        let channel = &self.machine.channel;
+        let ratios = self.inputs.ratios(channel.rapid_override);
+        for (p, axis) in self.machine.axes.iter().enumerate() {
+            let ratios = axis.independent_ratios(ratios);
+            let held = self.inputs.feedhold && axis.holds_independent();
+            let steering = Steering { ratios, mode: channel.override_mode, held };
+            self.independent.steer(p, k, steering);
+        }
+    }
+}
