@@ -168,8 +168,8 @@ pub(super) struct Inputs {
     pub(super) probe: bool,
     /// Wear of a grinding wheel from outside.
     pub(super) wear_mm: f64,
-    wear_limit_told: bool,
-    override_told: bool,
+    /// What is said once.
+    told: BTreeSet<Condition>,
     /// Where it signals, for each path axis.
     pub(super) surfaces_mm: Vec<Option<f64>>,
     pub(super) axes: Vec<AxisInputs>,
@@ -193,8 +193,7 @@ impl Inputs {
             feedhold: false,
             probe: false,
             wear_mm: 0.0,
-            wear_limit_told: false,
-            override_told: false,
+            told: BTreeSet::new(),
             surfaces_mm: Vec::new(),
             axes: vec![AxisInputs::default(); axes],
             seen: BTreeSet::new(),
@@ -262,13 +261,13 @@ impl Inputs {
 
     /// True once: that the wear from outside is limited has not been said yet.
     pub(super) fn tells_wear_limit(&mut self) -> bool {
-        !std::mem::replace(&mut self.wear_limit_told, true)
+        self.told.insert(Condition::WearLimited)
     }
 
     /// Once: that an override is limited (P-CHAN-00056), or would be on a control without an entry in its list.
     fn tells_largest_override(&mut self, ratio: f64, machine: &Machine) -> Option<Diagnostic> {
         let listed = machine.channel.most_override;
-        if ratio <= listed.unwrap_or(1.0) || std::mem::replace(&mut self.override_told, true) {
+        if ratio <= listed.unwrap_or(1.0) || !self.told.insert(Condition::OverrideLimited) {
             return None;
         }
         let [asked, most] = [ratio, listed.unwrap_or(1.0)].map(|r| 100.0 * r);
