@@ -457,8 +457,8 @@ impl Decoder {
     }
 
     /// Chamfer or rounding in front of the next motion.
-    pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
-        let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.report.source };
+    pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed: Option<Feed>, span: Span) {
+        let insertion = Insertion { kind, size_mm, feed, span, source: self.report.source };
         if let Some(fault) = self.contour.insert(insertion) {
             self.report.note(fault);
         }

@@ -12,6 +12,7 @@ mod feed_course;
 mod first_cases;
 mod flow;
 mod frames;
+mod inserted_feed;
 mod modes;
 mod positions;
 mod radius_change;

@@ -289,7 +289,11 @@ impl Decoder {
         for (hash, value, span) in &words.hashes {
             let kind = match &*hash.name {
                 "FRC" => {
-                    feed = value.map(|v| (v, *span));
+                    feed = value.filter(|v| *v > 0.0).map(|v| (v, *span));
+                    if feed.is_none() {
+                        let text = "#FRC needs a feed above 0";
+                        self.report.note(Fault::new(Condition::Range, text, *span));
+                    }
                     continue;
                 }
                 "PSET"
@@ -325,8 +329,9 @@ impl Decoder {
             }
         }
         if let Some((kind, size, at)) = request {
-            let feed_mm_s = feed.map(|(f, _)| f * self.feed_unit_mm_s());
-            self.insert(kind, size, feed_mm_s, at);
+            let feed = feed.map(|(value, at)| self.feed_from(value, self.modal.unit_mm(), at));
+            let feed = feed.and_then(|feed| self.report.keep(feed));
+            self.insert(kind, size, feed, at);
         } else if let Some((_, at)) = feed {
             let text = "#FRC without chamfer or rounding has no effect";
             self.report.note(Fault::new(Condition::Odd, text, at).warning());

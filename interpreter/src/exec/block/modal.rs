@@ -159,7 +159,8 @@ pub(in crate::exec) struct Modal {
     /// R of the last arc that had one, in mm.
     pub(in crate::exec) radius_mm: Option<f64>,
     pub(in crate::exec) slope: Slope,
-    /// The slope was set in the older form: selective weights act (P-CHAN-00001, P-CHAN-00073).
+    /// Selective weights act (P-CHAN-00001, P-CHAN-00073): from the start of a program on, and with the slope in its older form. With
+    /// `#SLOPE` the weights act on everything.
     pub(in crate::exec) old_slope: bool,
     pub(in crate::exec) look_ahead: LookAhead,
     pub(in crate::exec) compensation: Compensation,
@@ -209,7 +210,7 @@ impl Modal {
             centre_correction: true,
             radius_mm: None,
             slope: Slope { kind: slope, optimised: false, constant_ramp_time },
-            old_slope: false,
+            old_slope: true,
             look_ahead: LookAhead::Complete,
             compensation: Compensation::Off,
             corners: Corners::Straight,

@@ -3,6 +3,9 @@
 //! Source: TF5200 programming manual: the size of a chamfer is the distance of its ends from the corner, on an arc
 //! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
 //! transition.
+//!
+//! Assumption: without `#FRC` the feed is that of the motion behind, also rapid; the English page names that motion, an older
+//! German one the motion in front.
 
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
@@ -28,8 +31,8 @@ pub(in crate::exec) enum Kind {
 pub(in crate::exec) struct Insertion {
     pub(in crate::exec) kind: Kind,
     pub(in crate::exec) size_mm: f64,
-    /// `#FRC`: path velocity in mm/s within it.
-    pub(in crate::exec) feed_mm_s: Option<f64>,
+    /// `#FRC`: the feed within it.
+    pub(in crate::exec) feed: Option<Feed>,
     pub(in crate::exec) span: Span,
     pub(in crate::exec) source: SourceRef,
 }
@@ -98,6 +101,7 @@ pub(in crate::exec) fn between(
             ArcPath::new(p.clone(), q.clone(), shape, &feed_axes).map(Path::Arc)
         }
     };
+    let feed = after.feed_beside();
     let cut_before = cut(&before.block.path, None, Some(&p), &feed_axes);
     let cut_after = cut(&after.block.path, Some(&q), None, &feed_axes);
     let (Some(element), Some(cut_before), Some(cut_after)) = (element, cut_before, cut_after)
@@ -110,9 +114,7 @@ pub(in crate::exec) fn between(
     inserted.block.path = element;
     inserted.course = None;
     inserted.events = std::mem::take(&mut after.events);
-    if let (Some(v), Feed::PathVelocity(_)) = (insertion.feed_mm_s, inserted.block.feed) {
-        inserted.block.feed = Feed::PathVelocity(v);
-    }
+    inserted.block.feed = insertion.feed.unwrap_or(feed);
     Ok(Some(Box::new(inserted)))
 }
 

@@ -87,6 +87,17 @@ impl Motion {
             && !self.tangential
     }
 
+    /// Feed of an element that is inserted beside the motion.
+    ///
+    /// Assumption: under G93, where F is the time of the programmed motion, its speed on the programmed way; an element with a time
+    /// of its own would nearly stop the path at every corner.
+    pub(super) fn feed_beside(&self) -> Feed {
+        match self.block.feed {
+            Feed::Duration(time_s) => Feed::PathVelocity(self.block.path.length() / time_s),
+            feed => feed,
+        }
+    }
+
     /// Takes the path over into the coordinates of the tilt.
     pub(super) fn enter_tilt(&mut self) {
         let Some(tilt) = &self.tilt else { return };

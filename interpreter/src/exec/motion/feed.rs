@@ -27,19 +27,24 @@ impl Decoder {
             return Ok(Feed::PathVelocity(1.0));
         };
         let unit_mm = if word.inch && self.feed_is_linear(path) { 25.4 } else { 1.0 };
+        self.feed_from(word.value, unit_mm, span)
+    }
+
+    /// Feed that a value above 0 means under the active feed type, with the unit of a way in mm.
+    pub(in crate::exec) fn feed_from(&self, value: f64, unit_mm: f64, span: Span) -> Outcome<Feed> {
         Ok(match self.modal.feed_type {
-            FeedType::PerMinute => Feed::PathVelocity(
-                word.value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0,
-            ),
-            FeedType::Time => Feed::Duration(word.value),
-            FeedType::ShareOfMaximum => Feed::ShareOfMaximum(word.value / 100.0),
+            FeedType::PerMinute => {
+                Feed::PathVelocity(value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0)
+            }
+            FeedType::Time => Feed::Duration(value),
+            FeedType::ShareOfMaximum => Feed::ShareOfMaximum(value / 100.0),
             FeedType::PerRevolution => {
                 let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
                     let text = "feed per revolution, but the main spindle has no speed";
                     return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));
                 }
-                self.feed_per_revolution(path, rpm)
+                Feed::PathVelocity(value * unit_mm * rpm / 60.0)
             }
         })
     }

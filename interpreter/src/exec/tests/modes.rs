@@ -223,6 +223,18 @@ fn overrides() {
     assert_eq!(ratios, [0.5, 0.2, 0.25, 0.5, 1.0]);
 }
 
+/// P-CHAN-00001 = 1: the weights act on the acceleration alone, from the start of the program on, until `#SLOPE`.
+#[test]
+fn selective_weights_from_the_start() {
+    let text = "G131=50\nG01 X1 F100\n#SLOPE [TYPE=TRAPEZ]\nX2\nM30\n";
+    let run = run_on(&["channel.prog_start.slope.acceleration=1"], text);
+    let limits = |i: usize| {
+        let feed = run.blocks()[i].dynamics.axes[0].feed;
+        (feed.acc_mm_s2, feed.dec_mm_s2)
+    };
+    assert_eq!((limits(0), limits(1)), ((1750.0, 3500.0), (1750.0, 1750.0)));
+}
+
 #[test]
 fn vector_limits() {
     let run = clean(
@@ -247,7 +259,7 @@ fn units_of_vector_limits() {
         let blocks = run.blocks();
         let v = &blocks[0].dynamics.vector;
         let found = [v.vel_mm_s, v.acc_mm_s2, v.dec_mm_s2, v.radial_acc_mm_s2, v.radial_jerk_mm_s3];
-        let per = |x: f64, order: i32| x / f64::powi(t, order);
+        let per = |x: f64, order: usize| x / [1.0, t, t * t, t * t * t][order];
         let expected = [25.4, per(1800000.0, 2), per(3600.0, 2), per(72000.0, 2), per(216000.0, 3)];
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found.unwrap() - expected).abs() <= 1e-9 * expected, "{unit}: {v:?}");

@@ -47,6 +47,7 @@ pub(super) fn straight(
     let path = LinePath::new(place(from), place(to), &template.block.dynamics.feed_axes)?;
     let mut motion = template.clone();
     motion.block.path = Path::Line(path);
+    motion.block.feed = template.feed_beside();
     motion.events.clear();
     Some(Box::new(motion))
 }
@@ -84,6 +85,7 @@ pub(super) fn corner_arc(
     let path = ArcPath::new(place(from), place(to), shape, feed_axes)?;
     let mut arc = before.clone();
     arc.block.path = Path::Arc(path);
+    arc.block.feed = after.feed_beside();
     arc.engaged = Some(distance > 0.0);
     arc.events.clear();
     Some(Item::Motion(Box::new(arc)))
