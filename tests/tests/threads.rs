@@ -51,7 +51,8 @@ fn tapping_as_fast_as_the_spindle_can() {
     let settings = [
         "S.getriebe[0].dynamik.vb_max=3000000",
         "S.getriebe[0].vb_eilgang=3000000",
-        "S.getriebe[0].lslope_profil.a_stufe_1=2000",
+        "S.getriebe[0].slope_profil.a_beschl=2000",
+        "S.getriebe[0].slope_profil.a_brems=2000",
     ];
     let run = run("%P\nG63 Z-40 F3000 S2000\nG01 Z-41 F100\nM30\n", &settings);
     assert_eq!(run.diagnostics, []);
@@ -249,7 +250,7 @@ fn constant_cutting_speed_and_feed_per_revolution() {
     let run = run(
         "%P\nM03 S2000 G01 X60 Z100 F1500\nG196 S2500\nG95 F1.5\nG96 S100\nG04 1\nZ49\nX10\nG00 Z50\nX60\nZ48\nG04 1\nG01 X10\n\
          G97\nG94\nX11 F100\nM30\n",
-        &[FACE, "S.getriebe[0].lslope_profil.a_stufe_1=60000"],
+        &[FACE],
     );
     assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
     let n = |x: f64| (100_000.0 / (TAU * x)).min(2500.0);

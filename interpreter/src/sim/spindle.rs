@@ -1,7 +1,7 @@
 //! Set position of a spindle: speed ramps and positioning.
 //!
-//! Speed changes use the linear slope of the spindle's list (P-AXIS-00270 = 0). Assumption: other slope types of
-//! spindles are driven with the same acceleration.
+//! The speed rises with P-AXIS-00001 and falls with P-AXIS-00002: accelerations of spindles are always those of the jerk-limited slope
+//! (TF5200 axis parameters, P-AXIS-00556). Assumption: without ramp times, whatever the slope type (P-AXIS-00270) is.
 
 use crate::exec::{Approach, CuttingSpeed, SpindleMotion};
 use kontur_filters::time::CycleTime;
@@ -22,7 +22,8 @@ struct Positioning {
 /// One spindle.
 #[derive(Clone, Debug)]
 pub(super) struct Spindle {
-    axis: StepAxis,
+    acc_deg_s2: f64,
+    dec_deg_s2: f64,
     /// Weight of the acceleration (G130).
     acc_ratio: f64,
     v_max_deg_s: f64,
@@ -49,14 +50,9 @@ struct Following {
 
 impl Spindle {
     pub(super) fn new(dynamics: &AxisDynamics) -> Self {
-        let slope = dynamics.step_feed;
-        let axis = StepAxis {
-            acc_mm_s2: slope.acc_mm_s2,
-            dec_mm_s2: slope.dec_mm_s2,
-            change_mm_s: slope.change_mm_s,
-        };
         Self {
-            axis,
+            acc_deg_s2: dynamics.feed.acc_mm_s2,
+            dec_deg_s2: dynamics.feed.dec_mm_s2,
             acc_ratio: 1.0,
             v_max_deg_s: dynamics.v_max_mm_s,
             position_deg: 0.0,
@@ -130,17 +126,11 @@ impl Spindle {
         self.acc_ratio = ratio;
     }
 
-    /// Acceleration in deg/s2.
-    fn acc_deg_s2(&self) -> f64 {
-        self.axis.acc_mm_s2[0].min(self.axis.dec_mm_s2[0]) * self.acc_ratio
-    }
-
     fn limits(&self) -> SlopeLimits {
-        let weighed = |[low, high]: [f64; 2]| [low * self.acc_ratio, high * self.acc_ratio];
         let axis = StepAxis {
-            acc_mm_s2: weighed(self.axis.acc_mm_s2),
-            dec_mm_s2: weighed(self.axis.dec_mm_s2),
-            change_mm_s: self.axis.change_mm_s,
+            acc_mm_s2: [self.acc_deg_s2 * self.acc_ratio; 2],
+            dec_mm_s2: [self.dec_deg_s2 * self.acc_ratio; 2],
+            change_mm_s: self.v_max_deg_s,
         };
         SlopeLimits::Step(StepLimits::from_axes(&[axis]))
     }
@@ -189,8 +179,10 @@ impl Spindle {
             self.approach(deg, rpm, approach, cycle);
             return self.position_deg;
         }
-        let step = self.acc_deg_s2() * t;
-        let speed = self.speed_deg_s + (self.target_deg_s() - self.speed_deg_s).clamp(-step, step);
+        let target = self.target_deg_s();
+        let rises = target.abs() > self.speed_deg_s.abs() && target * self.speed_deg_s >= 0.0;
+        let step = if rises { self.acc_deg_s2 } else { self.dec_deg_s2 } * self.acc_ratio * t;
+        let speed = self.speed_deg_s + (target - self.speed_deg_s).clamp(-step, step);
         self.position_deg += 0.5 * (self.speed_deg_s + speed) * t;
         self.speed_deg_s = speed;
         self.position_deg

@@ -59,19 +59,15 @@ impl Summary {
             if worst.mm > 0.0 {
                 let place = self.place(&worst.file, worst.line, worst.block);
                 let (mm, time_s) = (worst.mm, worst.time_s);
-                write!(out, "  contour error  at most {mm:.6} mm at t = {time_s:.6} s, {place}")?;
+                writeln!(out, "  contour error  at most {mm:.6} mm at t = {time_s:.6} s, {place}")?;
             } else {
-                write!(out, "  contour error  none")?;
+                writeln!(out, "  contour error  none")?;
             }
             // the set points may keep to a contour of which they leave something out
             let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
             if deviation > worst.mm + LEAST_SHOWN {
-                write!(
-                    out,
-                    "; up to {deviation:.6} with what of the contour is missed, see |dev|"
-                )?;
+                writeln!(out, "  missed         up to {deviation:.6} of the contour, see |dev|")?;
             }
-            writeln!(out)?;
         }
         if self.cycles > 0 {
             self.write_axes(out)?;

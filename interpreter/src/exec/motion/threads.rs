@@ -269,13 +269,11 @@ impl Decoder {
         let mut dynamics = (*self.motion.dynamics(&self.machine, &self.modal, false)).clone();
         let ratio = self.motion.spindles[0].acceleration_ratio / coupling.deg_per_path_mm;
         let least = |a: Option<f64>, b: f64| Some(a.map_or(b, |a| a.min(b)));
-        let slope = &limits.step_feed;
+        let slope = &limits.feed;
         let vector = &mut dynamics.vector;
         vector.vel_mm_s = least(vector.vel_mm_s, limits.v_max_mm_s / coupling.deg_per_path_mm);
-        vector.acc_mm_s2 =
-            least(vector.acc_mm_s2, slope.acc_mm_s2[0].min(slope.acc_mm_s2[1]) * ratio);
-        vector.dec_mm_s2 =
-            least(vector.dec_mm_s2, slope.dec_mm_s2[0].min(slope.dec_mm_s2[1]) * ratio);
+        vector.acc_mm_s2 = least(vector.acc_mm_s2, slope.acc_mm_s2 * ratio);
+        vector.dec_mm_s2 = least(vector.dec_mm_s2, slope.dec_mm_s2 * ratio);
         let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics));
         let plane = self.in_plane(span)?;
         if self.report.failed() && !self.checking {
