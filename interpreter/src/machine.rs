@@ -20,6 +20,7 @@ mod builtin;
 mod chain;
 mod channel;
 mod hints;
+mod inert;
 pub(crate) mod issues;
 pub mod key;
 mod levers;

@@ -208,6 +208,9 @@ fn under_override() {
     let more = [(0.0, "override_percent", 125.0)];
     near(arrival("0", &more), 0.925);
     near(arrival("1", &more), 1.1);
+    // P-AXIS-00109
+    let run = run_with_inputs(linear(&["X.kenngr.max_vb_override=250"]), program, &half);
+    near(arrival_s(&run, 0, 100.0), 4.025);
     // held from the start by override 0
     let late = [(0.0, "override_percent", 0.0), (1.0, "override_percent", 100.0)];
     near(arrival("0", &late), 2.1);

@@ -215,7 +215,7 @@ impl Decoder {
                 Fault::new(Condition::DwellOtherAxes, text, span).with(|d| d.axis(number, name)),
             );
         }
-        self.dwell_for(seconds, span)
+        self.dwell_for(seconds, Condition::DwellRange, span)
     }
 
     /// True if braking to a lower feed may begin after the end of this block: G901 without G09 (source: TF5200
@@ -229,11 +229,11 @@ impl Decoder {
         late
     }
 
-    /// Waits for a time at rest; 20752 outside the range.
-    pub(super) fn dwell_for(&mut self, seconds: f64, span: Span) -> Outcome<()> {
+    /// Waits for a time at rest; `range`: the condition of a time outside its range.
+    pub(super) fn dwell_for(&mut self, seconds: f64, range: Condition, span: Span) -> Outcome<()> {
         if !(0.0..=DWELL_MAX_S).contains(&seconds) {
             let text = format!("dwell of {seconds} s is outside 0 to {DWELL_MAX_S} s");
-            return Err(Fault::new(Condition::DwellRange, text, span).with(|d| {
+            return Err(Fault::new(range, text, span).with(|d| {
                 d.value(ValueKind::Wrong, seconds * 1e6, "us")
                     .value(ValueKind::LowerLimit, 0.0, "us")
                     .value(ValueKind::UpperLimit, DWELL_MAX_S * 1e6, "us")

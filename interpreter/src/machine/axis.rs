@@ -88,11 +88,13 @@ impl Axis {
     }
 
     /// What of an override of the channel acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
-    /// interface of the axis stays at that), or nothing.
+    /// interface of the axis stays at that), or nothing; no more than P-AXIS-00109 where the list gives it.
     pub(crate) fn independent_ratios(&self, channel: OverrideRatios) -> OverrideRatios {
+        let most = axis_general::MOST_OVERRIDE;
+        let most = self.parameters.set_by(most).map_or(f64::INFINITY, |_| self.get(most));
         let of = |ratio: f64| match self.get(axis_general::INDEPENDENT_OVERRIDE) {
-            0 => ratio,
-            1 => ratio.min(1.0),
+            0 => ratio.min(most),
+            1 => ratio.min(most).min(1.0),
             _ => 1.0,
         };
         OverrideRatios { feed: of(channel.feed), rapid: of(channel.rapid) }

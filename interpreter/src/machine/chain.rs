@@ -8,7 +8,7 @@ use super::plausible;
 use super::settled::{AxisList, Settled};
 use super::table::param::{Param, Text, whole};
 use super::table::{ListKind, kontur, start_up as stup};
-use super::{Machine, hints, link};
+use super::{Machine, hints, inert, link};
 use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
@@ -275,11 +275,13 @@ impl Chain<'_> {
         plausible::check_presets(&settled.channel, diagnostics);
         plausible::check_rapid_override(&settled.channel, diagnostics);
         plausible::check_synchronisation(&settled.channel, diagnostics);
+        inert::check(&settled.channel, None, diagnostics);
         for axis in &mut settled.axes {
             let number = logical_number(&axis.parameters);
             let name = names.name(number).unwrap_or_default().to_owned();
             let axis_ref = AxisRef { number, name };
             plausible::check(&mut axis.parameters, cycle, Some(&axis_ref), diagnostics);
+            inert::check(&axis.parameters, Some(&axis_ref), diagnostics);
             plausible::check_sampling(
                 &axis.parameters,
                 &settled.own,

@@ -93,6 +93,8 @@ pub struct Channel {
     pub vector_acc_on_arcs: bool,
     /// Limits of arcs whose centre and end do not fit.
     pub arc_centre: ArcCentre,
+    /// Axes of the channel, bit by bit, whose positions outside the software limits are a warning (P-CHAN-00147).
+    pub limit_warnings: u32,
     /// Look-ahead.
     pub look_ahead: LookAhead,
     /// Programs start in inch (P-CHAN-00054).
@@ -240,6 +242,7 @@ impl Channel {
                 2 => CurveJerk::Ramps,
                 _ => CurveJerk::Geometric,
             },
+            limit_warnings: choice(of::LIMIT_WARNINGS),
             vector: vector(p),
             vector_time_s: vector_time_s(p),
             vector_acc_on_arcs: p.get(of::PATH_ACC_ON_ARCS),

@@ -128,7 +128,7 @@ fn check_value(
     diagnostics.push(finish(diagnostic, row, at, axis));
 }
 
-fn finish(
+pub(super) fn finish(
     mut diagnostic: Diagnostic,
     row: &Row,
     at: Option<crate::diag::Location>,

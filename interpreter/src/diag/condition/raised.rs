@@ -198,6 +198,7 @@ conditions! {
     MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
     ToolTwice = Vendor 20738: Error ProgramAbort 3 1, "D and V.G.WZ_AKT in one block", hint "write one of the two into a block of its own";
     ToolOffsetTwice = Vendor 20739: Error ProgramAbort 3 1, "D and an offset V.G.WZ_AKT.V in one block", hint "write one of the two into a block of its own";
+    TimeRange = Vendor 20751: Error ProgramAbort 3 1, "time of #TIME out of range", hint "the time is in seconds";
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time is in seconds";
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";

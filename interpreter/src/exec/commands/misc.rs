@@ -95,7 +95,7 @@ pub(super) const TIME: Row = Row::run("TIME", time)
     .form("#TIME t")
     .meaning("dwell of t seconds, as G04")
     .example("#TIME 2.5")
-    .related(&["G04", "20752"]);
+    .related(&["G04", "20751"]);
 
 /// `#TIME t`.
 fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
@@ -103,13 +103,13 @@ fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match (&call.command.arguments[..], call.command.groups.first()) {
         ([expr], None) => {
             let seconds = decoder.number(expr)?;
-            decoder.dwell_for(seconds, expr.span)
+            decoder.dwell_for(seconds, Condition::TimeRange, expr.span)
         }
         ([], Some(group)) => match &group.items[..] {
             [item] => match &item.kind {
                 ItemKind::Value(ItemValue::Expr(expr)) => {
                     let seconds = decoder.number(expr)?;
-                    decoder.dwell_for(seconds, expr.span)
+                    decoder.dwell_for(seconds, Condition::TimeRange, expr.span)
                 }
                 _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs a time in s", item.span)),
             },

@@ -99,7 +99,7 @@ parameters! {
     chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "parameter speed of polynomials in the jerk check")
         .range(Bound::At(0.0), Bound::At(2.0)).default(1.0);
     chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with warning instead of error at setpoint limits")
-        .default(0.0);
+        .default(0.0), as LIMIT_WARNINGS: Whole;
     chan("P-CHAN-00160", "g80_prog_file", Raw::Text, "global subroutine called by G80"), as G80_PROGRAM: Text;
     chan("P-CHAN-00171", "max_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference (21758)")
         .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
