@@ -6,9 +6,12 @@
 //!
 //! `COUNT` raises the number of programs, `SEED` chooses others.
 
+mod contours;
 mod expressions;
 mod map;
 mod model;
+mod motions;
+mod offset;
 mod path;
 mod random;
 mod text;

@@ -149,6 +149,7 @@ impl Decoder {
             }
             crate::exec::geometry::tools::Tool::default()
         };
+        self.geometry.coordinates.tool_programmed();
         self.tool_offsets();
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();

@@ -47,6 +47,7 @@ fn tool_prep(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 fn refresh(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
+    decoder.geometry.coordinates.tool_programmed();
     decoder.tool_offsets();
     Ok(())
 }

@@ -145,6 +145,24 @@ fn tool_length_acts_on_the_third_main_axis() {
     assert_eq!(run("D3 Z1 F100\nM30\n").ids(), ["K-0114"]);
 }
 
+/// The length goes to the third axis of another plane (304765835), with the next absolute word; so does the plane that a cycle
+/// gives back. Between `#MCS ON` and `#MCS OFF` only a tool acts that is programmed there.
+#[test]
+fn tool_length_follows_the_plane() {
+    let tool = "V.G.WZ[2].L=50 V.G.WZ[2].R=5\nF100 D2 X0 Y0 Z0\n";
+    assert_end(&format!("{tool}G18 X1 Y1 Z1"), [1.0, 51.0, 1.0]);
+    assert_end(&format!("{tool}G18\nG91 X1 Y1 Z1"), [1.0, 1.0, 51.0]);
+    assert_end(&format!("{tool}G19 X1 Y1 Z1\nG17 X1"), [1.0, 1.0, 1.0]);
+    let cycle = format!("%L C\nG18 X1 Y1 Z1\nM17\n%MAIN\n{tool}LL CYCLE [NAME=C]\n");
+    assert_end(&cycle, [1.0, 51.0, 1.0]);
+    assert_end(&format!("{cycle}X2 Y2 Z2"), [2.0, 2.0, 52.0]);
+    let machine = format!("{tool}#MCS ON\nX1 Y1 Z1\n");
+    assert_end(&format!("{machine}G18 X2 Y2 Z2"), [2.0, 2.0, 2.0]);
+    assert_end(&format!("{machine}V.G.WZ_AKT.R=3 X2 Z2"), [2.0, 1.0, 2.0]);
+    assert_end(&format!("{machine}D2 Z2\nG18 Y2"), [1.0, 52.0, 52.0]);
+    assert_end(&format!("{machine}G18\n#MCS OFF\nX2 Y2 Z2"), [2.0, 52.0, 2.0]);
+}
+
 #[test]
 fn axis_exchange_renames_axes() {
     assert_end("#PUT AX [X, Z]\n#CALL AX [Q, 1, 0]\nQ5 Y1 F100", [5.0, 1.0, 0.0]);

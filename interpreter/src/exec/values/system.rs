@@ -349,6 +349,9 @@ pub(in crate::exec) fn write(
             let mut tool = d.geometry.tools.active.clone();
             write_tool(d, &path, &names[2..], &mut tool, x()?)?;
             d.geometry.tools.active = tool;
+            if matches!(names[2], "L" | "V") {
+                d.geometry.coordinates.tool_programmed();
+            }
             d.tool_offsets();
         }
         ["G", "WZ", ..] => {
