@@ -204,6 +204,7 @@ const ROWS: &[Row] = &[
     // no influence on set positions
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
+    tools::TLAX,
     tools::TOOL_DATA,
     tools::TOOL_PREP,
     tools::TOOL_REFRESH,

@@ -164,6 +164,19 @@ fn tool_length_follows_the_plane() {
 }
 
 #[test]
+fn tool_length_has_an_axis_of_its_own() {
+    let tool = "V.G.WZL=50\nF100 X0 Y0 Z0\n";
+    assert_end(&format!("{tool}#TLAX [Z+]\nG18 X1 Y1 Z1"), [1.0, 1.0, 51.0]);
+    assert_end(&format!("#TLAX [X-]\n{tool}G91 X1\nG90 Y1"), [-49.0, 1.0, 0.0]);
+    assert_end(&format!("{tool}#TLAX [Y+]\nX1 Y1 Z1\n#TLAX DEFAULT\nX1 Y1 Z1"), [1.0, 1.0, 51.0]);
+    for wrong in ["#TLAX", "#TLAX [Z]", "#TLAX [Q+]", "#TLAX [S+]", "#TLAX [1]", "#TLAX [Z+, X+]"] {
+        assert_eq!(run(&format!("{wrong}\nM30\n")).ids().len(), 1, "{wrong}");
+    }
+    assert_eq!(run("#TLAX OFF [Z+]\nM30\n").ids().len(), 1);
+    assert_eq!(run("V.G.WZL=5\nP1=V.G.WZL X P1 F100\nM30\n").end[0], 5.0);
+}
+
+#[test]
 fn axis_exchange_renames_axes() {
     assert_end("#PUT AX [X, Z]\n#CALL AX [Q, 1, 0]\nQ5 Y1 F100", [5.0, 1.0, 0.0]);
     assert_eq!(run("#PUT AX [X]\nX1 F100\nM30\n").ids(), ["20200"]);
