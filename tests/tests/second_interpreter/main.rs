@@ -6,6 +6,7 @@
 //!
 //! `COUNT` raises the number of programs, `SEED` chooses others.
 
+mod changes;
 mod contours;
 mod expressions;
 mod map;

@@ -86,6 +86,14 @@ pub fn axes_of(plane: u32) -> [usize; 3] {
     }
 }
 
+/// Where a coordinate system stands: shift, then turns about Z, Y and X.
+fn placed([x, y, z, a, b, c]: &[f64; 6]) -> Map {
+    Map::shift([*x, *y, *z])
+        .then_inner(&Map::turn(0, 1, *c))
+        .then_inner(&Map::turn(2, 0, *b))
+        .then_inner(&Map::turn(1, 2, *a))
+}
+
 impl<'a> Model<'a> {
     pub fn new(program: &'a Program) -> Self {
         Self {
@@ -237,13 +245,14 @@ impl<'a> Model<'a> {
             }
             Statement::RotationOff(_) => self.coordinates.rotation = None,
             Statement::System(values) | Statement::StoredSystem(_, values) => {
-                let [x, y, z, a, b, c] = *values;
-                let place = Map::shift([x, y, z])
-                    .then_inner(&Map::turn(0, 1, c))
-                    .then_inner(&Map::turn(2, 0, b))
-                    .then_inner(&Map::turn(1, 2, a));
-                self.coordinates.layers.push(Layer::new(place, NO_GROUP));
+                self.coordinates.layers.push(Layer::new(placed(values), NO_GROUP));
             }
+            Statement::Stack(systems, selected) => {
+                let layers = systems.iter().map(|values| Layer::new(placed(values), NO_GROUP));
+                self.coordinates.layers.extend(layers.take(*selected));
+            }
+            // it stands below all others
+            Statement::StackOff(..) => self.coordinates.layers.truncate(1),
             Statement::SystemOff(all) => {
                 let left = self.coordinates.layers.len() - 1;
                 self.coordinates.layers.truncate(if *all { 1 } else { left.max(1) });

@@ -136,6 +136,16 @@ impl File {
             Statement::StoredSystem(id, values) => {
                 self.line(&format!("#CS DEF [{id}]{}\n#CS ON [{id}]", list(values)));
             }
+            Statement::Stack(systems, selected) => {
+                for (i, values) in systems.iter().enumerate() {
+                    self.line(&format!("#CS ADD [SYS{i}N] {}", list(values)));
+                }
+                self.line(&format!("#CS SELECT [SYS{}N]", selected - 1));
+            }
+            Statement::StackOff(count, all) => {
+                let lines = if *all { vec!["#CS DEL ALL"] } else { vec!["#CS DEL"; *count] };
+                lines.into_iter().for_each(|line| self.line(line));
+            }
             Statement::SystemOff(all) => self.line(if *all { "#CS OFF ALL" } else { "#CS OFF" }),
             Statement::Machine(body) => {
                 self.line("#MCS ON");

@@ -140,6 +140,10 @@ pub enum Statement {
     /// `#CS DEF` of a number and its selection.
     StoredSystem(u32, [f64; 6]),
     SystemOff(bool),
+    /// `#CS ADD` of systems, of which the lower ones are selected.
+    Stack(Vec<[f64; 6]>, usize),
+    /// `#CS DEL ALL`, or as often as there are systems.
+    StackOff(usize, bool),
     /// `#MCS ON` to `#MCS OFF`.
     Machine(Vec<Statement>),
     /// Conditions with their branches, and the `$ELSE` branch.

@@ -128,6 +128,26 @@ fn position_presets_and_suppressed_offsets() {
     let offsets = "V.G.NP[1].V.X=11\nV.G.NP[1].V.Y=22\nG54\nG92 X10 Y20\nX100 Y150 F100\n";
     assert_end(offsets, [121.0, 192.0, 0.0]);
     assert_end(&format!("{offsets}#SUPPRESS OFFSETS X50 Y100"), [50.0, 100.0, 0.0]);
+    // kinds: 11 of G54, 10 of G92, 5 of #PSET, 7 of the tool, as far as they are not suppressed
+    let all = "V.G.NP[1].V.X=11 V.G.WZ[1].V.X=7\nF100 G54 G92 X10\nX0\n#PSET X-5\nD1\nX0\n";
+    for (kinds, left) in [
+        ("", 0.0),
+        ("[ZERO]", 22.0),
+        ("[ADD_ZERO]", 23.0),
+        ("[PSET]", 28.0),
+        ("[TOOL]", 26.0),
+        ("[MEASURE CLAMP MANUAL]", 33.0),
+        ("[zero tool]", 15.0),
+        ("[ZERO ADD_ZERO PSET CLAMP TOOL MEASURE MANUAL]", 0.0),
+    ] {
+        let text = format!("{all}#SUPPRESS OFFSETS {kinds} X50 Y1");
+        assert_end(&text, [50.0 + left, 1.0, 0.0]);
+        // the offsets act again, and the program knows where it is
+        assert_end(&format!("{text}\nG91 X1\nP1=V.A.ABS.X\nG90 X P1"), [51.0 + left, 1.0, 0.0]);
+    }
+    for wrong in ["[]", "[CS]", "[ZERO=1]", "[1]"] {
+        assert_eq!(run(&format!("#SUPPRESS OFFSETS {wrong} X1 F100\nM30\n")).ids(), ["21220"]);
+    }
     assert_eq!(run("G91 #SUPPRESS OFFSETS X50 F100\nM30\n").ids(), ["20985"]);
 }
 
