@@ -99,6 +99,11 @@ fn random_programs_mean_the_same() {
             .filter(|d| d.is_error())
             .map(|d| format!("{} {} {:?}", d.id, d.text, d.source.map(|s| (s.file, s.line))))
             .collect();
+        if model.narrow {
+            let refused = said.first().is_some_and(|said| said.contains("too tight"));
+            assert!(refused, "{}\n{said:#?}", listing());
+            continue;
+        }
         assert!(said.is_empty(), "{}\n{said:#?}", listing());
         assert!(wrong.is_none(), "{}\n{}", listing(), wrong.unwrap_or_default());
         let (at, length) = last.unwrap_or_default();

@@ -73,6 +73,8 @@ pub struct Model<'a> {
     /// @P of the cycle in work.
     passed: Vec<Vec<f64>>,
     pub driven: Driven,
+    /// A tool does not fit into an inner corner.
+    pub narrow: bool,
     /// Blocks carried out.
     pub steps: usize,
 }
@@ -119,6 +121,7 @@ impl<'a> Model<'a> {
             local: vec![BTreeMap::new()],
             passed: Vec::new(),
             driven: Driven::default(),
+            narrow: false,
             steps: 0,
         }
     }

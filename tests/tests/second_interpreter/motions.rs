@@ -16,7 +16,8 @@ impl Model<'_> {
             Statement::Compensated(contour) => {
                 let pieces = self.contour(contour);
                 let way = offset::compensated(contour, &pieces, axes_of(self.modal.plane));
-                self.drive(&way);
+                self.narrow |= way.is_none();
+                self.drive(&way.unwrap_or_default());
             }
             Statement::Corner(kind, size, [first, second]) => {
                 let pieces = [self.motion(first), self.motion(second)];

@@ -105,6 +105,8 @@ fn meet(p: &Piece, q: &Piece, plane: Plane) -> Option<[f64; 2]> {
 enum Corner {
     /// Shares where the elements are cut.
     Cut([f64; 2]),
+    /// The tool does not fit.
+    Narrow,
     Smooth,
     /// How far the tangents are prolonged to the ends of a line.
     Lines(f64),
@@ -119,7 +121,7 @@ fn corner(before: &Piece, after: &Piece, distance: f64, contour: &Contour, plane
     }
     if turn * distance > 0.0 {
         let (p, q) = (parallel(before, distance, plane), parallel(after, distance, plane));
-        return Corner::Cut(meet(&p, &q, plane).expect("the parallels meet"));
+        return meet(&p, &q, plane).map_or(Corner::Narrow, Corner::Cut);
     }
     let angle = libm::atan2(turn.abs(), product(u, w));
     if contour.by_arcs {
@@ -128,8 +130,9 @@ fn corner(before: &Piece, after: &Piece, distance: f64, contour: &Contour, plane
     Corner::Lines(contour.radius * libm::tan(angle / 2.0).min(1.0))
 }
 
-/// The way of the tool's centre: approach, contour, exit, all in the plane but for the third axis.
-pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Vec<Piece> {
+/// The way of the tool's centre: approach, contour, exit, all in the plane but for the third axis; `None` where the tool does not
+/// fit between two elements.
+pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<Vec<Piece>> {
     let [a, b, _] = plane;
     let distance = if contour.left { contour.radius } else { -contour.radius };
     let (approach, rest) = pieces.split_first().unwrap();
@@ -188,13 +191,14 @@ pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Vec<Pie
                 let v = plus(zero, place(zero, t), contour.radius);
                 all.push(Piece::arc(element.number, end, [u, v], angle, zero));
             }
+            Some(Corner::Narrow) => return None,
             Some(Corner::Smooth) | None => {}
         }
     }
     let last = elements.last().unwrap();
     let above = left_of(flat(last.at(1.0), plane), direction(last, 1.0, plane), distance);
     all.push(Piece::line(exit.number, place(last.at(1.0), above), exit.at(1.0)));
-    all
+    Some(all)
 }
 
 /// Two motions and what is inserted between them.
