@@ -22,6 +22,7 @@ mod signals;
 mod slope;
 mod spindles;
 mod splines;
+mod system_stack;
 mod tools;
 mod turning;
 mod wear;
@@ -104,6 +105,10 @@ const ROWS: &[Row] = &[
     // frames
     run("ROTATION", frames::rotation),
     run("CS", frames::coordinate_system).several(),
+    system_stack::ADD,
+    system_stack::SELECT,
+    system_stack::SET,
+    system_stack::DELETE,
     run("CS DEF", frames::define_system).several(),
     frames::MCS,
     run("FGROUP", axes::feed_group),
@@ -146,12 +151,8 @@ const ROWS: &[Row] = &[
     unsupported("CONTOUR END"),
     corner::CORNER_PARAM,
     corner::SET_CORNER_PARAM,
-    unsupported("CS ADD"),
     unsupported("CS DEF ACT"),
-    unsupported("CS DEL"),
     off_only("CS MODE"),
-    unsupported("CS SELECT"),
-    unsupported("CS SET"),
     unsupported("DEL DIST2GO"),
     couplings::DISABLE_AX_LINK,
     off_only("EDGE MACHINING"),
@@ -204,6 +205,7 @@ const ROWS: &[Row] = &[
     // no influence on set positions
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
+    tools::TLAX,
     tools::TOOL_DATA,
     tools::TOOL_PREP,
     tools::TOOL_REFRESH,

@@ -1,7 +1,15 @@
-; check: exit 1
-; page 1048407819 change of a coordinate system (#CS SET)
-; error K-0019 at 5:5
-; error K-0019 at 6:5
+; run: exit 0
+; page 1048407819 a system of a stack changed (#CS SET)
+; passes X6.464466 Y34.748737
+; passes X31.299153 Y32.300878
+; end X38.5425076 Y48.8094758
 N10 #CS ADD [ICS] [10,10,0,0,0,45]
+N20 #CS ADD [WCS] [15,20,0,0,0,0]
+N30 #CS ADD [PCS] [10,15,0,0,0,5]
+N40 #CS SELECT [WCS]
+N50 G00 X0 Y0
 N80 #CS SET [ICS] [20,10,0,0,0,10]
-M30
+N90 X0 Y0
+N95 #CS SELECT [PCS]
+N96 X0 Y0
+N100 M30

@@ -1,11 +1,14 @@
-; check: exit 1
-; page 1037628043 chain of coordinate systems (#CS SELECT)
-; error K-0019 at 7:5
-; error K-0019 at 8:5
-; error K-0019 at 9:5
-; error K-0019 at 10:5
+; run: exit 0
+; page 1037628043 active systems of a stack (#CS SELECT)
+; passes X6.464466 Y34.748737
+; passes X2.928932 Y52.426407
+; end X3.5717198 Y53.1924513
 N10 #CS ADD [ICS] [10,10,0,0,0,45]
 N20 #CS ADD [WCS] [15,20,0,0,0,0]
 N30 #CS ADD [PCS] [10,15,0,0,0,5]
 N60 #CS SELECT [WCS]
-M30
+N70 G00 X0 Y0
+N80 #CS SELECT [PCS]
+N90 X0 Y0
+N95 X1 Y0
+N100 M30

@@ -6,9 +6,13 @@
 //!
 //! `COUNT` raises the number of programs, `SEED` chooses others.
 
+mod changes;
+mod contours;
 mod expressions;
 mod map;
 mod model;
+mod motions;
+mod offset;
 mod path;
 mod random;
 mod text;
@@ -95,6 +99,11 @@ fn random_programs_mean_the_same() {
             .filter(|d| d.is_error())
             .map(|d| format!("{} {} {:?}", d.id, d.text, d.source.map(|s| (s.file, s.line))))
             .collect();
+        if model.narrow {
+            let refused = said.first().is_some_and(|said| said.contains("too tight"));
+            assert!(refused, "{}\n{said:#?}", listing());
+            continue;
+        }
         assert!(said.is_empty(), "{}\n{said:#?}", listing());
         assert!(wrong.is_none(), "{}\n{}", listing(), wrong.unwrap_or_default());
         let (at, length) = last.unwrap_or_default();

@@ -4,10 +4,12 @@
 //! its place, its rotation and its own offsets, then mirroring, then contour rotation. Nothing is kept but the position of the machine.
 
 use crate::map::{Map, UNIT};
-use crate::path::{Driven, Piece, Point};
-use crate::tree::{Expr, Function, Motion, Operator, Program, Statement, Word};
+use crate::path::{Driven, Point};
+use crate::tree::{Expr, Function, Operator, Program, Statement, Word};
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
+
+/// A zero-offset group without values.
+const NO_GROUP: u32 = 7777;
 
 /// Offsets of the machine, or of one coordinate system.
 #[derive(Clone, Debug)]
@@ -17,10 +19,20 @@ struct Layer {
     /// The group came from G159.
     by_value: bool,
     preset: Point,
+    /// `#PSET`.
+    position: Point,
+}
+
+impl Layer {
+    fn new(place: Map, group: u32) -> Self {
+        Self { place, group, by_value: false, preset: [0.0; 3], position: [0.0; 3] }
+    }
 }
 
 #[derive(Clone, Debug)]
 struct Coordinates {
+    /// Tools are in use: not in machine coordinates.
+    tools: bool,
     layers: Vec<Layer>,
     mirrored: [bool; 3],
     rotation: Option<(f64, [f64; 2])>,
@@ -28,11 +40,11 @@ struct Coordinates {
 
 /// What a subroutine shares with its caller and a cycle gives back.
 #[derive(Clone, Debug)]
-struct Modal {
-    path: u32,
-    plane: u32,
-    absolute: bool,
-    absolute_centres: bool,
+pub struct Modal {
+    pub path: u32,
+    pub plane: u32,
+    pub absolute: bool,
+    pub absolute_centres: bool,
     /// G20 to G23.
     mirrors: [bool; 2],
 }
@@ -47,10 +59,13 @@ enum Flow {
 
 pub struct Model<'a> {
     program: &'a Program,
-    modal: Modal,
+    pub modal: Modal,
     coordinates: Coordinates,
     table: BTreeMap<(u32, usize), f64>,
-    machine: Point,
+    pub machine: Point,
+    /// Length and offsets of the axes.
+    tools: BTreeMap<u32, (f64, Point)>,
+    tool: u32,
     /// P parameters, V.P, elements of arrays.
     values: BTreeMap<String, f64>,
     /// V.L of the levels.
@@ -58,6 +73,8 @@ pub struct Model<'a> {
     /// @P of the cycle in work.
     passed: Vec<Vec<f64>>,
     pub driven: Driven,
+    /// A tool does not fit into an inner corner.
+    pub narrow: bool,
     /// Blocks carried out.
     pub steps: usize,
 }
@@ -71,9 +88,16 @@ pub fn axes_of(plane: u32) -> [usize; 3] {
     }
 }
 
+/// Where a coordinate system stands: shift, then turns about Z, Y and X.
+fn placed([x, y, z, a, b, c]: &[f64; 6]) -> Map {
+    Map::shift([*x, *y, *z])
+        .then_inner(&Map::turn(0, 1, *c))
+        .then_inner(&Map::turn(2, 0, *b))
+        .then_inner(&Map::turn(1, 2, *a))
+}
+
 impl<'a> Model<'a> {
     pub fn new(program: &'a Program) -> Self {
-        let layer = Layer { place: UNIT, group: 0, by_value: false, preset: [0.0; 3] };
         Self {
             program,
             modal: Modal {
@@ -83,13 +107,21 @@ impl<'a> Model<'a> {
                 absolute_centres: false,
                 mirrors: [false; 2],
             },
-            coordinates: Coordinates { layers: vec![layer], mirrored: [false; 3], rotation: None },
+            coordinates: Coordinates {
+                tools: true,
+                layers: vec![Layer::new(UNIT, 0)],
+                mirrored: [false; 3],
+                rotation: None,
+            },
+            tools: BTreeMap::new(),
+            tool: 0,
             table: BTreeMap::new(),
             machine: [0.0; 3],
             values: BTreeMap::new(),
             local: vec![BTreeMap::new()],
             passed: Vec::new(),
             driven: Driven::default(),
+            narrow: false,
             steps: 0,
         }
     }
@@ -100,11 +132,18 @@ impl<'a> Model<'a> {
         self.machine
     }
 
-    fn map(&self) -> Map {
+    pub fn map(&self) -> Map {
         let mut map = UNIT;
+        if let (Some((length, offset)), true) = (self.tools.get(&self.tool), self.coordinates.tools)
+        {
+            let mut offset = *offset;
+            offset[axes_of(self.modal.plane)[2]] += length;
+            map = Map::shift(offset);
+        }
         for layer in &self.coordinates.layers {
             let zero = |axis| self.table.get(&(layer.group, axis)).copied().unwrap_or(0.0);
-            let offset: Point = std::array::from_fn(|axis| zero(axis) + layer.preset[axis]);
+            let offset: Point =
+                std::array::from_fn(|axis| zero(axis) + layer.preset[axis] + layer.position[axis]);
             map = map.then_inner(&layer.place).then_inner(&Map::shift(offset));
         }
         let signs = self.coordinates.mirrored.map(|on| if on { -1.0 } else { 1.0 });
@@ -119,14 +158,14 @@ impl<'a> Model<'a> {
     }
 
     /// Another plane ends a contour rotation.
-    fn plane(&mut self, g: u32) {
+    pub fn plane(&mut self, g: u32) {
         if g != self.modal.plane {
             self.coordinates.rotation = None;
         }
         self.modal.plane = g;
     }
 
-    fn select(&mut self, group: u32) {
+    pub fn select(&mut self, group: u32) {
         (self.layer().group, self.layer().by_value) = (group, group > 6);
     }
 
@@ -152,7 +191,11 @@ impl<'a> Model<'a> {
                 let value = self.value(value);
                 self.assign(to, value);
             }
-            Statement::Move(motion) => self.motion(motion),
+            Statement::Move(_)
+            | Statement::Compensated(_)
+            | Statement::Corner(..)
+            | Statement::TwoAngles(..)
+            | Statement::Suppressed(_) => self.motions(statement),
             Statement::Local(name, value) => {
                 let value = self.value(value);
                 self.local.last_mut().unwrap().insert(name.clone(), value);
@@ -178,6 +221,18 @@ impl<'a> Model<'a> {
                     *preset = before * *preset + value;
                 }
             }
+            Statement::PositionPreset(words) => {
+                let here = self.map().back(self.machine);
+                for Word { axis, value } in words {
+                    let value = self.value(value);
+                    self.layer().position[*axis] += here[*axis] - value;
+                }
+            }
+            Statement::PresetOff => self.layer().position = [0.0; 3],
+            Statement::ToolData(number, _, length, offsets) => {
+                self.tools.insert(*number, (*length, *offsets));
+            }
+            Statement::Tool(number) => self.tool = *number,
             Statement::Mirror(g) => {
                 self.modal.mirrors = [[21, 23].contains(g), [22, 23].contains(g)];
                 let mirrored = &mut self.coordinates.mirrored;
@@ -193,26 +248,25 @@ impl<'a> Model<'a> {
             }
             Statement::RotationOff(_) => self.coordinates.rotation = None,
             Statement::System(values) | Statement::StoredSystem(_, values) => {
-                let [x, y, z, a, b, c] = *values;
-                let place = Map::shift([x, y, z])
-                    .then_inner(&Map::turn(0, 1, c))
-                    .then_inner(&Map::turn(2, 0, b))
-                    .then_inner(&Map::turn(1, 2, a));
-                self.coordinates.layers.push(Layer {
-                    place,
-                    group: 7777,
-                    by_value: false,
-                    preset: [0.0; 3],
-                });
+                self.coordinates.layers.push(Layer::new(placed(values), NO_GROUP));
             }
+            Statement::Stack(systems, selected) => {
+                let layers = systems.iter().map(|values| Layer::new(placed(values), NO_GROUP));
+                self.coordinates.layers.extend(layers.take(*selected));
+            }
+            // it stands below all others
+            Statement::StackOff(..) => self.coordinates.layers.truncate(1),
             Statement::SystemOff(all) => {
                 let left = self.coordinates.layers.len() - 1;
                 self.coordinates.layers.truncate(if *all { 1 } else { left.max(1) });
             }
             Statement::Machine(body) => {
-                let layer = Layer { place: UNIT, group: 7777, by_value: false, preset: [0.0; 3] };
-                let bare =
-                    Coordinates { layers: vec![layer], mirrored: [false; 3], rotation: None };
+                let bare = Coordinates {
+                    tools: false,
+                    layers: vec![Layer::new(UNIT, NO_GROUP)],
+                    mirrored: [false; 3],
+                    rotation: None,
+                };
                 let before = std::mem::replace(&mut self.coordinates, bare);
                 let flow = self.all(body);
                 self.coordinates = before;
@@ -287,6 +341,12 @@ impl<'a> Model<'a> {
                 while self.all(body) != Flow::Break && !self.holds(condition) {}
                 Flow::On
             }
+            Statement::Again(_, body, condition) => loop {
+                let flow = self.all(body);
+                if flow != Flow::On || !self.holds(condition) {
+                    return flow;
+                }
+            },
             Statement::Switch(value, cases, default) => {
                 let value = self.value(value);
                 let first =
@@ -313,72 +373,6 @@ impl<'a> Model<'a> {
             }
             _ => unreachable!("{statement:?}"),
         }
-    }
-
-    fn motion(&mut self, motion: &Motion) {
-        self.plane(motion.plane.unwrap_or(self.modal.plane));
-        self.modal.absolute = motion.absolute.unwrap_or(self.modal.absolute);
-        self.modal.path = motion.path.unwrap_or(self.modal.path);
-        if let Some(group) = motion.group {
-            self.select(group);
-        }
-        let map = self.map();
-        let from = map.back(self.machine);
-        let mut to = from;
-        for word in &motion.words {
-            let value = self.value(&word.value);
-            to[word.axis] = if self.modal.absolute { value } else { from[word.axis] + value };
-        }
-        let start = self.machine;
-        self.machine = map.of(to);
-        let piece = if self.modal.path < 2 {
-            Piece::line(motion.number, start, self.machine)
-        } else {
-            self.arc(motion, &map, from, to)
-        };
-        if piece.length > 1e-9 {
-            self.driven.push(piece);
-        }
-    }
-
-    fn arc(&self, motion: &Motion, map: &Map, from: Point, to: Point) -> Piece {
-        let [a, b, third] = axes_of(self.modal.plane);
-        let against_the_clock = self.modal.path == 3;
-        let (dx, dy) = (to[a] - from[a], to[b] - from[b]);
-        let way = libm::hypot(dx, dy);
-        let centre = if let Some(radius) = motion.radius {
-            // the short arc against the clock has its centre on the left of the chord
-            let height = (radius * radius - way * way / 4.0).max(0.0).sqrt();
-            let left = if against_the_clock == (radius > 0.0) { height } else { -height };
-            let middle = [(from[a] + to[a]) / 2.0, (from[b] + to[b]) / 2.0];
-            [middle[0] - left * dy / way, middle[1] + left * dx / way]
-        } else {
-            let base = if self.modal.absolute_centres { [0.0; 3] } else { from };
-            let given = |axis: usize| {
-                let letter = ['I', 'J', 'K'][axis];
-                motion.centre.iter().find(|(l, _)| *l == letter).map_or(0.0, |(_, value)| *value)
-            };
-            [base[a] + given(a), base[b] + given(b)]
-        };
-        let angle_of = |p: Point| libm::atan2(p[b] - centre[1], p[a] - centre[0]);
-        let mut angle = angle_of(to) - angle_of(from);
-        if !against_the_clock {
-            angle = -angle;
-        }
-        while angle <= 1e-9 {
-            angle += TAU;
-        }
-        while angle > TAU + 1e-9 {
-            angle -= TAU;
-        }
-        // radius vector, and the same a quarter turn on
-        let (x, y) = (from[a] - centre[0], from[b] - centre[1]);
-        let sense = if against_the_clock { 1.0 } else { -1.0 };
-        let (mut u, mut v, mut c, mut rise) = ([0.0; 3], [0.0; 3], from, [0.0; 3]);
-        (u[a], u[b], v[a], v[b]) = (x, y, -sense * y, sense * x);
-        (c[a], c[b], rise[third]) = (centre[0], centre[1], to[third] - from[third]);
-        let uv = [map.direction(u), map.direction(v)];
-        Piece::arc(motion.number, map.of(c), uv, angle, map.direction(rise))
     }
 
     fn assign(&mut self, to: &Expr, value: f64) {
@@ -409,7 +403,7 @@ impl<'a> Model<'a> {
         self.value(condition).abs() >= 0.5
     }
 
-    fn value(&self, expr: &Expr) -> f64 {
+    pub fn value(&self, expr: &Expr) -> f64 {
         match expr {
             Expr::Number(x) => *x,
             Expr::Of(function, inner) => {

@@ -1,5 +1,7 @@
 //! Lines, arcs and helices of the model, by their lengths.
 
+use crate::map::Map;
+
 pub type Point = [f64; 3];
 
 pub fn plus(a: Point, b: Point, times: f64) -> Point {
@@ -19,11 +21,11 @@ fn norm(a: Point) -> f64 {
 pub struct Piece {
     /// Number of the motion block.
     pub number: usize,
-    centre: Point,
-    u: Point,
-    v: Point,
-    angle: f64,
-    rise: Point,
+    pub centre: Point,
+    pub u: Point,
+    pub v: Point,
+    pub angle: f64,
+    pub rise: Point,
     pub length: f64,
 }
 
@@ -38,6 +40,17 @@ impl Piece {
     pub fn arc(number: usize, centre: Point, [u, v]: [Point; 2], angle: f64, rise: Point) -> Self {
         let length = (dot(u, u) * angle * angle + dot(rise, rise)).sqrt();
         Self { number, centre, u, v, angle, rise, length }
+    }
+
+    /// Through a rigid motion or a mirroring.
+    pub fn moved(&self, map: &Map) -> Self {
+        Self {
+            centre: map.of(self.centre),
+            u: map.direction(self.u),
+            v: map.direction(self.v),
+            rise: map.direction(self.rise),
+            ..self.clone()
+        }
     }
 
     /// Where the path is at this share of the piece.

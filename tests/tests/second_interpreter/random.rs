@@ -1,7 +1,7 @@
 //! Random programs that have exactly one meaning by the manual.
 //!
 //! Where the manual says nothing, nothing is written: behind every change of offsets or frames all axes are programmed absolutely
-//! (before it only increments), arcs have ends that fit to their centres, loops end.
+//! (before it only increments) where a rotation or a system may couple them, arcs have ends that fit to their centres, loops end.
 
 use crate::expressions::{PARAMETERS, PASSED, TABLE, both, decimal, name, of};
 use crate::model::axes_of;
@@ -12,17 +12,21 @@ use kontur_kit::Random;
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Subroutines with smaller numbers may be called.
-    callable: usize,
+    pub callable: usize,
     pub cycle: bool,
     /// In a file of its own, from where local subroutines are not seen.
-    global: bool,
-    depth: usize,
-    breaks: bool,
-    continues: bool,
-    /// Coordinate systems or machine coordinates around it.
-    framed: usize,
+    pub global: bool,
+    pub depth: usize,
+    pub breaks: bool,
+    pub continues: bool,
+    /// Coordinate systems around it, here and where subroutines may be called.
+    pub framed: usize,
     /// A contour rotation keeps to its plane.
-    turned: bool,
+    pub turned: bool,
+    /// Machine coordinates: without changes of offsets or frames.
+    pub machine: bool,
+    /// In the main program, below all systems and rotations.
+    pub lowest: bool,
 }
 
 pub struct Writer<'a> {
@@ -40,7 +44,7 @@ pub fn program(random: &mut Random) -> Program {
             writer.random.pick(&[Kind::Local, Kind::Global, Kind::LocalCycle, Kind::GlobalCycle]);
         let cycle = matches!(kind, Kind::LocalCycle | Kind::GlobalCycle);
         let global = matches!(kind, Kind::Global | Kind::GlobalCycle);
-        let place = Place { callable, cycle, global, ..Place::TOP };
+        let place = Place { callable, cycle, global, ..Place::SUBROUTINE };
         let mut body = vec![Statement::Local("V.L.A".to_owned(), writer.literal())];
         body.extend(writer.statements(place, 4));
         subroutines.push(Subroutine { kind, body });
@@ -62,7 +66,12 @@ impl Place {
         continues: false,
         framed: 0,
         turned: false,
+        machine: false,
+        lowest: true,
     };
+
+    /// Systems of the caller, and those of its own.
+    const SUBROUTINE: Self = Self { framed: 2, lowest: false, ..Self::TOP };
 
     fn deeper(self) -> Self {
         Self { depth: self.depth + 1, ..self }
@@ -72,10 +81,10 @@ impl Place {
         Self { breaks: true, continues: true, ..self.deeper() }
     }
 
-    /// Inside of a frame that has to be left at its end: no way out but the end, no subroutine that could open more.
-    fn inside(self) -> Self {
+    /// Inside of a frame that has to be left at its end: no way out but the end.
+    pub fn inside(self) -> Self {
         Self {
-            callable: 0,
+            lowest: false,
             breaks: false,
             continues: false,
             framed: self.framed + 1,
@@ -106,6 +115,11 @@ impl Writer<'_> {
             let axis = self.random.below(3);
             all.push(Statement::Table(group, axis, self.literal()));
         }
+        for tool in 1..=3 {
+            let (radius, length) = (self.random.below(5) as f64, decimal(self.random, 20.0));
+            let offsets = std::array::from_fn(|_| decimal(self.random, 4.0));
+            all.push(Statement::ToolData(tool, radius, length, offsets));
+        }
         all.push(self.whole_move());
         all
     }
@@ -115,41 +129,29 @@ impl Writer<'_> {
         self.names
     }
 
-    fn number(&mut self) -> usize {
+    pub fn number(&mut self) -> usize {
         self.motions += 1;
         self.motions
     }
 
-    fn words(&mut self, place: Place, axes: &[usize]) -> Vec<Word> {
+    pub fn words(&mut self, place: Place, axes: &[usize]) -> Vec<Word> {
         axes.iter().map(|axis| Word { axis: *axis, value: self.coordinate(place) }).collect()
     }
 
-    fn line_to(&mut self, words: Vec<Word>, absolute: Option<bool>) -> Motion {
+    pub fn line_to(&mut self, words: Vec<Word>, absolute: Option<bool>) -> Motion {
         let path = Some(self.random.below(2) as u32);
         Motion { number: self.number(), path, absolute, words, ..Motion::default() }
     }
 
     /// All axes, absolutely.
-    fn whole_move(&mut self) -> Statement {
+    pub fn whole_move(&mut self) -> Statement {
         let axes = self.random.pick(&[[0, 1, 2], [2, 0, 1], [1, 0, 2]]);
         let literal = |axis| Word { axis, value: Expr::Number(decimal(self.random, 30.0)) };
         let words = axes.map(literal).to_vec();
         Statement::Move(self.line_to(words, Some(true)))
     }
 
-    /// A change of offsets or frames, increments, and all axes.
-    fn changed(&mut self, change: Statement) -> Vec<Statement> {
-        let mut all = vec![change];
-        for _ in 0..self.random.below(2) {
-            let axis = self.random.below(3);
-            let words = vec![Word { axis, value: Expr::Number(decimal(self.random, 9.0)) }];
-            all.push(Statement::Move(self.line_to(words, Some(false))));
-        }
-        all.push(self.whole_move());
-        all
-    }
-
-    fn statements(&mut self, place: Place, most: usize) -> Vec<Statement> {
+    pub fn statements(&mut self, place: Place, most: usize) -> Vec<Statement> {
         let count = 1 + self.random.below(most);
         let mut all = Vec::new();
         for _ in 0..count {
@@ -168,19 +170,20 @@ impl Writer<'_> {
     }
 
     fn statement(&mut self, place: Place) -> Vec<Statement> {
-        match self.random.below(20) {
-            0..=4 => self.lines(place),
-            5..=7 => self.arcs(place),
-            8 | 9 => vec![self.assignment(place)],
-            10..=12 => self.offsets(place),
-            13 | 14 if place.framed < 2 && !place.turned => self.frames(place),
-            15..=18 if place.depth < 3 => self.control(place),
-            19 if place.callable > 0 => self.call(place),
+        match self.random.below(25) {
+            0..=3 => self.lines(place),
+            4..=6 => self.arcs(place),
+            7 | 8 => self.contours(place),
+            9 | 10 => vec![self.assignment(place)],
+            11..=14 if !place.machine => self.offsets(place),
+            15..=17 if place.framed < 4 && !place.turned && !place.machine => self.frames(place),
+            18..=21 if place.depth < 4 => self.control(place),
+            22 | 23 if place.callable > 0 && place.framed < 3 && !place.turned => self.call(place),
             _ => self.lines(place),
         }
     }
 
-    fn lines(&mut self, place: Place) -> Vec<Statement> {
+    pub fn lines(&mut self, place: Place) -> Vec<Statement> {
         let mut axes = vec![0, 1, 2];
         axes.remove(self.random.below(3));
         if self.random.chance(0.5) {
@@ -214,7 +217,8 @@ impl Writer<'_> {
         let plane = if place.turned { 17 } else { self.random.pick(&[17, 18, 19]) };
         let [a, b, third] = axes_of(plane);
         let letters = [['I', 'J', 'K'][a], ['I', 'J', 'K'][b]];
-        let mut all = vec![Statement::Plane(plane)];
+        // the length of the tool changes its axis with the plane
+        let mut all = vec![Statement::Plane(plane), self.whole_move()];
         let path = Some(2 + self.random.below(2) as u32);
         let (x, y) = (decimal(self.random, 12.0), 0.5 + decimal(self.random, 12.0).abs());
         let way = libm::hypot(x, y);
@@ -276,84 +280,21 @@ impl Writer<'_> {
         Statement::Assign(to, value)
     }
 
-    fn offsets(&mut self, place: Place) -> Vec<Statement> {
-        let change = match self.random.below(6) {
-            0 => {
-                let group = self.random.pick(&[0, 1, 2, 3, 9]);
-                let Statement::Move(mut motion) = self.whole_move() else { unreachable!() };
-                motion.group = Some(group);
-                return vec![Statement::Move(motion)];
-            }
-            1 | 2 => Statement::Group(self.random.pick(&[0, 1, 2, 3, 9])),
-            3 => {
-                let axis = self.random.below(3);
-                let value = both(Operator::Mod, self.value(place, 1), Expr::Number(9.0));
-                Statement::Table(self.random.pick(&[1, 2, 3, 9]), axis, value)
-            }
-            4 if place.framed == 0 => {
-                if self.random.chance(0.5) {
-                    Statement::Mirror(20 + self.random.below(4) as u32)
-                } else {
-                    Statement::MirrorAxis(self.random.below(3), self.random.chance(0.5))
-                }
-            }
-            _ => {
-                // repeated increments stay small
-                let axis = self.random.below(3);
-                let value = Expr::Number(decimal(self.random, 3.0));
-                Statement::Preset(vec![Word { axis, value }])
-            }
-        };
-        self.changed(change)
-    }
-
-    fn frames(&mut self, place: Place) -> Vec<Statement> {
-        let inside = place.inside();
-        let (open, close, place) = match self.random.below(4) {
-            0 => {
-                let deg = decimal(self.random, 170.0);
-                let centre = [decimal(self.random, 9.0), decimal(self.random, 9.0)];
-                let word = self.random.chance(0.5);
-                let off = Statement::RotationOff(word);
-                (Statement::Rotation(word, deg, centre), off, Place { turned: true, ..inside })
-            }
-            1 if place.framed == 0 => {
-                let mut body = self.lines(Place { framed: 2, ..inside });
-                body.extend(self.arcs(Place { framed: 2, ..inside }));
-                body.retain(|s| !matches!(s, Statement::Assign(..)));
-                let first = self.whole_move();
-                body.insert(0, first);
-                let mut all = vec![Statement::Machine(body)];
-                all.push(self.whole_move());
-                return all;
-            }
-            _ => {
-                let mut values = [0.0; 6];
-                for (i, value) in values.iter_mut().enumerate() {
-                    if i < 3 || self.random.chance(0.6) {
-                        *value = decimal(self.random, if i < 3 { 9.0 } else { 170.0 });
-                    }
-                }
-                // P-CHAN-00394: the second angle within a quarter turn has one reading only
-                let all = place.framed == 0 && self.random.chance(0.3);
-                let off = Statement::SystemOff(all);
-                let on = if self.random.chance(0.5) {
-                    Statement::System(values)
-                } else {
-                    Statement::StoredSystem(1 + self.random.below(5) as u32, values)
-                };
-                (on, off, inside)
-            }
-        };
-        let mut all = self.changed(open);
-        all.extend(self.statements(place, 4));
-        all.extend(self.changed(close));
-        all
-    }
-
     fn control(&mut self, place: Place) -> Vec<Statement> {
         let one = self.fresh();
-        match self.random.below(9) {
+        match self.random.below(10) {
+            9 => {
+                let counter = name(format!("V.P.N{one}"));
+                let set = Statement::Assign(counter.clone(), Expr::Number(0.0));
+                let more = both(Operator::Add, counter.clone(), Expr::Number(1.0));
+                let mut body = vec![Statement::Assign(counter.clone(), more)];
+                let inside = Place { breaks: false, continues: false, ..place.deeper() };
+                body.extend(self.statements(inside, 3));
+                let few = Expr::Number(1.0 + self.random.below(3) as f64);
+                let again =
+                    Statement::Again(80_000 + one, body, both(Operator::Less, counter, few));
+                vec![set, again]
+            }
             0 | 1 => {
                 let mut branches = Vec::new();
                 for _ in 0..=self.random.below(3) {

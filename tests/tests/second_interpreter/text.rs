@@ -1,6 +1,8 @@
 //! A program as the control reads it.
 
-use crate::tree::{Expr, Function, Kind, Motion, Operator, Program, Statement, Subroutine, Word};
+use crate::tree::{
+    Expr, Function, Insert, Kind, Motion, Operator, Program, Statement, Subroutine, Word,
+};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -67,11 +69,40 @@ impl File {
     fn statement(&mut self, statement: &Statement, program: &Program) {
         match statement {
             Statement::Assign(to, value) => self.line(&format!("{}={}", text(to), text(value))),
-            Statement::Move(motion) => {
-                let line = self.text.lines().count() as u32 + 1;
-                self.places.insert(motion.number, (self.name.clone(), line));
-                self.line(&motion_text(motion));
+            Statement::Move(motion) => self.motion("", motion),
+            Statement::Compensated(contour) => {
+                self.line(&format!("V.G.WZ_AKT.R={}", contour.radius));
+                let side = if contour.left { "G41" } else { "G42" };
+                let on = format!("{side} {}", if contour.by_arcs { "G26" } else { "G25" });
+                self.switched(&on, contour.in_block, &contour.approach);
+                for element in &contour.elements {
+                    self.motion("", element);
+                }
+                self.switched("G40", contour.in_block, &contour.exit);
             }
+            Statement::Corner(kind, size, [first, second]) => {
+                self.motion("", first);
+                self.line(&match kind {
+                    Insert::Chamfer => format!("G301 I{size}"),
+                    Insert::ChamferLength => format!("#CHF={size}"),
+                    Insert::Rounding => format!("G302 I{size}"),
+                });
+                self.motion("", second);
+            }
+            Statement::TwoAngles([a, b], [first, second]) => {
+                self.motion(&format!("#ANG={a}"), first);
+                self.motion(&format!("#ANG={b}"), second);
+            }
+            Statement::Suppressed(motion) => self.motion("#SUPPRESS OFFSETS", motion),
+            Statement::PositionPreset(words) => self.line(&format!("#PSET{}", words_text(words))),
+            Statement::PresetOff => self.line("#PRESET"),
+            Statement::ToolData(number, radius, length, offsets) => {
+                self.line(&format!("V.G.WZ[{number}].R={radius}\nV.G.WZ[{number}].L={length}"));
+                for (axis, offset) in AXES.iter().zip(offsets) {
+                    self.line(&format!("V.G.WZ[{number}].V.{axis}={offset}"));
+                }
+            }
+            Statement::Tool(number) => self.line(&format!("D{number}")),
             Statement::Local(name, value) => {
                 self.line(&format!("#VAR\n{name}={}\n#ENDVAR", text(value)));
             }
@@ -105,6 +136,16 @@ impl File {
             Statement::StoredSystem(id, values) => {
                 self.line(&format!("#CS DEF [{id}]{}\n#CS ON [{id}]", list(values)));
             }
+            Statement::Stack(systems, selected) => {
+                for (i, values) in systems.iter().enumerate() {
+                    self.line(&format!("#CS ADD [SYS{i}N] {}", list(values)));
+                }
+                self.line(&format!("#CS SELECT [SYS{}N]", selected - 1));
+            }
+            Statement::StackOff(count, all) => {
+                let lines = if *all { vec!["#CS DEL ALL"] } else { vec!["#CS DEL"; *count] };
+                lines.into_iter().for_each(|line| self.line(line));
+            }
             Statement::SystemOff(all) => self.line(if *all { "#CS OFF ALL" } else { "#CS OFF" }),
             Statement::Machine(body) => {
                 self.line("#MCS ON");
@@ -128,6 +169,23 @@ impl File {
                 });
             }
             _ => self.control(statement, program),
+        }
+    }
+
+    /// A motion, with words before those of the axes.
+    fn motion(&mut self, words: &str, motion: &Motion) {
+        let line = self.text.lines().count() as u32 + 1;
+        self.places.insert(motion.number, (self.name.clone(), line));
+        self.line(&motion_text(words, motion));
+    }
+
+    /// Words in a block of their own, or in that of a motion.
+    fn switched(&mut self, words: &str, in_block: bool, motion: &Motion) {
+        if in_block {
+            self.motion(words, motion);
+        } else {
+            self.line(words);
+            self.motion("", motion);
         }
     }
 
@@ -184,6 +242,11 @@ impl File {
                 self.statements(body, program);
                 self.line(&format!("N{number}:"));
             }
+            Statement::Again(number, body, condition) => {
+                self.line(&format!("N{number}:"));
+                self.statements(body, program);
+                self.line(&format!("$IF {} $GOTO N{number}", text(condition)));
+            }
             _ => unreachable!("{statement:?}"),
         }
     }
@@ -212,8 +275,8 @@ fn words_text(words: &[Word]) -> String {
     line
 }
 
-fn motion_text(motion: &Motion) -> String {
-    let mut line = format!("N{}", motion.number);
+fn motion_text(words: &str, motion: &Motion) -> String {
+    let mut line = format!("N{} {words}", motion.number);
     if let Some(plane) = motion.plane {
         let _ = write!(line, " G{plane}");
     }
@@ -225,6 +288,9 @@ fn motion_text(motion: &Motion) -> String {
     }
     if let Some(path) = motion.path {
         let _ = write!(line, " G{path:02}");
+    }
+    if let Some(deg) = motion.angle {
+        let _ = write!(line, " #ANG={deg}");
     }
     line.push_str(&words_text(&motion.words));
     for (letter, value) in &motion.centre {

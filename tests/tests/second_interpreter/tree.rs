@@ -65,6 +65,34 @@ pub struct Motion {
     pub words: Vec<Word>,
     pub centre: Vec<(char, f64)>,
     pub radius: Option<f64>,
+    /// `#ANG`: one coordinate of the plane follows from the other one.
+    pub angle: Option<f64>,
+}
+
+/// What is inserted between two motions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Insert {
+    /// G301: distance of its ends from the corner.
+    Chamfer,
+    /// `#CHF`: its own length.
+    ChamferLength,
+    /// G302.
+    Rounding,
+}
+
+/// A contour under tool radius compensation.
+#[derive(Clone, Debug)]
+pub struct Contour {
+    /// G41.
+    pub left: bool,
+    /// G26 in place of G25.
+    pub by_arcs: bool,
+    pub radius: f64,
+    /// G41 or G42, and G40, stand in the blocks of the motions.
+    pub in_block: bool,
+    pub approach: Motion,
+    pub elements: Vec<Motion>,
+    pub exit: Motion,
 }
 
 #[derive(Clone, Debug)]
@@ -75,6 +103,13 @@ pub enum Statement {
     /// `#VAR` of an array.
     Array(String, Vec<f64>),
     Move(Motion),
+    Compensated(Contour),
+    /// Two motions with a chamfer or a rounding of a size.
+    Corner(Insert, f64, [Motion; 2]),
+    /// Two contour lines by two angles and the end of the second one.
+    TwoAngles([f64; 2], [Motion; 2]),
+    /// `#SUPPRESS OFFSETS`, as a line.
+    Suppressed(Motion),
     /// Words that are written as they are and change one thing.
     Plane(u32),
     Absolute(bool),
@@ -85,6 +120,14 @@ pub enum Statement {
     Table(u32, usize, Expr),
     /// G92.
     Preset(Vec<Word>),
+    /// `#PSET`.
+    PositionPreset(Vec<Word>),
+    /// `#PRESET` of all axes.
+    PresetOff,
+    /// Data of a tool: number, radius, length, offsets of the axes.
+    ToolData(u32, f64, f64, [f64; 3]),
+    /// D.
+    Tool(u32),
     /// G20 to G23.
     Mirror(u32),
     /// G351: axis and sign.
@@ -97,6 +140,10 @@ pub enum Statement {
     /// `#CS DEF` of a number and its selection.
     StoredSystem(u32, [f64; 6]),
     SystemOff(bool),
+    /// `#CS ADD` of systems, of which the lower ones are selected.
+    Stack(Vec<[f64; 6]>, usize),
+    /// `#CS DEL ALL`, or as often as there are systems.
+    StackOff(usize, bool),
     /// `#MCS ON` to `#MCS OFF`.
     Machine(Vec<Statement>),
     /// Conditions with their branches, and the `$ELSE` branch.
@@ -114,6 +161,8 @@ pub enum Statement {
     Continue,
     /// `$IF .. $GOTO N..` over some statements to a block number.
     Skip(Expr, usize, Vec<Statement>),
+    /// Statements from a block number on, and `$IF .. $GOTO N..` back to it.
+    Again(usize, Vec<Statement>, Expr),
     /// A local or a global subroutine by its number.
     Call(usize),
     /// A cycle with its parameters.

@@ -284,6 +284,7 @@ conditions! {
     BehindCall = Vendor 21542: Error ProgramAbort 3 1, "NC command after a subroutine or cycle call", cause "LL SUB Z300", hint "write it before the call or in the next block";
     ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
+    SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE twice, or keys that do not go together", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";

@@ -129,7 +129,11 @@ impl Decoder {
             self.report.note(Fault::new(Condition::Odd, text, span).warning());
             self.geometry.coordinates.set_rotation(None);
         }
-        self.modal.plane = plane;
+        if plane != self.modal.plane {
+            self.modal.plane = plane;
+            // the length acts along the third axis of the plane
+            self.tool_offsets();
+        }
     }
 
     fn feeds_and_modes(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {

@@ -149,6 +149,7 @@ impl Decoder {
             }
             crate::exec::geometry::tools::Tool::default()
         };
+        self.geometry.coordinates.tool_programmed();
         self.tool_offsets();
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
@@ -161,8 +162,9 @@ impl Decoder {
         }
         let mut offsets = AxisVec::zeros(self.machine.axes.len());
         let normal = self.modal.plane.main_axes()[2];
-        if let Some(axis) = self.geometry.coordinates.main_axis(normal) {
-            offsets[axis] = self.geometry.tools.active.length_mm;
+        let third = self.geometry.coordinates.main_axis(normal).map(|axis| (axis, 1.0));
+        if let Some((axis, sign)) = self.geometry.tools.length_axis.or(third) {
+            offsets[axis] = sign * self.geometry.tools.active.length_mm;
         }
         for (axis, value) in &self.geometry.tools.active.offsets_mm {
             offsets[*axis] += value;

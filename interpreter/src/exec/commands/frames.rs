@@ -50,7 +50,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 /// Six values `[x, y, z, a, b, c]`, the last ones optional, gaps 0.
-fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
+pub(super) fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
     let mut values = [0.0; 6];
     if group.items.len() > values.len() {
         return Err(Fault::new(
@@ -128,6 +128,10 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
         return Err(Fault::unsupported("#CS between #MCS ON and #MCS OFF", call.span()));
     }
     no_compensation(decoder, call)?;
+    if decoder.geometry.coordinates.stack_active() > 0 {
+        let what = format!("{} while a system of #CS SELECT is active", call.title());
+        return Err(Fault::unsupported(what, call.span()).hint("#CS DEL ALL deletes the stack"));
+    }
     if let Some(word) = call.rest.first() {
         if word.is("MODE") {
             return Err(Fault::unsupported("#CS MODE", call.span()));
@@ -223,7 +227,7 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
 }
 
 /// 20802 for a change of the coordinate system between G41 or G42 and G40.
-fn no_compensation(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+pub(super) fn no_compensation(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     if decoder.modal.compensation == Compensation::Off {
         return Ok(());
     }

@@ -1,6 +1,8 @@
-//! Tools by their ID: `#TOOL DATA`, `#TOOL PREP`, `#TOOL REFRESH`.
+//! Tools by their ID: `#TOOL DATA`, `#TOOL PREP`, `#TOOL REFRESH`; the axis of their length: `#TLAX`.
 //!
-//! Source: TF5200 programming manual, using tool ID, refreshing tool data.
+//! Source: TF5200 programming manual, using tool ID, refreshing tool data, axis-specific assignment of tool length compensation
+//! (304765835). Assumption: with `-` the length counts against the axis; the length goes to another axis with the next absolute
+//! word, as that of another tool does.
 
 use super::row::{Call, Row};
 use crate::diag::Condition;
@@ -33,6 +35,13 @@ pub(super) const TOOL_REFRESH: Row = Row::run("TOOL REFRESH", refresh)
     .example("#TOOL REFRESH")
     .related(&["#TOOL DATA"]);
 
+/// Row of `#TLAX`.
+pub(super) const TLAX: Row = Row::run("TLAX", length_axis)
+    .form("#TLAX [axis+]   #TLAX [axis-]   #TLAX DEFAULT")
+    .meaning("the length of the tool acts along a main axis of this name in every plane; DEFAULT: along the third axis of the plane")
+    .example("#TLAX [Z+]")
+    .related(&["#TOOL REFRESH"]);
+
 fn tool_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let (number, span) = basic_number(decoder, call)?;
     decoder.select_tool_data(number, span);
@@ -47,8 +56,42 @@ fn tool_prep(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 fn refresh(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
+    decoder.geometry.coordinates.tool_programmed();
     decoder.tool_offsets();
     Ok(())
+}
+
+fn length_axis(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if let Some(word) = call.command.tail.first() {
+        return Err(call.unexpected(word));
+    }
+    if call.command.on.is_some() {
+        return Err(no_length_axis(decoder, call.span()));
+    }
+    let axis = match (call.rest, &call.command.groups[..]) {
+        ([word], []) if word.is("DEFAULT") => None,
+        ([], [group]) => {
+            let [Item { kind: ItemKind::Flag(word), .. }] = &group.items[..] else {
+                return Err(no_length_axis(decoder, group.span));
+            };
+            let name = word.text.trim_end_matches(['+', '-']);
+            let axis = decoder.names.of_name(name);
+            let axis = axis.filter(|axis| decoder.geometry.coordinates.main_index(*axis).is_some());
+            let axis = axis.filter(|_| name.len() + 1 == word.text.len());
+            let sign = if word.text.ends_with('-') { -1.0 } else { 1.0 };
+            Some((axis.ok_or_else(|| no_length_axis(decoder, word.span))?, sign))
+        }
+        ([word, ..], _) => return Err(call.unexpected(word)),
+        _ => return Err(no_length_axis(decoder, call.span())),
+    };
+    decoder.geometry.tools.length_axis = axis;
+    decoder.tool_offsets();
+    Ok(())
+}
+
+fn no_length_axis(decoder: &Decoder, span: Span) -> Box<Fault> {
+    let text = "#TLAX needs a main axis and its direction, or DEFAULT";
+    Fault::new(Condition::TokenUnknown, text, span).hint(decoder.names.hint())
 }
 
 /// The number of the basic tool.

@@ -9,6 +9,7 @@
 
 mod layer;
 mod machine;
+mod stack;
 
 use super::frame::Frame;
 use crate::diag::Condition;
@@ -17,6 +18,7 @@ use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use layer::Layer;
 use machine::Suspended;
+use stack::Stack;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Contour rotation (G68, `#ROTATION`).
@@ -36,6 +38,25 @@ pub(in crate::exec) struct Target {
     pub(in crate::exec) value: f64,
     /// G90; otherwise an increment (G91).
     pub(in crate::exec) absolute: bool,
+}
+
+/// A kind of offsets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) enum OffsetKind {
+    /// G54 to G59, G159.
+    Zero,
+    /// G92.
+    Additive,
+    /// `#PSET`.
+    Preset,
+    Tool,
+    /// G101.
+    Measuring,
+}
+
+impl OffsetKind {
+    pub(in crate::exec) const ALL: [Self; 5] =
+        [Self::Zero, Self::Additive, Self::Preset, Self::Tool, Self::Measuring];
 }
 
 /// Coordinate systems that can be stored. Source: TF5200, #CS DEF.
@@ -67,6 +88,8 @@ pub(in crate::exec) struct Coordinates {
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
     stored: BTreeMap<u32, Frame>,
+    /// Systems with names (`#CS ADD`).
+    stack: Stack,
     /// What `#MCS ON` has put aside.
     suspended: Option<Box<Suspended>>,
     frame: Frame,
@@ -93,6 +116,7 @@ impl Coordinates {
             mirrored: vec![false; n],
             rotation: None,
             stored: BTreeMap::new(),
+            stack: Stack::default(),
             suspended: None,
             frame: Frame::IDENTITY,
             plain: true,
@@ -145,6 +169,14 @@ impl Coordinates {
         offset + self.systems.iter().map(|layer| self.layer_offset(layer, axis)).sum::<f64>()
     }
 
+    /// What is left of the active offset without those of these kinds.
+    pub(in crate::exec) fn offset_without(&self, kinds: &[OffsetKind], axis: usize) -> f64 {
+        let tool = if kinds.contains(&OffsetKind::Tool) { 0.0 } else { self.tool[axis] };
+        let measuring =
+            if kinds.contains(&OffsetKind::Measuring) { 0.0 } else { self.measuring[axis] };
+        self.lowest_without(kinds, axis) + tool + measuring
+    }
+
     /// Offset contained in the target of an axis.
     pub(in crate::exec) fn applied_offset(&self, axis: usize) -> f64 {
         self.applied[axis]
@@ -159,11 +191,11 @@ impl Coordinates {
         self.measuring[axis] = value_mm;
     }
 
-    /// `#SUPPRESS OFFSETS`: targets of axes without offsets.
-    pub(in crate::exec) fn program_without_offsets(&mut self, words: &[Target]) {
+    /// `#SUPPRESS OFFSETS`: targets of axes without offsets of these kinds. Not in a frame.
+    pub(in crate::exec) fn program_without(&mut self, kinds: &[OffsetKind], words: &[Target]) {
         for &Target { axis, value, .. } in words {
             self.word[axis] = value;
-            self.target[axis] = value;
+            self.target[axis] = value + self.offset_without(kinds, axis);
             self.applied[axis] = self.active_offset(axis);
         }
         self.recompute_program();

@@ -15,4 +15,6 @@ pub(in crate::exec) struct Tools {
     pub(in crate::exec) data: u32,
     /// Data in use: a copy, so that `V.G.WZ_AKT` can be written.
     pub(in crate::exec) active: Tool,
+    /// `#TLAX`: axis that has the length, 1 or -1; otherwise it is the third one of the plane.
+    pub(in crate::exec) length_axis: Option<(usize, f64)>,
 }

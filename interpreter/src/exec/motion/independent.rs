@@ -10,7 +10,7 @@ use super::state::Function;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::Target;
+use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::block::SlopeKind;
@@ -78,11 +78,9 @@ impl Decoder {
         let way = position * self.axis_unit(axis);
         let target = if relative { start[axis] + way } else { way };
         // the offsets of the program do not act on independent axes
-        self.geometry.coordinates.program_without_offsets(&[Target {
-            axis,
-            value: target,
-            absolute: true,
-        }]);
+        self.geometry
+            .coordinates
+            .program_without(&OffsetKind::ALL, &[Target { axis, value: target, absolute: true }]);
         self.check_limit(axis, target, at);
         if let IndependentSpeed::Time(time_s) = speed {
             let least_s = (target - start[axis]).abs()

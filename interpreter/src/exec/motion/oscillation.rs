@@ -12,7 +12,7 @@ use crate::diag::Condition;
 use crate::exec::commands::keys::{above_zero, arguments, at_least};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::Target;
+use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::step::{Event, OscillatingMotion, Sync};
 use crate::syntax::ast::{Group, Item, Span};
 use kontur_motion::independent::IndependentSpeed;
@@ -139,7 +139,7 @@ impl Decoder {
         self.check_limit(axis, reversal_mm[1], second_at);
         let from_mm = self.geometry.coordinates.target()[axis];
         let target = Target { axis, value: reversal_mm[1], absolute: true };
-        self.geometry.coordinates.program_without_offsets(&[target]);
+        self.geometry.coordinates.program_without(&OffsetKind::ALL, &[target]);
         self.motion.independent.way[axis] += reversal_mm[1] - from_mm;
         let rest = |key: Option<(f64, Span)>| key.map_or(0.0, |(s, _)| s);
         let motion = OscillatingMotion {

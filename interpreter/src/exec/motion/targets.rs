@@ -4,9 +4,10 @@ use crate::diag::Condition;
 use crate::exec::block::words::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::Target;
+use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::geometry::modulo;
 use crate::exec::values::number::LARGEST_MM;
+use crate::syntax::ast::{Group, ItemKind};
 use kontur_motion::axis::AxisVec;
 
 impl Decoder {
@@ -33,27 +34,37 @@ impl Decoder {
         }
         targets.extend(self.motion.contour_line.targets.drain(..));
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
+        let suppressed = match suppressed {
+            Some((hash, _, at)) => {
+                let kinds =
+                    hash.bracket.as_ref().map_or_else(|| Ok(OffsetKind::ALL.to_vec()), kinds)?;
+                Some((kinds, *at))
+            }
+            None => None,
+        };
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
                 let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
                 let turn = turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?;
-                let offset = match suppressed {
-                    Some(_) => 0.0,
+                let offset = match &suppressed {
+                    Some((kinds, _)) => {
+                        self.geometry.coordinates.offset_without(kinds, target.axis)
+                    }
                     None => self.geometry.coordinates.active_offset(target.axis),
                 };
                 target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
             }
         }
         match suppressed {
-            Some((_, _, at)) if targets.iter().any(|t| !t.absolute) => {
+            Some((_, at)) if targets.iter().any(|t| !t.absolute) => {
                 let text = "#SUPPRESS OFFSETS acts only with G90";
-                return Err(Fault::new(Condition::SuppressWithIncremental, text, *at));
+                return Err(Fault::new(Condition::SuppressWithIncremental, text, at));
             }
-            Some((_, _, at)) if !self.geometry.coordinates.frame().is_identity() => {
+            Some((_, at)) if !self.geometry.coordinates.frame().is_identity() => {
                 let what = "#SUPPRESS OFFSETS in a frame";
-                return Err(Fault::unsupported(what, *at));
+                return Err(Fault::unsupported(what, at));
             }
-            Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
+            Some((kinds, _)) => self.geometry.coordinates.program_without(&kinds, &targets),
             None => self.geometry.coordinates.program(targets.iter().copied()),
         }
         self.follow_masters();
@@ -64,4 +75,27 @@ impl Decoder {
         self.follow_turning_centre(&start);
         Ok(start)
     }
+}
+
+/// The kinds of `#SUPPRESS OFFSETS [ZERO ..]`. There are no clamping offsets here and no manual mode.
+fn kinds(group: &Group) -> Outcome<Vec<OffsetKind>> {
+    let wrong = |span| {
+        let text = "#SUPPRESS OFFSETS: a kind of offsets is expected";
+        Fault::new(Condition::TokenUnknown, text, span)
+            .hint("ZERO, ADD_ZERO, PSET, CLAMP, TOOL, MEASURE, MANUAL")
+    };
+    let mut kinds = Vec::new();
+    for item in &group.items {
+        let ItemKind::Flag(word) = &item.kind else { return Err(wrong(item.span)) };
+        match word.text.to_ascii_uppercase().as_str() {
+            "ZERO" => kinds.push(OffsetKind::Zero),
+            "ADD_ZERO" => kinds.push(OffsetKind::Additive),
+            "PSET" => kinds.push(OffsetKind::Preset),
+            "TOOL" => kinds.push(OffsetKind::Tool),
+            "MEASURE" => kinds.push(OffsetKind::Measuring),
+            "CLAMP" | "MANUAL" => {}
+            _ => return Err(wrong(word.span)),
+        }
+    }
+    if group.items.is_empty() { Err(wrong(group.span)) } else { Ok(kinds) }
 }

@@ -64,6 +64,7 @@ impl Decoder {
         };
         if self.modal != restored {
             self.modal = restored;
+            self.tool_offsets();
             self.motion.dynamics_changed();
         }
     }

@@ -128,6 +128,26 @@ fn position_presets_and_suppressed_offsets() {
     let offsets = "V.G.NP[1].V.X=11\nV.G.NP[1].V.Y=22\nG54\nG92 X10 Y20\nX100 Y150 F100\n";
     assert_end(offsets, [121.0, 192.0, 0.0]);
     assert_end(&format!("{offsets}#SUPPRESS OFFSETS X50 Y100"), [50.0, 100.0, 0.0]);
+    // kinds: 11 of G54, 10 of G92, 5 of #PSET, 7 of the tool, as far as they are not suppressed
+    let all = "V.G.NP[1].V.X=11 V.G.WZ[1].V.X=7\nF100 G54 G92 X10\nX0\n#PSET X-5\nD1\nX0\n";
+    for (kinds, left) in [
+        ("", 0.0),
+        ("[ZERO]", 22.0),
+        ("[ADD_ZERO]", 23.0),
+        ("[PSET]", 28.0),
+        ("[TOOL]", 26.0),
+        ("[MEASURE CLAMP MANUAL]", 33.0),
+        ("[zero tool]", 15.0),
+        ("[ZERO ADD_ZERO PSET CLAMP TOOL MEASURE MANUAL]", 0.0),
+    ] {
+        let text = format!("{all}#SUPPRESS OFFSETS {kinds} X50 Y1");
+        assert_end(&text, [50.0 + left, 1.0, 0.0]);
+        // the offsets act again, and the program knows where it is
+        assert_end(&format!("{text}\nG91 X1\nP1=V.A.ABS.X\nG90 X P1"), [51.0 + left, 1.0, 0.0]);
+    }
+    for wrong in ["[]", "[CS]", "[ZERO=1]", "[1]"] {
+        assert_eq!(run(&format!("#SUPPRESS OFFSETS {wrong} X1 F100\nM30\n")).ids(), ["21220"]);
+    }
     assert_eq!(run("G91 #SUPPRESS OFFSETS X50 F100\nM30\n").ids(), ["20985"]);
 }
 
@@ -143,6 +163,37 @@ fn tool_length_acts_on_the_third_main_axis() {
     assert_end("V.G.WZ[2].L=50 V.G.WZ[2].R=5\nD2 Z10 F100\nX1", [1.0, 0.0, 60.0]);
     assert_end("V.G.WZ[2].L=50\nD2 Z10 F100\nD0 Z10", [0.0, 0.0, 10.0]);
     assert_eq!(run("D3 Z1 F100\nM30\n").ids(), ["K-0114"]);
+}
+
+/// The length goes to the third axis of another plane (304765835), with the next absolute word; so does the plane that a cycle
+/// gives back. Between `#MCS ON` and `#MCS OFF` only a tool acts that is programmed there.
+#[test]
+fn tool_length_follows_the_plane() {
+    let tool = "V.G.WZ[2].L=50 V.G.WZ[2].R=5\nF100 D2 X0 Y0 Z0\n";
+    assert_end(&format!("{tool}G18 X1 Y1 Z1"), [1.0, 51.0, 1.0]);
+    assert_end(&format!("{tool}G18\nG91 X1 Y1 Z1"), [1.0, 1.0, 51.0]);
+    assert_end(&format!("{tool}G19 X1 Y1 Z1\nG17 X1"), [1.0, 1.0, 1.0]);
+    let cycle = format!("%L C\nG18 X1 Y1 Z1\nM17\n%MAIN\n{tool}LL CYCLE [NAME=C]\n");
+    assert_end(&cycle, [1.0, 51.0, 1.0]);
+    assert_end(&format!("{cycle}X2 Y2 Z2"), [2.0, 2.0, 52.0]);
+    let machine = format!("{tool}#MCS ON\nX1 Y1 Z1\n");
+    assert_end(&format!("{machine}G18 X2 Y2 Z2"), [2.0, 2.0, 2.0]);
+    assert_end(&format!("{machine}V.G.WZ_AKT.R=3 X2 Z2"), [2.0, 1.0, 2.0]);
+    assert_end(&format!("{machine}D2 Z2\nG18 Y2"), [1.0, 52.0, 52.0]);
+    assert_end(&format!("{machine}G18\n#MCS OFF\nX2 Y2 Z2"), [2.0, 52.0, 2.0]);
+}
+
+#[test]
+fn tool_length_has_an_axis_of_its_own() {
+    let tool = "V.G.WZL=50\nF100 X0 Y0 Z0\n";
+    assert_end(&format!("{tool}#TLAX [Z+]\nG18 X1 Y1 Z1"), [1.0, 1.0, 51.0]);
+    assert_end(&format!("#TLAX [X-]\n{tool}G91 X1\nG90 Y1"), [-49.0, 1.0, 0.0]);
+    assert_end(&format!("{tool}#TLAX [Y+]\nX1 Y1 Z1\n#TLAX DEFAULT\nX1 Y1 Z1"), [1.0, 1.0, 51.0]);
+    for wrong in ["#TLAX", "#TLAX [Z]", "#TLAX [Q+]", "#TLAX [S+]", "#TLAX [1]", "#TLAX [Z+, X+]"] {
+        assert_eq!(run(&format!("{wrong}\nM30\n")).ids().len(), 1, "{wrong}");
+    }
+    assert_eq!(run("#TLAX OFF [Z+]\nM30\n").ids().len(), 1);
+    assert_eq!(run("V.G.WZL=5\nP1=V.G.WZL X P1 F100\nM30\n").end[0], 5.0);
 }
 
 #[test]

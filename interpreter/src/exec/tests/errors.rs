@@ -85,7 +85,6 @@ fn tools_by_their_id() {
 fn what_the_manual_knows_is_never_unknown() {
     for text in [
         "#CS DEF ACT [1]",
-        "#CS DEL ALL",
         "#INFO",
         "#GANTRY ON ALL",
         "#AX LINK NBR [1, X=Y]",

@@ -1,6 +1,6 @@
 //! Mirroring, rotation and coordinate systems carry a whole path along: arcs, helices, chamfers and compensation.
 
-use super::{assert_near, clean, said};
+use super::{assert_near, clean, run, said};
 
 /// Points of every motion of a program.
 fn points(text: &str) -> Vec<[f64; 3]> {
@@ -161,4 +161,52 @@ fn offsets_belong_to_their_system() {
         &end(&format!("{turned}#ROTATION ON [ANGLE=90]\nG92 X5\nX1 Y2")),
         &[-1.0, 3.0, 0.0],
     );
+}
+
+/// `#CS ADD` to `#CS DEL`: what the pages do not print.
+#[test]
+fn stack_of_systems() {
+    let ids = |text: &str| run(&format!("F100\n{text}\nM30\n")).ids();
+    let stack = "#CS ADD [A1B][0,0,0,0,0,90]\n#CS ADD [B][10]\n";
+    let end = |text: &str| clean(&format!("F100\n{stack}{text}\nM30\n")).end;
+    // offsets belong to a system and stay while it is active
+    assert_near(&end("#CS SELECT [A1B]\nG92 X1\n#CS SELECT [B]\nX1"), &[0.0, 12.0, 0.0]);
+    assert_near(&end("#CS SELECT [B]\nG92 X1\n#CS SELECT [A1B]\nX1"), &[0.0, 1.0, 0.0]);
+    assert_near(&end("#CS SELECT [A1B]\nG92 X1\n#CS SET [A1B][5]\nX1 Y2"), &[7.0, 2.0, 0.0]);
+    // nothing moves by itself, and increments begin where the axes are
+    assert_near(&end("X3 Y4\n#CS SELECT [B]\nG91 X1"), &[3.0, 5.0, 0.0]);
+    assert_near(
+        &end("X3 Y4\n#CS SELECT [B]\n#CS SET [B][5,6]\nG91 X1\n#CS DEL ALL\nX1"),
+        &[4.0, 5.0, 0.0],
+    );
+    // inactive ones change and go without effect; a deleted name is free again
+    assert_near(&end("#CS SELECT [A1B]\n#CS SET [B][70]\n#CS DEL\nX1"), &[0.0, 1.0, 0.0]);
+    assert_near(&end("#CS DEL\n#CS ADD [B][,20]\n#CS SELECT [B]\nX1 Y0"), &[-20.0, 1.0, 0.0]);
+    assert_near(&end("#CS SELECT [B]\n#MCS ON\nX1 Y1\n#MCS OFF\nX1 Y0"), &[0.0, 11.0, 0.0]);
+    let five =
+        ["N0S", "N1S", "N2S", "N3S", "N4S"].map(|name| format!("#CS ADD [{name}][1]\n")).concat();
+    assert_eq!(ids(&five), [""; 0]);
+    assert_near(&clean(&format!("{five}#CS SELECT [N4S]\nG00 X0\nM30\n")).end, &[5.0, 0.0, 0.0]);
+    assert_eq!(ids(&format!("{five}#CS ADD [SIX][1]")), ["20820"]);
+    for (text, id) in [
+        ("#CS SELECT [B]", "20821"),
+        ("#CS SET [B][1]", "20821"),
+        ("#CS DEL", "20821"),
+        ("#CS ADD [MCS][1]", "20675"),
+        ("#CS ADD [NINECHARS][1]", "20675"),
+        ("#CS ADD [B]", "20675"),
+        ("#CS ADD [B][1,2,3,4,5,6,7]", "20675"),
+        ("#CS ADD [B][1]\n#CS SELECT", "20675"),
+        ("#CS ADD [B][1]\n#CS SELECT [b]", "20821"),
+        ("#CS ADD [B][1]\n#CS ADD [B][1]", "21599"),
+        ("#CS ADD [B][1]\n#CS DEL [B]", "21220"),
+        ("#CS ADD [B][1]\n#CS ON [1,2,3]\n#CS SELECT [B]", "K-0019"),
+        ("#CS ADD [B][1]\n#CS SELECT [B]\n#CS ON [1,2,3]", "K-0019"),
+        ("#CS ADD [B][1]\n#CS SELECT [B]\n#CS OFF", "K-0019"),
+        ("#CS ADD [B][1]\n#MCS ON\n#CS SELECT [B]", "K-0019"),
+        ("#CS ADD [B][1]\nV.G.WZR=1 G41 X1\n#CS SELECT [B]\nG40 X2", "20802"),
+    ] {
+        assert_eq!(ids(text).first().map(String::as_str), Some(id), "{text}");
+    }
+    assert_eq!(ids("#CS DEL ALL"), [""; 0]);
 }

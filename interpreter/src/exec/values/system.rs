@@ -89,6 +89,7 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "NP_DEFAULT"], read: |d, _| number(f64::from(d.machine.zero_offsets.start_group)) },
     Row { name: &["G", "WZ_AKT", "R"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
     Row { name: &["G", "WZR"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
+    Row { name: &["G", "WZL"], read: |d, _| number(d.geometry.tools.active.length_mm) },
     Row { name: &["G", "WZ_AKT", "L"], read: |d, _| number(d.geometry.tools.active.length_mm) },
     Row { name: &["G", "WZ_AKT", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.geometry.tools.active, a)) } },
     Row { name: &["G", "WZ_AKT", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&d.geometry.tools.active, i)) } },
@@ -345,10 +346,18 @@ pub(in crate::exec) fn write(
         ["G", "WZR"] => {
             d.geometry.tools.active.radius_mm = x()?;
         }
+        ["G", "WZL"] => {
+            d.geometry.tools.active.length_mm = x()?;
+            d.geometry.coordinates.tool_programmed();
+            d.tool_offsets();
+        }
         ["G", "WZ_AKT", ..] => {
             let mut tool = d.geometry.tools.active.clone();
             write_tool(d, &path, &names[2..], &mut tool, x()?)?;
             d.geometry.tools.active = tool;
+            if matches!(names[2], "L" | "V") {
+                d.geometry.coordinates.tool_programmed();
+            }
             d.tool_offsets();
         }
         ["G", "WZ", ..] => {
@@ -401,9 +410,9 @@ pub(in crate::exec) fn needs_actual(segments: &[Segment]) -> bool {
     is(0, "A") && is(1, "ACT_POS")
 }
 
-/// True for `V.G.WZ_AKT` and `V.G.WZR`: the tool data in use.
+/// True for `V.G.WZ_AKT`, `V.G.WZL` and `V.G.WZR`: the tool data in use.
 pub(in crate::exec) fn is_active_tool(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
-    is(0, "G") && (is(1, "WZ_AKT") || is(1, "WZR"))
+    is(0, "G") && ["WZ_AKT", "WZL", "WZR"].iter().any(|name| is(1, name))
 }

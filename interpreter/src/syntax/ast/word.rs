@@ -175,6 +175,8 @@ pub struct HashWord {
     pub name: Box<str>,
     /// Value, if one is written.
     pub value: Option<Expr>,
+    /// Bracket behind it, if one is written: `#SUPPRESS OFFSETS [ZERO]`.
+    pub bracket: Option<Group>,
 }
 
 /// Subroutine call.

@@ -93,7 +93,7 @@ impl Builder<'_> {
         let whole =
             if pair.as_rule() == Rule::name_item { Some(pair) } else { pair.into_inner().next() };
         let Some(whole) = whole else { return ItemKind::Missing };
-        if whole.as_rule() == Rule::flag {
+        if matches!(whole.as_rule(), Rule::flag | Rule::directed) {
             return ItemKind::Flag(self.ident(&whole));
         }
         let mut key = None;

@@ -4,8 +4,8 @@ use super::Builder;
 use crate::syntax::Problem;
 use crate::syntax::Rule;
 use crate::syntax::ast::{
-    Assign, BinaryOp, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident,
-    Jump, JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
+    Assign, BinaryOp, Bracket, Call, CallKind, CodeNumber, Expr, GValue, HashWord, Ident, Jump,
+    JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
     WordKind,
 };
 use pest::iterators::Pair;
@@ -46,7 +46,7 @@ impl Builder<'_> {
         let mut sign = None;
         let mut operator = None;
         let mut slots = Vec::new();
-        let mut group = Group::default();
+        let mut group = None;
         for part in pair.into_inner() {
             let span = self.span(&part);
             match part.as_rule() {
@@ -60,7 +60,7 @@ impl Builder<'_> {
                 | Rule::position_name
                 | Rule::letter
                 | Rule::name_letters
-                | Rule::axes_hash
+                | Rule::bracket_hash
                 | Rule::hash_name => name = Some(self.written(span)),
                 Rule::place => place = Some(self.place(part)),
                 Rule::compound => {
@@ -79,7 +79,7 @@ impl Builder<'_> {
                     });
                 }
                 Rule::slot => slots.push(part.into_inner().next().map(|p| self.expression(p))),
-                Rule::group => group = self.group(part),
+                Rule::group => group = Some(self.group(part)),
                 _ => {}
             }
         }
@@ -93,9 +93,10 @@ impl Builder<'_> {
             }
             (Rule::m_word, value) => WordKind::M(code, value.map(Box::new)),
             (Rule::h_word, value) => WordKind::H(code, value.map(Box::new)),
-            (Rule::bracket_word, _) => {
-                WordKind::Bracket(Box::new(Bracket { name: address(), group }))
-            }
+            (Rule::bracket_word, _) => WordKind::Bracket(Box::new(Bracket {
+                name: address(),
+                group: group.unwrap_or_default(),
+            })),
             (Rule::hash_word, value) => {
                 let words: Vec<&str> = name
                     .unwrap_or_default()
@@ -103,7 +104,7 @@ impl Builder<'_> {
                     .split_ascii_whitespace()
                     .collect();
                 let name = words.join(" ").to_ascii_uppercase().into();
-                WordKind::Hash(Box::new(HashWord { name, value }))
+                WordKind::Hash(Box::new(HashWord { name, value, bracket: group }))
             }
             (_, value) => {
                 let value = value.unwrap_or_else(Self::zero);

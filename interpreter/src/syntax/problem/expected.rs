@@ -50,6 +50,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::key
         | Rule::ordinal
         | Rule::flag
+        | Rule::directed
         | Rule::item
         | Rule::pair
         | Rule::bare_pair

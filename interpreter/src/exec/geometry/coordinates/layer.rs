@@ -7,7 +7,7 @@
 //! turned system points along the turned axes, as coordinates in it do.
 
 use super::super::frame::Frame;
-use super::Coordinates;
+use super::{Coordinates, OffsetKind};
 use kontur_motion::axis::AxisVec;
 use std::collections::BTreeMap;
 
@@ -68,6 +68,17 @@ impl Coordinates {
     #[inline]
     pub(super) fn layer_offset(&self, layer: &Layer, axis: usize) -> f64 {
         self.layer_zero(layer, axis) + layer.preset[axis] + layer.position_preset[axis]
+    }
+
+    /// Offsets below all systems without those of these kinds.
+    pub(super) fn lowest_without(&self, kinds: &[OffsetKind], axis: usize) -> f64 {
+        let without = |kind| kinds.contains(&kind);
+        let zero =
+            if without(OffsetKind::Zero) { 0.0 } else { self.layer_zero(&self.lowest, axis) };
+        let additive = if without(OffsetKind::Additive) { 0.0 } else { self.lowest.preset[axis] };
+        let preset =
+            if without(OffsetKind::Preset) { 0.0 } else { self.lowest.position_preset[axis] };
+        zero + additive + preset
     }
 
     #[inline]

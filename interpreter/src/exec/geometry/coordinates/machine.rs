@@ -18,6 +18,8 @@ pub(super) struct Suspended {
     rotation: Option<Rotation>,
     /// EX TOOL: a tool change does not act before `#MCS OFF`.
     without_tools: bool,
+    /// The offsets of the tool that was in use; those of another one act.
+    tool_aside: bool,
 }
 
 impl Coordinates {
@@ -41,6 +43,7 @@ impl Coordinates {
             mirrored: std::mem::replace(&mut self.mirrored, vec![false; n]),
             rotation: self.rotation.take(),
             without_tools,
+            tool_aside: true,
         }));
         self.tool = zeros();
         self.frame_changed();
@@ -56,8 +59,15 @@ impl Coordinates {
         true
     }
 
-    /// Tool offsets do not act: `#MCS ON EX TOOL`.
+    /// Tool data are programmed: between `#MCS ON` and `#MCS OFF` they act, those before do not.
+    pub(in crate::exec) fn tool_programmed(&mut self) {
+        if let Some(suspended) = &mut self.suspended {
+            suspended.tool_aside = false;
+        }
+    }
+
+    /// Tool offsets do not act: EX TOOL, or no tool was programmed since `#MCS ON`.
     pub(in crate::exec) fn is_without_tools(&self) -> bool {
-        self.suspended.as_ref().is_some_and(|suspended| suspended.without_tools)
+        self.suspended.as_ref().is_some_and(|before| before.without_tools || before.tool_aside)
     }
 }

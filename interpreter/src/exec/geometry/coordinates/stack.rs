@@ -1,0 +1,71 @@
+//! Systems with names, one upon another (`#CS ADD`): those from the lowest one to a selected one are active.
+//!
+//! Source: TF5200 programming manual 1037259147, 1037628043, 1048405643, 1048407819. Assumption: a system that stays active keeps
+//! the offsets that were programmed in it, as under `#CS ON`.
+
+use super::super::frame::Frame;
+use super::layer::Layer;
+use super::{Coordinates, SYSTEMS_MAX};
+
+/// Systems with names, the lowest first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stack {
+    entries: Vec<(String, Frame)>,
+    /// How many of them are active, from the lowest one.
+    active: usize,
+}
+
+impl Coordinates {
+    /// Names of the stack, the lowest first.
+    pub(in crate::exec) fn stack(&self) -> impl Iterator<Item = &str> {
+        self.stack.entries.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Systems of the stack that are active.
+    pub(in crate::exec) fn stack_active(&self) -> usize {
+        self.stack.active
+    }
+
+    /// A system on top of the stack, not yet active; false if [`SYSTEMS_MAX`] are there.
+    pub(in crate::exec) fn stack_add(&mut self, name: &str, frame: Frame) -> bool {
+        let fits = self.stack.entries.len() < SYSTEMS_MAX;
+        if fits {
+            self.stack.entries.push((name.to_owned(), frame));
+        }
+        fits
+    }
+
+    /// The lowest `count` systems are active. The axes stay where they are.
+    pub(in crate::exec) fn stack_select(&mut self, count: usize) {
+        let axes = self.target.len();
+        self.systems.truncate(count);
+        for (_, frame) in self.stack.entries.iter().take(count).skip(self.systems.len()) {
+            self.systems.push(Layer::new(*frame, axes));
+        }
+        self.stack.active = self.systems.len();
+        self.frame_changed();
+    }
+
+    /// Moves a system of the stack; the axes stay where they are.
+    pub(in crate::exec) fn stack_set(&mut self, place: usize, frame: Frame) {
+        if let Some((_, old)) = self.stack.entries.get_mut(place) {
+            *old = frame;
+        }
+        if place < self.stack.active
+            && let Some(layer) = self.systems.get_mut(place)
+        {
+            layer.system = frame;
+            self.frame_changed();
+        }
+    }
+
+    /// Deletes the uppermost system, or all; of those that are active the ones below stay active. False if there is none.
+    pub(in crate::exec) fn stack_delete(&mut self, all: bool) -> bool {
+        let was = self.stack.entries.len();
+        self.stack.entries.truncate(if all { 0 } else { was.saturating_sub(1) });
+        if self.stack.active > self.stack.entries.len() {
+            self.stack_select(self.stack.entries.len());
+        }
+        was > 0
+    }
+}

@@ -1,0 +1,249 @@
+//! Parallels of plane contours, and what is inserted at their corners.
+//!
+//! Intersections are found by Newton's method over the shares of both elements.
+
+use crate::path::{Piece, Point, dot, plus};
+use crate::tree::{Contour, Insert};
+
+/// The plane of a contour: first, second and third axis.
+pub type Plane = [usize; 3];
+
+fn flat(p: Point, [a, b, _]: Plane) -> [f64; 2] {
+    [p[a], p[b]]
+}
+
+fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
+    p[0] * q[1] - p[1] * q[0]
+}
+
+fn product(p: [f64; 2], q: [f64; 2]) -> f64 {
+    p[0] * q[0] + p[1] * q[1]
+}
+
+fn length(p: [f64; 2]) -> f64 {
+    libm::hypot(p[0], p[1])
+}
+
+/// Derivative of the place by the share, in the plane.
+fn along(piece: &Piece, share: f64, plane: Plane) -> [f64; 2] {
+    let (s, c) = libm::sincos(piece.angle * share);
+    let turned = plus(plus([0.0; 3], piece.u, -s), piece.v, c);
+    flat(plus(piece.rise, turned, piece.angle), plane)
+}
+
+fn direction(piece: &Piece, share: f64, plane: Plane) -> [f64; 2] {
+    let t = along(piece, share, plane);
+    [t[0] / length(t), t[1] / length(t)]
+}
+
+/// The point at a distance to the left.
+fn left_of(p: [f64; 2], t: [f64; 2], distance: f64) -> [f64; 2] {
+    [p[0] - distance * t[1], p[1] + distance * t[0]]
+}
+
+/// The parallel at a distance to the left, with the motion of the third axis.
+fn parallel(piece: &Piece, distance: f64, plane: Plane) -> Piece {
+    let [a, b, _] = plane;
+    let mut shifted = piece.clone();
+    if piece.angle == 0.0 {
+        let p = left_of(flat(piece.centre, plane), direction(piece, 0.0, plane), distance);
+        (shifted.centre[a], shifted.centre[b]) = (p[0], p[1]);
+    } else {
+        let radius = dot(piece.u, piece.u).sqrt();
+        let against_the_clock = cross(flat(piece.u, plane), flat(piece.v, plane)) > 0.0;
+        let inwards = if against_the_clock { distance } else { -distance };
+        let scaled = |p| plus([0.0; 3], p, 1.0 - inwards / radius);
+        (shifted.u, shifted.v) = (scaled(piece.u), scaled(piece.v));
+    }
+    shifted
+}
+
+/// From one share to another; the third axis keeps its whole way.
+fn part(piece: &Piece, from: f64, to: f64, [a, b, _]: Plane) -> Piece {
+    let mut cut = piece.clone();
+    if piece.angle == 0.0 {
+        let start = piece.at(from);
+        (cut.centre[a], cut.centre[b]) = (start[a], start[b]);
+        (cut.rise[a], cut.rise[b]) = (piece.rise[a] * (to - from), piece.rise[b] * (to - from));
+        return Piece::line(cut.number, cut.centre, plus(cut.centre, cut.rise, 1.0));
+    }
+    let (s, c) = libm::sincos(piece.angle * from);
+    let u = plus(plus([0.0; 3], piece.u, c), piece.v, s);
+    let v = plus(plus([0.0; 3], piece.v, c), piece.u, -s);
+    Piece::arc(cut.number, cut.centre, [u, v], piece.angle * (to - from), cut.rise)
+}
+
+/// Shares at which two elements that follow one another cross, nearest to their ends.
+fn meet(p: &Piece, q: &Piece, plane: Plane) -> Option<[f64; 2]> {
+    let mut best: Option<([f64; 2], f64)> = None;
+    for i in 0..36 {
+        let (mut s, mut t) = (1.0 - 0.2 * f64::from(i % 6), 0.2 * f64::from(i / 6));
+        for _ in 0..60 {
+            let (x, y) = (flat(p.at(s), plane), flat(q.at(t), plane));
+            let off = [y[0] - x[0], y[1] - x[1]];
+            let (dx, dy) = (along(p, s, plane), along(q, t, plane));
+            let determinant = cross(dx, dy);
+            if determinant.abs() < 1e-12 {
+                break;
+            }
+            s += cross(off, dy) / determinant;
+            t += cross(off, dx) / determinant;
+        }
+        let (x, y) = (flat(p.at(s), plane), flat(q.at(t), plane));
+        let apart = length([y[0] - x[0], y[1] - x[1]]);
+        let inside = |share: f64| (-1e-9..=1.0 + 1e-9).contains(&share);
+        // how far back, and how far on
+        let way = (1.0 - s) * length(along(p, s, plane)) + t * length(along(q, t, plane));
+        if apart < 1e-9 && inside(s) && inside(t) && best.is_none_or(|(_, other)| way < other) {
+            best = Some(([s, t], way));
+        }
+    }
+    best.map(|(shares, _)| shares)
+}
+
+/// How a corner is passed.
+enum Corner {
+    /// Shares where the elements are cut.
+    Cut([f64; 2]),
+    /// The tool does not fit.
+    Narrow,
+    Smooth,
+    /// How far the tangents are prolonged to the ends of a line.
+    Lines(f64),
+    Arc(f64),
+}
+
+fn corner(before: &Piece, after: &Piece, distance: f64, contour: &Contour, plane: Plane) -> Corner {
+    let (u, w) = (direction(before, 1.0, plane), direction(after, 0.0, plane));
+    let turn = cross(u, w);
+    if turn.abs() < 1e-9 && product(u, w) > 0.0 {
+        return Corner::Smooth;
+    }
+    if turn * distance > 0.0 {
+        let (p, q) = (parallel(before, distance, plane), parallel(after, distance, plane));
+        return meet(&p, &q, plane).map_or(Corner::Narrow, Corner::Cut);
+    }
+    let angle = libm::atan2(turn.abs(), product(u, w));
+    if contour.by_arcs {
+        return Corner::Arc(angle);
+    }
+    Corner::Lines(contour.radius * libm::tan(angle / 2.0).min(1.0))
+}
+
+/// The way of the tool's centre: approach, contour, exit, all in the plane but for the third axis; `None` where the tool does not
+/// fit between two elements.
+pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<Vec<Piece>> {
+    let [a, b, _] = plane;
+    let distance = if contour.left { contour.radius } else { -contour.radius };
+    let (approach, rest) = pieces.split_first().unwrap();
+    let (exit, elements) = rest.split_last().unwrap();
+    let place = |at: Point, p: [f64; 2]| {
+        let mut at = at;
+        (at[a], at[b]) = (p[0], p[1]);
+        at
+    };
+    let first = &elements[0];
+    let above = left_of(flat(first.at(0.0), plane), direction(first, 0.0, plane), distance);
+    let start = approach.at(0.0);
+    let mut all = vec![Piece::line(approach.number, start, place(approach.at(1.0), above))];
+    let mut from = 0.0;
+    for (i, element) in elements.iter().enumerate() {
+        let end = element.at(1.0);
+        let aside = parallel(element, distance, plane);
+        let next = elements.get(i + 1);
+        let kind = next.map(|next| corner(element, next, distance, contour, plane));
+        // a line that is prolonged keeps the way of its third axis, an arc gets a line at its end
+        let prolonged = |piece: &Piece, reach: f64| {
+            let is_line = piece.angle == 0.0;
+            if is_line { reach / length(along(piece, 0.0, plane)) } else { 0.0 }
+        };
+        let to = match kind {
+            Some(Corner::Cut([s, _])) => s,
+            Some(Corner::Lines(reach)) => 1.0 + prolonged(element, reach),
+            _ => 1.0,
+        };
+        all.push(part(&aside, from, to, plane));
+        from = 0.0;
+        match kind {
+            Some(Corner::Cut([_, t])) => from = t,
+            Some(Corner::Lines(reach)) => {
+                let next = next.unwrap();
+                from = -prolonged(next, reach);
+                let (u, w) = (direction(element, 1.0, plane), direction(next, 0.0, plane));
+                let start = flat(aside.at(to), plane);
+                let after = flat(parallel(next, distance, plane).at(from), plane);
+                let (p, q) = (
+                    left_of(flat(end, plane), u, distance),
+                    left_of(flat(end, plane), w, distance),
+                );
+                let ahead = [p[0] + reach * u[0], p[1] + reach * u[1]];
+                let back = [q[0] - reach * w[0], q[1] - reach * w[1]];
+                for two in [start, ahead, back, after].windows(2) {
+                    let (p, q) = (place(end, two[0]), place(end, two[1]));
+                    all.push(Piece::line(element.number, p, q));
+                }
+            }
+            Some(Corner::Arc(angle)) => {
+                let t = direction(element, 1.0, plane);
+                let zero = [0.0; 3];
+                let u = place(zero, left_of([0.0; 2], t, distance));
+                // the tool goes on the way it came
+                let v = plus(zero, place(zero, t), contour.radius);
+                all.push(Piece::arc(element.number, end, [u, v], angle, zero));
+            }
+            Some(Corner::Narrow) => return None,
+            Some(Corner::Smooth) | None => {}
+        }
+    }
+    let last = elements.last().unwrap();
+    let above = left_of(flat(last.at(1.0), plane), direction(last, 1.0, plane), distance);
+    all.push(Piece::line(exit.number, place(last.at(1.0), above), exit.at(1.0)));
+    Some(all)
+}
+
+/// Two motions and what is inserted between them.
+pub fn inserted(kind: Insert, size: f64, [before, after]: &[Piece; 2], plane: Plane) -> Vec<Piece> {
+    let [a, b, _] = plane;
+    let (u, w) = (direction(before, 1.0, plane), direction(after, 0.0, plane));
+    let turn = cross(u, w);
+    let whole = |piece: &Piece| length(along(piece, 0.0, plane));
+    let angle = libm::atan2(turn.abs(), product(u, w));
+    let back = match kind {
+        Insert::Chamfer => size,
+        // the base of the triangle is the inserted line
+        Insert::ChamferLength => size / 2.0 / libm::cos(angle / 2.0),
+        Insert::Rounding => 0.0,
+    };
+    // share of an element from its end to a point that is so far away from it as the crow flies
+    let share = |piece: &Piece| {
+        if piece.angle == 0.0 {
+            return back / whole(piece);
+        }
+        let radius = dot(piece.u, piece.u).sqrt();
+        2.0 * libm::asin(back / 2.0 / radius) / piece.angle
+    };
+    let inwards = if turn > 0.0 { size } else { -size };
+    let [s, t] = if kind == Insert::Rounding {
+        let (p, q) = (parallel(before, inwards, plane), parallel(after, inwards, plane));
+        meet(&p, &q, plane).expect("the rounding fits")
+    } else {
+        [1.0 - share(before), share(after)]
+    };
+    let (first, second) = (part(before, 0.0, s, plane), part(after, t, 1.0, plane));
+    let (p, q) = (first.at(1.0), second.at(0.0));
+    let between = if kind == Insert::Rounding {
+        let centre = left_of(flat(p, plane), direction(before, s, plane), inwards);
+        let mut c = p;
+        (c[a], c[b]) = (centre[0], centre[1]);
+        let u = plus(p, c, -1.0);
+        let (from, to) = (direction(before, s, plane), direction(after, t, plane));
+        let mut v = [0.0; 3];
+        (v[a], v[b]) = (from[0] * size, from[1] * size);
+        let turned = libm::atan2(turn.signum() * cross(from, to), product(from, to));
+        let turned = if turned < 0.0 { turned + std::f64::consts::TAU } else { turned };
+        Piece::arc(after.number, c, [u, v], turned, [0.0; 3])
+    } else {
+        Piece::line(after.number, p, q)
+    };
+    vec![first, between, second]
+}
