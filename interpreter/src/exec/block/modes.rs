@@ -44,14 +44,16 @@ impl Decoder {
             }
             let name = self.names.name(axis).to_owned();
             let number = self.machine.axes[axis].number();
+            let ramp = matches!(weight, Weight::Ramp | Weight::RapidRamp);
+            let is = if ramp { "is below" } else { "exceeds" };
+            let percent = ratio * 100.0;
             let text = format!(
-                "axis {name}: the weight of {} % exceeds what the axis list allows, it is limited",
-                ratio * 100.0
+                "axis {name}: the weight of {percent} % {is} what the axis list allows, it is limited"
             );
-            self.report.note(
-                Fault::new(Condition::DynamicsLimited, text, span)
-                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")),
-            );
+            let fault = Fault::new(Condition::DynamicsLimited, text, span)
+                .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"));
+            let hint = "raise the weight, or lower the least ramp time of the axis list (P-AXIS-00293, P-AXIS-00201 for rapid)";
+            self.report.note(if ramp { fault.hint(hint) } else { fault });
         }
     }
 
