@@ -11,6 +11,7 @@
 
 mod commands;
 mod explanation;
+mod language;
 mod notes;
 mod words;
 

@@ -1,10 +1,11 @@
 //! G functions and words in brackets, one row each; what `#` commands say of themselves is in their own rows.
 
 use super::explanation::{Explanation, Kind};
+use super::language::LANGUAGE;
 use crate::exec::commands;
 
 /// One command.
-struct Command {
+pub(super) struct Command {
     /// Names it is asked for by, the first one is printed.
     names: &'static [&'static str],
     syntax: &'static str,
@@ -17,7 +18,7 @@ struct Command {
 }
 
 /// Reads a row as a table line.
-const fn row(
+pub(super) const fn row(
     names: &'static [&'static str],
     syntax: &'static str,
     meaning: &'static str,
@@ -94,15 +95,20 @@ const COMMANDS: &[Command] = &[
     row(&["M17", "M29"], "M17   M17 [MAIN|JUMPS=.. [LABEL]|N..]", "end of a subroutine; in brackets the level to return to and the label or block there", "JUMPS: whole levels from 1 to that of the main program, beyond it K-0109", "JUMPS=1, behind the call", "M17 [MAIN [END]]", &["K-0003", "K-0015"]),
 ];
 
+/// G functions, words and statements.
+fn functions() -> impl Iterator<Item = &'static Command> {
+    COMMANDS.iter().chain(LANGUAGE)
+}
+
 /// Names of all commands.
 pub(super) fn names() -> impl Iterator<Item = String> {
-    let functions = COMMANDS.iter().flat_map(|c| c.names.iter().map(|name| (*name).to_owned()));
+    let functions = functions().flat_map(|c| c.names.iter().map(|name| (*name).to_owned()));
     commands::explained().map(|row| format!("#{}", row.name)).chain(functions)
 }
 
 /// Every command, then every function.
 pub(super) fn all() -> impl Iterator<Item = Explanation> {
-    commands::explained().map(of_row).chain(COMMANDS.iter().map(Command::explained))
+    commands::explained().map(of_row).chain(functions().map(Command::explained))
 }
 
 /// The command with a name; blanks and case do not count, what follows the name is ignored (`#VIB GUARD ON`).
@@ -113,14 +119,31 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     let is_named = |name: &str| {
         wanted == name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '))
     };
-    if let Some(function) = COMMANDS.iter().find(|c| c.names.iter().any(|name| is_named(name))) {
+    if let Some(function) = functions().find(|c| c.names.iter().any(|name| is_named(name))) {
         return Some(function.explained());
     }
     // the longest name: `#CS DEF` is not `#CS`
-    let row = commands::explained()
+    let named = commands::explained()
         .filter(|row| is_named(&format!("#{}", row.name)))
-        .max_by_key(|row| row.name.len())?;
-    Some(of_row(row))
+        .max_by_key(|row| row.name.len());
+    named.map(of_row).or_else(|| family(wanted))
+}
+
+/// Commands that begin with the same word: `#CS` is `#CS DEF`, `#CS ON` and so on.
+fn family(wanted: &str) -> Option<Explanation> {
+    let first = wanted.strip_prefix('#')?;
+    let rows: Vec<&commands::Row> = commands::explained()
+        .filter(|row| row.name.strip_prefix(first).is_some_and(|rest| rest.starts_with(' ')))
+        .collect();
+    (!rows.is_empty()).then(|| Explanation {
+        kind: Kind::Command,
+        title: wanted.to_owned(),
+        meaning: "several commands begin with this word".to_owned(),
+        facts: rows.iter().map(|row| (row.name, row.meaning.to_owned())).collect(),
+        notes: Vec::new(),
+        example: None,
+        related: rows.iter().map(|row| format!("#{}", row.name)).collect(),
+    })
 }
 
 fn of_row(row: &commands::Row) -> Explanation {

@@ -23,6 +23,20 @@ fn every_parameter_and_message_is_explained() {
     }
 }
 
+/// Words, statements, and commands that begin with the same word.
+#[test]
+fn the_language_is_explained() {
+    for thing in
+        "F E S T D L $IF $FOR $WHILE $GOTO $SWITCH V.P V.A SQRT #CHR #FRC #RND #CS #SET #MEAS"
+            .split_whitespace()
+    {
+        let e = explain(thing).unwrap();
+        assert_eq!(e.kind, Kind::Command, "{thing}");
+    }
+    let systems = explain("#CS").unwrap();
+    assert!(systems.facts.iter().any(|(name, _)| *name == "CS ADD"), "{systems:?}");
+}
+
 #[test]
 fn parameters_of_the_function_manuals_are_known() {
     // every parameter named in the manuals of axis filters, Improved Position Control, feedforward, position

@@ -402,10 +402,18 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::ROWS;
+    use super::{Act, ROWS};
 
     #[test]
     fn rows_are_ordered_and_unique() {
         assert!(ROWS.windows(2).all(|w| w[0].number < w[1].number));
+    }
+
+    #[test]
+    fn every_function_that_runs_is_explained() {
+        for row in ROWS.iter().filter(|row| !matches!(row.act, Act::Unsupported(_))) {
+            let name = format!("G{:02}", row.number);
+            assert!(crate::explain::explain(&name).is_ok(), "{name}");
+        }
     }
 }
