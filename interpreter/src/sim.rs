@@ -27,7 +27,7 @@ pub use inputs::{Change, Changes, Signal};
 pub(crate) use out::{Measuring, Messages, Samples};
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::exec::{EndReason, Event, Executor, Feedback, SourceRef, Step, Sync};
+use crate::exec::{EndReason, Event, Executor, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use axes::Driver;
@@ -132,6 +132,8 @@ pub(crate) struct Simulation {
     thread: Option<Thread>,
     /// A measuring run is on its way.
     probing: Option<Probing>,
+    /// The cycle that the program was told of last.
+    told: Option<u64>,
     /// A motion of edge banding is on its way.
     banding: Option<Banding>,
     /// `#OTC`.
@@ -285,12 +287,7 @@ impl Simulation {
 
     /// Takes the next step of the program.
     fn pull(&mut self) {
-        let feedback = Feedback {
-            actual_mm: self.actual_mm(),
-            lag_mm: self.lag_mm(),
-            time_s: self.cycle.time_of(self.planner.setpoint().k),
-            measured: self.end_probing(),
-        };
+        let feedback = self.feedback();
         match self.executor.next(feedback) {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {

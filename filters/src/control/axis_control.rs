@@ -29,6 +29,7 @@
 //! ```
 
 mod config;
+mod given;
 
 use super::{
     buffer::{Setpoint, SetpointBuffer},
@@ -41,6 +42,7 @@ use super::{
 };
 use crate::time::CycleTime;
 pub use config::{AxisControlConfig, Encoder};
+use given::Given;
 
 /// What acts on an axis from outside; nothing by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -132,23 +134,6 @@ pub struct AxisControl {
     /// What the last cycle was given, and for how many cycles that has been the same and nothing has changed by it.
     given: Given,
     still_cycles: u32,
-}
-
-/// What a cycle is given, as bits.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Given {
-    set: u64,
-    gain: u64,
-    jerk_limited: bool,
-    inputs: [u64; 3],
-}
-
-impl Given {
-    fn new(set_mm: f64, gain: f64, jerk_limited: bool, inputs: &AxisInputs) -> Self {
-        let AxisInputs { additional_mm, force_mm_s2, encoder_offset_mm } = *inputs;
-        let inputs = [additional_mm, force_mm_s2, encoder_offset_mm].map(f64::to_bits);
-        Self { set: set_mm.to_bits(), gain: gain.to_bits(), jerk_limited, inputs }
-    }
 }
 
 impl AxisControl {

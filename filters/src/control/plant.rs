@@ -168,7 +168,18 @@ impl Measured {
         }
     }
 
+    /// Takes the place of what was measured before, unless a value is no number; false then.
+    #[inline] // where it is made, its values are still in registers: as a whole it would be read back before it is written
+    fn replace(self, before: &mut Self) -> bool {
+        let finite = self.is_finite();
+        if finite {
+            *before = self;
+        }
+        finite
+    }
+
     /// Every value is a number.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         let Self { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s } = self;
         [motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s].iter().all(|v| v.is_finite())
@@ -277,22 +288,17 @@ impl Plant {
             self.dead_time[0] = input.speed_mm_s;
             input.speed_mm_s = self.dead_time[self.dead_time_cycles];
         }
-        let measured = match &mut self.dynamics {
+        let (rests, measured) = (&mut self.rests, &mut self.measured);
+        match &mut self.dynamics {
             Dynamics::Follow { cycle_s } => {
-                let before = self.measured.motor_mm;
-                let step_mm = input.reference_mm - before;
-                self.rests = step_mm.to_bits() == 0;
-                Measured::rigid(input.reference_mm, step_mm / *cycle_s)
+                let step_mm = input.reference_mm - measured.motor_mm;
+                *rests = step_mm.to_bits() == 0;
+                Measured::rigid(input.reference_mm, step_mm / *cycle_s).replace(measured)
             }
-            Dynamics::Two(linear) => linear.advance(&input, &mut self.rests),
-            Dynamics::Three(linear) => linear.advance(&input, &mut self.rests),
-            Dynamics::Many(linear) => linear.advance(&input, &mut self.rests),
-        };
-        let finite = measured.is_finite();
-        if finite {
-            self.measured = measured;
+            Dynamics::Two(linear) => linear.advance(&input, rests, measured),
+            Dynamics::Three(linear) => linear.advance(&input, rests, measured),
+            Dynamics::Many(linear) => linear.advance(&input, rests, measured),
         }
-        finite
     }
 }
 

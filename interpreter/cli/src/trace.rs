@@ -46,11 +46,11 @@ enum Writer {
 }
 
 impl Writer {
-    fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
+    fn write(&mut self, records: &[CycleRecord]) -> io::Result<()> {
         match self {
-            Self::Csv(w) => w.write(record),
+            Self::Csv(w) => records.iter().try_for_each(|record| w.write(record)),
             #[cfg(feature = "parquet")]
-            Self::Parquet(w) => w.write(record),
+            Self::Parquet(w) => w.write(records),
         }
     }
 

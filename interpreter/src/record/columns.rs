@@ -81,10 +81,23 @@ impl Column {
     pub fn number(&self, record: &CycleRecord) -> Option<f64> {
         match self.content {
             Content::Path(f) => Some(f(record)),
-            Content::Axis(i, f) => Some(record.axes.get(i).map_or(0.0, f)),
+            Content::Axis(i, f) => Some(of_axis(record, i, f)),
             _ => None,
         }
     }
+
+    /// Appends the [`Self::number`] of each record, if it is a numeric column.
+    pub fn extend_numbers(&self, records: &[CycleRecord], numbers: &mut Vec<f64>) {
+        match self.content {
+            Content::Path(f) => numbers.extend(records.iter().map(f)),
+            Content::Axis(i, f) => numbers.extend(records.iter().map(|r| of_axis(r, i, f))),
+            _ => {}
+        }
+    }
+}
+
+fn of_axis(record: &CycleRecord, axis: usize, value: fn(&AxisRecord) -> f64) -> f64 {
+    record.axes.get(axis).map_or(0.0, value)
 }
 
 /// How the unit of an axis quantity is written after its name, and its decimals.

@@ -8,7 +8,7 @@
 use super::inputs::Inputs;
 use super::{Phase, Simulation};
 use crate::diag::{Condition, Diagnostic};
-use crate::exec::Probed;
+use crate::exec::{Feedback, Probed};
 use crate::record::AxisRecord;
 use kontur_motion::axis::AxisVec;
 
@@ -81,13 +81,26 @@ impl Simulation {
         }
     }
 
+    /// What the program has to know of the machine, unless it was told of this cycle: it is asked for many steps in a row.
+    pub(super) fn feedback(&mut self) -> Option<Feedback> {
+        let k = self.planner.setpoint().k;
+        let measured = self.end_probing();
+        if measured.is_none() && self.told == Some(k) {
+            return None;
+        }
+        // what was measured is told once
+        self.told = measured.is_none().then_some(k);
+        let (actual_mm, lag_mm) = (self.actual_mm(), self.lag_mm());
+        Some(Feedback { actual_mm, lag_mm, time_s: self.cycle.time_of(k), measured })
+    }
+
     /// Actual positions of the path axes.
     pub(super) fn actual_mm(&self) -> AxisVec {
         self.of_path_axes(|axis| axis.act)
     }
 
     /// Lags of the path axes.
-    pub(super) fn lag_mm(&self) -> AxisVec {
+    fn lag_mm(&self) -> AxisVec {
         self.of_path_axes(|axis| axis.lag)
     }
 

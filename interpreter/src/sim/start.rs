@@ -79,6 +79,7 @@ impl Simulation {
             thread_delay: 0.0,
             thread: None,
             probing: None,
+            told: None,
             banding: None,
             wear: Wear::default(),
             planned: start[..n].iter().copied().collect(),

@@ -132,8 +132,14 @@ impl<S: States> LinearPlant<S> {
     }
 
     /// Advances by one cycle. `rests` says whether that changed nothing, bit for bit: with the same input no further
-    /// cycle will. A disturbance that changes with time never rests.
-    pub(super) fn advance(&mut self, input: &PlantInput, rests: &mut bool) -> Measured {
+    /// cycle will. A disturbance that changes with time never rests. False if the state is no longer finite; what was measured
+    /// last then stays.
+    pub(super) fn advance(
+        &mut self,
+        input: &PlantInput,
+        rests: &mut bool,
+        measured: &mut Measured,
+    ) -> bool {
         if let Some(d) = self.disturbance {
             let start_s = self.cycle.time_of(self.cycles);
             for i in 0..self.substeps {
@@ -146,7 +152,7 @@ impl<S: States> LinearPlant<S> {
             *rests = self.substep(input, input.force_mm_s2 + 0.0);
         }
         self.cycles += 1;
-        self.measured()
+        self.measured().replace(measured)
     }
 
     fn disturbance_at(&self, d: &Disturbance, time_s: f64) -> f64 {
@@ -206,6 +212,7 @@ impl<S: States> LinearPlant<S> {
         sum
     }
 
+    #[inline]
     fn measured(&self) -> Measured {
         let (motor_mm, motor_mm_s) = self.point(0);
         let (load_mm, load_mm_s) =
@@ -330,13 +337,13 @@ mod tests {
         let force = Disturbance { amplitude_mm_s2: 3.0, frequency_hz: 7.0, full_speed_mm_s: 10.0 };
         for disturbance in [None, Some(force)] {
             let (mut array, mut list) = new(disturbance);
-            let mut rests = [false; 2];
+            let (mut rests, mut measured) = ([false; 2], [Measured::default(); 2]);
             for k in 0..60_000_u32 {
                 let speed_mm_s = if k < 100 { f64::from(k % 13) } else { 0.0 };
                 let input =
                     PlantInput { speed_mm_s, acc_mm_s2: 0.5 * speed_mm_s, ..Default::default() };
-                let measured =
-                    [array.advance(&input, &mut rests[0]), list.advance(&input, &mut rests[1])];
+                assert!(array.advance(&input, &mut rests[0], &mut measured[0]));
+                assert!(list.advance(&input, &mut rests[1], &mut measured[1]));
                 assert_eq!(format!("{:?}", measured[0]), format!("{:?}", measured[1]));
                 assert_eq!(rests[0], rests[1], "{k}");
             }

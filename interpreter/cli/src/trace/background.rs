@@ -125,8 +125,7 @@ fn work(
     loop {
         let written = match batches.recv_timeout(PERIOD) {
             Ok(mut batch) => {
-                let written =
-                    batch.records[..batch.filled].iter().try_for_each(|r| writer.write(r));
+                let written = writer.write(&batch.records[..batch.filled]);
                 batch.filled = 0;
                 // whoever needs it no more does not take it
                 drop(back.try_send(batch));

@@ -1,8 +1,8 @@
 //! The Parquet writer: the columns of the CSV trace with every bit of the numbers.
 //!
 //! Numbers are stored as byte streams (all first bytes, all second bytes, ...), which is what makes smooth curves
-//! compress; a dictionary of 64 K different values would cost time and save nothing. Snappy is the codec because it
-//! is plain Rust and every reader knows it.
+//! compress, lines and block numbers as differences; a dictionary of 64 K different values would cost time and save nothing.
+//! Snappy is the codec because it is plain Rust and every reader knows it.
 //!
 //! A Parquet file is readable only once its footer is written. So each group of rows goes to a file of its own in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
@@ -77,7 +77,9 @@ impl ParquetWriter {
     ) -> io::Result<Self> {
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
-            .set_compression(Compression::SNAPPY);
+            .set_compression(Compression::SNAPPY)
+            // whole pages: the memory of a page is asked for once, it does not grow
+            .set_write_batch_size(ROWS_PER_GROUP);
         let mut fields = Vec::with_capacity(columns.len());
         for column in &columns {
             let (physical, logical, repetition) = match column.content {
@@ -86,14 +88,20 @@ impl ParquetWriter {
                 Content::File | Content::Limit => {
                     (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::REQUIRED)
                 }
-                _ => {
-                    let path = || ColumnPath::from(column.name.as_str());
-                    properties = properties
-                        .set_column_dictionary_enabled(path(), false)
-                        .set_column_encoding(path(), Encoding::BYTE_STREAM_SPLIT);
-                    (Physical::DOUBLE, None, Repetition::REQUIRED)
-                }
+                _ => (Physical::DOUBLE, None, Repetition::REQUIRED),
             };
+            // words are few, so they keep their dictionary
+            let encoding = match physical {
+                Physical::DOUBLE => Some(Encoding::BYTE_STREAM_SPLIT),
+                Physical::INT64 => Some(Encoding::DELTA_BINARY_PACKED),
+                _ => None,
+            };
+            if let Some(encoding) = encoding {
+                let path = || ColumnPath::from(column.name.as_str());
+                properties = properties
+                    .set_column_dictionary_enabled(path(), false)
+                    .set_column_encoding(path(), encoding);
+            }
             let field = Type::primitive_type_builder(&column.name, physical)
                 .with_logical_type(logical)
                 .with_repetition(repetition)
@@ -124,37 +132,49 @@ impl ParquetWriter {
         })
     }
 
-    /// Adds a record.
+    /// Adds records.
     ///
     /// # Errors
     /// The system's, e.g. a full disk.
-    pub(crate) fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
+    pub(crate) fn write(&mut self, mut records: &[CycleRecord]) -> io::Result<()> {
+        while !records.is_empty() {
+            let room = ROWS_PER_GROUP - self.rows;
+            let (now, later) = records.split_at(records.len().min(room));
+            self.gather(now);
+            if self.rows == ROWS_PER_GROUP {
+                self.write_group().map_err(|e| self.kept(e))?;
+            }
+            records = later;
+        }
+        Ok(())
+    }
+
+    /// Takes the values of records, column by column: what a column is, is asked once for all of them.
+    fn gather(&mut self, records: &[CycleRecord]) {
+        let Self { cycle_us, files, limits, .. } = self;
         for (column, values) in &mut self.columns {
-            match (values, &column.content) {
+            match (values, column.content) {
                 (Values::Number(v), Content::Time) => {
-                    v.push(record.k.saturating_mul(self.cycle_us) as f64 / 1e6);
+                    let time = |r: &CycleRecord| r.k.saturating_mul(*cycle_us) as f64 / 1e6;
+                    v.extend(records.iter().map(time));
                 }
-                (Values::Number(v), _) => v.push(column.number(record).unwrap_or_default()),
-                (Values::Integer(v), _) => v.push(i64::from(record.line)),
+                (Values::Number(v), _) => column.extend_numbers(records, v),
+                (Values::Integer(v), _) => v.extend(records.iter().map(|r| i64::from(r.line))),
                 (Values::Optional(v, present), _) => {
-                    let block = record.block.and_then(|n| i64::try_from(n).ok());
-                    present.push(i16::from(block.is_some()));
-                    v.extend(block);
+                    let block = |r: &CycleRecord| r.block.and_then(|n| i64::try_from(n).ok());
+                    present.extend(records.iter().map(|r| i16::from(block(r).is_some())));
+                    v.extend(records.iter().filter_map(block));
                 }
                 (Values::Word(v), Content::File) => {
-                    v.push(ByteArray::from(self.files.name(record.file).as_str()));
+                    v.extend(records.iter().map(|r| ByteArray::from(files.name(r.file).as_str())));
                 }
-                (Values::Word(v), _) => {
-                    let found = self.limits.iter().find(|l| l.0 == record.path.limit);
-                    v.push(found.map(|l| l.1.clone()).unwrap_or_default());
-                }
+                (Values::Word(v), _) => v.extend(records.iter().map(|r| {
+                    let found = limits.iter().find(|l| l.0 == r.path.limit);
+                    found.map(|l| l.1.clone()).unwrap_or_default()
+                })),
             }
         }
-        self.rows += 1;
-        if self.rows < ROWS_PER_GROUP {
-            return Ok(());
-        }
-        self.write_group().map_err(|e| self.kept(e))
+        self.rows += records.len();
     }
 
     /// Writes the rows that wait to a file of their own.
@@ -294,6 +314,7 @@ mod tests {
     use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::columns;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
+    use std::slice;
 
     /// What was written before an error stays where the error says, whenever it comes.
     #[test]
@@ -306,12 +327,13 @@ mod tests {
         let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
         let record = CycleRecord::default();
         for _ in 0..ROWS_PER_GROUP {
-            writer.write(&record).unwrap();
+            writer.write(slice::from_ref(&record)).unwrap();
         }
         let part = writer.parts[0].clone();
         // no file can be created where a folder is
         std::fs::create_dir(part.with_file_name(".000002.part")).unwrap();
-        let error = (0..ROWS_PER_GROUP).find_map(|_| writer.write(&record).err()).unwrap();
+        let mut more = (0..ROWS_PER_GROUP).map(|_| writer.write(slice::from_ref(&record)));
+        let error = more.find_map(Result::err).unwrap();
         drop(writer);
         let said = error.to_string();
         assert!(said.contains(&part.parent().unwrap().display().to_string()), "{said}");
@@ -337,17 +359,19 @@ mod tests {
         let target = Target::create(&path).unwrap();
         let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
         let rows = 2 * ROWS_PER_GROUP as u64 + 5;
-        for k in 0..rows {
-            let record = CycleRecord {
-                k,
-                file: u32::from(k > 10),
-                line: 7,
-                block: k.is_multiple_of(3).then_some(k),
-                path: PathRecord { limit: SpeedLimit::AxDev, ..PathRecord::default() },
-                axes: vec![AxisRecord { ipo: position(k), ..AxisRecord::default() }],
-                ..CycleRecord::default()
-            };
-            writer.write(&record).unwrap();
+        let record = |k: u64| CycleRecord {
+            k,
+            file: u32::from(k > 10),
+            line: 7 + (k / 4) as u32,
+            block: k.is_multiple_of(3).then_some(k),
+            path: PathRecord { limit: SpeedLimit::AxDev, ..PathRecord::default() },
+            axes: vec![AxisRecord { ipo: position(k), ..AxisRecord::default() }],
+            ..CycleRecord::default()
+        };
+        // batches that do not end where groups do
+        for first in (0..rows).step_by(700) {
+            let batch: Vec<_> = (first..rows.min(first + 700)).map(record).collect();
+            writer.write(&batch).unwrap();
         }
         let totals = Totals { filter_delay_cycles: vec![12.5], ..Totals::default() };
         writer.finish(&facts, &totals).unwrap();
@@ -361,7 +385,7 @@ mod tests {
         for row in reader.get_row_iter(None).unwrap() {
             let row = row.unwrap();
             assert_eq!(row.get_double(0).unwrap().to_bits(), (k as f64 * 500.0 / 1e6).to_bits());
-            assert_eq!(row.get_long(1).unwrap(), 7);
+            assert_eq!(row.get_long(1).unwrap(), 7 + (k / 4).cast_signed());
             assert_eq!(row.get_long(2).ok(), k.is_multiple_of(3).then(|| k.cast_signed()));
             assert_eq!(row.get_string(3).unwrap(), if k > 10 { "b.nc" } else { "a.nc" });
             assert_eq!(row.get_string(4).unwrap(), "ax_dev");

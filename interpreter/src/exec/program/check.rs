@@ -51,7 +51,7 @@ pub(crate) fn check(
             continue;
         }
         let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
-        match executor.next(feedback) {
+        match executor.next(Some(feedback)) {
             Step::End { .. } => {
                 executor.check_unreached();
                 return Checked {

@@ -188,9 +188,11 @@ impl Executor {
         }
     }
 
-    /// The next step of the program; after [`Step::End`] always that again.
-    pub(crate) fn next(&mut self, feedback: Feedback) -> Step {
-        self.decoder.feedback = feedback;
+    /// The next step of the program; after [`Step::End`] always that again. Without feedback, that of the last time holds.
+    pub(crate) fn next(&mut self, feedback: Option<Feedback>) -> Step {
+        if let Some(feedback) = feedback {
+            self.decoder.feedback = feedback;
+        }
         loop {
             if let Some(step) = self.decoder.contour.pop() {
                 // a stop takes no time

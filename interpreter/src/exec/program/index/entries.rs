@@ -231,6 +231,10 @@ impl Entries {
         if let Some(last) = recent.checked_sub(1) {
             return Some(((self.packed() + last) as EntryId, self.recent[last].0.position));
         }
+        // asked for every row: one in front of all of them, if there are any, waits for no lock
+        if self.marks.first().is_none_or(|first| offset < first.position.offset) {
+            return None;
+        }
         let begins = |group: usize| self.marks.get(group).map(|mark| mark.position.offset);
         let last =
             self.near.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(|n| n.group);
