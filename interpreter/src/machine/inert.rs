@@ -3,8 +3,7 @@
 
 use super::parameters::Parameters;
 use super::plausible::finish;
-use super::table::param::Param;
-use super::table::{Default, axis_general};
+use super::table::{Default, axis_general, with_indices};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic};
 
@@ -31,18 +30,22 @@ pub(super) fn check(
     for (indices, setting) in parameters.settings() {
         let row = setting.row;
         let Some((_, instead)) = INERT.iter().find(|(id, _)| *id == row.id) else { continue };
-        if matches!((&setting.value, row.default), (Value::Number(x), Default::Number(d)) if x.to_bits() == d.to_bits())
-        {
+        let default = match row.default {
+            Default::Number(x) => Some(Value::Number(x)),
+            _ => None,
+        };
+        if default.as_ref() == Some(&setting.value) {
             continue;
         }
-        let key = super::table::with_indices(row.key, indices);
+        let key = with_indices(row.key, indices);
         let text = format!("{key} is not simulated: {instead}");
         let diagnostic = Diagnostic::new(Condition::ListNoEffect, text)
             .hint("the trace may differ from that of the control");
         diagnostics.push(finish(diagnostic, row, setting.at.clone(), axis));
     }
     let behaviour = axis_general::LIMIT_BEHAVIOUR;
-    if let Some(setting) = limit_in_controller(parameters, behaviour) {
+    let in_controller = Value::Text("ERROR_LR".to_owned());
+    if let Some(setting) = parameters.set_by(behaviour).filter(|s| s.value == in_controller) {
         let text = format!(
             "{}: ERROR_LR acts as ERROR, a position outside the software limits ends the program",
             behaviour.place()
@@ -51,13 +54,4 @@ pub(super) fn check(
             .hint("WARNING lets the program run and the axis cross the limit");
         diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), axis));
     }
-}
-
-/// What sets P-AXIS-00554 to the reaction of the position controller.
-fn limit_in_controller<'a>(
-    parameters: &'a Parameters,
-    behaviour: Param<super::table::param::Text>,
-) -> Option<&'a super::parameters::Setting> {
-    let setting = parameters.set_by(behaviour)?;
-    matches!(&setting.value, Value::Text(word) if word == "ERROR_LR").then_some(setting)
 }
