@@ -5,6 +5,7 @@ use crate::exec::block::modal::{FeedType, PathMode};
 use crate::exec::block::words::Placed;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::spindles::Turning;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
@@ -26,6 +27,16 @@ impl Decoder {
             // the block is left out, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
+        let main = &self.motion.spindles[0];
+        if self.modal.feed_type == FeedType::PerRevolution
+            && main.index.is_some()
+            && main.turning == Turning::Stopped
+            && self.spindle_rpm() != 0.0
+        {
+            let text = "feed per revolution while the main spindle stands: its S word counts";
+            let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
+            self.report.note_once("G95 at rest", fault);
+        }
         let unit_mm = if word.inch && self.feed_is_linear(path) { 25.4 } else { 1.0 };
         self.feed_from(word.value, unit_mm, span)
     }

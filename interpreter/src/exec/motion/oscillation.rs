@@ -15,7 +15,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::step::{Event, OscillatingMotion, Sync};
 use crate::syntax::ast::{Group, Item, Span};
-use kontur_motion::independent::IndependentSpeed;
+use kontur_motion::independent::{IndependentMove, IndependentSpeed};
 
 arguments! {
     /// Keys of `X[OSC ..]`.
@@ -130,6 +130,7 @@ impl Decoder {
                 return Err(Fault::new(Condition::IndependentSyntax, text, span));
             }
         };
+        self.check_oscillation(axis, reversal_mm, speed, span);
         if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
@@ -153,5 +154,37 @@ impl Decoder {
         self.contour.event(Event::Oscillation { axis, motion });
         self.motion.independent.open.push(axis);
         Ok(())
+    }
+
+    /// 50487: the limits of the axis do not allow the time, or the feed.
+    fn check_oscillation(
+        &mut self,
+        axis: usize,
+        [first, second]: [f64; 2],
+        speed: IndependentSpeed,
+        span: Span,
+    ) {
+        let machine = &self.machine;
+        let (dynamics, cycle) = (machine.axes[axis].dynamics(), machine.cycle);
+        let slope = machine.channel.slope;
+        // the speed is above 0
+        let Ok(way) = IndependentMove::new(first, second, speed, slope, &dynamics, cycle) else {
+            return;
+        };
+        let least_s = cycle.time_of(way.cycles());
+        let limits = match speed {
+            IndependentSpeed::Time(t) if least_s > t + cycle.seconds() => {
+                format!("{t} s for a way take {least_s} s")
+            }
+            IndependentSpeed::Feed(v) if v > dynamics.v_max_mm_s * (1.0 + 1e-9) => {
+                format!("a feed of {v} mm/s is limited to {} mm/s", dynamics.v_max_mm_s)
+            }
+            _ => return,
+        };
+        let number = machine.axes[axis].number();
+        let name = self.names.name(axis).to_owned();
+        let text = format!("axis {name} oscillates more slowly than programmed: {limits}");
+        let fault = Fault::new(Condition::OscillationLimited, text, span);
+        self.report.note(fault.with(|d| d.axis(number, name)));
     }
 }

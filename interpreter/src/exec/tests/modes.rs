@@ -16,7 +16,7 @@ fn feed_types() {
         [Feed::PathVelocity(10.0), Feed::PathVelocity(10.0), Feed::Rapid]
     );
     assert_eq!(feeds("G93 F5 G01 X1\nX2"), [Feed::Duration(5.0), Feed::Duration(5.0)]);
-    assert_eq!(feeds("S1200 G95 F1.5 X1"), [Feed::PathVelocity(30.0)]);
+    assert_eq!(feeds("M03 S1200 G95 F1.5 X1"), [Feed::PathVelocity(30.0)]);
     assert_eq!(feeds("G194 F50 X1"), [Feed::ShareOfMaximum(0.5)]);
     // each type remembers its F, G93 wants a new one
     assert_eq!(
@@ -173,7 +173,7 @@ fn feedforward_weights_survive_switching() {
     assert!(run.blocks().is_empty());
     assert_eq!(said("G136"), ["K-0002"]);
     assert_eq!(said("G136 Q5"), ["20200", "K-0002"]);
-    for text in ["S[M3 REV1000.5]", "S[M19 POS45.5]"] {
+    for text in ["S[M3 REV1000.5]", "S[M19 POS45.5 REV10]"] {
         assert_eq!(said(text), [""; 0], "{text}");
     }
 }

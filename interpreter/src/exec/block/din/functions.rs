@@ -78,6 +78,14 @@ impl Decoder {
         {
             let text = "M03 and M04 with the speed 0 turn nothing before an S word";
             self.report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
+        } else if matches!(self.motion.spindles[index].turning, Turning::Positioned(_))
+            && self.motion.spindles[index].rpm == 0.0
+        {
+            // TF5200 programming manual, M19 (208038923, 208198923): a speed above 0 must be set
+            let text =
+                "M19 needs a spindle speed on the control, here the spindle goes as fast as it can";
+            let fault = Fault::new(Condition::Odd, text, span).hint("write S or REV before it");
+            self.report.note_once("M19 speed", fault.warning());
         }
     }
 
