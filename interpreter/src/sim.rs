@@ -242,7 +242,7 @@ impl Simulation {
                         self.go_on();
                         continue;
                     }
-                    if (bars || self.independent.is_held(k)) && self.inputs.is_over() {
+                    if (bars || wait.is_held(&self.independent, k)) && self.inputs.is_over() {
                         self.held_for_ever();
                         return false;
                     }

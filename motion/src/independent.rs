@@ -254,8 +254,16 @@ impl IndependentMove {
             (self.pauses, self.stopped) = (false, true);
             return Ok(());
         }
-        // at rest already, or braking for the target
-        if self.stopped || k >= self.cycles() || state.a_mm_s2 < 0.0 {
+        if self.stopped || k >= self.cycles() {
+            return Ok(());
+        }
+        if state.a_mm_s2 < 0.0 {
+            // for a lower override; what brakes for the target has no shorter way to rest
+            if let Some(course) = self.course_from(k, 0.0) {
+                self.course.truncate(i + 1);
+                self.course.extend(course);
+                self.stopped = true;
+            }
             return Ok(());
         }
         if k == 0 {

@@ -148,3 +148,23 @@ fn steered_at_random_times() {
         assert_eq!(before.position_mm, to, "{n} {kind:?}");
     }
 }
+
+/// A stop while an override is lowered ends at rest, and not at the target.
+#[test]
+fn stopped_while_it_slows_down() {
+    for kind in [Step, Trapez, Sin2] {
+        let mut m = go(0.0, 200.0, Feed(100.0), kind);
+        let half = OverrideRatios { feed: 0.5, rapid: 1.0 };
+        for k in 800..=820 {
+            m.steer(k, Steering { ratios: half, ..Steering::default() });
+        }
+        assert!(m.state(820).a_mm_s2 < 0.0, "{kind:?}");
+        let at = m.state(820).position_mm;
+        for k in 820..1100 {
+            m.stop(k).unwrap();
+        }
+        // at most the braking from 100 mm/s and a ramp of the acceleration
+        let end = m.state(5000);
+        assert!(end.position_mm < at + 15.0 && end.v_mm_s == 0.0, "{kind:?}: {end:?}");
+    }
+}

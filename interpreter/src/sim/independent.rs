@@ -153,10 +153,10 @@ impl IndependentAxes {
         }
     }
 
-    /// A motion is under way that feedhold or override 0 keeps at rest in cycle `k`.
-    pub(super) fn is_held(&self, k: u64) -> bool {
+    /// Feedhold or override 0 keeps the motion of an axis at rest in cycle `k`.
+    pub(super) fn is_held(&self, axis: usize, k: u64) -> bool {
         let held = |u: &Underway| u.motion.is_held(k.saturating_sub(u.k));
-        self.lanes.iter().any(|lane| lane.underway.as_ref().is_some_and(held))
+        self.lanes.get(axis).is_some_and(|lane| lane.underway.as_ref().is_some_and(held))
     }
 
     /// An oscillation ends when the axis comes to its second position; all of them if no axis is named.
@@ -235,6 +235,11 @@ impl IndependentAxes {
     pub(super) fn done_mm(&self, axis: usize) -> f64 {
         let way_mm = |lane: &Lane| lane.done_mm + lane.coupling.map_or(0.0, |c| c.way_mm);
         self.lanes.get(axis).map_or(0.0, way_mm)
+    }
+
+    /// Number of axes.
+    pub(super) fn len(&self) -> usize {
+        self.lanes.len()
     }
 
     pub(super) fn is_moving(&self, axis: usize) -> bool {

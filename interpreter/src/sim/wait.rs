@@ -178,6 +178,19 @@ impl Wait {
         }
     }
 
+    /// Every independent axis that it waits for is held in cycle `k`.
+    pub(super) fn is_held(&self, independent: &IndependentAxes, k: u64) -> bool {
+        let awaited = |axis: &usize| match &self.until {
+            Until::Arrived(axes) => axes.contains(axis),
+            Until::Flushed | Until::AllInPosition => true,
+            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => false,
+        };
+        let mut moving =
+            (0..independent.len()).filter(awaited).filter(|a| independent.is_moving(*a));
+        let held = |axis: usize| independent.is_held(axis, k);
+        moving.next().is_some_and(held) && moving.all(held)
+    }
+
     /// What keeps a chain from being where the wait wants it.
     fn remaining(&self, chain: &AxisChain) -> Option<Remaining> {
         let position = matches!(self.until, Until::InPosition | Until::AllInPosition);
