@@ -232,6 +232,7 @@ conditions! {
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
+    TwoDecelerations = Vendor 20977: Error ProgramAbort 3 1, "two of G09/G900/G901", hint "one of G09, G900, G901 per block";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before it";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "M3 and M4 set the direction, REV and SPEED are positive";
     TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63 is active", cause "M3, M4, M5 or M19 in the block of G63 or after it", hint "write G00 or G01 before it: G63 is modal";

@@ -70,8 +70,8 @@ impl Group {
             Self::CompensationTransition => Condition::TwoCorners,
             Self::RampWeight => Condition::TwoRampWeights,
             Self::VelocityWeight => Condition::TwoVelocityWeights,
-            Self::Deceleration
-            | Self::Plane
+            Self::Deceleration => Condition::TwoDecelerations,
+            Self::Plane
             | Self::Rotation
             | Self::Dimension
             | Self::Masking
@@ -255,7 +255,7 @@ const ROWS: &[Row] = &[
     Row { number: 4, group: Group::Path, act: Act::Dwell, value: ValueRule::Optional },
     g(5, Group::None, Act::Tangential),
     g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
-    g(9, Group::None, Act::EarlyBrakingOnce),
+    g(9, Group::Deceleration, Act::EarlyBrakingOnce),
     g(10, Group::CompensationFeed, Act::EngagementFeed(false)),
     g(11, Group::CompensationFeed, Act::EngagementFeed(true)),
     g(12, Group::CornerDeceleration, Act::CornerDeceleration(false)),

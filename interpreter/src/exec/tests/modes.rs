@@ -50,7 +50,7 @@ fn late_braking() {
         late("G137 G01 X1 F100\nG09 X2 F50\nG901\nX3 F20\nG09\nX4"),
         [false, false, true, true]
     );
-    assert_eq!(run("G137 G900 G901 X1 F100\nM30\n").ids(), ["K-0008"]);
+    assert_eq!(run("G137 G900 G901 X1 F100\nM30\n").ids(), ["20977"]);
     // said once
     let hsc = run("G137 G901\n#SLOPE [TYPE=HSC]\nG01 X1 F100\nX2 F50\nX3\nG900 X4\nM30\n");
     assert_eq!(hsc.ids(), ["K-0100"]);
