@@ -135,14 +135,23 @@ fn family(wanted: &str) -> Option<Explanation> {
     let rows: Vec<&commands::Row> = commands::explained()
         .filter(|row| row.name.strip_prefix(first).is_some_and(|rest| rest.starts_with(' ')))
         .collect();
-    (!rows.is_empty()).then(|| Explanation {
+    let others = functions().flat_map(|c| c.names.iter().map(move |name| (*name, c.meaning)));
+    let others = others
+        .filter(|(name, _)| name.strip_prefix(wanted).is_some_and(|rest| rest.starts_with(' ')));
+    let others: Vec<(&str, &str)> = others.collect();
+    let rows = rows.iter().map(|row| (row.name, row.meaning));
+    let facts: Vec<(&'static str, String)> = rows
+        .chain(others)
+        .map(|(name, meaning)| (name.trim_start_matches('#'), meaning.to_owned()))
+        .collect();
+    (!facts.is_empty()).then(|| Explanation {
         kind: Kind::Command,
         title: wanted.to_owned(),
         meaning: "several commands begin with this word".to_owned(),
-        facts: rows.iter().map(|row| (row.name, row.meaning.to_owned())).collect(),
+        related: facts.iter().map(|(name, _)| format!("#{name}")).collect(),
+        facts,
         notes: Vec::new(),
         example: None,
-        related: rows.iter().map(|row| format!("#{}", row.name)).collect(),
     })
 }
 

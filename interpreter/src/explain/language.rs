@@ -35,6 +35,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["#PSET", "#PRESET"], "#PSET X.. Y..   #PRESET X.. Y..   #PRESET", "sets coordinates to these values where the axes are, without a motion; without axes takes it away", "", "", "#PSET X0 Y0", &["G92"]),
     row(&["#SUPPRESS OFFSETS"], "X.. Y.. #SUPPRESS OFFSETS [ZERO ADD_ZERO PSET CLAMP TOOL MEASURE MANUAL]", "the targets of this block count without offsets, or without these kinds of them", "", "", "G00 X0 #SUPPRESS OFFSETS", &["G53", "G92"]),
     row(&["#ROTATION"], "#ROTATION ON [..]   #ROTATION OFF", "rotation of the contour in the plane", "", "", "#ROTATION OFF", &["G68", "#CS ADD"]),
+    row(&["#CS DEF", "#CS ON", "#CS OFF"], "#CS DEF [n] [x, y, z, a, b, c]   #CS ON [n]   #CS ON [x, y, z, a, b, c]   #CS OFF [ALL]", "defines a coordinate system, works in it, and leaves it", "three shifts in mm (G70: inch) and three angles in deg", "up to five systems are stored", "#CS ON [50, 50, 0]", &["#CS ADD", "#MCS", "G54"]),
     row(&["#FGROUP"], "#FGROUP [X, Y, Z]", "axes over which F counts", "", "", "#FGROUP [X, Y]", &["F", "P-CHAN-00011"]),
     row(&["#VAR", "#ENDVAR", "#DELETE"], "#VAR .. V.P.NAME = 0 .. #ENDVAR   #DELETE V.P.NAME", "declares variables, and gives them up", "", "the same name twice: 20909", "#DELETE V.P.NAME", &["V.P", "20909"]),
     row(&["#COMMENT"], "#COMMENT BEGIN .. #COMMENT END", "lines in between are a remark", "", "", "#COMMENT BEGIN", &["K-0101"]),

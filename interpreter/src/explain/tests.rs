@@ -34,7 +34,9 @@ fn the_language_is_explained() {
         assert_eq!(e.kind, Kind::Command, "{thing}");
     }
     let systems = explain("#CS").unwrap();
-    assert!(systems.facts.iter().any(|(name, _)| *name == "CS ADD"), "{systems:?}");
+    for name in ["CS ADD", "CS DEF", "CS ON"] {
+        assert!(systems.facts.iter().any(|(other, _)| *other == name), "{systems:?}");
+    }
 }
 
 #[test]
