@@ -31,7 +31,7 @@ mod gauge;
 mod meter;
 
 use crate::axis::AxisVec;
-use crate::contour::{Contour, ROUNDING_MM};
+use crate::contour::{Contour, ROUNDING_MM, WARY};
 pub(crate) use meter::What;
 pub use meter::{Change, Meter};
 use smallvec::SmallVec;
@@ -43,6 +43,9 @@ const PARTS: u32 = 8;
 /// Share by which a vector to a point of the contour may be longer than the shortest one and still be taken for it. On a
 /// straight set path that is 4.5 % of the vector along the path.
 pub(crate) const ALIKE: f64 = 1e-3;
+
+/// Share by which a vector from the contour to a set point may be longer than the shortest one while its components count.
+pub const HARDLY_LONGER: f64 = WARY;
 
 /// Set points of consecutive cycles.
 #[derive(Clone, Debug, Default)]

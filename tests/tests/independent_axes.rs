@@ -216,6 +216,23 @@ fn under_override() {
     near(arrival("0", &late), 2.1);
 }
 
+/// An oscillation of 20 mm at 20 mm/s stands from 1 s to 2 s, and under half the override a way takes twice as long.
+#[test]
+fn an_oscillation_under_feedhold_and_override() {
+    let program = "%P\nX[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1200]\nG04 8\nX[OSC OFF]\nM30\n";
+    let free = run_on(linear(&[]), program);
+    let inputs = [(1.0, "feedhold", 1.0), (2.0, "feedhold", 0.0)];
+    let held = run_with_inputs(linear(&[]), program, &inputs);
+    near(at(&held, 0, 1.1), at(&held, 0, 1.9));
+    let reversal = |run: &Run| arrival_s(run, 0, 10.0);
+    // of the second, braking drives what takes 0.01 s at full speed; speeding up again loses as much
+    near(reversal(&held), reversal(&free) + 1.0);
+    let half = run_with_inputs(linear(&[]), program, &[(0.0, "override_percent", 50.0)]);
+    // to -10 mm and back to 10 mm, each way with a ramp of v / 1000
+    near(reversal(&free), 10.0 / 20.0 + 20.0 / 20.0 + 2.0 * 0.02);
+    near(reversal(&half), 10.0 / 10.0 + 20.0 / 10.0 + 2.0 * 0.01);
+}
+
 /// A wait for an axis that nothing releases any more ends the run.
 #[test]
 fn held_indefinitely() {

@@ -10,7 +10,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["S"], "S..   S[..]", "speed of the main spindle in rev/min; in brackets several words of a spindle", "", "", "M03 S1200", &["M03", "M19", "G96"]),
     row(&["T"], "T..", "tool for the next change", "", "", "T5 M06", &["M06", "D"]),
     row(&["D"], "D..", "tool data: length, radius and offsets of axes; D0 takes them away", "", "the length acts with the next absolute word of its axis", "D1", &["G41", "K-0114", "V.G"]),
-    row(&["R"], "G02 X.. Y.. R..", "radius of an arc: above 0 the shorter one, below 0 the longer one; with G301 and G302 see there", "mm (G70: inch)", "", "G02 X10 Y10 R10", &["G02", "20034"]),
+    row(&["R"], "G02 X.. Y.. R..", "radius of an arc: above 0 the shorter one, below 0 the longer one", "mm (G70: inch)", "", "G02 X10 Y10 R10", &["G02", "20034"]),
     row(&["I", "J", "K"], "G02 X.. Y.. I.. J..", "centre of an arc in X, Y, Z, from its start (G162) or absolute (G161); pitch of threads", "mm (G70: inch)", "", "G02 X20 I10", &["G02", "G161", "G33"]),
     row(&["N"], "N10 ..", "number of a block; N10: is a label for $GOTO", "", "", "N10 G01 X10", &["$GOTO"]),
     row(&["L", "LL", "L CYCLE"], "L name   LL name   L CYCLE [NAME=name @P1=..]", "calls a global subroutine, a local one (%L), or a cycle with parameters", "", "a cycle keeps its G functions and variables for itself (P-CHAN-00210)", "LL DRILL", &["M17", "M29", "P-CHAN-00210"]),

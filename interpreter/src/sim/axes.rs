@@ -51,7 +51,7 @@ impl Simulation {
         self.watch_thread();
         let alone = !self.independent.is_unused();
         if alone {
-            self.steer_independent(k);
+            self.independent.take_over(k);
         }
         let setpoint = self.planner.setpoint();
         let ds = setpoint.s_mm - self.record.path.s_mm;

@@ -144,12 +144,19 @@ impl IndependentAxes {
         Ok(())
     }
 
-    /// What acts on an axis from outside, from cycle `k` on.
-    pub(super) fn steer(&mut self, axis: usize, k: u64, steering: Steering) {
-        let Some(lane) = self.lanes.get_mut(axis) else { return };
-        lane.steering = steering;
-        if let Some(underway) = &mut lane.underway {
-            underway.motion.steer(k.saturating_sub(underway.k), steering);
+    /// What acts on an axis from outside, from the next call of [`Self::take_over`] on.
+    pub(super) fn steer(&mut self, axis: usize, steering: Steering) {
+        if let Some(lane) = self.lanes.get_mut(axis) {
+            lane.steering = steering;
+        }
+    }
+
+    /// The motions under way take over what acts on them from cycle `k` on; asked in every cycle, because not every state has a way.
+    pub(super) fn take_over(&mut self, k: u64) {
+        for lane in &mut self.lanes {
+            if let Some(underway) = &mut lane.underway {
+                underway.motion.steer(k.saturating_sub(underway.k), lane.steering);
+            }
         }
     }
 

@@ -17,7 +17,7 @@ impl Simulation {
         for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
             chain.set_inputs(*inputs);
         }
-        self.steer_independent(k);
+        self.steer_independent();
         self.take_wear(k);
         let channel = &self.machine.channel;
         self.planner.set_override(self.inputs.ratios(channel.rapid_override));
@@ -78,15 +78,15 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    /// Gives override and feedhold to the axes that move beside the path, in every cycle of such a motion.
-    pub(super) fn steer_independent(&mut self, k: u64) {
+    /// Gives override and feedhold to the axes that move, or will move, beside the path.
+    fn steer_independent(&mut self) {
         let channel = &self.machine.channel;
         let ratios = self.inputs.ratios(channel.rapid_override);
         for (p, axis) in self.machine.axes.iter().enumerate() {
             let ratios = axis.independent_ratios(ratios);
             let held = self.inputs.feedhold && axis.holds_independent();
             let steering = Steering { ratios, mode: channel.override_mode, held };
-            self.independent.steer(p, k, steering);
+            self.independent.steer(p, steering);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::Summary;
 use super::ripple::CORNER_DEG;
 use crate::diag::Severity;
 use crate::record::{Rest, SpeedLimit};
+use kontur_motion::deviation::HARDLY_LONGER;
 use std::fmt::Write as _;
 
 /// Differences in mm (deg) below this one are not seen in the text.
@@ -63,9 +64,10 @@ impl Summary {
             } else {
                 writeln!(out, "  contour error  none")?;
             }
-            // the set points may keep to a contour of which they leave something out
+            // the set points may keep to a contour of which they leave something out; a component is larger than the shortest
+            // vector also where it belongs to another one that is hardly longer
             let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
-            if deviation > worst.mm + LEAST_SHOWN {
+            if deviation > worst.mm * (1.0 + HARDLY_LONGER) * (1.0 + HARDLY_LONGER) + LEAST_SHOWN {
                 writeln!(out, "  missed         up to {deviation:.6} of the contour, see |dev|")?;
             }
         }

@@ -55,7 +55,7 @@ impl Decoder {
                     let text = "feed per revolution, but the main spindle has no speed";
                     return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));
                 }
-                Feed::PathVelocity(value * unit_mm * rpm / 60.0)
+                per_revolution(value * unit_mm, rpm)
             }
         })
     }
@@ -65,7 +65,7 @@ impl Decoder {
         let word = self.modal.feed();
         let inch = word.is_some_and(|word| word.inch) && self.feed_is_linear(path);
         let unit_mm = if inch { 25.4 } else { 1.0 };
-        Feed::PathVelocity(word.map_or(0.0, |word| word.value) * unit_mm * rpm / 60.0)
+        per_revolution(word.map_or(0.0, |word| word.value) * unit_mm, rpm)
     }
 
     /// Says of a time (G93) that the limits of the axes do not allow: the limits win.
@@ -104,4 +104,9 @@ impl Decoder {
         }
         Ok(Some((value * self.feed_unit_mm_s()).min(v)))
     }
+}
+
+/// A way in mm per revolution at a speed in rev/min.
+fn per_revolution(way_mm: f64, rpm: f64) -> Feed {
+    Feed::PathVelocity(way_mm * rpm / 60.0)
 }

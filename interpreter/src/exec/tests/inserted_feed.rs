@@ -37,3 +37,21 @@ fn an_inserted_element_has_no_time_of_its_own() {
     let around = feeds(square);
     assert_eq!(around[1..4], [Duration(2.0), v, Duration(2.0)]);
 }
+
+/// What compensation inserts has the feed of the motion in front of it, whatever comes behind: arcs and lines.
+#[test]
+fn corners_of_compensation_keep_the_feed_in_front() {
+    let around = |corners: &str, behind: &str| {
+        feeds(&format!(
+            "V.G.WZ_AKT.R=1\n{corners} G42 G01 F600 X10\nY20 F1200\n{behind} X-10\nG01 G40 X0 Y-5 F600"
+        ))
+    };
+    for behind in ["F300", "G00", "G93 F7"] {
+        let arc = around("G26", behind);
+        assert_eq!(arc[1..3], [PathVelocity(20.0); 2], "{behind}");
+        assert!(arc[3] != PathVelocity(20.0), "{behind}: {arc:?}");
+    }
+    // G93 in front: 20 mm in 2 s, rapid behind
+    let text = "V.G.WZ_AKT.R=1\nG26 G42 G01 F600 X10\nG93 Y20 F2\nG00 X-10\nG01 G94 G40 X0 Y-5";
+    assert_eq!(feeds(text)[1..4], [Duration(2.0), PathVelocity(10.0), Rapid]);
+}

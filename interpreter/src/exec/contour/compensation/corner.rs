@@ -85,7 +85,7 @@ pub(super) fn corner_arc(
     let path = ArcPath::new(place(from), place(to), shape, feed_axes)?;
     let mut arc = before.clone();
     arc.block.path = Path::Arc(path);
-    arc.block.feed = after.feed_beside();
+    arc.block.feed = before.feed_beside();
     arc.engaged = Some(distance > 0.0);
     arc.events.clear();
     Some(Item::Motion(Box::new(arc)))
