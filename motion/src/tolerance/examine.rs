@@ -145,12 +145,16 @@ impl View<'_> {
             worst = both.max_by(|a, b| a.deviation_mm.total_cmp(&b.deviation_mm));
         }
         if worst.is_none() {
-            depth = Depth::Moved;
             let moved = self.trial.reached_by(|e| match e.seen {
                 Seen::Stays(at) | Seen::Kept(at) => !at.is_whole_cycles_from(e.start),
                 Seen::Nothing | Seen::Glanced => false,
             });
-            worst = self.search(&moved, &mut points, &mut found);
+            worst = self.leaving(&moved, &mut points, &mut found);
+            // where one of them leaves the contour, what the others miss of it has not been measured at their new moments
+            if worst.is_none() {
+                depth = Depth::Moved;
+                worst = self.missing(&moved, &mut points, &mut found);
+            }
         }
         Found { worst, exceeded, depth }
     }

@@ -5,6 +5,7 @@
 //! `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- the_tolerance` takes as many programs of
 //! another kind.
 
+mod chords;
 mod measure;
 mod program;
 mod splines;
@@ -59,9 +60,8 @@ fn case(seed: u64) -> Case {
     Case { text: w.text, settings, tolerance_mm, off_mm, reach, blocks: w.blocks }
 }
 
-/// Runs a random program and judges it; returns the largest deviation of a set point as a share of the tolerance.
-fn holds(n: u64) -> f64 {
-    let case = case(n);
+/// Runs the program of a number and judges it; returns the largest deviation of a set point as a share of the tolerance.
+fn holds(n: u64, case: &Case) -> f64 {
     let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
     let run = run(&case.text, &settings);
     let about = || format!("program {n}\n{}\n{:?}", case.text, case.settings);
@@ -69,14 +69,14 @@ fn holds(n: u64) -> f64 {
     let unkept: Vec<_> =
         run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).collect();
     assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
-    let off = off_contour(&run, &case);
+    let off = off_contour(&run, case);
     assert!(off <= case.off_mm + SLACK_MM, "setpoints {off} mm off the contour\n{}", about());
     let own = largest(&run, |a| a.dev.abs());
     let both = largest(&run, |a| a.dev_both_ways);
     let limit = case.tolerance_mm + SLACK_MM;
     assert!(own <= limit, "X_dev_mm {own}, AX_DEV {}\n{}", case.tolerance_mm, about());
     assert!(both <= limit, "both ways {both}, AX_DEV {}\n{}", case.tolerance_mm, about());
-    let (dev, k) = recomputed(&run, &case);
+    let (dev, k) = recomputed(&run, case);
     assert!(
         dev <= case.within_mm() + SLACK_MM,
         "cycle {k}: {dev} mm, AX_DEV {}\n{}",
@@ -84,7 +84,7 @@ fn holds(n: u64) -> f64 {
         about()
     );
     // the contour of a spline is known within `off_mm` only
-    let (most, line) = if case.off_mm > 0.0 { (0.0, 0) } else { missed(&run, &case) };
+    let (most, line) = if case.off_mm > 0.0 { (0.0, 0) } else { missed(&run, case) };
     assert!(
         most <= limit,
         "line {line}: missed by {most}, AX_DEV {}\n{}",
@@ -98,7 +98,7 @@ fn holds(n: u64) -> f64 {
 #[test]
 fn the_tolerance_holds_over_random_programs() {
     let first = seed() * 1_000_000;
-    let shares = (0..count(6) as u64).map(|n| holds(first + n));
+    let shares = (first..first + count(6) as u64).map(|n| holds(n, &case(n)));
     let tightest = shares.fold(0.0, f64::max);
     assert!(tightest > 0.9, "the tolerance is used: {tightest}");
 }
@@ -109,8 +109,20 @@ fn the_tolerance_holds_over_random_programs() {
 #[test]
 fn random_programs_that_were_wrong() {
     for n in [8_000_031, 8_000_043, 21_000_060, 23_000_025] {
-        holds(n);
+        holds(n, &case(n));
     }
+}
+
+/// Curves of chords, under filters of a few cycles as well: of a plan that another answer had moved by other than whole cycles what it
+/// misses was not measured again (one of 25 programs, up to 1.14 times the tolerance).
+///
+/// `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- curves_of_chords` takes as many.
+#[test]
+fn the_tolerance_holds_over_curves_of_chords() {
+    let first = seed() * 1_000_000;
+    let shares = (first..first + count(12) as u64).map(|n| holds(n, &chords::case(n)));
+    let tightest = shares.fold(0.0, f64::max);
+    assert!(tightest > 0.9, "the tolerance is used: {tightest}");
 }
 
 /// A square of 50 mm under `#HSC ON [BSPLINE]`, its corners rounded within `path_dev`.
