@@ -96,7 +96,10 @@ impl Decoder {
                 self.assign(assign)
             }
             WordKind::MacroDefinition(definition) => {
-                self.calls.macros.insert(definition.name.clone(), definition.text.clone());
+                let before =
+                    self.calls.macros.insert(definition.name.clone(), definition.text.clone());
+                // blocks that hold the text of before have to be read again
+                self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
                 Ok(())
             }
             WordKind::MacroUse(name) => {
