@@ -1,7 +1,8 @@
-//! Curves as CAM systems write them: hundreds of chords under the Vibration Guard.
+//! Curves as CAM systems write them: hundreds of chords under the Vibration Guard and other filters, the filter switched or a
+//! dwell between some of them.
 
 use crate::measure::Case;
-use crate::program::{Writer, dynamics, rounded};
+use crate::program::{Writer, dynamics, filter, off, rounded};
 use kontur_kit::Random;
 use std::f64::consts::TAU;
 
@@ -60,29 +61,46 @@ fn curve(r: &mut Random) -> Vec<[f64; 3]> {
     points.into_iter().map(|p| p.map(printed)).collect()
 }
 
+/// The guard at any frequency that machines vibrate with.
+fn guard(r: &mut Random, tolerance_mm: f64, cycle_us: u32) -> (String, Vec<String>, usize) {
+    let (mode, freq_hz) = (1 + r.below(4), rounded(r.log(10.0, 100.0)));
+    let damping = rounded(r.between(0.0, 0.3));
+    let half_periods = [1.0, 2.0, 3.0, 2.0][mode - 1];
+    let length_s = half_periods * 0.5 / (freq_hz * (1.0 - damping * damping).sqrt());
+    let command = format!(
+        "#VIB GUARD ON [MODE={mode} FREQ={freq_hz} DAMPING={damping} AX_DEV={tolerance_mm}]"
+    );
+    (command, Vec::new(), (length_s / (1e-6 * f64::from(cycle_us))).ceil() as usize + 4)
+}
+
 /// The curve of a seed as a program.
 pub(crate) fn case(seed: u64) -> Case {
     let mut r = Random::new(seed);
     let cycle_us = r.pick(&[500, 1000, 2000, 4000]);
     let slope = r.pick(&["TRAPEZ", "SIN2", "HSC"]);
     let tolerance_mm = rounded(r.log(2e-3, 2e-1));
-    let (mode, freq_hz) = (1 + r.below(4), rounded(r.log(10.0, 100.0)));
-    let damping = rounded(r.between(0.0, 0.3));
-    let half_periods = [1.0, 2.0, 3.0, 2.0][mode - 1];
-    let length_s = half_periods * 0.5 / (freq_hz * (1.0 - damping * damping).sqrt());
-    let mut settings = vec![format!("kontur.cycle_time_us={cycle_us}")];
+    let (command, mut settings, reach) = if r.chance(0.4) {
+        filter(&mut r, tolerance_mm, cycle_us)
+    } else {
+        guard(&mut r, tolerance_mm, cycle_us)
+    };
+    settings.push(format!("kontur.cycle_time_us={cycle_us}"));
     settings.extend(dynamics(&mut r));
     let mut w = Writer::new();
     w.put("%P");
     w.put(&format!("G90 G01 F{}", r.log(500.0, 20000.0).round()));
     w.put(&format!("#SLOPE [TYPE={slope}]"));
-    w.put(&format!(
-        "#VIB GUARD ON [MODE={mode} FREQ={freq_hz} DAMPING={damping} AX_DEV={tolerance_mm}]"
-    ));
+    w.put(&command);
+    let every = 5 + r.below(60);
+    if r.chance(0.2) {
+        let dwell = format!("G04 {}", rounded(r.log(1e-3, 0.1)));
+        w.switch = Some(([dwell.clone(), dwell], every));
+    } else if r.chance(0.2) {
+        w.switch = Some(([off(&command).to_owned(), command], every));
+    }
     for p in curve(&mut r) {
         w.line_to("G01", p);
     }
     w.put("M30");
-    let reach = (length_s / (1e-6 * f64::from(cycle_us))).ceil() as usize + 4;
     Case { text: w.text, settings, tolerance_mm, off_mm: 0.0, reach, blocks: w.blocks }
 }

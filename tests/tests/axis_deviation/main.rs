@@ -16,7 +16,9 @@ use kontur_kit::{Random, count, seed};
 use kontur_tests::geometry::norm;
 use kontur_tests::{machine, run, run_with_inputs};
 use measure::{Case, largest, missed, off_contour, recomputed};
-use program::{Writer, arcs, contoured, dynamics, filter, polygon, rounded, short_blocks, splined};
+use program::{
+    Writer, arcs, contoured, dynamics, filter, off, polygon, rounded, short_blocks, splined,
+};
 
 /// Rounding of the sums over the kernel; a trace prints two digits less.
 const SLACK_MM: f64 = 1e-9;
@@ -40,14 +42,7 @@ fn case(seed: u64) -> Case {
     let kind = r.below(6);
     // a rounded corner and a spline end where the filter is switched
     if kind < 4 && r.chance(0.4) {
-        let off = if command.starts_with("#VIB") {
-            "#VIB GUARD OFF"
-        } else if command.contains("[HSC") {
-            "#FILTER OFF [HSC]"
-        } else {
-            "#FILTER OFF"
-        };
-        w.switch = Some(([off.to_owned(), command.clone()], 1 + r.below(5)));
+        w.switch = Some(([off(&command).to_owned(), command.clone()], 1 + r.below(5)));
     }
     match kind {
         0 | 1 => polygon(&mut r, &mut w, scale),
@@ -69,8 +64,8 @@ fn holds(n: u64, case: &Case) -> f64 {
     let unkept: Vec<_> =
         run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).collect();
     assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
-    let off = off_contour(&run, case);
-    assert!(off <= case.off_mm + SLACK_MM, "setpoints {off} mm off the contour\n{}", about());
+    let beside = off_contour(&run, case);
+    assert!(beside <= case.off_mm + SLACK_MM, "setpoints {beside} mm off the contour\n{}", about());
     let own = largest(&run, |a| a.dev.abs());
     let both = largest(&run, |a| a.dev_both_ways);
     let limit = case.tolerance_mm + SLACK_MM;

@@ -254,6 +254,15 @@ pub(crate) fn filter(
     (format!("#FILTER ON [HSC ORDER={order} AX_DEV={tolerance}]"), lists(&entries), order)
 }
 
+/// The command that switches off what another one has switched on.
+pub(crate) fn off(command: &str) -> &'static str {
+    match command {
+        guard if guard.starts_with("#VIB") => "#VIB GUARD OFF",
+        hsc if hsc.contains("[HSC") => "#FILTER OFF [HSC]",
+        _ => "#FILTER OFF",
+    }
+}
+
 pub(crate) fn dynamics(r: &mut Random) -> Vec<String> {
     let mut entries = vec![
         "dynamik.a_max=20000".to_owned(),

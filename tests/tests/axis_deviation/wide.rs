@@ -6,7 +6,7 @@
 
 use crate::SLACK_MM;
 use crate::measure::{Case, largest, missed, off_contour, recomputed};
-use crate::program::{Writer, arcs, dynamics, filter, polygon, rounded, short_blocks};
+use crate::program::{Writer, arcs, dynamics, filter, off, polygon, rounded, short_blocks};
 use kontur_interpreter::diag::Condition;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::{Run, machine, run_with_inputs};
@@ -98,12 +98,7 @@ fn wide(seed: u64) -> Wide {
     let scale = r.pick(&[0.02, 0.3, 2.0, 15.0]);
     let what = r.below(4);
     if what == 0 {
-        let off = match &command {
-            guard if guard.starts_with("#VIB") => "#VIB GUARD OFF",
-            hsc if hsc.contains("[HSC") => "#FILTER OFF [HSC]",
-            _ => "#FILTER OFF",
-        };
-        w.switch = Some(([off.to_owned(), command.clone()], 1 + r.below(5)));
+        w.switch = Some(([off(&command).to_owned(), command.clone()], 1 + r.below(5)));
     } else if what == 1 {
         let dwell = format!("G04 {}", rounded(r.log(1e-3, 0.3)));
         w.switch = Some(([dwell.clone(), dwell], 1 + r.below(5)));
