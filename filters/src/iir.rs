@@ -129,7 +129,7 @@ impl Default for FilterConfig {
 pub(crate) const LOWEST_FREQUENCY_RATIO: f64 = 1e-5;
 
 /// A standard filter at work: its design and its state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AxisFilter {
     network: Network,
     share: Share,
@@ -137,7 +137,7 @@ pub struct AxisFilter {
     start: Option<f64>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Network {
     Sections(Vec<(Section, SectionState)>),
     Delay(Thiran, ThiranState),

@@ -110,6 +110,8 @@ pub(crate) struct Simulation {
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
     current: SourceRef,
+    /// Block of the last cycle, see [`Self::block_of_cycle`].
+    shown: SourceRef,
     motion: Motion,
     /// Feedhold or override 0 keeps the path at rest in this cycle.
     is_held: bool,
@@ -387,7 +389,7 @@ impl Simulation {
             wait::Action::Halted => self.call_at_halt(),
             wait::Action::Resume => self.resume(),
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
-            wait::Action::MachineData { axis } => self.machine_data(axis),
+            wait::Action::MachineData => self.machine_data(),
             wait::Action::SetPosition { axis, offset_mm } => {
                 self.set_position(axis, offset_mm);
                 self.phase = Phase::Waiting(Wait::for_a_cycle());

@@ -141,6 +141,21 @@ fn a_position_that_is_set_moves_nothing() {
     assert!(deviation(&with) > 0.02 && deviation(&with) <= 0.05, "{}", deviation(&with));
 }
 
+/// Directly behind a motion, while the axis still follows: its lag stays in the cycle in which the position changes, and dies away
+/// as it does without.
+#[test]
+fn a_position_that_is_set_leaves_the_lag() {
+    let run = |command: &str| go(&[], &format!("G60 G01 X20 F8000\n{command}\nG04 0.1\n"));
+    let (with, without) = (run("X[SET_POSITION POS=-300]"), run("G04 0.001"));
+    let at = |run: &Run, k: usize| run.records[k].axes[0].lag;
+    let changed = set(&with, 0).iter().position(|x| *x < -200.0).unwrap();
+    assert!(at(&with, changed - 1) > 1e-3, "it still follows");
+    for k in 0..changed + 100 {
+        let (a, b) = (at(&with, k), at(&without, k));
+        assert!((a - b).abs() < 1e-9, "cycle {k} of {changed}: {a} and {b}");
+    }
+}
+
 /// `#CHANNEL INIT [ACTPOS]` directly behind a motion waits until the axes are in their windows and moves nothing: between
 /// two cycles the actual positions do not jump, the set positions by a window at most, and incremental motions count on
 /// from where the axes are.

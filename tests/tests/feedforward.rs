@@ -218,3 +218,33 @@ fn switching_in_motion_is_told() {
     assert_eq!(switched("G90 G60 G01 X50 F6000"), (None, 0));
     assert_eq!(switched("G04 0.1"), (None, 0));
 }
+
+/// `#MACHINE DATA` while the axes still follow: where the value is the one in force nothing changes, and another gain is felt
+/// as another speed command, with no jump of the axis.
+#[test]
+fn machine_data_move_no_axis() {
+    for settings in
+        [&[][..], &["X.filter[0].enable=1", "X.filter[0].type=PT1", "X.filter[0].order=1"]]
+    {
+        let with = |command: &str| {
+            run(&program(&["G135", "G01 X10 F6000", command, "G04 0.2", "X20"]), settings)
+        };
+        let plain = with("#FLUSH WAIT");
+        let moved = |run: &Run, of: fn(&Run, usize) -> f64| -> Vec<f64> {
+            (1..run.records.len()).map(|k| of(run, k) - of(run, k - 1)).collect()
+        };
+        let act = |run: &Run, k: usize| run.records[k].axes[0].act;
+        for same in ["getriebe[0].kv 5000", "vorsteuer.vorsteuerung VEL", "filter[1].enable 0"] {
+            let run = with(&format!("#MACHINE DATA [AX=X AXPARAM=\"{same}\"]"));
+            assert!(!run.totals.aborted, "{same}: {:?}", run.diagnostics);
+            let axes = |run: &Run| run.records.iter().map(|r| r.axes.clone()).collect::<Vec<_>>();
+            assert!(axes(&run) == axes(&plain), "{same}");
+        }
+        for other in ["getriebe[0].kv 2000", "filter[0].enable 0", "vorsteuer.vorsteuerung NONE"] {
+            let run = with(&format!("#MACHINE DATA [AX=X AXPARAM=\"{other}\"]"));
+            let fastest = moved(&run, act).into_iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+            // 100 mm/s, and a little more where the axis swings
+            assert!(fastest < 0.12, "{other}: {fastest} mm in a cycle");
+        }
+    }
+}

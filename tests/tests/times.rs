@@ -1,8 +1,9 @@
 //! `run --times`: every cycle belongs to one line and has one reason.
 
 use kontur::Exit;
-use kontur_kit::Random;
+use kontur_kit::{Random, count, seed};
 use kontur_tests::command::command;
+use kontur_tests::{machine, run, run_with_inputs};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -184,4 +185,55 @@ fn a_timer_does_not_stop_the_path() {
     let without = kontur_tests::run(&text(""), &[]);
     assert_eq!(with.diagnostics, []);
     assert_eq!(with.records.len(), without.records.len());
+}
+
+/// A program runs from top to bottom, and so does the column `line`, whatever waits for what: the waits of a motion belong to
+/// it, and those behind another block's no longer.
+#[test]
+fn lines_never_go_back() {
+    for n in 0..count(40) as u64 {
+        let mut random = Random::new(seed() * 1000 + n);
+        let mut text = "%P\nG90 G01 F6000\n".to_owned();
+        for _ in 0..12 {
+            let to = random.between(0.0, 40.0);
+            text += &match random.below(10) {
+                0..3 => format!("G01 X{to:.2}\n"),
+                3 => format!("G04 {:.3}\n", random.between(0.0, 0.2)),
+                4 => format!("X[INDP_SYN G90 G01 FEED=3000 POS={to:.2}]\n"),
+                5 => format!("Y[INDP_ASYN G90 G01 FEED=3000 POS={to:.2}]\n#WAIT INDP [Y]\n"),
+                6 => format!("#VIB GUARD ON [MODE=1 FREQ={:.1}]\n", random.between(3.0, 20.0)),
+                7 => "#VIB GUARD OFF\n".to_owned(),
+                8 => "#FLUSH WAIT\n".to_owned(),
+                _ => format!("G60 X{to:.2}\n"),
+            };
+        }
+        text += "M30\n";
+        let mut inputs = Vec::new();
+        let mut t = 0.0;
+        for _ in 0..6 {
+            t += random.between(0.05, 0.6);
+            inputs.push((t, "feedhold", 1.0));
+            t += random.between(0.05, 0.3);
+            inputs.push((t, "feedhold", 0.0));
+        }
+        let inputs = if random.chance(0.5) { inputs } else { Vec::new() };
+        let run = run_with_inputs(machine(&[]), &text, &inputs);
+        assert!(!run.totals.aborted, "{text}{:?}", run.diagnostics);
+        let lines: Vec<u32> = run.records.iter().skip(1).map(|r| r.line).collect();
+        assert!(lines.is_sorted(), "{n}\n{text}");
+    }
+}
+
+/// A single axis that moves on its own, behind a dwell: its cycles are those of its own line.
+#[test]
+fn an_independent_motion_has_its_line() {
+    let run =
+        run("%P\nG01 F6000 X20\nG04 0.1\nX[INDP_SYN G90 G01 FEED=600 POS=10]\nX40\nM30\n", &[]);
+    let moving = run.records.windows(2).filter(|r| {
+        let step = r[1].axes[0].ipo - r[0].axes[0].ipo;
+        step < -1e-9
+    });
+    let lines: Vec<u32> = moving.map(|r| r[1].line).collect();
+    // 10 mm at 10 mm/s
+    assert!(lines.len() > 1000 && lines.iter().all(|line| *line == 4), "{lines:?}");
 }

@@ -30,6 +30,7 @@
 
 mod config;
 mod given;
+mod renewal;
 
 use super::{
     buffer::{Setpoint, SetpointBuffer},

@@ -89,6 +89,18 @@ impl SetpointBuffer {
         self.without_gain = Self::CAPACITY;
     }
 
+    /// Both give out the same setpoints if they hold the same.
+    pub(crate) const fn holds_like(&self, other: &Self) -> bool {
+        self.delay == other.delay && self.shift == other.shift
+    }
+
+    /// Every setpoint gets another position, `by_mm` further on.
+    pub(crate) fn shift(&mut self, by_mm: f64) {
+        for setpoint in &mut self.ring {
+            setpoint.position_mm += by_mm;
+        }
+    }
+
     /// Takes the setpoint of this cycle.
     pub fn push(&mut self, setpoint: Setpoint) {
         self.newest = (self.newest + 1) % Self::CAPACITY;

@@ -251,6 +251,21 @@ impl Plant {
         }
     }
 
+    /// The place where the plant is gets another position, `by_mm` further on: nothing moves.
+    pub(crate) fn shift(&mut self, by_mm: f64) {
+        let m = &mut self.measured;
+        for position_mm in [&mut m.motor_mm, &mut m.load_mm, &mut m.tcp_mm] {
+            *position_mm += by_mm;
+        }
+        self.rests = false;
+        match &mut self.dynamics {
+            Dynamics::Follow { .. } => {}
+            Dynamics::Two(linear) => linear.shift(by_mm),
+            Dynamics::Three(linear) => linear.shift(by_mm),
+            Dynamics::Many(linear) => linear.shift(by_mm),
+        }
+    }
+
     /// The state at the start of the cycle.
     pub const fn measured(&self) -> &Measured {
         &self.measured

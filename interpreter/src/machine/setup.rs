@@ -20,7 +20,7 @@ use kontur_filters::{
 };
 
 /// What the chain of one axis is made from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ChainSetup {
     /// Standard filters that are on, in their order (`filter[i]`).
     pub filters: Vec<AxisFilter>,

@@ -6,6 +6,7 @@ use super::chain::AxisChain;
 use super::out::MESSAGES_MAX;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::Event;
+use crate::machine::ChainSetup;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
@@ -134,43 +135,47 @@ impl Simulation {
         }
     }
 
-    /// `#MACHINE DATA`: the axis concerned gets a new chain at its present position; it is at rest.
-    pub(super) fn machine_data(&mut self, axis: u32) {
+    /// `#MACHINE DATA`: chains that are configured otherwise now take the place of those before. These are more than the one of the
+    /// axis: feedforward of one axis delays all of them, and gantry slaves take parameters from their master.
+    pub(super) fn machine_data(&mut self) {
+        let (before, _) = self.machine.chains();
         self.machine = Arc::clone(self.executor.machine());
-        let Some(i) = self.machine.axes.iter().position(|a| a.number() == axis) else { return };
-        self.renew(i, self.chains[i].set_mm());
+        let (setups, _) = self.machine.chains();
+        for (i, (old, new)) in before.iter().zip(setups).enumerate() {
+            if *old != new {
+                self.replace(i, old, new);
+            }
+        }
         let setup = self.executor.shaping().clone();
         self.swap_kernels(&setup);
     }
 
-    /// `X[SET_POSITION ..]`: the chains of the axis and of its gantry slaves begin anew, at rest where they stand under
-    /// their new positions. Those of the path do not change.
-    pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64) {
-        for i in 0..self.chains.len() {
-            if self.drivers[i] == Driver::Path(axis) {
-                self.renew(i, self.chains[i].set_mm() + offset_mm);
-            }
-        }
-        self.independent.shift(axis, offset_mm);
-        self.path_position[axis] += offset_mm;
-    }
-
-    /// A chain at rest at a position, with the lists and the kernel in force.
-    fn renew(&mut self, i: usize, at_mm: f64) {
-        let (mut setups, _) = self.machine.chains();
-        match AxisChain::new(setups.swap_remove(i), at_mm, self.inputs.axes[i], self.cycle) {
+    /// Another chain for an axis, where the axis is, with the kernel in force.
+    fn replace(&mut self, i: usize, old: &ChainSetup, new: ChainSetup) {
+        let (same_filters, same_interface) =
+            (old.filters == new.filters, old.additional == new.additional);
+        let before = &self.chains[i];
+        match AxisChain::new(new, before.set_mm(), self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
-                if let Driver::Path(p) = self.drivers[i] {
-                    chain.start_worn(self.wear.offset_mm(p));
-                }
+                chain.take_over(before, same_filters, same_interface);
                 let kernel = self.executor.shaping().axes.get(i).and_then(|a| a.kernel.clone());
-                // it has just begun, at rest
-                if chain.set_kernel(kernel).is_err() {
+                if !same_filters && chain.set_kernel(kernel).is_err() {
                     self.messages.own.push(super::fault::switch_while_moving());
                 }
                 self.chains[i] = chain;
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
         }
+    }
+
+    /// `X[SET_POSITION ..]`: the axis and its gantry slaves have new positions where they stand. Those of the path do not change.
+    pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64) {
+        for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
+            if *driver == Driver::Path(axis) {
+                chain.shift(offset_mm);
+            }
+        }
+        self.independent.shift(axis, offset_mm);
+        self.path_position[axis] += offset_mm;
     }
 }

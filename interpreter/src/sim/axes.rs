@@ -1,6 +1,7 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
 use super::{Phase, SettledStop, Simulation};
+use crate::exec::SourceRef;
 use crate::machine::{Axis, Machine};
 use crate::record::{PathRecord, Rest};
 
@@ -28,6 +29,17 @@ pub(super) fn drivers(machine: &Machine) -> Vec<Driver> {
 }
 
 impl Simulation {
+    /// Block that the cycle belongs to. Waits for what a motion has left to do are part of it, as long as no other block has had
+    /// cycles since.
+    fn block_of_cycle(&self) -> SourceRef {
+        let is_over = self.shown != self.current || self.current.line == 0;
+        match &self.phase {
+            Phase::Waiting(wait) if is_over || wait.is_of_its_own_block() => self.waits_at,
+            Phase::Running if self.is_held => self.shown,
+            _ => self.current,
+        }
+    }
+
     /// Hands the setpoint of the cycle through every axis and fills the record.
     pub(super) fn through_the_axes(&mut self) {
         let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
@@ -124,10 +136,8 @@ impl Simulation {
             Phase::Running if self.is_held => Some(Rest::Held),
             _ => None,
         };
-        let at = match &self.phase {
-            Phase::Waiting(wait) if wait.is_of_its_own_block() => self.waits_at,
-            _ => self.current,
-        };
+        let at = self.block_of_cycle();
+        self.shown = at;
         self.record.file = at.file;
         self.record.line = at.line;
         self.record.block = at.block;

@@ -92,6 +92,31 @@ impl AxisChain {
         Ok(chain)
     }
 
+    /// This chain takes the place of another one. Filters and the filter of the additional interface continue where they are the
+    /// same; others begin at rest where the set position is.
+    pub(crate) fn take_over(&mut self, before: &Self, same_filters: bool, same_interface: bool) {
+        if same_filters {
+            self.shaping = before.shaping.clone();
+            self.align(before.ipo.newest());
+            self.ipo = before.ipo.clone();
+        }
+        if same_interface {
+            self.additional.clone_from(&before.additional);
+        }
+        self.inputs = before.inputs;
+        self.wear_mm = before.wear_mm;
+        self.control.take_over(&before.control);
+        (self.set, self.vel, self.acc) = (before.set, before.vel, before.acc);
+    }
+
+    /// The place where the axis stands gets another position, `by_mm` further on.
+    pub(crate) fn shift(&mut self, by_mm: f64) {
+        self.set += by_mm;
+        self.shaping.settle(self.set);
+        self.align(self.set);
+        self.control.shift(by_mm);
+    }
+
     /// The delay changed: the setpoints that it reaches back to are those of the present standstill.
     fn align(&mut self, x: f64) {
         self.delay_cycles = self.shaping.delay_cycles();
@@ -242,14 +267,6 @@ impl AxisChain {
     /// The offset of online tool compensation from the next cycle on.
     pub(crate) fn set_wear(&mut self, wear_mm: f64) {
         self.wear_mm = wear_mm;
-    }
-
-    /// A chain that has just begun has this offset of online tool compensation already.
-    pub(crate) fn start_worn(&mut self, wear_mm: f64) {
-        self.wear_mm = wear_mm;
-        let additional_mm = self.additional.as_ref().map_or(0.0, |_| self.inputs.additional_mm);
-        let additional_mm = additional_mm + wear_mm;
-        self.control.start_with(self.set, AxisInputs { additional_mm, ..self.inputs });
     }
 
     /// One cycle: fills the record and returns what the monitors have raised, if anything.

@@ -69,6 +69,7 @@ impl Simulation {
             spindles,
             underway: VecDeque::new(),
             current: SourceRef::default(),
+            shown: SourceRef::default(),
             waits_at: SourceRef::default(),
             jerk_limited: false,
             pending: None,

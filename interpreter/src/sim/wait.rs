@@ -14,9 +14,7 @@ use kontur_filters::time::CycleTime;
 pub(super) enum Action {
     None,
     Shaping(Box<ShapingSetup>),
-    MachineData {
-        axis: u32,
-    },
+    MachineData,
     /// A path axis has another position.
     SetPosition {
         axis: usize,
@@ -105,7 +103,7 @@ impl Wait {
             Sync::SetPosition { axis, offset_mm } => {
                 (Until::InPosition, Action::SetPosition { axis, offset_mm })
             }
-            Sync::MachineData { axis } => (Until::Flushed, Action::MachineData { axis }),
+            Sync::MachineData { .. } => (Until::Flushed, Action::MachineData),
         };
         Self { until, action, patience: Patience::default() }
     }
@@ -203,7 +201,7 @@ impl Wait {
                 setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
             }
             Action::None
-            | Action::MachineData { .. }
+            | Action::MachineData
             | Action::SetPosition { .. }
             | Action::Halted
             | Action::Resume
@@ -237,7 +235,7 @@ impl Wait {
 
     /// Its cycles belong to its own block, not to the motion before.
     pub(super) fn is_of_its_own_block(&self) -> bool {
-        matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
+        matches!(self.until, Until::Cycles(..) | Until::Spindle(..) | Until::Arrived(_))
     }
 
     /// The mark that the wait is for.

@@ -98,6 +98,21 @@ impl ExactStopMonitor {
         (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
+    /// What another monitor awaits, in its own window and time.
+    pub(crate) fn take_over(&mut self, before: &Self) {
+        let (config, cycle) = (self.config, self.cycle);
+        *self = Self { config, cycle, ..before.clone() };
+    }
+
+    /// The place where the axis is gets another position, `by_mm` further on.
+    pub(crate) fn shift(&mut self, by_mm: f64) {
+        self.rest_mm += by_mm;
+        self.last_mm += by_mm;
+        if let State::Approaching { target_mm } | State::Settling { target_mm } = &mut self.state {
+            *target_mm += by_mm;
+        }
+    }
+
     /// The path comes to a stop, for this axis at `target_mm`; to be called no later than right after the cycle in which the
     /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
     pub fn expect(&mut self, target_mm: f64) {

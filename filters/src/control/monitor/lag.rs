@@ -138,6 +138,14 @@ impl LagMonitor {
         self.rests
     }
 
+    /// The place where the axis is gets another position, `by_mm` further on.
+    pub(crate) fn shift(&mut self, by_mm: f64) {
+        for past_mm in &mut self.past_mm {
+            *past_mm += by_mm;
+        }
+        (self.still, self.rests) = (0, false);
+    }
+
     /// One cycle: reference and actual position, gain of the position controller.
     pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
         let delay = self.config.delay_cycles;

@@ -106,6 +106,13 @@ impl SetpointMonitor {
         self.levels = [Level::Good; 3];
     }
 
+    /// The place where the axis is gets another position, `by_mm` further on.
+    pub(crate) fn shift(&mut self, by_mm: f64) {
+        for past_mm in &mut self.past_mm {
+            *past_mm += by_mm;
+        }
+    }
+
     /// One cycle: a fault for every derivative whose level rises.
     pub(crate) fn step(&mut self, set_mm: f64, faults: &mut Faults) {
         let [p1, p2, p3] = self.past_mm;

@@ -123,6 +123,10 @@ impl<S: States> LinearPlant<S> {
         self.cycles = 0;
     }
 
+    pub(super) fn shift(&mut self, by_mm: f64) {
+        self.base_mm += by_mm;
+    }
+
     pub(super) const fn is_elastic(&self) -> bool {
         self.elastic
     }

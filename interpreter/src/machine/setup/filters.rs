@@ -35,7 +35,7 @@ pub struct FirPreset {
 
 /// The additional interface of an axis (`lr_param.add_interface`): a position from outside that is added after the axis
 /// filters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AdditionalInterface {
     /// Filter that the position passes, if it is on.
     pub filter: Option<AxisFilter>,
