@@ -16,7 +16,7 @@ use super::shaping::{ShapingState, Worked};
 use super::step::{Feedback, Sync};
 use super::values::Values;
 use crate::diag::{Condition, Diagnostic};
-use crate::machine::{AxisKind, Machine};
+use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use std::sync::Arc;
@@ -188,6 +188,12 @@ impl Decoder {
         span: Span,
     ) -> Result<(), Box<Fault>> {
         let machine = Arc::make_mut(&mut self.machine);
+        if Axis::is_read_at_start(key) {
+            let text = format!("{key} is read when the control starts: no effect in a program");
+            let fault = Fault::new(Condition::ListNoEffect, text, span).warning();
+            self.report.note(fault.hint("write it into the axis list"));
+            return Ok(());
+        }
         if let Err(reason) = machine.axes[axis].set(key, value) {
             let text = format!("axis {}: {reason}", machine.axes[axis].name());
             return Err(Fault::new(Condition::TokenUnknown, text, span));

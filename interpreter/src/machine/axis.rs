@@ -164,9 +164,13 @@ impl Axis {
         self.parameters.listed(param).unwrap_or_default()
     }
 
-    /// What set a parameter of the axis list, `None` if nothing did.
+    /// What set a parameter of the axis list or one of this axis in `kontur.lis`, `None` if nothing did.
     pub(super) fn set_by(&self, param: impl Into<Place>) -> Option<&Setting> {
-        self.parameters.set_by(param)
+        let place = param.into();
+        match place.row.list {
+            ListKind::Kontur => self.own.set_by(place),
+            _ => self.parameters.set_by(place),
+        }
     }
 
     /// Everything that `kontur.lis` sets for this axis.
@@ -289,6 +293,22 @@ impl Axis {
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub fn filter_window_mm(&self) -> f64 {
         self.get(axis_filters::SETTLED_WINDOW)
+    }
+
+    /// What an axis is does not change while a program runs: its number, name, kind, drive and master.
+    ///
+    /// Assumption: `#MACHINE DATA` [TF5200] names no parameters, and neither does the documentation of these.
+    pub(crate) fn is_read_at_start(key: &str) -> bool {
+        const KEYS: [&str; 5] = [
+            "kopf.",
+            "kenngr.achs_typ",
+            "kenngr.achs_mode",
+            "kenngr.antr_typ",
+            "kenngr.gantry_ax_nr",
+        ];
+        KEYS.iter().any(|start| {
+            key.get(..start.len()).is_some_and(|head| head.eq_ignore_ascii_case(start))
+        })
     }
 
     /// Puts a value over the list, as `#MACHINE DATA` does at run time; the executor owns the machine it changes.

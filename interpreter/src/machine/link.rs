@@ -290,12 +290,21 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         // a list may describe more axes than the channel has
         let is_set = setting.at.as_ref().is_some_and(|at| &*at.file == OVERRIDE);
         let number = indices[0];
-        let of_axis = setting.row.key.starts_with("kontur.axis[i]");
-        if is_set && of_axis && names.name(number).is_none() {
-            let key = with_indices(setting.row.key, indices);
+        if !setting.row.key.starts_with("kontur.axis[i]") || names.name(number).is_some() {
+            continue;
+        }
+        let key = with_indices(setting.row.key, indices);
+        let hint = "the index is the logical number of the axis (kopf.achs_nr)";
+        if is_set {
             let message = format!("{key}: no axis of the channel has the logical number {number}");
-            let hint = "the index is the logical number of the axis (kopf.achs_nr)";
             diagnostics.push(error(Condition::Setting, message, setting.at.clone()).hint(hint));
+        } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == number) {
+            let message = format!("{key}: no axis list has the logical number {number}, no effect");
+            let about = Diagnostic::new(Condition::ListNoEffect, message).hint(hint);
+            diagnostics.push(match &setting.at {
+                Some(at) => about.at(at.clone()),
+                None => about,
+            });
         }
     }
     for (number, name) in &names.slaves {

@@ -23,7 +23,7 @@ mod line;
 use super::key::Key;
 use super::table::{self, Indices, ListKind, Raw, Row, with_indices};
 use super::value::{self, Value};
-use crate::diag::{Condition, Diagnostic, Location, Severity, ValueKind};
+use crate::diag::{Condition, Diagnostic, Id, Location, Severity, ValueKind};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -66,14 +66,23 @@ pub struct List {
     pub entries: Vec<Entry>,
 }
 
+/// Messages of one kind about a list that are shown; more are only counted.
+const SAID_MAX: u32 = 20;
+
 /// Number of unknown keys that are named in one message; more are only counted.
 const NAMED_UNKNOWN: usize = 12;
 
 /// Reads a list. Diagnostics: 1001119 unknown element, 1001138 bad number, K-0028 key twice, K-0029 empty index,
 /// K-0030 second word after a text, K-0071 line that is no entry, K-0072 end mark.
 pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diagnostic>) -> List {
-    let mut reader =
-        Reader { kind, list: BTreeMap::new(), order: 0, unknown: BTreeMap::new(), diagnostics };
+    let mut reader = Reader {
+        kind,
+        list: BTreeMap::new(),
+        order: 0,
+        unknown: BTreeMap::new(),
+        said: BTreeMap::new(),
+        diagnostics,
+    };
     let file: Arc<str> = file.into();
     let mut end = None;
     for line in line::lines(bytes) {
@@ -93,6 +102,7 @@ pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diag
         reader.entry(&line, text, &file);
     }
     reader.report_unknown();
+    reader.count_hidden();
     let mut entries: Vec<(usize, Entry)> = reader.list.into_values().collect();
     entries.sort_by_key(|(order, _)| *order);
     List { kind, entries: entries.into_iter().map(|(_, entry)| entry).collect() }
@@ -103,18 +113,50 @@ struct Reader<'a> {
     list: BTreeMap<(&'static str, Indices), (usize, Entry)>,
     order: usize,
     unknown: BTreeMap<String, (u32, Location)>,
+    said: BTreeMap<Id, Said>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
 
+/// Messages of one kind so far.
+#[derive(Default)]
+struct Said {
+    shown: u32,
+    hidden: u32,
+    first_hidden: Option<Diagnostic>,
+}
+
 impl Reader<'_> {
+    /// Shows a message as long as there are few of its kind.
+    fn say(&mut self, message: Diagnostic) {
+        let said = self.said.entry(message.id).or_default();
+        if said.shown < SAID_MAX {
+            said.shown += 1;
+            self.diagnostics.push(message);
+        } else {
+            said.first_hidden.get_or_insert(message);
+            said.hidden += 1;
+        }
+    }
+
+    /// How many messages were not shown.
+    fn count_hidden(&mut self) {
+        for (_, said) in std::mem::take(&mut self.said) {
+            if let Some(mut message) = said.first_hidden {
+                if said.hidden > 1 {
+                    message.text = format!("{} (and {} more)", message.text, said.hidden - 1);
+                }
+                self.diagnostics.push(message);
+            }
+        }
+    }
+
     fn entry(&mut self, line: &line::Line<'_>, text: &str, file: &Arc<str>) {
         let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
         let key_at = line.location(file, word);
         let Some(key) = Key::parse(word) else {
             let message = format!("`{word}` is no key, the line is ignored");
             let hint = "an entry is a key, at least one blank and a value; comments start with #";
-            self.diagnostics
-                .push(Diagnostic::new(Condition::ListEntry, message).at(key_at).hint(hint));
+            self.say(Diagnostic::new(Condition::ListEntry, message).at(key_at).hint(hint));
             return;
         };
         let Some((row, indices)) = key.resolve(self.kind) else {
@@ -123,13 +165,12 @@ impl Reader<'_> {
         };
         if key.empty_index {
             let message = format!("empty index in `{word}`, read as 0");
-            self.diagnostics
-                .push(Diagnostic::new(Condition::ListIndex, message).at(key_at.clone()));
+            self.say(Diagnostic::new(Condition::ListIndex, message).at(key_at.clone()));
         }
         let parts = line::value(row.raw, rest.trim());
         let Some(written) = parts.value else {
             let message = format!("`{word}` has no value, the line is ignored");
-            self.diagnostics.push(Diagnostic::new(Condition::ListEntry, message).at(key_at));
+            self.say(Diagnostic::new(Condition::ListEntry, message).at(key_at));
             return;
         };
         let value_at =
@@ -141,7 +182,7 @@ impl Reader<'_> {
             } else {
                 "put a text with blanks in double quotes, start a comment with ("
             };
-            self.diagnostics.push(
+            self.say(
                 Diagnostic::new(Condition::ListString, message)
                     .at(line.location(file, dropped))
                     .hint(hint),
@@ -150,7 +191,7 @@ impl Reader<'_> {
         let value = match value::read(row.raw, written) {
             Ok(value) => value,
             Err(bad) => {
-                self.diagnostics.push(bad_value(row, &bad, written).at(value_at.clone()));
+                self.say(bad_value(row, &bad, written).at(value_at.clone()));
                 match bad.instead {
                     Some(value) => value,
                     None => return,
@@ -168,9 +209,7 @@ impl Reader<'_> {
                 entry.key(),
                 earlier.at.line
             );
-            self.diagnostics.push(
-                parameter(Diagnostic::new(Condition::ListDuplicate, message), row).at(key_at),
-            );
+            self.say(parameter(Diagnostic::new(Condition::ListDuplicate, message), row).at(key_at));
         }
         self.order += 1;
         self.list.insert((row.key, indices), (self.order, entry));
@@ -184,7 +223,7 @@ impl Reader<'_> {
                 Some(near) => {
                     let message = format!("unknown element `{shape}`, ignored");
                     let hint = format!("did you mean `{near}`?");
-                    self.diagnostics.push(
+                    self.say(
                         Diagnostic::new(Condition::ListKeyUnknown, message)
                             .value(ValueKind::Identification, count, "-")
                             .at(at)

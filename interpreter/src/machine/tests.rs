@@ -205,6 +205,32 @@ fn an_override_gives_the_bits_of_a_list_value() {
     }
 }
 
+/// An index that is no logical number, and what another model of the drive reads, are said to have no effect; the message names the
+/// place. What the model of the axis reads gets none.
+#[test]
+fn entries_of_kontur_lis_that_nothing_reads() {
+    let said = |entries: &str| {
+        let mut files = Memory::machine();
+        files.put("m/kontur.lis", entries);
+        let (machine, loading) = files.load(&[]).unwrap();
+        let mut all = loading;
+        all.extend(machine.chains().1);
+        all.retain(|d| d.id.to_string() == "K-0075");
+        all.iter().map(|d| d.source.as_ref().map_or(0, |at| at.line)).collect::<Vec<_>>()
+    };
+    let pt1 = "kontur.axis[1].plant.model PT1\n";
+    assert_eq!(said(&format!("{pt1}kontur.axis[1].plant.ta_us 3000\n")), [0; 0]);
+    assert_eq!(said(&format!("{pt1}kontur.axis[9].plant.model PT1\n")), [2]);
+    for key in ["kp 300", "f0 20", "mode[0].f0 20", "mass_load 0.3"] {
+        assert_eq!(said(&format!("{pt1}kontur.axis[1].plant.{key}\n")), [2], "{key}");
+    }
+    let two = "kontur.axis[1].plant.model TWO_MASS\n";
+    for key in ["kp 300", "f0 20", "mass_load 0.3", "disturbance.amplitude 5"] {
+        assert_eq!(said(&format!("{two}kontur.axis[1].plant.{key}\n")), [0; 0], "{key}");
+    }
+    assert_eq!(said(&format!("{two}kontur.axis[1].plant.ta_us 5000\n")), [2]);
+}
+
 /// Several axes by name, and every path axis: the spindle is none.
 #[test]
 fn overrides_of_several_axes() {

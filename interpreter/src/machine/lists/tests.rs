@@ -104,6 +104,19 @@ fn unknown_keys_are_counted_and_named_once() {
     assert!(diagnostics[1].text.ends_with("and 8 more"), "{}", diagnostics[1].text);
 }
 
+/// A list of many mistakes of one kind has few messages, the last of which counts the others.
+#[test]
+fn mistakes_of_one_kind_are_counted() {
+    let text = "getriebe[0].kv 3000\n".repeat(1001) + &"[head]\n".repeat(21);
+    let (_, diagnostics) = read_text(ListKind::Axis, &text);
+    let of = |id: &str| diagnostics.iter().filter(|d| d.id.to_string() == id).collect::<Vec<_>>();
+    let (twice, no_entry) = (of("K-0028"), of("K-0071"));
+    assert_eq!((twice.len(), no_entry.len(), diagnostics.len()), (21, 21, 42));
+    assert!(twice[20].text.ends_with("(and 979 more)"), "{}", twice[20].text);
+    assert_eq!(twice[20].source.as_ref().map(|at| at.line), Some(22));
+    assert!(!no_entry[20].text.contains("more"), "{}", no_entry[20].text);
+}
+
 #[test]
 fn places_point_at_the_entry() {
     let (list, diagnostics) = read_text(ListKind::Axis, "# ä\n  getriebe[0].kv   abc  # ü\n");

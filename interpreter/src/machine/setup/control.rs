@@ -92,6 +92,10 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         let hint = "gear stages are not changed: getriebe[0] is used";
         tell(Place { row: setting.row, indices }, &what, hint);
     }
+    if let Some((place, reader)) = plant::of_another_model(axis) {
+        let hint = format!("{reader} reads it: kontur.axis[i].plant.model");
+        tell(place, "parameter of another model of drive and mechanics", &hint);
+    }
     // the default of the vendor's lists says nothing about another drive
     let said = axis.set_by(of::FF_SHIFT).and_then(|s| s.value.number());
     if drive != Drive::Profidrive && said.is_some_and(|x| x > 0.0 && (x - 3.0).abs() > 0.0) {

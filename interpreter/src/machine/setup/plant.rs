@@ -1,7 +1,8 @@
 //! Drive and mechanics of one axis: the vendor's simulated drive or a model of `kontur.lis`.
 
 use crate::machine::Axis;
-use crate::machine::table::param::{Number, Param};
+use crate::machine::overrides::OVERRIDE;
+use crate::machine::table::param::{Number, Param, Place};
 use crate::machine::table::{axis_drive, kontur as of};
 use kontur_filters::control::plant::{
     Disturbance, ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig,
@@ -20,6 +21,36 @@ pub(super) fn config(axis: &Axis) -> PlantConfig {
         dead_time_cycles: axis.get(axis_drive::SIMU_DEAD_TIME) as usize,
         disturbance: Some(disturbance).filter(|d| d.amplitude_mm_s2.abs() > 0.0),
     }
+}
+
+/// The first key in `kontur.lis` that says something about another model than that of the axis, and which one reads it.
+pub(super) fn of_another_model(axis: &Axis) -> Option<(Place, &'static str)> {
+    const TWO_MASS: &str = "TWO_MASS";
+    const BOTH: &str = "TWO_MASS and MODAL";
+    let readers = [
+        (of::TIME_CONSTANT, "PT1"),
+        (of::SPEED_GAIN, BOTH),
+        (of::SPEED_INTEGRAL, BOTH),
+        (of::CURRENT_TIME, BOTH),
+        (of::MASS_MOTOR, TWO_MASS),
+        (of::MASS_LOAD, TWO_MASS),
+        (of::RESONANCE, TWO_MASS),
+        (of::DAMPING, TWO_MASS),
+    ];
+    // a model that is tried beside the list's
+    let model_by = axis.set_by(of::PLANT_MODEL.at(axis.number()));
+    if model_by.and_then(|by| by.at.as_ref()).is_some_and(|at| &*at.file == OVERRIDE) {
+        return None;
+    }
+    let model = axis.get(of::PLANT_MODEL).unwrap_or_default();
+    axis.own_settings().find_map(|(indices, setting)| {
+        let row = setting.row;
+        let of_modes = row.key.starts_with("kontur.axis[i].plant.mode[j]").then_some("MODAL");
+        let reader = readers.iter().find(|(param, _)| param.place().row.key == row.key);
+        let reader = reader.map(|(_, reader)| *reader).or(of_modes)?;
+        (!reader.split(" and ").any(|name| name == model))
+            .then_some((Place { row, indices }, reader))
+    })
 }
 
 fn model(axis: &Axis) -> PlantModel {

@@ -42,11 +42,11 @@ parameters! {
         .default(0.0), as MODE_TOOL: Number;
     own("kontur.axis[i].plant.mode[j].phi_dist", Raw::Real64, "MODAL: participation of mode j at the disturbance force")
         .default(0.0), as MODE_DISTURBANCE: Number;
-    own("kontur.axis[i].plant.disturbance.amplitude", Raw::Real64, "TWO_MASS, MODAL: amplitude of a sinusoidal disturbance force per unit of mass")
+    own("kontur.axis[i].plant.disturbance.amplitude", Raw::Real64, "amplitude of a disturbance force per unit of mass, sinusoidal, or constant with the frequency 0")
         .default(0.0).unit("mm/s2", "deg/s2"), as DISTURBANCE_AMPLITUDE: Number;
-    own("kontur.axis[i].plant.disturbance.frequency", Raw::Real64, "TWO_MASS, MODAL: frequency of the disturbance force")
+    own("kontur.axis[i].plant.disturbance.frequency", Raw::Real64, "frequency of the disturbance force; 0: constant")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FREQUENCY: Number;
-    own("kontur.axis[i].plant.disturbance.full_speed", Raw::Real64, "TWO_MASS, MODAL: load speed from which the disturbance has its full amplitude, in proportion below; 0: always")
+    own("kontur.axis[i].plant.disturbance.full_speed", Raw::Real64, "load speed from which the disturbance has its full amplitude, in proportion below; 0: always")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/s", "deg/s").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FULL_SPEED: Number;
     own("kontur.axis[i].load_encoder", Raw::Boolean, "the axis has a direct measuring system, the position loop closes over it")
         .default(0.0), as LOAD_ENCODER: Switch;
