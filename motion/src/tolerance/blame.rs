@@ -14,7 +14,7 @@
 use super::Demands;
 use super::even::{ALIKE, Evenly, aim, fastest};
 use super::measure::{Record, Violation};
-use super::tighten::hurry;
+use super::tighten::{PATIENCE, hurry};
 use super::view::{Mark, View};
 use crate::axis::AxisVec;
 
@@ -238,8 +238,16 @@ impl View<'_> {
             even.max(LEAST_OF_ROUND * present)
         } else {
             // where the speed is even already, or a change of speed is the cause
-            let blocks = shared.marks.iter().filter_map(|m| marks[*m].block);
-            let steps = hurry(blocks.map(|b| demands.slower[b].0).max().unwrap_or(0));
+            let blocks = || shared.marks.iter().filter_map(|m| marks[*m].block);
+            let repeats = blocks().map(|b| demands.slower[b].0).max().unwrap_or(0);
+            if repeats >= PATIENCE {
+                // starts and stops around the stretch are the cause, and these need not be slow
+                let ends = [blocks().min(), blocks().max().map(|b| b + 1)];
+                for b in ends.into_iter().flatten() {
+                    findings.corner[b] = findings.corner[b].max(v.excess());
+                }
+            }
+            let steps = hurry(repeats);
             let step = (aim(v.tolerance_mm) / v.deviation_mm).sqrt().min(0.995);
             present * libm::pow(step, f64::from(steps)).max(MOST)
         };

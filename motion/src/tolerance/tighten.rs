@@ -19,7 +19,7 @@ const LEAST_SHARE: f64 = 0.1;
 const GROWTH: f64 = 1.0 / 256.0;
 
 /// Times that a place is made slower without effect after which the steps grow.
-const PATIENCE: u32 = 8;
+pub(super) const PATIENCE: u32 = 8;
 /// Part of an excess from which on it counts as left.
 const WITHOUT_EFFECT: f64 = 0.9;
 

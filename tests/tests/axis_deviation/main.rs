@@ -151,6 +151,42 @@ fn a_sharp_bend_does_not_slow_down_its_edge() {
     }
 }
 
+/// What is far smaller than the tolerance changes a corner by as little: a block, a chamfer, a rounding or a contour of some
+/// micrometers in it. Both lines were run through at the speed of the corner, up to 80 times as long.
+#[test]
+fn something_tiny_in_a_corner_changes_little() {
+    let mut r = Random::new(seed());
+    for n in 0..count(24) {
+        let cycle_us = r.pick(&[500, 1000, 2000]);
+        let tolerance_mm = rounded(r.log(5e-3, 5e-2));
+        let (mode, freq_hz) = (1 + r.below(4), r.log(10.0, 50.0));
+        let slope = r.pick(&["TRAPEZ", "SIN2", "HSC", "STEP"]);
+        let size = rounded(tolerance_mm * r.log(0.02, 0.2)).max(1e-5);
+        let heading = r.between(0.5, 3.0);
+        let end = [12.0 + 6.0 * libm::cos(heading), 6.0 * libm::sin(heading)];
+        let line = |u: f64| [12.0 + u * libm::cos(heading), u * libm::sin(heading)];
+        let [to, behind] = [end, line(size)].map(|p| format!("G01 X{:.6} Y{:.6}", p[0], p[1]));
+        let sharp = format!("G01 X12\n{to}");
+        let tiny = match n % 4 {
+            0 => format!("G01 X{:.6}\n{behind}\n{to}", 12.0 - size),
+            1 => format!("G01 X12\nG301 I{size:.5}\n{to}"),
+            2 => format!("G01 X12\nG302 I{size:.5}\n{to}"),
+            _ => format!("#CONTOUR MODE [DEV PATH_DEV={size:.5}]\nG61 G01 X12\n{to}"),
+        };
+        let [sharp, tiny] = [sharp, tiny].map(|contour| {
+            let text = format!(
+                "%P\n#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ={freq_hz:.3} AX_DEV={tolerance_mm}]\nF6000\n{contour}\nM30\n"
+            );
+            let run = run(&text, &[&format!("kontur.cycle_time_us={cycle_us}")]);
+            assert_eq!(run.diagnostics, [], "{text}");
+            (run.records.len(), text)
+        });
+        // one more corner, which may have a rest of the length of the filter of its own
+        let rest = (1.5 / freq_hz / (1e-6 * f64::from(cycle_us))).ceil() as usize + 4;
+        assert!(tiny.0 <= sharp.0 + rest, "{} cycles, {} with\n{}", sharp.0, tiny.0, tiny.1);
+    }
+}
+
 /// Changes of override and feedholds in the middle of it neither lose nor repeat a part of the contour, and the tolerance
 /// holds wherever the program does not say that it could not be kept.
 #[test]
