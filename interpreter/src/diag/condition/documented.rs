@@ -70,7 +70,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(110573), "", Warning, None, 1, 2, "parameter above its maximum, limited", "P-AXIS-00497"),
     documented(Vendor(110580), "", Warning, None, 1, 2, "gear ratio: output revolutions are 0 (printed on one page; 110579 is raised)", "P-AXIS-00512"),
     documented(Vendor(110700), "", Warning, None, 1, 2, "invalid value, function off", "P-AXIS-00584"),
-    documented(Vendor(120020), "", Error, ProgramAbort, 6, 0, "unknown ramp-time weighting mode", "#SET SLOPE PROFIL, P-CHAN-00073"),
     documented(Vendor(120146), "", Warning, None, 1, 0, "tangential transition with AUTO_VEL", ""),
     documented(Vendor(120393), "", Error, ProgramAbort, 6, 0, "order of the block length filter invalid", "#HSC[...]"),
     documented(Vendor(120396), "", Error, ProgramAbort, 6, 0, "order of the angle filter invalid", "#HSC[...]"),

@@ -288,6 +288,7 @@ conditions! {
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE twice, or keys that do not go together", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
+    SpindleCommandsExclude = Vendor 21736: Error ProgramAbort 3 1, "words of a spindle bracket that exclude each other", cause "S[G136=80 G130=60]", hint "write feedforward and G130 into brackets of their own";
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, G135, G136=, G137 belong in a spindle bracket";
@@ -370,10 +371,15 @@ conditions! {
     GearRatio = Vendor 110579: Warning None 1 2, "gear ratio: output revolutions are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more";
     AxisNumberZero = Vendor 110597: Error JobAbort 7 2, "list for axis number 0, not loaded", cause "P-AXIS-00016", hint "kopf.achs_nr is 1 or more";
     WithoutDelayNeedsVelocityOnly = Vendor 110624: Warning None 1 2, "feedforward without delay together with acceleration or jerk, these are switched off", cause "P-AXIS-00566, P-AXIS-00223", hint "allow velocity feedforward only (P-AXIS-00223 VEL), or drop feedforward_without_delay";
+    WeightMode = Vendor 120020: Error ProgramAbort 6 0, "unknown mode of the weights of ramp times", cause "#SET SLOPE PROFIL [1,7,0]", hint "0 all, 1 to 4 one of the ramp times";
+    FirstStageZero = Vendor 120028: Warning None 1 2, "acceleration of stage 1 weighted to 0, limited to the least", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00011";
+    SecondStageZero = Vendor 120030: Warning None 1 2, "acceleration of stage 2 weighted to 0, limited to the least", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00012";
+    AccelerationZero = Vendor 120032: Warning None 1 2, "acceleration weighted to 0, limited to the least", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00001";
+    DecelerationZero = Vendor 120034: Warning None 1 2, "deceleration weighted to 0, limited to the least", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00002";
     PathDevTooSmall = Vendor 120129: Error ProgramAbort 3 0, "PATH_DEV below the minimum", hint "write 0.0001 mm or more";
     CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";
     CuttingSpeedMax = Vendor 120169: Error ProgramAbort 3 1, "highest spindle speed of G196 not above 0", hint "G196 S2500";
-    SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "#SET SLOPE PROFIL, P-CHAN-00073", hint "profiles are 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC";
+    SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "P-CHAN-00073", hint "0 all, 1 to 4 one of the ramp times", parameter "P-CHAN-00073";
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
     ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
     BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";

@@ -227,6 +227,13 @@ impl Decoder {
         {
             return Err(duplicate(first.row, row, span));
         }
+        for other in &block.g {
+            if let Some(why) = groups::exclude(other.row, row) {
+                let text = format!("G{:02} and G{number:02} in one block: {why}", other.row.number);
+                return Err(Fault::new(Condition::DuplicateGroup, text, span)
+                    .with(|d| d.value(ValueKind::Wrong, number, "-")));
+            }
+        }
         if number == 5 && self.modal.selection == Selection::InsideCorner {
             let text = "G05 does not go with the inside corner selection G238: it is ignored";
             self.report.note(Fault::new(Condition::TangentialInsideCorner, text, span));
