@@ -45,7 +45,11 @@ impl Decoder {
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
                 let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
-                let turn = turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?;
+                let turn = if self.machine.channel.shortest_way {
+                    None
+                } else {
+                    turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?
+                };
                 let offset = match &suppressed {
                     Some((kinds, _)) => {
                         self.geometry.coordinates.offset_without(kinds, target.axis)

@@ -6,6 +6,7 @@ use crate::diag::Condition;
 
 /// Kinds of synchronisation with the PLC (P-CHAN-00041).
 pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
+    ("NOT_VALID", 0x0),
     ("NO_SYNCH", 0x0),
     ("MOS", 0x1),
     ("MVS_SVS", 0x2),
@@ -14,6 +15,16 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
     ("MNE_SNS", 0x20),
     ("MVS_SLM", 0x4000),
     ("MVS_SLP", 0x8000),
+    ("PLC_INFO", 0x2_0000),
+    ("BWD_SYNCH", 0x40_0000),
+    ("FWD_SYNCH", 0x80_0000),
+    ("MEP_SVS", 0x100_0000),
+    ("MET_SVS", 0x200_0000),
+    ("FAW_SYNCH", 0x1000_0000),
+    // no document read prints their numbers; they ask for no acknowledgement, as MOS does
+    ("MOS_TS", 0x1),
+    ("MEP_MOS", 0x1),
+    ("MET_MOS", 0x1),
 ];
 
 /// Overrides of rapid blocks (P-CHAN-00181).
@@ -55,6 +66,10 @@ parameters! {
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
     chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; only MNE_SNS acts here, with G108: all others are acknowledged at once")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; all are acknowledged at once here")
+        .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always go the shortest way, their first sign belongs to the position")
+        .default(0.0).source("TF5200 channel parameters"), as SHORTEST_WAY: Switch;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;
     chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: 1, a measuring run without a signal of the probe is an error")
