@@ -1,7 +1,7 @@
 //! IDs that the documents print and nothing here raises: data for `explain`.
 
 use super::row::{
-    Reaction::{self, AbruptStop, AllStop, ControlledStop, FeedHold, JobAbort, None, ProgramAbort},
+    Reaction::{self, AbruptStop, ControlledStop, FeedHold, JobAbort, None, ProgramAbort},
     Row,
 };
 use crate::diag::id::{
@@ -44,7 +44,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(21777), "", Error, ProgramAbort, 3, 1, "keyword index outside the data format", ""),
     documented(Vendor(21909), "", Error, ProgramAbort, 3, 1, "flush inside a two-block contour", ""),
     documented(Vendor(22145), "", Error, JobAbort, 3, 1, "key twice (#DIAGNOSIS)", ""),
-    documented(Vendor(50499), "", Error, AllStop, 6, 0, "spindle speed 0 with G95/G33", ""),
     documented(Vendor(50544), "", Error, FeedHold, 1, 0, "vendor-internal slope diagnosis", ""),
     documented(Vendor(50605), "", Warning, None, 1, 0, "order of the position filter is odd", "P-AXIS-00622"),
     documented(Vendor(50606), "", Warning, None, 1, 0, "type of the position filter is invalid", "P-AXIS-00621"),
@@ -74,7 +73,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(120393), "", Error, ProgramAbort, 6, 0, "order of the block length filter invalid", "#HSC[...]"),
     documented(Vendor(120396), "", Error, ProgramAbort, 6, 0, "order of the angle filter invalid", "#HSC[...]"),
     documented(Vendor(120630), "", Warning, None, 1, 0, "rapid ramp time too large", "G233"),
-    documented(Vendor(120652), "", Error, ProgramAbort, 3, 0, "contouring not possible (measurement, feed group, corner)", ""),
     documented(Vendor(1000044), "", Error, JobAbort, 6, 2, "job to interpret a list failed in the decoder", ""),
     documented(Kontur(5), "K-PERCENT", Error, ProgramAbort, 3, 0, "`%` head malformed", "20193 and 21313 are raised in its place"),
 ];

@@ -261,6 +261,7 @@ impl Decoder {
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
                     SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
+                    SpindleItem::Position(_) => Condition::SpindlePositionTwice,
                     _ => Condition::DuplicateGroup,
                 };
                 return Err(Fault::new(condition, text, *span));

@@ -75,11 +75,11 @@ impl Group {
             Self::RampWeight => Condition::TwoRampWeights,
             Self::VelocityWeight => Condition::TwoVelocityWeights,
             Self::Deceleration => Condition::TwoDecelerations,
+            Self::Splines => Condition::TwoSplines,
             Self::Plane
             | Self::Rotation
             | Self::Dimension
             | Self::Masking
-            | Self::Splines
             | Self::Feedforward
             | Self::RapidVelocityWeight
             | Self::AccelerationWeight

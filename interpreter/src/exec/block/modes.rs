@@ -37,13 +37,15 @@ impl Decoder {
         self.motion.weights.set(weight, axis, ratio);
         self.motion.dynamics_changed();
         for (axis, condition) in self.motion.limited_weights(&self.machine, &self.modal) {
-            if before.contains(&(axis, condition)) && (ratio - 1.0).abs() < 1e-12 {
+            let zero = condition != Condition::DynamicsLimited;
+            // what an earlier word has left so has been said there
+            let earlier = (ratio - 1.0).abs() < 1e-12 || (zero && weight != Weight::Acceleration);
+            if earlier && before.contains(&(axis, condition)) {
                 continue;
             }
             let name = self.names.name(axis).to_owned();
             let number = self.machine.axes[axis].number();
             let ramp = matches!(weight, Weight::Ramp | Weight::RapidRamp);
-            let zero = condition != Condition::DynamicsLimited;
             let low = ramp || ratio < 1.0;
             let is = if low { "is below" } else { "exceeds" };
             let percent = ratio * 100.0;

@@ -165,10 +165,10 @@ fn weighted(
     let (rapid, limited) = (w.rapid_acceleration, Some(Condition::DynamicsLimited));
     d.feed.acc_mm_s2 = capped.acceleration(d.feed.acc_mm_s2, acc(1), a_cap, smooth[0]);
     d.feed.dec_mm_s2 = capped.acceleration(d.feed.dec_mm_s2, acc(2), a_cap, smooth[1]);
-    for i in 0..2 {
+    for (i, stage) in stages.into_iter().enumerate() {
         let (up, down) = (d.step_feed.acc_mm_s2[i], d.step_feed.dec_mm_s2[i]);
-        d.step_feed.acc_mm_s2[i] = capped.acceleration(up, acc(1), a_cap, stages[i]);
-        d.step_feed.dec_mm_s2[i] = capped.acceleration(down, acc(2), a_cap, stages[i]);
+        d.step_feed.acc_mm_s2[i] = capped.acceleration(up, acc(1), a_cap, stage);
+        d.step_feed.dec_mm_s2[i] = capped.acceleration(down, acc(2), a_cap, stage);
         let (up, down) = (d.step_rapid.acc_mm_s2[i], d.step_rapid.dec_mm_s2[i]);
         d.step_rapid.acc_mm_s2[i] = capped.acceleration(up, rapid, a_max, limited);
         d.step_rapid.dec_mm_s2[i] = capped.acceleration(down, rapid, a_max, limited);
