@@ -279,8 +279,9 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
-/// Variables of functions that are not simulated. Source: TF5200 volumetric compensation.
-const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP")];
+/// Variables of functions that are not simulated. Source: TF5200 volumetric compensation; outputs of M and H functions
+/// before their place (148946059).
+const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT")];
 
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     let name = written(segments);
