@@ -29,6 +29,15 @@ impl Decoder {
                 }
             }
         }
+        // several words of an axis are those of a motion (P-CHAN-00148)
+        if self.machine.channel.several_words
+            && block.g.iter().any(|g| groups::takes_axes(g.row))
+            && let Some(i) = (1..block.axes.len())
+                .find(|i| block.axes[..*i].iter().any(|(a, _, _)| *a == block.axes[*i].0))
+        {
+            let (axis, _, span) = block.axes.remove(i);
+            self.report.note(self.axis_twice(axis, span));
+        }
         if let (Some(_), Some((condition, span))) = (block.tool_data, block.tool_written) {
             let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
             self.report.note(Fault::new(condition, text, span));

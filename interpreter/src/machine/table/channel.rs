@@ -105,6 +105,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
+    chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one takes the place of those before it")
+        .default(0.0).source("TF5200 channel parameters"), as SEVERAL_WORDS: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
     chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"), as TOOL_CHANGE_PROGRAM: Text;
