@@ -190,7 +190,7 @@ impl File {
         let words = words_text(&motion.words);
         let mut parts: Vec<&str> = words.split(' ').filter(|part| !part.is_empty()).collect();
         // blanks of operators divide words too: the whole is one part then
-        if parts.len() != motion.words.len() || number % 2 == 0 {
+        if parts.len() != motion.words.len() || number.is_multiple_of(2) {
             parts = vec![&words];
         }
         let first = parts.remove(0);
