@@ -179,6 +179,7 @@ const ROWS: &[Row] = &[
     splines::SET_SPLINETYPE,
     splines::SET_ASPLINE_MODE,
     unsupported("START"),
+    unsupported("TRANSFORM"),
     unsupported("STROKE DEF"),
     off_only("TGC"),
     compensation::TRC,
@@ -264,6 +265,10 @@ impl Decoder {
         match row.act {
             Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)),
             Act::OffOnly if command.on == Some(false) => Ok(()),
+            Act::Unsupported if command.groups.iter().any(|group| group.items.is_empty()) => {
+                let text = format!("{}: there is nothing in its brackets", call.title());
+                Err(Fault::new(Condition::EmptyBracket, text, call.span()))
+            }
             Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::Ignored(text) => {
                 let text = format!("{}: {text}", call.title());

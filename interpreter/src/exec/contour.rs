@@ -163,6 +163,7 @@ impl Contour {
 
     /// A motion.
     pub(super) fn motion(&mut self, motion: Box<Motion>) -> Vec<Fault> {
+        self.akima.moved |= !motion.akima;
         if !motion.akima && !self.akima.runs() {
             return self.joined(motion);
         }

@@ -304,6 +304,7 @@ impl Decoder {
         let in_plane = self.in_plane(span)?;
         if self.contour.akima.selected {
             self.spline_fits(rapid, span)?;
+            self.spline_leads(&path, span)?;
         }
         // of a block with an error nothing moves; what was said before it is still said
         if self.report.failed() && !self.checking {
@@ -352,6 +353,19 @@ impl Decoder {
             return Ok(());
         };
         Err(Fault::unsupported(what, span))
+    }
+
+    /// 120180: a point of a spline moves a main axis.
+    fn spline_leads(&self, path: &Path, span: Span) -> Outcome<()> {
+        let moves = |axis: usize| {
+            path.extent(axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
+        };
+        let mut main = (0..3).filter_map(|i| self.geometry.coordinates.main_axis(i));
+        if main.any(moves) {
+            return Ok(());
+        }
+        let text = "a point of a spline that moves no main axis";
+        Err(Fault::new(Condition::SplineWithoutMainAxis, text, span))
     }
 
     /// A motion with G95 under G96: its feed changes with the speed of the spindle.

@@ -107,6 +107,10 @@ pub struct Channel {
     pub own_feed_hold: bool,
     /// Several G90 and G91 in a block, each acting from its place on (P-CHAN-00116).
     pub several_dimensions: bool,
+    /// Several words of an axis in a motion block (P-CHAN-00148, with P-CHAN-00116).
+    pub several_words: bool,
+    /// Absolute words of modulo axes always go the shortest way (P-CHAN-00346).
+    pub shortest_way: bool,
     /// Cycles give no modal state back at their ends (P-CHAN-00210).
     pub cycle_changes_stay: bool,
     /// P parameters survive program start (P-CHAN-00067).
@@ -258,6 +262,8 @@ impl Channel {
             exact_stop_after_g00: p.get(of::EXACT_STOP_AFTER_G00),
             own_feed_hold: p.get(of::OWN_FEEDHOLD),
             several_dimensions: p.get(of::SEVERAL_DIMENSIONS),
+            several_words: p.get(of::SEVERAL_DIMENSIONS) && p.get(of::SEVERAL_WORDS),
+            shortest_way: p.get(of::SHORTEST_WAY),
             cycle_changes_stay: p.get(of::CYCLE_CHANGES_STAY),
             keep_p_parameters: p.get(of::KEEP_P_PARAMETERS),
             override_mode: match choice(of::OVERRIDE_MODE) {

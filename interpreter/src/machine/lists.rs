@@ -191,7 +191,7 @@ impl Reader<'_> {
         let value = match value::read(row.raw, written) {
             Ok(value) => value,
             Err(bad) => {
-                self.say(bad_value(row, &bad, written).at(value_at.clone()));
+                self.say(bad_value(row, word, &bad, written).at(value_at.clone()));
                 match bad.instead {
                     Some(value) => value,
                     None => return,
@@ -257,13 +257,18 @@ pub(super) fn parameter(diagnostic: Diagnostic, row: &Row) -> Diagnostic {
 }
 
 /// 1001138 for a value that could not be read.
-pub(super) fn bad_value(row: &Row, bad: &value::BadValue, written: &str) -> Diagnostic {
+pub(super) fn bad_value(
+    row: &Row,
+    entry: &str,
+    bad: &value::BadValue,
+    written: &str,
+) -> Diagnostic {
     let instead = match &bad.instead {
         Some(value) => format!("{} is used", value::write(row.raw, value)),
         None => "the earlier value stays".to_owned(),
     };
     let mut diagnostic =
-        Diagnostic::new(Condition::ListNumber, format!("{}: {}, {instead}", row.key, bad.reason))
+        Diagnostic::new(Condition::ListNumber, format!("{entry}: {}, {instead}", bad.reason))
             .severity(Severity::Warning)
             .value(ValueKind::Wrong, written, "-");
     if let Some(Value::Number(x)) = bad.instead {

@@ -316,21 +316,24 @@ pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Ve
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
-/// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 says.
+/// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 and 00027 say.
 pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let key = channel::M_SYNCHRONISATION.place().row.key;
-    let at_once = channel::SYNCHRONISATION
+    let waiting = ["MVS_SVS", "MVS_SNS", "MNS_SNS", "MVS_SLM", "MVS_SLP", "MEP_SVS", "MET_SVS"];
+    let waiting = channel::SYNCHRONISATION
         .iter()
-        .filter(|(name, _)| ["NO_SYNCH", "MOS", "MNE_SNS"].contains(name));
-    let at_once: Vec<u32> = at_once.map(|(_, bits)| *bits).collect();
-    let waits = |value: Option<f64>| value.and_then(whole).is_some_and(|v| !at_once.contains(&v));
-    let mut listed = parameters.settings().filter(|(_, s)| s.row.key == key);
+        .filter(|(name, _)| waiting.contains(name))
+        .fold(0, |all, (_, bits)| all | bits);
+    let waits = |value: Option<f64>| value.and_then(whole).is_some_and(|v| v & waiting != 0);
+    let keys =
+        [&channel::M_SYNCHRONISATION, &channel::H_SYNCHRONISATION].map(|p| p.place().row.key);
+    let mut listed = parameters.settings().filter(|(_, s)| keys.contains(&s.row.key));
     let Some((i, setting)) = listed.find(|(_, s)| waits(s.value.number())) else { return };
     let text = format!(
-        "m_synch[{}]: no time is spent on the acknowledgement of functions, the path does not wait for it",
+        "{}[{}]: no time is spent on the acknowledgement of functions, the path does not wait for it",
+        setting.row.key.trim_end_matches("[i]"),
         i[0]
     );
-    let hint = "m_prozess_zeit (P-CHAN-00040) and --techno-times let the path wait for M functions";
+    let hint = "m_prozess_zeit and h_prozess_zeit (P-CHAN-00040, 00026) with --techno-times let the path wait for functions";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

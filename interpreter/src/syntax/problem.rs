@@ -264,7 +264,13 @@ fn refine(
         Context::Command
             if before.trim_end().ends_with(']') && has_name(content, &["#SET", "TIP"]) =>
         {
-            Problem::new(Condition::Unsupported, problem.span, "#SET TIP is not supported")
+            let inside = before.trim_end().trim_end_matches(']').trim_end();
+            if inside.ends_with('[') {
+                let text = "#SET TIP: there is nothing in its brackets";
+                Problem::new(Condition::EmptyBracket, problem.span, text)
+            } else {
+                Problem::new(Condition::Unsupported, problem.span, "#SET TIP is not supported")
+            }
         }
         Context::Command if before.trim_end().ends_with(']') => {
             raised(problem, Condition::WordsBehindCommand)

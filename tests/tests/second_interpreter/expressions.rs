@@ -83,7 +83,7 @@ impl Writer<'_> {
             0 | 1 if !place.cycle => {
                 name(format!("P{}", 1 + self.random.below(PARAMETERS as usize)))
             }
-            2 => name("V.L.A"),
+            2 => name(self.random.pick(&["V.L.A", "V.CYC.A"])),
             3 => Expr::Element("V.P.TAB".to_owned(), Box::new(self.index())),
             4 if !place.cycle => Expr::Element("P100".to_owned(), Box::new(self.index())),
             5 if !place.cycle => Expr::Indirect(7 + self.random.below(2) as u32),

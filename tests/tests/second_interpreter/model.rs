@@ -45,6 +45,8 @@ pub struct Modal {
     pub plane: u32,
     pub absolute: bool,
     pub absolute_centres: bool,
+    /// Of the last G163 or R.
+    pub radius: f64,
     /// G20 to G23.
     mirrors: [bool; 2],
 }
@@ -68,7 +70,7 @@ pub struct Model<'a> {
     tool: u32,
     /// P parameters, V.P, elements of arrays.
     values: BTreeMap<String, f64>,
-    /// V.L of the levels.
+    /// V.L and V.CYC of the levels.
     local: Vec<BTreeMap<String, f64>>,
     /// @P of the cycle in work.
     passed: Vec<Vec<f64>>,
@@ -96,6 +98,11 @@ fn placed([x, y, z, a, b, c]: &[f64; 6]) -> Map {
         .then_inner(&Map::turn(1, 2, *a))
 }
 
+/// Variables that a level and those below it see.
+fn is_local(name: &str) -> bool {
+    name.starts_with("V.L.") || name.starts_with("V.CYC.")
+}
+
 impl<'a> Model<'a> {
     pub fn new(program: &'a Program) -> Self {
         Self {
@@ -105,6 +112,7 @@ impl<'a> Model<'a> {
                 plane: 17,
                 absolute: true,
                 absolute_centres: false,
+                radius: 0.0,
                 mirrors: [false; 2],
             },
             coordinates: Coordinates {
@@ -207,6 +215,7 @@ impl<'a> Model<'a> {
             }
             Statement::Plane(g) => self.plane(*g),
             Statement::Absolute(absolute) => self.modal.absolute = *absolute,
+            Statement::Radius(radius) => self.modal.radius = *radius,
             Statement::AbsoluteCentres(on) => self.modal.absolute_centres = *on,
             Statement::Group(group) => self.select(*group),
             Statement::Table(group, axis, value) => {
@@ -377,7 +386,7 @@ impl<'a> Model<'a> {
 
     fn assign(&mut self, to: &Expr, value: f64) {
         let key = self.key(to);
-        if key.starts_with("V.L.") {
+        if is_local(&key) {
             let level = self.local.iter().rposition(|level| level.contains_key(&key));
             let level = level.unwrap_or(self.local.len() - 1);
             self.local[level].insert(key, value);
@@ -456,7 +465,7 @@ impl<'a> Model<'a> {
             self.table.get(&(layer.group, axis(name))).copied().unwrap_or(0.0)
         } else if let Some(number) = name.strip_prefix("@P") {
             self.passed.last().unwrap()[number.parse::<usize>().unwrap() - 1]
-        } else if name.starts_with("V.L.") {
+        } else if is_local(name) {
             let found = self.local.iter().rev().find_map(|level| level.get(name));
             *found.unwrap_or_else(|| panic!("{name}"))
         } else {

@@ -103,12 +103,14 @@ impl Model<'_> {
         }
     }
 
-    fn arc(&self, motion: &Motion, from: Point, to: Point) -> Piece {
+    fn arc(&mut self, motion: &Motion, from: Point, to: Point) -> Piece {
+        self.modal.radius = motion.radius.unwrap_or(self.modal.radius);
         let [a, b, third] = axes_of(self.modal.plane);
         let against_the_clock = self.modal.path == 3;
         let (dx, dy) = (to[a] - from[a], to[b] - from[b]);
         let way = libm::hypot(dx, dy);
-        let centre = if let Some(radius) = motion.radius {
+        let centre = if motion.centre.is_empty() {
+            let radius = self.modal.radius;
             // the short arc against the clock has its centre on the left of the chord
             let height = (radius * radius - way * way / 4.0).max(0.0).sqrt();
             let left = if against_the_clock == (radius > 0.0) { height } else { -height };

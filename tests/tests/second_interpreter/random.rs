@@ -96,7 +96,10 @@ impl Place {
 impl Writer<'_> {
     /// Every parameter and variable has a value, so that none is read before.
     fn beginning(&mut self) -> Vec<Statement> {
-        let mut all = vec![Statement::Local("V.L.A".to_owned(), self.literal())];
+        let mut all = vec![
+            Statement::Local("V.L.A".to_owned(), self.literal()),
+            Statement::Local("V.CYC.A".to_owned(), self.literal()),
+        ];
         let values = |random: &mut Random| (0..TABLE).map(|_| decimal(random, 9.0)).collect();
         all.push(Statement::Array("V.P.TAB".to_owned(), values(self.random)));
         all.push(Statement::Array("P100".to_owned(), values(self.random)));
@@ -230,6 +233,7 @@ impl Writer<'_> {
         let height = decimal(self.random, 8.0);
         let centre = [x / 2.0 - height * y / way, y / 2.0 + height * x / way];
         let word = |axis: usize, value: f64| Word { axis, value: Expr::Number(value) };
+        let mut holds = false;
         match self.random.below(4) {
             0 => {
                 all.push(Statement::AbsoluteCentres(false));
@@ -240,7 +244,13 @@ impl Writer<'_> {
                 arc.words = vec![word(a, x), word(b, y)];
                 if self.random.chance(0.5) {
                     let longer = way * self.random.between(0.51, 2.0);
-                    arc.radius = Some(if self.random.chance(0.5) { longer } else { -longer });
+                    let signed = if self.random.chance(0.5) { longer } else { -longer };
+                    if self.random.chance(0.4) {
+                        all.push(Statement::Radius(longer));
+                    } else {
+                        arc.radius = Some(signed);
+                    }
+                    holds = self.random.chance(0.4);
                 } else {
                     all.push(Statement::AbsoluteCentres(false));
                     arc.centre = vec![(letters[0], centre[0]), (letters[1], centre[1])];
@@ -262,14 +272,20 @@ impl Writer<'_> {
             arc.words.push(word(third, decimal(self.random, 9.0)));
         }
         arc.number = self.number();
+        let again = Motion { words: vec![word(a, -y * 0.5), word(b, x * 0.5)], ..arc.clone() };
         all.push(Statement::Move(arc));
+        if holds {
+            // the radius is that of the arc before
+            let number = self.number();
+            all.push(Statement::Move(Motion { number, radius: None, ..again }));
+        }
         all
     }
 
     fn assignment(&mut self, place: Place) -> Statement {
         let value = both(Operator::Mod, self.value(place, 3), Expr::Number(9.0));
         let to = match self.random.below(6) {
-            0 => name("V.L.A"),
+            0 => name(self.random.pick(&["V.L.A", "V.CYC.A"])),
             1 => name("V.P.A"),
             2 => Expr::Element("V.P.TAB".to_owned(), Box::new(self.index())),
             _ if place.cycle => name(format!("@P{}", 1 + self.random.below(PASSED))),

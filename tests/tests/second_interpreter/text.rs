@@ -69,6 +69,9 @@ impl File {
     fn statement(&mut self, statement: &Statement, program: &Program) {
         match statement {
             Statement::Assign(to, value) => self.line(&format!("{}={}", text(to), text(value))),
+            Statement::Move(motion) if motion.number % 5 == 0 && !motion.words.is_empty() => {
+                self.by_macros(motion);
+            }
             Statement::Move(motion) => self.motion("", motion),
             Statement::Compensated(contour) => {
                 self.line(&format!("V.G.WZ_AKT.R={}", contour.radius));
@@ -104,7 +107,8 @@ impl File {
             }
             Statement::Tool(number) => self.line(&format!("D{number}")),
             Statement::Local(name, value) => {
-                self.line(&format!("#VAR\n{name}={}\n#ENDVAR", text(value)));
+                let kind = if name.starts_with("V.CYC.") { " : REAL64 " } else { "" };
+                self.line(&format!("#VAR\n{name}{kind}={}\n#ENDVAR", text(value)));
             }
             Statement::Array(name, values) => {
                 let list: Vec<String> = values.iter().map(f64::to_string).collect();
@@ -114,6 +118,7 @@ impl File {
             Statement::Plane(g) => self.line(&format!("G{g}")),
             Statement::Absolute(absolute) => self.line(if *absolute { "G90" } else { "G91" }),
             Statement::AbsoluteCentres(on) => self.line(if *on { "G161" } else { "G162" }),
+            Statement::Radius(radius) => self.line(&format!("G163={radius}")),
             Statement::Group(group) => self.line(&group_text(*group)),
             Statement::Table(group, axis, value) => {
                 self.line(&format!("V.G.NP[{group}].V.{}={}", AXES[*axis], text(value)));
@@ -177,6 +182,22 @@ impl File {
         let line = self.text.lines().count() as u32 + 1;
         self.places.insert(motion.number, (self.name.clone(), line));
         self.line(&motion_text(words, motion));
+    }
+
+    /// A motion whose axis words are the text of a macro, which another one is a part of.
+    fn by_macros(&mut self, motion: &Motion) {
+        let number = motion.number;
+        let words = words_text(&motion.words);
+        let mut parts: Vec<&str> = words.split(' ').filter(|part| !part.is_empty()).collect();
+        // blanks of operators divide words too: the whole is one part then
+        if parts.len() != motion.words.len() || number.is_multiple_of(2) {
+            parts = vec![&words];
+        }
+        let first = parts.remove(0);
+        self.line(&format!("\"PART {number}\"=\"{first}\""));
+        self.line(&format!("\"MOTION {number}\"=\"\\\"PART {number}\\\" {}\"", parts.join(" ")));
+        let bare = Motion { words: Vec::new(), ..motion.clone() };
+        self.motion(&format!("\"MOTION {number}\""), &bare);
     }
 
     /// Words in a block of their own, or in that of a motion.

@@ -98,7 +98,7 @@ pub struct Contour {
 #[derive(Clone, Debug)]
 pub enum Statement {
     Assign(Expr, Expr),
-    /// `#VAR` of a V.L variable.
+    /// `#VAR` of a V.L or V.CYC variable.
     Local(String, Expr),
     /// `#VAR` of an array.
     Array(String, Vec<f64>),
@@ -114,6 +114,8 @@ pub enum Statement {
     Plane(u32),
     Absolute(bool),
     AbsoluteCentres(bool),
+    /// G163: the radius of arcs that say none.
+    Radius(f64),
     /// G53 to G59 (0 to 6), G159 above.
     Group(u32),
     /// `V.G.NP[group].V.X=`.

@@ -1,7 +1,7 @@
 //! IDs that the documents print and nothing here raises: data for `explain`.
 
 use super::row::{
-    Reaction::{self, AbruptStop, AllStop, ControlledStop, FeedHold, JobAbort, None, ProgramAbort},
+    Reaction::{self, AbruptStop, ControlledStop, FeedHold, JobAbort, None, ProgramAbort},
     Row,
 };
 use crate::diag::id::{
@@ -44,7 +44,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(21777), "", Error, ProgramAbort, 3, 1, "keyword index outside the data format", ""),
     documented(Vendor(21909), "", Error, ProgramAbort, 3, 1, "flush inside a two-block contour", ""),
     documented(Vendor(22145), "", Error, JobAbort, 3, 1, "key twice (#DIAGNOSIS)", ""),
-    documented(Vendor(50499), "", Error, AllStop, 6, 0, "spindle speed 0 with G95/G33", ""),
     documented(Vendor(50544), "", Error, FeedHold, 1, 0, "vendor-internal slope diagnosis", ""),
     documented(Vendor(50605), "", Warning, None, 1, 0, "order of the position filter is odd", "P-AXIS-00622"),
     documented(Vendor(50606), "", Warning, None, 1, 0, "type of the position filter is invalid", "P-AXIS-00621"),
@@ -70,12 +69,10 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(110573), "", Warning, None, 1, 2, "parameter above its maximum, limited", "P-AXIS-00497"),
     documented(Vendor(110580), "", Warning, None, 1, 2, "gear ratio: output revolutions are 0 (printed on one page; 110579 is raised)", "P-AXIS-00512"),
     documented(Vendor(110700), "", Warning, None, 1, 2, "invalid value, function off", "P-AXIS-00584"),
-    documented(Vendor(120020), "", Error, ProgramAbort, 6, 0, "unknown ramp-time weighting mode", "#SET SLOPE PROFIL, P-CHAN-00073"),
     documented(Vendor(120146), "", Warning, None, 1, 0, "tangential transition with AUTO_VEL", ""),
     documented(Vendor(120393), "", Error, ProgramAbort, 6, 0, "order of the block length filter invalid", "#HSC[...]"),
     documented(Vendor(120396), "", Error, ProgramAbort, 6, 0, "order of the angle filter invalid", "#HSC[...]"),
     documented(Vendor(120630), "", Warning, None, 1, 0, "rapid ramp time too large", "G233"),
-    documented(Vendor(120652), "", Error, ProgramAbort, 3, 0, "contouring not possible (measurement, feed group, corner)", ""),
     documented(Vendor(1000044), "", Error, JobAbort, 6, 2, "job to interpret a list failed in the decoder", ""),
     documented(Kontur(5), "K-PERCENT", Error, ProgramAbort, 3, 0, "`%` head malformed", "20193 and 21313 are raised in its place"),
 ];

@@ -107,7 +107,9 @@ impl Decoder {
             block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
         }
         let value = self.number(value)?;
-        if block.axes.iter().any(|(a, _, _)| *a == axis) {
+        // the direction of a modulo axis belongs to one word
+        let several = self.machine.channel.several_words && !self.machine.axes[axis].is_modulo();
+        if !several && block.axes.iter().any(|(a, _, _)| *a == axis) {
             return Err(self.axis_twice(axis, span));
         }
         block.axes.push((axis, value, span));

@@ -1,7 +1,7 @@
 //! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `X[M10]`, `S[M3 REV1000 M10]`,
 //! `S[G135 G136=80]`.
 //!
-//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21301, 21738, 21867.
+//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21301, 21736, 21738, 21867.
 
 use super::modes::weight_ratio;
 use super::words::Words;
@@ -236,6 +236,11 @@ impl Decoder {
         }
         let some = items.iter().find(|(i, _)| feedforward(i));
         let other = items.iter().find(|(i, _)| !feedforward(i));
+        let weight = items.iter().find(|(i, _)| matches!(i, SpindleItem::Acceleration(_)));
+        if let (Some(_), Some((_, span))) = (some, weight) {
+            let text = "feedforward and G130 in one bracket exclude each other";
+            return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
+        }
         if let (Some(_), Some((_, span))) = (some, other) {
             let text = "feedforward needs a bracket of its own, without other commands";
             return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
@@ -256,6 +261,7 @@ impl Decoder {
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
                     SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
+                    SpindleItem::Position(_) => Condition::SpindlePositionTwice,
                     _ => Condition::DuplicateGroup,
                 };
                 return Err(Fault::new(condition, text, *span));
@@ -376,6 +382,10 @@ impl Decoder {
             }
             SpindleItem::Acceleration(percent) => {
                 let ratio = weight_ratio(Weight::Acceleration, (percent, span))?;
+                if ratio == 0.0 {
+                    let text = "G130=0: the spindle would never reach its speed";
+                    return Err(Fault::new(Condition::Range, text, span));
+                }
                 self.motion.spindles[spindle].acceleration_ratio = ratio;
                 if let Some(event) = self.motion.spindles[spindle].acceleration_event() {
                     self.contour.event(event);

@@ -39,6 +39,10 @@ pub(in crate::exec) enum Group {
     FullOverride,
     RampWeight,
     VelocityWeight,
+    RapidVelocityWeight,
+    AccelerationWeight,
+    RapidAccelerationWeight,
+    HoldAccelerationWeight,
     /// No group: several may share a block.
     None,
 }
@@ -71,12 +75,16 @@ impl Group {
             Self::RampWeight => Condition::TwoRampWeights,
             Self::VelocityWeight => Condition::TwoVelocityWeights,
             Self::Deceleration => Condition::TwoDecelerations,
+            Self::Splines => Condition::TwoSplines,
             Self::Plane
             | Self::Rotation
             | Self::Dimension
             | Self::Masking
-            | Self::Splines
             | Self::Feedforward
+            | Self::RapidVelocityWeight
+            | Self::AccelerationWeight
+            | Self::RapidAccelerationWeight
+            | Self::HoldAccelerationWeight
             | Self::None => Condition::DuplicateGroup,
         }
     }
@@ -113,6 +121,10 @@ impl Group {
             Self::FullOverride => "override of the block",
             Self::RampWeight => "weights of ramp times",
             Self::VelocityWeight => "weights of the highest speed",
+            Self::RapidVelocityWeight => "the weight of the rapid speed",
+            Self::AccelerationWeight => "weights of accelerations",
+            Self::RapidAccelerationWeight => "weights of rapid accelerations",
+            Self::HoldAccelerationWeight => "weights of the deceleration at feedhold",
             Self::None => "",
         }
     }
@@ -313,9 +325,9 @@ const ROWS: &[Row] = &[
     g(117, Group::LookAhead, Act::StopAtTransitions(false)),
     g(127, Group::VelocityWeight, Act::WeightOfAxes(Weight::Velocity)),
     v(128, Group::VelocityWeight, Act::WeightOfAll(Weight::Velocity)),
-    v(129, Group::None, Act::WeightOfAll(Weight::RapidVelocity)),
-    g(130, Group::None, Act::WeightOfAxes(Weight::Acceleration)),
-    v(131, Group::None, Act::WeightOfAll(Weight::Acceleration)),
+    v(129, Group::RapidVelocityWeight, Act::WeightOfAll(Weight::RapidVelocity)),
+    g(130, Group::AccelerationWeight, Act::WeightOfAxes(Weight::Acceleration)),
+    v(131, Group::AccelerationWeight, Act::WeightOfAll(Weight::Acceleration)),
     g(132, Group::RampWeight, Act::WeightOfAxes(Weight::Ramp)),
     v(133, Group::RampWeight, Act::WeightOfAll(Weight::Ramp)),
     v(134, Group::RampWeight, Act::WeightOfAll(Weight::GeometricRamp)),
@@ -342,8 +354,8 @@ const ROWS: &[Row] = &[
     g(200, Group::Manual, Act::Manual),
     g(201, Group::Manual, Act::Manual),
     g(202, Group::Manual, Act::Manual),
-    g(230, Group::None, Act::WeightOfAxes(Weight::RapidAcceleration)),
-    v(231, Group::None, Act::WeightOfAll(Weight::RapidAcceleration)),
+    g(230, Group::RapidAccelerationWeight, Act::WeightOfAxes(Weight::RapidAcceleration)),
+    v(231, Group::RapidAccelerationWeight, Act::WeightOfAll(Weight::RapidAcceleration)),
     v(233, Group::RampWeight, Act::WeightOfAll(Weight::RapidRamp)),
     g(236, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation on the path")),
     g(237, Group::CompensationSelection, Act::Selection(Selection::Perpendicular)),
@@ -358,8 +370,8 @@ const ROWS: &[Row] = &[
     g(310, Group::Measuring, Act::Measure),
     g(331, Group::Path, Act::Path(PathMode::TapIn)),
     g(332, Group::Path, Act::Path(PathMode::TapBack)),
-    g(333, Group::None, Act::Simplified(FEED_HOLD)),
-    v(334, Group::None, Act::Simplified(FEED_HOLD)),
+    g(333, Group::HoldAccelerationWeight, Act::Simplified(FEED_HOLD)),
+    v(334, Group::HoldAccelerationWeight, Act::Simplified(FEED_HOLD)),
     g(338, Group::RampWeight, Act::Simplified(FEED_HOLD)),
     v(339, Group::RampWeight, Act::Simplified(FEED_HOLD)),
     g(351, Group::Mirror, Act::MirrorAxes),
@@ -377,6 +389,17 @@ pub(in crate::exec) const NUMBER_MAX: u32 = 9999;
 /// The row of a number.
 pub(in crate::exec) fn row(number: u32) -> Option<&'static Row> {
     ROWS.binary_search_by_key(&number, |r| r.number).ok().map(|i| &ROWS[i])
+}
+
+/// Why two functions of different groups cannot share a block.
+///
+/// Source: TF5200 programming manual, feed interpolation (G193/G293): not in the block of G09. The diagnosis manual gives
+/// 20109 for G08 beside them, and no number for G09.
+pub(in crate::exec) fn exclude(one: &Row, other: &Row) -> Option<&'static str> {
+    let over = |row: &Row| matches!(row.act, Act::FeedOverPath | Act::FeedOverTime);
+    let brakes = |row: &Row| row.act == Act::EarlyBrakingOnce;
+    ((over(one) && brakes(other)) || (over(other) && brakes(one)))
+        .then_some("both set how the feed is reached")
 }
 
 /// True for the implicit subroutine calls.

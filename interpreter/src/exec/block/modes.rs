@@ -14,10 +14,7 @@ use kontur_motion::axis::AxisVec;
 
 /// A weight in percent as a ratio.
 pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
-    let may_be_zero = matches!(
-        weight,
-        Weight::RapidVelocity | Weight::Ramp | Weight::RapidRamp | Weight::GeometricRamp
-    );
+    let may_be_zero = weight != Weight::Velocity;
     let ok = percent.is_finite() && (percent > 0.0 || (may_be_zero && percent == 0.0));
     if ok && percent <= 1e6 {
         return Ok(percent / 100.0);
@@ -27,7 +24,8 @@ pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> 
 }
 
 impl Decoder {
-    /// Sets a weight; 50130 if it exceeds what the lists allow.
+    /// Sets a weight; 50130 if it exceeds what the lists allow, 120028, 120030, 120032 or 120034 if nothing is left of an
+    /// acceleration.
     pub(in crate::exec) fn set_weight(
         &mut self,
         weight: Weight,
@@ -35,25 +33,39 @@ impl Decoder {
         ratio: f64,
         span: Span,
     ) {
-        let before = self.motion.capped_axes(&self.machine, &self.modal);
+        let before = self.motion.limited_weights(&self.machine, &self.modal);
         self.motion.weights.set(weight, axis, ratio);
         self.motion.dynamics_changed();
-        for axis in self.motion.capped_axes(&self.machine, &self.modal) {
-            if before.contains(&axis) && (ratio - 1.0).abs() < 1e-12 {
+        for (axis, condition) in self.motion.limited_weights(&self.machine, &self.modal) {
+            let zero = condition != Condition::DynamicsLimited;
+            // what an earlier word has left so has been said there
+            let earlier = (ratio - 1.0).abs() < 1e-12 || (zero && weight != Weight::Acceleration);
+            if earlier && before.contains(&(axis, condition)) {
                 continue;
             }
             let name = self.names.name(axis).to_owned();
             let number = self.machine.axes[axis].number();
             let ramp = matches!(weight, Weight::Ramp | Weight::RapidRamp);
-            let is = if ramp { "is below" } else { "exceeds" };
+            let low = ramp || ratio < 1.0;
+            let is = if low { "is below" } else { "exceeds" };
             let percent = ratio * 100.0;
-            let text = format!(
-                "axis {name}: the weight of {percent} % {is} what the axis list allows, it is limited"
-            );
-            let fault = Fault::new(Condition::DynamicsLimited, text, span)
+            let text = if zero {
+                format!(
+                    "axis {name}: nothing is left of the acceleration at {percent} %, it is limited to the least"
+                )
+            } else {
+                format!(
+                    "axis {name}: the weight of {percent} % {is} what the axis list allows, it is limited"
+                )
+            };
+            let fault = Fault::new(condition, text, span)
                 .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"));
             let hint = "raise the weight, or lower the least ramp time of the axis list (P-AXIS-00293, P-AXIS-00201 for rapid)";
-            self.report.note(if ramp { fault.hint(hint) } else { fault });
+            self.report.note(match (ramp, low) {
+                (true, _) => fault.hint(hint),
+                (false, true) if !zero => fault.hint("raise the weight"),
+                _ => fault,
+            });
         }
     }
 

@@ -29,6 +29,15 @@ impl Decoder {
                 }
             }
         }
+        // several words of an axis are those of a motion (P-CHAN-00148)
+        if self.machine.channel.several_words
+            && block.g.iter().any(|g| groups::takes_axes(g.row))
+            && let Some(i) = (1..block.axes.len())
+                .find(|i| block.axes[..*i].iter().any(|(a, _, _)| *a == block.axes[*i].0))
+        {
+            let (axis, _, span) = block.axes.remove(i);
+            self.report.note(self.axis_twice(axis, span));
+        }
         if let (Some(_), Some((condition, span))) = (block.tool_data, block.tool_written) {
             let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
             self.report.note(Fault::new(condition, text, span));
@@ -229,6 +238,13 @@ impl Decoder {
             && let Some(first) = block.group(row.group)
         {
             return Err(duplicate(first.row, row, span));
+        }
+        for other in &block.g {
+            if let Some(why) = groups::exclude(other.row, row) {
+                let text = format!("G{:02} and G{number:02} in one block: {why}", other.row.number);
+                return Err(Fault::new(Condition::DuplicateGroup, text, span)
+                    .with(|d| d.value(ValueKind::Wrong, number, "-")));
+            }
         }
         if number == 5 && self.modal.selection == Selection::InsideCorner {
             let text = "G05 does not go with the inside corner selection G238: it is ignored";

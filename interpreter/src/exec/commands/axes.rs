@@ -6,7 +6,7 @@
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
 use super::row::{Call, Row};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
@@ -176,7 +176,34 @@ fn release(decoder: &mut Decoder, axis: usize) {
     }
 }
 
+/// What the brackets of one command have taken.
+#[derive(Default)]
+struct Taken {
+    indices: Vec<u32>,
+    numbers: Vec<u32>,
+}
+
+impl Taken {
+    /// 21257, 21258: an index or an axis may be named once.
+    fn add(&mut self, index: u32, number: u32, at: [Span; 2]) -> Outcome<()> {
+        if self.numbers.contains(&number) {
+            let text = format!("axis number {number} twice in one axis exchange");
+            return Err(Fault::new(Condition::ExchangeNumberTwice, text, at[0])
+                .with(|d| d.value(ValueKind::AxisNumber, number, "-")));
+        }
+        if self.indices.contains(&index) {
+            let text = format!("axis index {index} twice in one axis exchange");
+            return Err(Fault::new(Condition::ExchangeIndexTwice, text, at[1])
+                .with(|d| d.value(ValueKind::Wrong, index, "-")));
+        }
+        self.indices.push(index);
+        self.numbers.push(number);
+        Ok(())
+    }
+}
+
 fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let mut taken = Taken::default();
     if call.command.groups.is_empty() {
         let text = format!("{} needs [name, number, index]", call.title());
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
@@ -192,10 +219,10 @@ fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             })
             .collect();
         if nested.is_empty() {
-            take(decoder, group)?;
+            take(decoder, group, &mut taken)?;
         }
         for inner in nested {
-            take(decoder, inner)?;
+            take(decoder, inner, &mut taken)?;
         }
     }
     decoder.names.change();
@@ -215,7 +242,7 @@ fn number(
 }
 
 /// `[name, number, index, options]`.
-fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
+fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> {
     let items = &group.items;
     let name = match items.first().map(|i| (&i.kind, i.span)) {
         Some((ItemKind::Flag(name), _)) => name.clone(),
@@ -260,7 +287,9 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
     };
     let Some(index) = crate::exec::values::number::whole(index, 0, PLACES - 1) else {
         let text = format!("axis index {index} is not in 0 to {}", PLACES - 1);
-        return Err(Fault::new(Condition::Range, text, at(2)));
+        let whole = index.fract() == 0.0;
+        let condition = if whole { Condition::ExchangeIndexRange } else { Condition::Range };
+        return Err(Fault::new(condition, text, at(2)));
     };
     for item in items.iter().skip(3) {
         match &item.kind {
@@ -276,6 +305,7 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         let text = format!("no axis has the logical number {logical}");
         return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)));
     };
+    taken.add(index, logical, [at(1), at(2)])?;
     decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);

@@ -46,7 +46,10 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     for item in &group.items {
         match &item.kind {
             ItemKind::Value(ItemValue::Expr(expr)) => items.push(expr),
-            ItemKind::Missing => {}
+            ItemKind::Missing => {
+                let text = "#MSG: a value is expected behind the comma";
+                return Err(Fault::new(Condition::MessageValue, text, item.span));
+            }
             _ => {
                 return Err(Fault::new(
                     Condition::TokenUnknown,
@@ -117,7 +120,7 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         };
         let Some(expr) = values.next() else {
             let message = format!("no value for %{letter}");
-            return Err(Fault::new(Condition::TokenUnknown, message, at));
+            return Err(Fault::new(Condition::MessageValue, message, at));
         };
         text.push_str(&one(&decoder.value(expr)?, letter, &precision));
     }

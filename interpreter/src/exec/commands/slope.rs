@@ -4,9 +4,11 @@
 
 use super::keys::{arguments, between};
 use super::row::{Call, Row};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::values::number::whole;
+use crate::syntax::ast::{Item, ItemKind, ItemValue};
 use kontur_motion::block::SlopeKind;
 
 /// Types in the order of P-CHAN-00071.
@@ -91,35 +93,64 @@ pub(super) const SET_SLOPE_PROFIL: Row = Row::run("SET SLOPE PROFIL", set_slope_
     .form("#SET SLOPE PROFIL [n]")
     .meaning("older form of #SLOPE: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
     .example("#SET SLOPE PROFIL [1]")
-    .related(&["#SLOPE", "P-CHAN-00071"]);
+    .related(&["#SLOPE", "P-CHAN-00071", "P-CHAN-00001", "P-CHAN-00073", "120020"]);
 
 /// `#SET SLOPE PROFIL [n]`; without number as `#SLOPE DEFAULT`.
+///
+/// Further numbers say which ramp times and accelerations the weights act on (120020). No document says in which order they
+/// come, so only 0, all of them, is taken.
 fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    use crate::syntax::ast::{ItemKind, ItemValue};
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
         default(decoder);
         return Ok(());
     };
-    let [item] = &group.items[..] else {
-        return Err(Fault::new(
-            Condition::TokenUnknown,
-            "one number is expected: 0 to 3",
-            group.span,
-        ));
+    let [item, modes @ ..] = &group.items[..] else {
+        let text = "a number is expected: 0 to 3";
+        return Err(Fault::new(Condition::TokenUnknown, text, group.span));
     };
-    let ItemKind::Value(ItemValue::Expr(expr)) = &item.kind else {
-        return Err(Fault::new(Condition::TokenUnknown, "a number is expected: 0 to 3", item.span));
-    };
-    let value = decoder.number(expr)?;
-    let Some(i) = crate::exec::values::number::whole(value, 0, 3) else {
+    if let Some(item) = modes.get(2) {
+        let text = "up to three numbers are expected: the profile and two modes of weights";
+        return Err(Fault::new(Condition::TokenUnknown, text, item.span));
+    }
+    let value = number(decoder, item)?;
+    let Some(i) = whole(value, 0, 3) else {
         let text = format!("slope profile {value} does not exist");
-        return Err(Fault::new(Condition::SlopeWeighting, text, expr.span).with(|d| {
-            use crate::diag::ValueKind::{LowerLimit, UpperLimit, Wrong};
-            d.value(Wrong, value, "-").value(LowerLimit, 0.0, "-").value(UpperLimit, 3.0, "-")
-        }));
+        return Err(Fault::new(Condition::Range, text, item.span)
+            .with(|d| {
+                d.value(ValueKind::Wrong, value, "-").value(ValueKind::LowerLimit, 0.0, "-").value(
+                    ValueKind::UpperLimit,
+                    3.0,
+                    "-",
+                )
+            })
+            .hint("profiles are 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC"));
     };
+    for item in modes {
+        let mode = number(decoder, item)?;
+        match whole(mode, 0, 4) {
+            Some(0) => {}
+            Some(_) => {
+                let what =
+                    "a weight that acts on single ramp times or accelerations, set in the program,";
+                return Err(Fault::unsupported(what, item.span)
+                    .hint("P-CHAN-00073 and P-CHAN-00001 of the channel list set it"));
+            }
+            None => {
+                let text = format!("mode {mode} of the weights does not exist");
+                return Err(Fault::new(Condition::WeightMode, text, item.span)
+                    .with(|d| d.value(ValueKind::Current, mode, "-")));
+            }
+        }
+    }
     decoder.modal.slope.kind = TYPES[i as usize].1;
     set_old(decoder, true);
     Ok(())
+}
+
+fn number(decoder: &Decoder, item: &Item) -> Outcome<f64> {
+    match &item.kind {
+        ItemKind::Value(ItemValue::Expr(expr)) => decoder.number(expr),
+        _ => Err(Fault::new(Condition::TokenUnknown, "a number is expected", item.span)),
+    }
 }

@@ -4,12 +4,12 @@
 
 use super::keys::arguments;
 use super::row::{Call, Row};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::block::words::Words;
 use crate::exec::contour::akima::Transition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::values::number::whole;
+use crate::exec::values::number::{LARGEST_MM, whole};
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
 
 /// Row of `#SPLINE`.
@@ -123,7 +123,8 @@ fn transitions_by_number(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
             Some(3) => Transition::User,
             _ => {
                 let text = format!("#SET ASPLINE MODE: transition {value} does not exist");
-                return Err(Fault::new(Condition::Range, text, item.span)
+                return Err(Fault::new(Condition::SplineTransition, text, item.span)
+                    .with(|d| d.value(ValueKind::Current, value, "-"))
                     .hint("transitions are 1 (automatic), 2 (tangential) and 3 (by #AKIMA STARTVECTOR or ENDVECTOR)"));
             }
         };
@@ -158,6 +159,26 @@ impl Decoder {
         let end = named(["AKIMA ENDVECTOR", "SET ASPLINE ZIELTANG"]);
         let vector: Vec<(usize, f64)> =
             words.axes.iter().map(|(axis, value, _)| (*axis, *value)).collect();
+        let large = words.axes.iter().find(|(_, value, _)| value.abs() > LARGEST_MM);
+        if let (true, Some((_, value, at))) = (start || end, large) {
+            let text = format!("the component {value} of a tangent is outside the data format");
+            self.report.note(Fault::new(Condition::SplineParameter, text, *at).with(|d| {
+                d.value(ValueKind::Wrong, *value, "-")
+                    .value(ValueKind::LowerLimit, -LARGEST_MM, "-")
+                    .value(ValueKind::UpperLimit, LARGEST_MM, "-")
+            }));
+        }
+        if (start || end) && vector.iter().all(|(_, value)| *value == 0.0) {
+            let named = words.hashes.first().map_or_else(Span::default, |(_, _, span)| *span);
+            let at = words.axes.first().map_or(named, |(_, _, span)| *span);
+            let (condition, which) = if end {
+                (Condition::SplineEndTangent, "target")
+            } else {
+                (Condition::Range, "start")
+            };
+            let text = format!("the {which} tangent of a spline has no direction");
+            self.report.note(Fault::new(condition, text, at));
+        }
         if start {
             self.contour.akima.start.vector.clone_from(&vector);
         }

@@ -7,9 +7,11 @@
 //! Assumptions: the parameter is the chord length over the feed axes, over all axes where none of them moves; where the
 //! weights of both sides are 0, both chords count the same; a given tangent has the length 1.
 //!
-//! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`).
+//! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`); 120112. Assumption: after
+//! a rest there is no direction, and a tangential start is automatic; the vendor asks for a motion before it alone.
 
 use super::motion::{Driven, Motion};
+use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -123,6 +125,8 @@ pub(in crate::exec) struct Akima {
     pub(in crate::exec) end: End,
     /// G151 is in force.
     pub(in crate::exec) selected: bool,
+    /// Something has moved before: a tangential start has a direction.
+    pub(super) moved: bool,
     /// An arc has interrupted the spline: it continues tangentially.
     behind_arc: bool,
     run: Option<Box<Run>>,
@@ -278,6 +282,14 @@ impl Akima {
         before: Option<&Motion>,
         out: &mut Vec<Curve>,
     ) -> Outcome<()> {
+        let tangential = self.start.transition == Transition::Tangential;
+        if self.run.is_none() && tangential && !self.moved {
+            // said once
+            self.moved = true;
+            let text = "a spline with a tangential start needs a motion before it";
+            return Err(Fault::new(Condition::SplineWithoutMotion, text, motion.span)
+                .in_block(motion.source));
+        }
         let (_, slope) = chord(&motion);
         let run = self.run.get_or_insert_with(|| {
             let neighbour = before.map(|before| direction(&before.block.path, true));

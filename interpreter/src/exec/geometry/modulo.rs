@@ -4,8 +4,12 @@
 //! way; the first sign after the name of the axis is the direction of rotation and no part of the position, so `C-200`
 //! turns in negative direction to 200 degrees, and `C[-200]` the shortest way to 160. With G91 a sign is a sign.
 //!
-//! Source: TF5200 programming manual, programming modulo axes. Assumption: of two shortest ways, 180 degrees each, the
-//! positive one.
+//! With P-CHAN-00346 every word goes the shortest way, and its sign belongs to the position.
+//!
+//! Source: TF5200 programming manual, programming modulo axes (208540555), positioning on the shortest way (208549515).
+//! Assumptions: of two shortest ways, 180 degrees each, the positive one. A sign is the direction under G00 too: the page of
+//! modulo axes says that the first sign always is; that of G00 (206075403) says that a rotary axis moves by half a turn at
+//! most, which holds for words without a sign. Its text is older than the signs.
 
 use crate::diag::Condition;
 use crate::exec::fault::Fault;

@@ -7,7 +7,7 @@
 //! Assumption: the turning centre is where the programmed coordinate of the face turning axis and its G92 offset are 0.
 //!
 //! Source: TF5200 turning functions, constant cutting speed, constant cutting speed at feed rate per revolution;
-//! P-AXIS-00015; 20633, 50182, 120169.
+//! P-AXIS-00015; 20633, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
 use crate::exec::block::groups::{Act, Group};
@@ -34,6 +34,12 @@ impl Decoder {
     pub(in crate::exec) fn cutting_words(&mut self, words: &Words<'_>) -> Outcome<()> {
         let g = words.group(Group::SpindleMode);
         let speed = words.speeds.iter().find(|(spindle, _, _)| *spindle == 0).copied();
+        if let (Some(Act::CuttingSpeedMax), Some(m)) =
+            (g.map(|g| g.row.act), words.m.iter().find(|m| m.number == 19))
+        {
+            let text = "M19 beside G196";
+            return Err(Fault::new(Condition::PositioningWithMaximum, text, m.span));
+        }
         match g.map(|g| (g.row.act, g.span)) {
             Some((Act::CuttingSpeedMax, span)) => match speed {
                 Some((_, rpm, _)) if rpm > 0.0 && rpm <= 1e6 => {
@@ -69,7 +75,12 @@ impl Decoder {
         let (true, Some((m_min, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
         if m_min <= 0.0 || m_min > 1e6 {
             let text = format!("cutting speed S{m_min} m/min");
-            return Err(Fault::new(Condition::CuttingSpeedZero, text, at));
+            let condition = if m_min < 0.0 {
+                Condition::CuttingSpeedNegative
+            } else {
+                Condition::CuttingSpeedZero
+            };
+            return Err(Fault::new(condition, text, at));
         }
         let axis = self.face_turning_axis(at)?;
         let listed = self.motion.spindles[0].index.and_then(|i| self.machine.spindles.get(i));

@@ -2,12 +2,16 @@
 //!
 //! Every weight refers to the list, never to the weight before; what exceeds the limits of the list is capped, 50130.
 //!
-//! Source: TF5200 programming manual, G127 to G134, G230 to G233; P-AXIS-00292, 00293, 00008, 00201, 00212.
+//! An acceleration weighted down to 0 becomes the least one of the lists; the program goes on.
+//!
+//! Source: TF5200 programming manual, G127 to G134, G230 to G233; P-AXIS-00292, 00293, 00008, 00201, 00212; 120028, 120030,
+//! 120032, 120034.
 
+use crate::diag::Condition;
 use crate::exec::block::modal::{LookAhead, Modal};
 use crate::machine::{Axis, Channel, Machine};
 use kontur_motion::axis::AxisDynamics;
-use kontur_motion::block::{ChannelDynamics, VectorLimits};
+use kontur_motion::block::{ChannelDynamics, SlopeKind, VectorLimits};
 
 /// Weights of one axis, 1.0 = 100 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,18 +84,44 @@ impl Weights {
     }
 }
 
-/// Scales values and notices when a cap cuts them.
+/// Least weighted acceleration in mm/s2 or deg/s2.
+///
+/// Assumption: the least value of the lists (range of P-AXIS-00001, 00002, 00004); the vendor prints no number.
+const ACCELERATION_MIN: f64 = 1.0;
+
+/// Scales values and notices when a limit cuts them.
+#[derive(Default)]
 struct Capped {
-    cut: bool,
+    conditions: Vec<Condition>,
 }
 
 impl Capped {
+    fn cut(&mut self, by: Condition) {
+        if !self.conditions.contains(&by) {
+            self.conditions.push(by);
+        }
+    }
+
+    /// `value * ratio`, at most `cap` and at least the least acceleration; `zero` where nothing of it is left.
+    fn acceleration(&mut self, value: f64, ratio: f64, cap: f64, zero: Option<Condition>) -> f64 {
+        let least = ACCELERATION_MIN.min(value);
+        if value * ratio < least {
+            if let Some(zero) = zero {
+                self.cut(zero);
+            }
+            return least;
+        }
+        self.at_most(value, ratio, cap)
+    }
+
     /// `value * ratio`, at most `cap`.
     fn at_most(&mut self, value: f64, ratio: f64, cap: f64) -> f64 {
         let scaled = value * ratio;
         // a list value above the cap is not the program's doing
         let cap = cap.max(value.min(scaled));
-        self.cut |= scaled > cap;
+        if scaled > cap {
+            self.cut(Condition::DynamicsLimited);
+        }
         scaled.min(cap)
     }
 
@@ -99,7 +129,9 @@ impl Capped {
     fn at_least(&mut self, value: f64, ratio: f64, floor: f64) -> f64 {
         let scaled = value * ratio;
         let floor = floor.min(value.max(scaled));
-        self.cut |= scaled < floor;
+        if scaled < floor {
+            self.cut(Condition::DynamicsLimited);
+        }
         scaled.max(floor)
     }
 }
@@ -107,16 +139,22 @@ impl Capped {
 /// Lowest weighted rapid velocity in mm/s. Source: TF5200 programming manual, G129: 0 gives 1 um/s.
 const RAPID_MIN_MM_S: f64 = 0.001;
 
-/// Limits of one axis under its weights, and whether one of them was capped.
+/// Limits of one axis under its weights, and why they are not what the weights ask for.
 fn weighted(
     axis: &Axis,
     w: AxisWeights,
     all: &Weights,
     modal: &Modal,
     channel: &Channel,
-) -> (AxisDynamics, bool) {
+) -> (AxisDynamics, Vec<Condition>) {
     let mut d = axis.dynamics();
-    let mut capped = Capped { cut: false };
+    let mut capped = Capped::default();
+    // the profile in use says what becomes 0
+    let stepped = modal.slope.kind == SlopeKind::Step;
+    let stages =
+        [Condition::FirstStageZero, Condition::SecondStageZero].map(|c| stepped.then_some(c));
+    let smooth =
+        [Condition::AccelerationZero, Condition::DecelerationZero].map(|c| (!stepped).then_some(c));
     let (a_cap, floor) = (axis.a_w_max_mm_s2(), axis.tr_w_min_s());
     // P-CHAN-00001, P-CHAN-00073: selective weights belong to the older command
     let (accelerations, ramps) =
@@ -124,16 +162,18 @@ fn weighted(
     let acc =
         |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
     let a_max = d.a_max_mm_s2;
-    d.feed.acc_mm_s2 = capped.at_most(d.feed.acc_mm_s2, acc(1), a_cap);
-    d.feed.dec_mm_s2 = capped.at_most(d.feed.dec_mm_s2, acc(2), a_cap);
-    for i in 0..2 {
-        d.step_feed.acc_mm_s2[i] = capped.at_most(d.step_feed.acc_mm_s2[i], acc(1), a_cap);
-        d.step_feed.dec_mm_s2[i] = capped.at_most(d.step_feed.dec_mm_s2[i], acc(2), a_cap);
-        let rapid = w.rapid_acceleration;
-        d.step_rapid.acc_mm_s2[i] = capped.at_most(d.step_rapid.acc_mm_s2[i], rapid, a_max);
-        d.step_rapid.dec_mm_s2[i] = capped.at_most(d.step_rapid.dec_mm_s2[i], rapid, a_max);
+    let (rapid, limited) = (w.rapid_acceleration, Some(Condition::DynamicsLimited));
+    d.feed.acc_mm_s2 = capped.acceleration(d.feed.acc_mm_s2, acc(1), a_cap, smooth[0]);
+    d.feed.dec_mm_s2 = capped.acceleration(d.feed.dec_mm_s2, acc(2), a_cap, smooth[1]);
+    for (i, stage) in stages.into_iter().enumerate() {
+        let (up, down) = (d.step_feed.acc_mm_s2[i], d.step_feed.dec_mm_s2[i]);
+        d.step_feed.acc_mm_s2[i] = capped.acceleration(up, acc(1), a_cap, stage);
+        d.step_feed.dec_mm_s2[i] = capped.acceleration(down, acc(2), a_cap, stage);
+        let (up, down) = (d.step_rapid.acc_mm_s2[i], d.step_rapid.dec_mm_s2[i]);
+        d.step_rapid.acc_mm_s2[i] = capped.acceleration(up, rapid, a_max, limited);
+        d.step_rapid.dec_mm_s2[i] = capped.acceleration(down, rapid, a_max, limited);
     }
-    d.rapid.acc_mm_s2 = capped.at_most(d.rapid.acc_mm_s2, w.rapid_acceleration, a_max);
+    d.rapid.acc_mm_s2 = capped.acceleration(d.rapid.acc_mm_s2, rapid, a_max, limited);
     for (k, ramp) in (1..).zip(&mut d.feed.ramps_s) {
         let ratio = if ramps == 0 || ramps == k { w.ramp } else { 1.0 };
         *ramp = capped.at_least(*ramp, ratio, floor);
@@ -144,25 +184,23 @@ fn weighted(
     d.v_rapid_mm_s =
         capped.at_most(d.v_rapid_mm_s, all.rapid_velocity, d.v_max_mm_s).max(RAPID_MIN_MM_S);
     d.v_rapid_mm_s = d.v_rapid_mm_s.min(d.v_max_mm_s);
-    (d, capped.cut)
+    (d, capped.conditions)
 }
 
-/// Limits of the channel, and the axes of which a weight was capped.
+/// Limits of the channel, and the axes of which a weight was limited, with the conditions that say so.
 pub(in crate::exec) fn channel_dynamics(
     machine: &Machine,
     weights: &Weights,
     modal: &Modal,
     vector: VectorLimits,
-) -> (ChannelDynamics, Vec<usize>) {
+) -> (ChannelDynamics, Vec<(usize, Condition)>) {
     let channel = &machine.channel;
     let mut capped = Vec::new();
     let mut axes = Vec::with_capacity(machine.axes.len());
     for (i, axis) in machine.axes.iter().enumerate() {
-        let (dynamics, cut) = weighted(axis, weights.axes[i], weights, modal, channel);
+        let (dynamics, conditions) = weighted(axis, weights.axes[i], weights, modal, channel);
         axes.push(dynamics);
-        if cut {
-            capped.push(i);
-        }
+        capped.extend(conditions.into_iter().map(|condition| (i, condition)));
     }
     let dynamics = ChannelDynamics {
         axes,

@@ -22,7 +22,7 @@ use kontur_motion::path::Path;
 struct Words {
     position: Option<(f64, Span)>,
     relative: Option<bool>,
-    rapid: bool,
+    rapid: Option<bool>,
     speed: Option<(IndependentSpeed, Span)>,
     slope: Option<SlopeKind>,
     functions: Vec<Event>,
@@ -34,6 +34,17 @@ const UNSUPPORTED: &[&str] = &["G100", "DRY_RUN", "ACC_WEIGHT", "RAPID_ACC_WEIGH
 fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
     let hint = "X[INDP_SYN G90 G01 FEED=1000 POS=50]";
     Fault::new(Condition::IndependentSyntax, text, span).hint(hint)
+}
+
+/// Sets a word that may appear once.
+fn once<T>(slot: &mut Option<T>, value: T, what: &str, span: Span) -> Outcome<()> {
+    if slot.replace(value).is_some() {
+        return Err(wrong(
+            format!("{what} twice in a bracket: the axis would move as the last one says"),
+            span,
+        ));
+    }
+    Ok(())
 }
 
 impl Decoder {
@@ -56,17 +67,18 @@ impl Decoder {
             self.contour.event(function);
         }
         let Some((position, at)) = words.position else {
-            if rest.is_empty() || words.speed.is_some() || words.rapid {
+            if rest.is_empty() || words.speed.is_some() || words.rapid.is_some() {
                 return Err(wrong("the target POS of the independent axis is missing", span));
             }
             return Ok(());
         };
         let speed = match (words.rapid, words.speed) {
-            (true, None) => IndependentSpeed::Rapid,
-            (false, Some((speed, _))) => speed,
-            (true, Some((_, at))) => return Err(wrong("G00 with a feed or a time", at)),
-            (false, None) => {
-                let text = "G00, or G01 with FEED, TIME or FEED_MAX_WEIGHT is missing";
+            (Some(true), None) => IndependentSpeed::Rapid,
+            (Some(false), Some((speed, _))) => speed,
+            (Some(true), Some((_, at))) => return Err(wrong("G00 with a feed or a time", at)),
+            (None, _) => return Err(wrong("G00 or G01 is missing", span)),
+            (Some(false), None) => {
+                let text = "FEED, TIME or FEED_MAX_WEIGHT of G01 is missing";
                 return Err(wrong(text, span));
             }
         };
@@ -120,7 +132,7 @@ impl Decoder {
                         let text = format!("unknown slope type {}", name.text);
                         return Err(wrong(text, name.span));
                     };
-                    words.slope = Some(kind);
+                    once(&mut words.slope, kind, "the slope", name.span)?;
                 }
                 ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
                     return Err(wrong("a word of independent axes is expected", item.span));
@@ -138,10 +150,12 @@ impl Decoder {
         let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
         let code = crate::exec::values::number::whole(number, 0, 65535);
         match (name.to_ascii_uppercase().as_str(), code) {
-            ("G", Some(90)) => words.relative = Some(false),
-            ("G", Some(91)) => words.relative = Some(true),
-            ("G", Some(0)) => words.rapid = true,
-            ("G", Some(1)) => words.rapid = false,
+            ("G", Some(number @ (90 | 91))) => {
+                once(&mut words.relative, number == 91, "G90 and G91", word.span)?;
+            }
+            ("G", Some(number @ (0 | 1))) => {
+                once(&mut words.rapid, number == 0, "G00 and G01", word.span)?;
+            }
             ("M", Some(number)) => {
                 words.functions.push(Event::MFunction { number, value: None });
             }
@@ -170,14 +184,13 @@ impl Decoder {
             return Err(Fault::unsupported(what, span));
         }
         if key.is("POS") {
-            words.position = Some((value, span));
-            return Ok(());
+            return once(&mut words.position, (value, span), "POS", span);
         }
         if key.is("SLOPE_PROFIL") {
             let number = crate::exec::values::number::whole(value, 0, 3);
             let kind = number.and_then(crate::exec::commands::slope_of_number);
-            words.slope = Some(kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?);
-            return Ok(());
+            let kind = kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?;
+            return once(&mut words.slope, kind, "the slope", span);
         }
         // F is the older name
         let speed = if key.is("FEED") || key.is("F") {

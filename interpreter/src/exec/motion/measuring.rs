@@ -165,6 +165,11 @@ impl Decoder {
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("measuring with tool radius compensation", g.span));
         }
+        if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
+            let text = "a measuring run while contouring is on";
+            return Err(Fault::new(Condition::MeasuringWithContouring, text, g.span)
+                .hint("write G260 before it and G261 behind it"));
+        }
         if self.contour.akima.selected {
             return Err(Fault::unsupported("measuring in a spline", g.span));
         }

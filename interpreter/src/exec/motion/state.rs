@@ -11,6 +11,7 @@ use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
 use super::wear::OnlineCompensation;
+use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
@@ -112,8 +113,12 @@ impl MotionState {
         self.dynamics = [None, None];
     }
 
-    /// Axes whose weights exceed what the lists allow.
-    pub(in crate::exec) fn capped_axes(&self, machine: &Machine, modal: &Modal) -> Vec<usize> {
+    /// Axes whose weights are beyond what the lists allow, and the conditions that say so.
+    pub(in crate::exec) fn limited_weights(
+        &self,
+        machine: &Machine,
+        modal: &Modal,
+    ) -> Vec<(usize, Condition)> {
         channel_dynamics(machine, &self.weights, modal, self.vector[0]).1
     }
 }

@@ -10,6 +10,9 @@ use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::{Group, ItemKind};
 use kontur_motion::axis::AxisVec;
 
+/// Targets of one block.
+type Targets = smallvec::SmallVec<[Target; 8]>;
+
 impl Decoder {
     /// Takes the coordinate words over into the target; where the axes stood comes back.
     pub(super) fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
@@ -17,7 +20,7 @@ impl Decoder {
             self.moves_no_slave(*axis, *at)?;
         }
         let mut start = self.geometry.coordinates.target().clone();
-        let mut targets: smallvec::SmallVec<[Target; 8]> = words
+        let mut targets: Targets = words
             .axes
             .iter()
             .enumerate()
@@ -32,6 +35,9 @@ impl Decoder {
             let text = format!("{}{value} is outside the data format", self.names.name(*axis));
             return Err(Fault::new(Condition::CoordinateTooLarge, text, *at));
         }
+        if self.machine.channel.several_words {
+            targets = joined(targets);
+        }
         targets.extend(self.motion.contour_line.targets.drain(..));
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         let suppressed = match suppressed {
@@ -45,7 +51,11 @@ impl Decoder {
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
                 let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
-                let turn = turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?;
+                let turn = if self.machine.channel.shortest_way {
+                    None
+                } else {
+                    turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?
+                };
                 let offset = match &suppressed {
                     Some((kinds, _)) => {
                         self.geometry.coordinates.offset_without(kinds, target.axis)
@@ -75,6 +85,21 @@ impl Decoder {
         self.follow_turning_centre(&start);
         Ok(start)
     }
+}
+
+/// One target for each axis: incremental words add up, an absolute one takes the place of those before it.
+///
+/// Source: P-CHAN-00148 (149346955).
+fn joined(targets: Targets) -> Targets {
+    let mut all = Targets::new();
+    for target in targets {
+        match all.iter_mut().find(|t: &&mut Target| t.axis == target.axis) {
+            Some(earlier) if target.absolute => *earlier = target,
+            Some(earlier) => earlier.value += target.value,
+            None => all.push(target),
+        }
+    }
+    all
 }
 
 /// The kinds of `#SUPPRESS OFFSETS [ZERO ..]`. There are no clamping offsets here and no manual mode.

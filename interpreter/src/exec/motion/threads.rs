@@ -188,7 +188,7 @@ impl Decoder {
         let (Some(index), true) = (spindle.index, spindle.is_turning() && spindle.rpm.abs() > 0.0)
         else {
             let text = "G33 needs a spindle that turns: M03 or M04 and S before it";
-            return Err(Fault::new(Condition::SpindleSpeedZero, text, span));
+            return Err(Fault::new(Condition::SpindleStandsInThread, text, span));
         };
         let most_deg_s = self.machine.spindles[index].dynamics().v_max_mm_s;
         let rev_s = (spindle.rpm.abs() * 6.0).min(most_deg_s) / 360.0;

@@ -1,7 +1,10 @@
 //! What a cycle gives back at its end: G functions that stand alone, centre and radius of arcs, the feed.
 //!
 //! G functions with values or axis words (G92, G129, G159=2, G351) and what `#` commands set stay. `#RETAIN CYCLE CHANGES` and
-//! P-CHAN-00210 = 1 let all stay, as in subroutines. Source: channel parameters 476043659.
+//! P-CHAN-00210 = 1 let all stay, as in subroutines; `V.G.CYCLE_CHANGES_MODAL` is P-CHAN-00210 for the cycle in work and those
+//! after it (assumption: the page names the variable alone). Source: channel parameters 476043659.
+//!
+//! Assumption: G96 stays, as it has a value (S), and so does G97, which ends it.
 //!
 //! Assumption: a system of `#CS` that the cycle leaves open, or closes, keeps the zero offset that it has; G69 in a cycle stays,
 //! as G68 has values.
@@ -16,25 +19,38 @@ pub(in crate::exec) struct BeforeCycle {
     systems: usize,
     /// Zero-offset group, and whether G159 selected it.
     zero_group: (u32, bool),
+    /// G135.
+    feedforward: bool,
+    /// G151.
+    spline: bool,
     /// The same of the cycle around.
     retains: bool,
 }
 
 impl Decoder {
     pub(super) fn enter_cycle(&mut self) -> BeforeCycle {
-        let retains = self.machine.channel.cycle_changes_stay;
+        let retains = self.calls.cycle_changes_stay;
         BeforeCycle {
             modal: self.modal.clone(),
             systems: self.geometry.coordinates.systems(),
             zero_group: self.geometry.coordinates.zero_group(),
+            feedforward: self.motion.feedforward.on,
+            spline: self.contour.akima.selected,
             retains: std::mem::replace(&mut self.calls.retain_cycle_changes, retains),
         }
     }
 
     pub(super) fn leave_cycle(&mut self, before: BeforeCycle) {
-        let BeforeCycle { modal, systems, zero_group, retains } = before;
+        let BeforeCycle { modal, systems, zero_group, feedforward, spline, retains } = before;
         if std::mem::replace(&mut self.calls.retain_cycle_changes, retains) {
             return;
+        }
+        if feedforward != self.motion.feedforward.on {
+            self.motion.feedforward.on = feedforward;
+            self.feedforward_event();
+        }
+        if spline != self.contour.akima.selected {
+            self.contour.akima.select(spline);
         }
         let coordinates = &mut self.geometry.coordinates;
         let (group, by_value) = zero_group;

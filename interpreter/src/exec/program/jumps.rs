@@ -11,7 +11,7 @@
 use super::executor::Executor;
 use super::index::{EntryId, Keyword, LabelPlace};
 use super::state::Frame;
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Jump, JumpKind, LabelKind, Return, ReturnLevel, Span};
@@ -29,13 +29,15 @@ impl Executor {
     /// The label of a jump; a calculated number is rounded as that of a block is (206817035).
     fn label_of(&mut self, jump: &Jump) -> Outcome<LabelKind> {
         match &jump.kind {
+            JumpKind::Label(LabelKind::Number(number)) if *number > LABEL_MAX => {
+                Err(label_too_large(*number as f64, jump.span))
+            }
             JumpKind::Label(label) => Ok(label.clone()),
             JumpKind::Number(expr) => {
                 let number = self.decoder.number(expr)?;
                 match number.round() {
-                    n if (0.0..=f64::from(u32::MAX)).contains(&n) => {
-                        Ok(LabelKind::Number(n as u64))
-                    }
+                    n if (0.0..=LABEL_MAX as f64).contains(&n) => Ok(LabelKind::Number(n as u64)),
+                    n if n > 0.0 => Err(label_too_large(n, expr.span)),
                     _ => {
                         let text = format!("label N{number}: does not exist in this program");
                         Err(Fault::new(Condition::Label, text, expr.span))
@@ -193,6 +195,20 @@ impl Executor {
             None => self.files.file(level.file).name.to_string(),
         }
     }
+}
+
+/// Highest number of a label. Assumption: that of a block number of 32 bits; 20838 prints no limit.
+const LABEL_MAX: u64 = u32::MAX as u64;
+
+fn label_too_large(number: f64, span: Span) -> Box<Fault> {
+    let text = format!("label N{number} is outside the data format");
+    Fault::new(Condition::LabelTooLarge, text, span).with(|d| {
+        d.value(ValueKind::Wrong, number, "-").value(ValueKind::LowerLimit, 0.0, "-").value(
+            ValueKind::UpperLimit,
+            LABEL_MAX as f64,
+            "-",
+        )
+    })
 }
 
 /// A label as it is written.

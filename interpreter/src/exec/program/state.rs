@@ -72,7 +72,9 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) tool_change_file: Option<String>,
     /// Cycle that is called after every motion or block.
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
-    /// `#RETAIN CYCLE CHANGES`, P-CHAN-00210: the cycle in work gives nothing back.
+    /// `V.G.CYCLE_CHANGES_MODAL`, P-CHAN-00210: cycles give nothing back.
+    pub(in crate::exec) cycle_changes_stay: bool,
+    /// `#RETAIN CYCLE CHANGES`, or what cycles do: the cycle in work gives nothing back.
     pub(in crate::exec) retain_cycle_changes: bool,
 }
 
@@ -82,6 +84,7 @@ impl Calls {
         Self {
             cycle_files: channel.g8x_programs.clone(),
             tool_change_file: channel.tool_change_program.clone(),
+            cycle_changes_stay: channel.cycle_changes_stay,
             ..Self::default()
         }
     }

@@ -236,6 +236,29 @@ fn several_dimensions_in_a_block_act_from_their_place_on() {
 }
 
 /// Source: TF5200 programming manual, "Modulo programming in absolute coordinates", from 0 degrees.
+/// The examples of the manual: 200 degrees from 0 by -160, -200 by +160, whatever sign comes first.
+#[test]
+fn modulo_axes_go_the_shortest_way_with_the_channel_list() {
+    let modulo = [
+        "Z.kenngr.achs_typ=ACHSTYP_ROTATOR",
+        "Z.kenngr.achs_mode=0x4",
+        "channel.enable_mod_axis_always_shortest_way=1",
+    ];
+    for (word, deg) in [
+        ("Z200", -160.0),
+        ("Z+200", -160.0),
+        ("Z-200", 160.0),
+        ("Z--200", -160.0),
+        ("Z+-200", 160.0),
+        ("G91 Z+200", 200.0),
+        ("G91 Z-200", -200.0),
+    ] {
+        let run = run_on(&modulo, &format!("G01 {word} F1000\nM30\n"));
+        assert!(run.ids().is_empty(), "{word}: {:?}", run.ids());
+        assert_eq!(run.end[2], deg, "{word}");
+    }
+}
+
 #[test]
 fn modulo_axes_turn_in_the_direction_of_the_first_sign() {
     let modulo = ["Z.kenngr.achs_typ=ACHSTYP_ROTATOR", "Z.kenngr.achs_mode=0x4"];

@@ -144,6 +144,20 @@ fn weights_beyond_the_lists_are_capped() {
 }
 
 #[test]
+fn an_acceleration_of_nothing_becomes_the_least_one() {
+    // 1 mm/s2 is the least that a list can say
+    let run = super::run("G130 X0\nG01 X1 F100\nG231=0\nG00 X0\nM30\n");
+    assert_eq!(run.ids(), ["120032", "120034", "50130"]);
+    let axes = |i: usize| run.blocks()[i].dynamics.axes.clone();
+    assert_eq!((axes(0)[0].feed.acc_mm_s2, axes(0)[0].feed.dec_mm_s2), (1.0, 1.0));
+    assert_eq!(axes(0)[1].feed.acc_mm_s2, 3500.0);
+    assert_eq!((axes(1)[0].rapid.acc_mm_s2, axes(1)[1].rapid.acc_mm_s2), (1.0, 1.0));
+    // 3500 * 0.0003 is above 1
+    assert!(super::run("G131=0.03\nG01 X1 F100\nM30\n").ids().is_empty());
+    assert_eq!(super::run("S[G130=0]\nM30\n").ids(), ["K-0009"]);
+}
+
+#[test]
 fn slopes() {
     let kinds = |text: &str| -> Vec<_> {
         clean(&format!("F100\n{text}\nM30\n")).blocks().iter().map(|b| b.slope.kind).collect()

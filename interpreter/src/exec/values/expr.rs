@@ -32,7 +32,7 @@ impl Decoder {
         }
     }
 
-    /// Number of an expression; a text is K-0002.
+    /// Number of an expression; a text is 21461.
     pub(in crate::exec) fn number(&self, expr: &Expr) -> Outcome<f64> {
         match &expr.kind {
             ExprKind::Number(x) => Ok(*x),
@@ -101,6 +101,11 @@ fn apply(
 ) -> Outcome<Value> {
     if let (Value::Text(a), Value::Text(b)) = (left, right) {
         return texts(op, a, b, span);
+    }
+    if matches!((left, right), (Value::Text(_), _) | (_, Value::Text(_))) {
+        let text = "a text and a number in one operation";
+        return Err(Fault::new(Condition::MixedTypes, text, span)
+            .hint("INT_TO_STR, REAL_TO_STR, STR_TO_INT and STR_TO_REAL make one of the other"));
     }
     let a = as_number(left, left_span)?;
     let b = as_number(right, right_span)?;

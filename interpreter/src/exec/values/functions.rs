@@ -181,7 +181,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
     let text = |i: usize| match decoder.value(&call.arguments[i])? {
         Value::Text(text) => Ok(text.chars().collect::<Vec<char>>()),
         Value::Number(_) => {
-            Err(Fault::new(Condition::Syntax, "a text is expected", call.arguments[i].span))
+            Err(Fault::new(Condition::TextExpected, "a text is expected", call.arguments[i].span))
         }
     };
     let count = |i: usize| {
@@ -198,7 +198,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         let number: Option<f64> = written.trim().parse().ok();
         number.filter(|x| x.is_finite()).ok_or_else(|| {
             let text = format!("`{written}` is no number");
-            Fault::new(Condition::Range, text, call.arguments[i].span)
+            Fault::new(Condition::DigitExpected, text, call.arguments[i].span)
         })
     };
     Ok(match call.function {

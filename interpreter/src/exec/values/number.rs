@@ -17,7 +17,7 @@ pub(in crate::exec) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
     match value {
         Value::Number(x) => Ok(*x),
         Value::Text(_) => {
-            Err(Fault::new(Condition::Syntax, "a number is expected, not a text", span))
+            Err(Fault::new(Condition::NumberExpected, "a number is expected, not a text", span))
         }
     }
 }

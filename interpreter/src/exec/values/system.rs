@@ -3,7 +3,7 @@
 //! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.; served
 //! values are kontur's choice where a headless tool has none.
 
-use super::number::{as_number, whole};
+use super::number::{as_number, is_true, whole};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -60,6 +60,7 @@ const ROWS: &[Row] = &[
     Row { name: &["A", "MEAS", "ACS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].axis) },
     Row { name: &["A", "MEAS", "PCS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].program) },
     Row { name: &["G", "MEAS_TYPE"], read: |d, _| number(f64::from(d.motion.measuring.kind)) },
+    Row { name: &["G", "CYCLE_CHANGES_MODAL"], read: |d, _| truth(d.calls.cycle_changes_stay) },
     Row { name: &["G", "RW"], read: |d, _| number(d.motion.measuring.residual_path_mm / d.modal.unit_mm()) },
     Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).0) },
     Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).1) },
@@ -278,8 +279,9 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
-/// Variables of functions that are not simulated. Source: TF5200 volumetric compensation.
-const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP")];
+/// Variables of functions that are not simulated. Source: TF5200 volumetric compensation; outputs of M and H functions
+/// before their place (148946059).
+const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT")];
 
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     let name = written(segments);
@@ -339,6 +341,10 @@ pub(in crate::exec) fn write(
         ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
             let axis = path.axis(d, 3)?;
             d.geometry.coordinates.set_zero_offset(axis, x()? * d.axis_unit(axis));
+        }
+        ["G", "CYCLE_CHANGES_MODAL"] => {
+            let stay = is_true(x()?);
+            (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
         }
         ["G", "RW"] => {
             d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();

@@ -6,6 +6,7 @@ use crate::diag::Condition;
 
 /// Kinds of synchronisation with the PLC (P-CHAN-00041).
 pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
+    ("NOT_VALID", 0x0),
     ("NO_SYNCH", 0x0),
     ("MOS", 0x1),
     ("MVS_SVS", 0x2),
@@ -14,6 +15,16 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
     ("MNE_SNS", 0x20),
     ("MVS_SLM", 0x4000),
     ("MVS_SLP", 0x8000),
+    ("PLC_INFO", 0x2_0000),
+    ("BWD_SYNCH", 0x40_0000),
+    ("FWD_SYNCH", 0x80_0000),
+    ("MEP_SVS", 0x100_0000),
+    ("MET_SVS", 0x200_0000),
+    ("FAW_SYNCH", 0x1000_0000),
+    // no document read prints their numbers; they ask for no acknowledgement, as MOS does
+    ("MOS_TS", 0x1),
+    ("MEP_MOS", 0x1),
+    ("MET_MOS", 0x1),
 ];
 
 /// Overrides of rapid blocks (P-CHAN-00181).
@@ -24,7 +35,7 @@ parameters! {
     chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "which accelerations G130 and G131 weight: 0 all, 1 a_beschl, 2 a_brems")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as ACC_SELECTION: Whole;
     chan("P-CHAN-00002", "vector.acceleration", Raw::Real64, "path acceleration limit, unit by P-CHAN-00351, after #VECTOR LIMIT ON")
-        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_ACC: Number;
+        .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_ACC: Number;
     chan("P-CHAN-00003", "gruppe[i].achs_anzahl", Raw::Uns16, "axes in the group")
         .range(Bound::At(0.0), Bound::At(32.0)).default(0.0), as AXIS_COUNT: Whole;
     chan("P-CHAN-00005", "gruppe[i].bezeichnung", Raw::Text, "name of the group");
@@ -55,6 +66,10 @@ parameters! {
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
     chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; only MNE_SNS acts here, with G108: all others are acknowledged at once")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; all are acknowledged at once here")
+        .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always go the shortest way, their first sign belongs to the position")
+        .default(0.0).source("TF5200 channel parameters"), as SHORTEST_WAY: Switch;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;
     chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: 1, a measuring run without a signal of the probe is an error")
@@ -77,7 +92,7 @@ parameters! {
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse), as RAMP_SELECTION: Whole;
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
-        .default(2000000000.0).unit("mm/min", "mm/min"), as PATH_SPEED: Number;
+        .range(Bound::Beyond(0.0), Bound::None).default(2000000000.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as PATH_SPEED: Number;
     chan("P-CHAN-00091", "versch_im_durchm", Raw::Boolean, "offsets of a face turning axis are diameters; 1 is not supported with G51")
         .default(0.0).source("TF5200 channel parameters"), as OFFSETS_IN_DIAMETERS: Switch;
     chan("P-CHAN-00097", "use_drive_curr_limit", Raw::Boolean, "feedhold uses its own parameters")
@@ -90,6 +105,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
+    chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one takes the place of those before it")
+        .default(0.0).source("TF5200 channel parameters"), as SEVERAL_WORDS: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
     chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"), as TOOL_CHANGE_PROGRAM: Text;
@@ -108,7 +125,7 @@ parameters! {
     chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED that of feed, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE its own, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
     chan("P-CHAN-00208", "vector.deceleration", Raw::Real64, "path deceleration limit")
-        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_DEC: Number;
+        .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_DEC: Number;
     chan("P-CHAN-00210", "cycle_changes_modal", Raw::Boolean, "1: G functions, centres and feed of a cycle stay at its end")
         .default(0.0), as CYCLE_CHANGES_STAY: Switch;
     chan("P-CHAN-00235", "exact_stop_after_g00", Raw::Boolean, "implicit G60 after G00")
@@ -127,7 +144,7 @@ parameters! {
     chan("P-CHAN-00351", "vector.acc_dec_unit", Raw::Word(&["MM_S2", "MM_M2"]), "unit of the accelerations vector.* and of ACC, DEC, RADIAL_ACC and RADIAL_JERK of #VECTOR LIMIT: MM_M2 mm/min2, MM_S2 mm/s2")
         .default_is(Default::Text("MM_M2")), as PATH_ACC_UNIT: Text;
     chan("P-CHAN-00361", "vector.radial_acceleration", Raw::Real64, "v2/r limit on curves")
-        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_RADIAL_ACC: Number;
+        .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_RADIAL_ACC: Number;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")
         .default(0.0), as CONTOURING_INCH: Switch;
     chan("P-CHAN-00518", "configuration.decoder.msg_to_default", Raw::Word(&["STANDARD", "DISABLED", "WARNING", "ERROR"]), "#MSG to the diagnosis receiver: STANDARD, DISABLED, WARNING (22194), ERROR (22195)")

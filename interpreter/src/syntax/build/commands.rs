@@ -44,14 +44,29 @@ impl Builder<'_> {
         }
     }
 
-    /// Groups of a command; those that ask for positions have commas between their items.
+    /// Groups of a command; 20186, 20675, 20880, 21252 where their items need commas between them.
     fn command_group(&mut self, pair: Pair<'_, Rule>, command: &Command) -> Group {
-        let asks = ["GET CMDPOS", "GET ACTPOS", "SET IPO SOLLPOS"].iter().any(|n| command.is(n));
+        let of = |names: &[&str]| names.iter().any(|name| command.is(name));
+        let needs = if of(&["GET CMDPOS", "GET ACTPOS", "SET IPO SOLLPOS"]) {
+            Some((Condition::PositionRequest, "two positions"))
+        } else if of(&["CS", "ACS"]) {
+            Some((Condition::CoordinateSystemSyntax, "two values of a coordinate system"))
+        } else if of(&["CALL AX", "SET AX"]) {
+            Some((Condition::ExchangeNumber, "the number and the index of an axis"))
+        } else if of(&["CAX"]) {
+            Some((Condition::SpindleAxisComma, "the spindle and its axis"))
+        } else {
+            None
+        };
         let commas = pair.clone().into_inner().filter(|p| p.as_rule() == Rule::comma).count();
         let group = self.group(pair);
-        if asks && commas + 1 < group.items.len() {
-            let text = "a comma is missing between two positions";
-            self.report(Problem::new(Condition::PositionRequest, group.span, text));
+        // `[X 1 0]` reads like a key with its value: 21251, when it is carried out
+        let keyed = matches!(group.items.first(), Some(Item { kind: ItemKind::Pair { .. }, .. }));
+        let exchange = matches!(needs, Some((Condition::ExchangeNumber, _)));
+        let needs = needs.filter(|_| commas + 1 < group.items.len() && !(exchange && keyed));
+        if let Some((condition, what)) = needs {
+            let text = format!("a comma is missing between {what}");
+            self.report(Problem::new(condition, group.span, text));
         }
         group
     }

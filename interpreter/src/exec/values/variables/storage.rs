@@ -89,7 +89,7 @@ impl Type {
                 }
                 Value::Text(text) => Value::Text(text),
                 Value::Number(_) => {
-                    return Err(Fault::new(Condition::Syntax, "a text is expected", span));
+                    return Err(Fault::new(Condition::TextExpected, "a text is expected", span));
                 }
             },
         })

@@ -1,0 +1,8 @@
+; check: exit 1
+; error 120020 at 4:22
+; error K-0019 at 5:24
+#SET SLOPE PROFIL [1,7,0]
+#SET SLOPE PROFIL [1,0,2]
+#SET SLOPE PROFIL [1,0,0]
+G01 X1 F1000
+M30

@@ -1,0 +1,6 @@
+; check: exit 1
+; error 120100 at 4:18
+; error K-0009 at 5:20
+#AKIMA ENDVECTOR X0 Y0 Z0
+#AKIMA STARTVECTOR X0
+M30

@@ -1,0 +1,4 @@
+; check: exit 1
+; error 20480 at 3:13
+#SET TIP[ ] X
+M30

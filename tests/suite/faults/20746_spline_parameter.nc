@@ -1,0 +1,4 @@
+; check: exit 1
+; error 20746 at 3:20
+#AKIMA STARTVECTOR X1000000000 Y1
+M30
