@@ -33,7 +33,11 @@ fn value(p: &[f64], x: f64) -> f64 {
 }
 
 fn slope(p: &[f64]) -> Poly {
-    p.iter().enumerate().skip(1).map(|(k, c)| k as f64 * c).collect()
+    let mut out = Poly::from_slice(p.get(1..).unwrap_or_default());
+    for (k, c) in out.iter_mut().enumerate() {
+        *c *= (k + 1) as f64;
+    }
+    out
 }
 
 /// Adds `factor a b`.
@@ -44,9 +48,11 @@ fn add_product(out: &mut Poly, factor: f64, a: &[f64], b: &[f64]) {
     if out.len() < a.len() + b.len() - 1 {
         out.resize(a.len() + b.len() - 1, 0.0);
     }
+    let out = &mut out[..];
     for (i, a) in a.iter().enumerate() {
+        let a = factor * a;
         for (o, b) in out[i..].iter_mut().zip(b) {
-            *o += factor * a * b;
+            *o += a * b;
         }
     }
 }
@@ -60,9 +66,12 @@ fn bernstein(p: &[f64]) -> Poly {
         *c /= choose;
         choose *= (n - i) as f64 / (i + 1) as f64;
     }
+    let sums = &mut out[..];
     for k in 1..=n {
-        for j in (k..=n).rev() {
-            out[j] += out[j - 1];
+        // each takes what the one before it was
+        let mut before = sums[k - 1];
+        for sum in &mut sums[k..] {
+            before = std::mem::replace(sum, *sum + before);
         }
     }
     out
@@ -70,9 +79,12 @@ fn bernstein(p: &[f64]) -> Poly {
 
 /// Changes of sign from one coefficient to the next, zeros left out.
 fn changes(p: &[f64]) -> usize {
-    let signs: SmallVec<[bool; 26]> =
-        p.iter().filter(|c| **c != 0.0).map(|c| c.is_sign_positive()).collect();
-    signs.windows(2).filter(|w| w[0] != w[1]).count()
+    let (mut count, mut last) = (0, 0.0_f64);
+    for c in p.iter().copied().filter(|c| *c != 0.0) {
+        count += usize::from(last != 0.0 && c.is_sign_negative() != last.is_sign_negative());
+        last = c;
+    }
+    count
 }
 
 /// The only zero of a polynomial between 0 and 1.

@@ -8,10 +8,12 @@
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
+mod numbers;
+
 use crate::target::{Target, folder_of};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::writer::ColumnCloseResult;
-use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, Int64Type};
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::WriterProperties;
@@ -22,14 +24,21 @@ use bytes::Bytes;
 use kontur_interpreter::job::{Facts, FileNames, Totals};
 use kontur_interpreter::record::columns::{Column, Content};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use numbers::NumberPages;
 use std::fs::File;
-use std::io;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
 
 /// Rows that are gathered before they are written.
 const ROWS_PER_GROUP: usize = 65_536;
+
+/// Bytes that are handed to the system at once.
+const PIECE: usize = 1 << 20;
+
+/// Records whose values are taken together: so many that they are in the nearest memory of the processor for every column.
+const TOGETHER: usize = 16;
 
 /// The values of one column that wait to be written.
 #[derive(Debug)]
@@ -48,6 +57,7 @@ pub(crate) struct ParquetWriter {
     cycle_us: u64,
     files: FileNames,
     limits: Vec<(SpeedLimit, ByteArray)>,
+    pages: NumberPages,
     schema: Arc<Type>,
     properties: Arc<WriterProperties>,
     target: Target,
@@ -123,6 +133,7 @@ impl ParquetWriter {
             cycle_us: u64::from(facts.cycle_us),
             files: facts.files.clone(),
             limits: SpeedLimit::ALL.map(|l| (l, word(l.name()))).into(),
+            pages: NumberPages::new(),
             schema,
             properties: Arc::new(properties.build()),
             target,
@@ -140,7 +151,7 @@ impl ParquetWriter {
         while !records.is_empty() {
             let room = ROWS_PER_GROUP - self.rows;
             let (now, later) = records.split_at(records.len().min(room));
-            self.gather(now);
+            now.chunks(TOGETHER).for_each(|records| self.gather(records));
             if self.rows == ROWS_PER_GROUP {
                 self.write_group().map_err(|e| self.kept(e))?;
             }
@@ -187,13 +198,17 @@ impl ParquetWriter {
         self.folder = Some(folder);
         // until it is whole it has a name that readers of folders pass over
         let unfinished = folder_of(&path).join(format!(".{:06}.part", self.parts.len() + 1));
-        let file = File::create(&unfinished)?;
+        let file = BufWriter::with_capacity(PIECE, File::create(&unfinished)?);
         let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
         let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
+        let descriptions = writer.schema_descr().columns().to_vec();
         let mut group = writer.next_row_group().map_err(to_io)?;
-        for (_, values) in &mut self.columns {
+        for ((_, values), description) in self.columns.iter_mut().zip(&descriptions) {
             match values {
-                Values::Number(v) => put::<DoubleType>(&mut group, v, None)?,
+                Values::Number(v) => {
+                    self.pages.put(&mut group, description, v).map_err(to_io)?;
+                    v.clear();
+                }
                 Values::Integer(v) => put::<Int64Type>(&mut group, v, None)?,
                 Values::Optional(v, present) => {
                     put::<Int64Type>(&mut group, v, Some(present))?;
@@ -238,10 +253,11 @@ impl ParquetWriter {
         }
         let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
         let file = self.target.file()?;
+        let file = BufWriter::with_capacity(PIECE, file);
         let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
         for part in &self.parts {
-            let part = File::open(part)?;
-            let reader = SerializedFileReader::new(part.try_clone()?).map_err(to_io)?;
+            let part = Bytes::from(std::fs::read(part)?);
+            let reader = SerializedFileReader::new(part.clone()).map_err(to_io)?;
             let mut group = writer.next_row_group().map_err(to_io)?;
             let metadata = reader.metadata().row_group(0);
             for column in metadata.columns() {
@@ -284,7 +300,7 @@ fn folder_beside(path: &Path) -> io::Result<TempDir> {
 }
 
 fn put<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, File>,
+    group: &mut SerializedRowGroupWriter<'_, impl Write + Send>,
     values: &mut Vec<T::T>,
     present: Option<&[i16]>,
 ) -> io::Result<()> {
