@@ -27,11 +27,14 @@ const BEHIND: usize = 2;
 /// What rounding may make of a position in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
-/// Smallest speed of the parameter, as a part of that on a straight line: below it the curve has a cusp.
-const CUSP: f64 = 1e-3;
+/// Smallest speed of the parameter, as a part of that on a straight line: below it the curve has a cusp, whose tip is sharper
+/// than the positions of a trace.
+const CUSP: f64 = 1e-5;
 
 /// Samples of a segment in the search for a cusp.
 const SAMPLES: u32 = 64;
+/// Thirds taken off around the slowest place between samples: to the resolution of the parameter.
+const THIRDS: u32 = 80;
 
 /// How the tangent at an end of a spline is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -233,9 +236,7 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
             .sum::<f64>()
             .sqrt()
     };
-    let slowest = (0..=SAMPLES)
-        .map(|k| pace(f64::from(k) / f64::from(SAMPLES)))
-        .fold(f64::INFINITY, f64::min);
+    let slowest = least(pace);
     let cusp = || Fault::unsupported("a spline with a cusp", motion.span).in_block(motion.source);
     if slowest < CUSP * length {
         return Err(cusp());
@@ -246,6 +247,26 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
     motion.block.path = Path::Curve(Box::new(path));
     (motion.block.contour, motion.block.spline) = (None, None);
     Ok(Curve { motion, extents_mm })
+}
+
+/// Least value of a function over 0 to 1 that has few valleys: a cusp is narrow, and lies between samples.
+fn least(f: impl Fn(f64) -> f64) -> f64 {
+    let at = |k: u32| f64::from(k) / f64::from(SAMPLES);
+    let values: Vec<f64> = (0..=SAMPLES).map(|k| f(at(k))).collect();
+    let valley = |k: u32| {
+        let here = values[k as usize];
+        let around = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+        around.filter_map(|n| values.get(n as usize)).all(|value| here <= *value)
+    };
+    let lowest = |k: u32| {
+        let (mut low, mut high) = (at(k.saturating_sub(1)), at((k + 1).min(SAMPLES)));
+        for _ in 0..THIRDS {
+            let third = (high - low) / 3.0;
+            if f(low + third) <= f(high - third) { high -= third } else { low += third }
+        }
+        f(0.5 * (low + high)).min(values[k as usize])
+    };
+    (0..=SAMPLES).filter(|k| valley(*k)).map(lowest).fold(f64::INFINITY, f64::min)
 }
 
 /// Lowest and highest value of a cubic over 0 to 1: at its ends, exactly, or where its derivative is zero.
