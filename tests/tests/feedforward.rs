@@ -218,3 +218,23 @@ fn switching_in_motion_is_told() {
     assert_eq!(switched("G90 G60 G01 X50 F6000"), (None, 0));
     assert_eq!(switched("G04 0.1"), (None, 0));
 }
+
+/// The weights of exchanged axes are 100 % again, those of the others stay. Source: spec 50/1 (programming manual).
+#[test]
+fn weights_return_with_an_exchange() {
+    let forth = |number: u32| format!("N{number} {FORTH}");
+    for (exchange, want) in [
+        ("#PUT AX [X]\n#CALL AX [X,1,0]", [0.0, 50.0, 0.0]),
+        ("#CALL AX [X,1,0]", [0.0, 50.0, 0.0]),
+        ("#SET AX [X,1,0] [Y,2,1] [Z,3,2]", [0.0, 0.0, 0.0]),
+        ("#PUT AX ALL\n#CALL AX [X,1,0] [Y,2,1] [Z,3,2]", [0.0, 0.0, 0.0]),
+        ("#AX DEF DEFAULT", [0.0, 0.0, 0.0]),
+    ] {
+        let text =
+            program(&["G135", "G136 X50 Y50", &forth(1), "G90 X0 Y0 Z0", exchange, &forth(2)]);
+        let run = run(&text, &[]);
+        lags(&run, 4, &[50.0, 50.0, 0.0]);
+        let line = text.lines().position(|l| l.starts_with("N2")).unwrap() as u32 + 1;
+        lags(&run, line, &want);
+    }
+}
