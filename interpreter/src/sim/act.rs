@@ -5,7 +5,7 @@ use super::axes::Driver;
 use super::chain::AxisChain;
 use super::out::MESSAGES_MAX;
 use crate::diag::{Condition, Diagnostic};
-use crate::exec::Event;
+use crate::exec::{Event, ShapingSetup};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
@@ -117,11 +117,11 @@ impl Simulation {
         }
     }
 
-    /// Puts new kernels into the path axes; they are flushed.
-    pub(super) fn swap_kernels(&mut self, setup: &crate::exec::ShapingSetup) {
-        for (chain, axis) in self.chains.iter_mut().zip(&setup.axes) {
-            if chain.set_kernel(axis.kernel.clone()).is_err() {
-                self.messages.own.push(super::fault::switch_while_moving());
+    /// Puts new kernels into the path axes and their gantry slaves; they are flushed. Those of spindles never change.
+    pub(super) fn swap_kernels(&mut self, setup: &ShapingSetup) {
+        for i in 0..self.chains.len() {
+            if !matches!(self.drivers[i], Driver::Spindle(_)) {
+                self.set_kernel(i, setup);
             }
         }
         let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
@@ -131,6 +131,13 @@ impl Simulation {
         self.totals.shaped(setup);
         for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
             *delay = delay.max(chain.delay_cycles());
+        }
+    }
+
+    /// Puts the kernel of a setup into a chain at rest.
+    pub(super) fn set_kernel(&mut self, i: usize, setup: &ShapingSetup) {
+        if self.chains[i].set_kernel(self.drivers[i].kernel(setup).cloned()).is_err() {
+            self.messages.own.push(super::fault::switch_while_moving());
         }
     }
 
@@ -163,12 +170,9 @@ impl Simulation {
                 if let Driver::Path(p) = self.drivers[i] {
                     chain.start_worn(self.wear.offset_mm(p));
                 }
-                let kernel = self.executor.shaping().axes.get(i).and_then(|a| a.kernel.clone());
-                // it has just begun, at rest
-                if chain.set_kernel(kernel).is_err() {
-                    self.messages.own.push(super::fault::switch_while_moving());
-                }
                 self.chains[i] = chain;
+                let setup = self.executor.shaping().clone();
+                self.set_kernel(i, &setup);
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
         }

@@ -200,7 +200,7 @@ impl Wait {
     pub(super) fn is_over(&self, parts: Parts<'_>) -> bool {
         let ready = |i: usize, chain: &AxisChain| match &self.action {
             Action::Shaping(setup) => {
-                setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
+                chain.ready_for(parts.drivers[i].kernel(setup).map(AsRef::as_ref))
             }
             Action::None
             | Action::MachineData { .. }
