@@ -9,6 +9,9 @@ use crate::exec::{Event, ShapingSetup};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
+/// Jumps of a speed command in mm/s (deg/s) up to this are those of filters that end their motion.
+const LEAST_JUMP_MM_S: f64 = 1e-3;
+
 impl Simulation {
     /// Something happens in cycle `k`.
     pub(super) fn act(&mut self, event: Event, k: u64) {
@@ -94,18 +97,24 @@ impl Simulation {
     }
 
     pub(super) fn feedforward(&mut self, on: bool, weights: &[f64]) {
-        let mut changed = false;
+        let mut largest: Option<(usize, f64)> = None;
         for (i, chain) in self.chains.iter().enumerate() {
             if let Driver::Path(p) = self.drivers[i] {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
                 let gain = chain.feedforward_gain(on, weight);
-                changed |= gain.to_bits() != self.gains[i].to_bits();
-                self.gains[i] = gain;
+                let step = std::mem::replace(&mut self.gains[i], gain) - gain;
+                // the record is that of the cycle before, whose speed may be that of a last step
+                let jump = |(i, step): (usize, f64)| (step * self.record.axes[i].vel).abs();
+                let moves = self.record.path.v_mm_s > 0.0
+                    || self.independent.is_moving(p)
+                    || !chain.settled();
+                if moves && jump((i, step)) > largest.map_or(LEAST_JUMP_MM_S, jump) {
+                    largest = Some((i, step));
+                }
             }
         }
-        // the record is that of the cycle before
-        if changed && self.record.path.v_mm_s > 0.0 {
-            self.switched_while_moving();
+        if let Some((chain, step)) = largest {
+            self.switched_while_moving(chain, step);
         }
     }
 
@@ -170,9 +179,12 @@ impl Simulation {
                 if let Driver::Path(p) = self.drivers[i] {
                     chain.start_worn(self.wear.offset_mm(p));
                 }
+                let kernel = self.drivers[i].kernel(self.executor.shaping()).cloned();
+                // it has just begun, at rest
+                if chain.set_kernel(kernel).is_err() {
+                    self.messages.own.push(super::fault::switch_while_moving());
+                }
                 self.chains[i] = chain;
-                let setup = self.executor.shaping().clone();
-                self.set_kernel(i, &setup);
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
         }
