@@ -123,3 +123,31 @@ fn spindles_are_shaped_by_their_lists() {
     let behind = last.axes[SPINDLE].ipo - last.axes[SPINDLE].set;
     assert!((behind - 6000.0 * 0.050).abs() < 1e-6, "{behind}");
 }
+
+/// A guard of a list that cannot be built is off, and the machine runs without it.
+#[test]
+fn a_listed_guard_that_cannot_be_built_is_off() {
+    let listed = in_axes(&["X", "Y", "Z"], &["vib_guard.active=1", "vib_guard.damping=1"]);
+    let listed: Vec<&str> = listed.iter().map(String::as_str).collect();
+    let run = run("G01 X5 F3000\nM30\n", &listed);
+    let said = run.diagnostics.iter().filter(|d| d.id == Condition::GuardNotRealisable);
+    assert_eq!(said.filter(|d| !d.is_error()).count(), 3, "{:?}", run.diagnostics);
+    assert!(!run.totals.aborted);
+    assert!(run.records.iter().all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
+}
+
+/// What makes a bridge rack or is not watched in its slave is noted; equal entries are not.
+#[test]
+fn differences_of_a_gantry_slave_are_noted() {
+    let notes = |settings: &[&str]| {
+        let (_, found) = sample_machine("gantry", settings);
+        let said = found.iter().filter(|d| d.id == Condition::ListAdvice);
+        said.map(|d| d.text.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(notes(&[]), [""; 0]);
+    let one = notes(&["X2.vorsteuer.vorsteuerung=NONE"]);
+    assert!(one.len() == 1 && one[0].contains("feedforward"), "{one:?}");
+    assert_eq!(notes(&["*.vorsteuer.vorsteuerung=NONE"]), [""; 0]);
+    let limit = notes(&["X2.kenngr.swe_pos=100000"]);
+    assert!(limit.len() == 1 && limit[0].contains("not watched"), "{limit:?}");
+}

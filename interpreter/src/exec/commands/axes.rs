@@ -276,8 +276,9 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         }
     }
     let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
-        let text = format!("no axis has the logical number {logical}");
-        return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)));
+        let text = format!("no axis of the channel has the logical number {logical}");
+        let hint = "axes are those that the channel list names at start-up; other lists are not simulated (K-0075)";
+        return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)).hint(hint));
     };
     decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
