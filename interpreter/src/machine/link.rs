@@ -210,7 +210,8 @@ pub(super) fn machine(
         gantry_slaves.push(Axis::new(name.clone(), kind, parameters, own_of(&own, *number)));
     }
     let left: Vec<String> = lists.iter().flatten().map(called).collect();
-    if !left.is_empty() {
+    // what is wrong with the names may be why a list has none
+    if !left.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
         let message =
             format!("axis lists that no channel names, not simulated: {}", left.join(", "));
         let hint = "name them in the channel list (gruppe[0].achse[i]); a gantry slave needs its master \
