@@ -296,7 +296,9 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
 fn full_feedforward(decoder: &mut Decoder, axes: &[usize]) {
     let weights = &mut decoder.motion.feedforward.weight_ratios;
     if axes.iter().any(|axis| weights[*axis] < 1.0) {
-        axes.iter().for_each(|axis| weights[*axis] = 1.0);
+        for axis in axes {
+            weights[*axis] = 1.0;
+        }
         decoder.feedforward_event();
     }
 }

@@ -188,7 +188,7 @@ impl Content {
         let mut left_out = Vec::new();
         let mut stays = |list: &ListText, disabled: bool| {
             let reference = named(list);
-            let is_part = file_name(&list.file).ends_with(".xti");
+            let is_part = file_name(&list.file).rsplit('.').next() == Some("xti");
             let why = if disabled || reference.is_some_and(|r| r.disabled) {
                 "switched off"
             } else if any_named && is_part && reference.is_none() {
