@@ -78,6 +78,20 @@ impl Machine {
         self.all_axes().find(|a| a.name().eq_ignore_ascii_case(name))
     }
 
+    /// Index of the path axis that is the master of a gantry slave; none for other axes.
+    pub fn master_of(&self, axis: &Axis) -> Option<usize> {
+        let number = axis.gantry_master()?;
+        self.axes.iter().position(|a| a.number() == number)
+    }
+
+    /// The axis whose list fills the kernel slot of an axis (FIR filter, HSC filter, Vibration Guard): the master of a gantry
+    /// slave, otherwise the axis itself.
+    ///
+    /// Source: `#VIB GUARD` and `#FILTER` act on the axes of the channel, and a slave takes the set positions of its master.
+    pub fn shaped_as<'a>(&'a self, axis: &'a Axis) -> &'a Axis {
+        self.master_of(axis).map_or(axis, |master| &self.axes[master])
+    }
+
     /// Path axes, spindles, gantry slaves.
     pub fn all_axes(&self) -> impl Iterator<Item = &Axis> {
         self.axes.iter().chain(&self.spindles).chain(&self.gantry_slaves)

@@ -352,7 +352,9 @@ impl Simulation {
             After::Sync(sync) => Wait::for_sync(sync, self.cycle),
             After::End(reason) => Wait::for_end(reason),
         };
-        wait.end_oscillations(&mut self.independent);
+        for axis in wait.end_oscillations(&mut self.independent) {
+            self.oscillation_ends(axis);
+        }
         self.phase = Phase::Waiting(wait);
     }
 

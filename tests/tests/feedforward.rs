@@ -248,3 +248,60 @@ fn machine_data_move_no_axis() {
         }
     }
 }
+
+/// The weights of exchanged axes are 100 % again, those of the others stay. Source: spec 50/1 (programming manual).
+#[test]
+fn weights_return_with_an_exchange() {
+    let forth = |number: u32| format!("N{number} {FORTH}");
+    for (exchange, want) in [
+        ("#PUT AX [X]\n#CALL AX [X,1,0]", [0.0, 50.0, 0.0]),
+        ("#CALL AX [X,1,0]", [0.0, 50.0, 0.0]),
+        ("#SET AX [X,1,0] [Y,2,1] [Z,3,2]", [0.0, 0.0, 0.0]),
+        ("#PUT AX ALL\n#CALL AX [X,1,0] [Y,2,1] [Z,3,2]", [0.0, 0.0, 0.0]),
+        ("#AX DEF DEFAULT", [0.0, 0.0, 0.0]),
+    ] {
+        let text =
+            program(&["G135", "G136 X50 Y50", &forth(1), "G90 X0 Y0 Z0", exchange, &forth(2)]);
+        let run = run(&text, &[]);
+        lags(&run, 4, &[50.0, 50.0, 0.0]);
+        let line = text.lines().position(|l| l.starts_with("N2")).unwrap() as u32 + 1;
+        lags(&run, line, &want);
+    }
+}
+
+/// The path rests, the axis does not yet behind its filter, or moves alone: switching steps its command by the share times its
+/// speed, and K-0022 names that jump. Behind a standstill of both nothing is said.
+#[test]
+fn a_switch_behind_filters_is_told() {
+    let guard = ["X.vib_guard.active=1", "X.vib_guard.mode=3", "X.vib_guard.freq=3"];
+    let low_pass = [
+        "X.filter[0].enable=1",
+        "X.filter[0].type=PT1",
+        "X.filter[0].order=1",
+        "X.filter[0].time_constant=50000",
+    ];
+    let asyn = "G135\nX[INDP_ASYN G90 G01 FEED=6000 POS=50]\nG04 0.2\nG137\nG04 1";
+    for (settings, text, told) in [
+        (&guard[..], "G135\nG01 F6000 X20\nG137", true),
+        (&guard[..], "G135\nG01 F6000 X20\nG136 X50\nG04 0.1\nX0", true),
+        (&guard[..], "G135\nG01 F6000 X20\n#FLUSH WAIT\nG137", false),
+        (&low_pass[..], "G135\nG01 F6000 X20\nG137", true),
+        (&[][..], "G135\nG01 F6000 X20\nG137", false),
+        (&[][..], asyn, true),
+    ] {
+        let run = run(&program(&[text]), settings);
+        let found: Vec<_> = run
+            .diagnostics
+            .iter()
+            .filter(|d| d.id == Condition::FeedforwardSwitchedMoving)
+            .collect();
+        assert_eq!(found.len(), usize::from(told), "{text}: {:?}", run.diagnostics);
+        // without a jump of the weight the command changes by no more than the acceleration of a cycle, 3.5 mm/s
+        let ff = run.axis(0, |a| a.ff);
+        let jump = ff.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+        assert_eq!(jump > 5.0, told, "{text}: {jump}");
+        if let Some(d) = found.first() {
+            assert!(d.text.contains(&format!("jumps by {jump:.3} mm/s")), "{}: {jump}", d.text);
+        }
+    }
+}

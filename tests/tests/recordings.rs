@@ -215,3 +215,51 @@ fn wrong_names_are_refused() {
     let done = command(["diff", &program, &scope]);
     assert!(done.exit == Exit::Usage && done.err.contains("--map COLUMN=CHANNEL"), "{}", done.err);
 }
+
+/// A plain table of the motion itself: times printed with so many decimals, Y from a time on.
+fn table(bench: &Bench, step_s: f64, decimals: usize, y_from_s: f64) -> String {
+    let samples = ((bench.set.len() - 1) as f64 * 0.001 / step_s) as usize;
+    let row = |i: usize| {
+        let time_s = i as f64 * step_s;
+        let [x, y] = [0, 1].map(|axis| bench.at(axis, time_s));
+        let y = if time_s < y_from_s { String::new() } else { format!("{y:.7}") };
+        format!("{time_s:.decimals$},{x:.7},{y}\n")
+    };
+    let rows: Vec<String> = (0..=samples).map(row).collect();
+    format!("t_s,x,y\n{}", rows.concat())
+}
+
+/// The recording of the motion itself is equal to it, also where a channel begins later than the other and where the times
+/// are rounded: 3 kHz with four decimals, 2.5 ms with three.
+#[test]
+fn clocks_and_rounded_times() {
+    let bench = Bench::new();
+    let program = bench.path("part.nc");
+    for (step_s, decimals, y_from_s, tolerance_mm) in [
+        (0.001, 4, 0.0, "0"),
+        (0.001, 4, 0.1, "0"),
+        // between the samples a polyline loses a T^2 / 8, some 0.4 um per ms^2 with 3.5 m/s2
+        (1.0 / 3000.0, 4, 0.05, "0.002"),
+        (0.0025, 3, 0.0, "0.005"),
+    ] {
+        std::fs::write(bench.path("t.csv"), table(&bench, step_s, decimals, y_from_s)).unwrap();
+        let (file, maps) = (bench.path("t.csv"), ["--map", "X_set_mm=x", "--map", "Y_set_mm=y"]);
+        let mut words = vec!["diff", &program, &file, "--tol-mm", tolerance_mm];
+        words.extend(["--format", "json"]);
+        words.extend(maps);
+        let done = command(words);
+        let found: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+        let result = &found["result"];
+        near(&result["shift_cycles"], 0.0, 0.1);
+        for pair in 0..2 {
+            assert_eq!(result["pairs"][pair]["different"], 0, "{step_s} {y_from_s}: {found}");
+            assert_eq!(result["pairs"][pair]["drop_outs"], serde_json::json!([]));
+        }
+        // the trace moves Y where the recording has nothing of it yet
+        assert_eq!(result["pairs"][1]["trace_goes_on"], y_from_s > 0.0);
+    }
+    // 1.5 ms in milliseconds: a third of a step beside it
+    std::fs::write(bench.path("t.csv"), table(&bench, 0.0015, 3, 0.0)).unwrap();
+    let done = command(["diff", &program, &bench.path("t.csv"), "--map", "X_set_mm=x"]);
+    assert!(done.exit == Exit::Usage && done.err.contains("equal steps"), "{}", done.err);
+}

@@ -341,3 +341,51 @@ fn the_last_speed_counts_for_tapping() {
         assert!((most - 200.0).abs() < 1e-6, "{text}: {most}");
     }
 }
+
+/// Z and the spindle are in the same place of the thread only behind the same filters and with the same lag: K-0112 where not,
+/// and then Z is as far away as delay and lag say; the same entries in both are silent.
+#[test]
+fn tapping_behind_filters_and_lags() {
+    let of = |axes: &[&str], entries: &[&str]| -> Vec<String> {
+        axes.iter().flat_map(|a| entries.iter().map(move |e| format!("{a}.{e}"))).collect()
+    };
+    let low_pass = [
+        "filter[0].enable=1",
+        "filter[0].type=1",
+        "filter[0].order=1",
+        "filter[0].time_constant=20000",
+    ];
+    let guard = ["vib_guard.active=1", "vib_guard.mode=2", "vib_guard.freq=20"];
+    let path = ["X", "Y", "Z"];
+    let all = ["X", "Y", "Z", "S"];
+    let half = ["getriebe[0].kv=2500"];
+    // S600 and 1.5 mm: 15 mm/s; kv 25/s in place of 50/s are 20 ms more
+    for (settings, before, told, actual_mm) in [
+        (of(&path, &low_pass), "", true, None),
+        (of(&all, &low_pass), "", false, Some(0.0)),
+        (of(&path, &guard), "", true, None),
+        (of(&all, &guard), "", false, Some(0.0)),
+        (of(&["Z"], &half), "", true, Some(0.3)),
+        (of(&["Z", "S"], &half), "", false, Some(0.0)),
+        (vec![], "G135\n", true, Some(0.3)),
+        (vec![], "G135\nS[G135]\n", false, Some(0.0)),
+        (vec![], "", false, Some(0.0)),
+    ] {
+        let words: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let run = run(&format!("%P\n{before}G331 Z-10 K1.5 S600\nG332 Z0\nM30\n"), &words);
+        let id = kontur_interpreter::diag::Condition::UnequalKernels;
+        // unequal axes of the path are another message, without a place of tapping
+        let said = run.diagnostics.iter().filter(|d| d.id == id && d.text.contains("tapping"));
+        assert_eq!(said.count(), usize::from(told), "{settings:?}: {:?}", run.diagnostics);
+        let apart = run.records.iter().map(|r| {
+            let (z, s) = (&r.axes[Z], &r.axes[SPINDLE]);
+            (z.act + 1.5 * s.act / 360.0).abs()
+        });
+        let most = apart.fold(0.0, f64::max);
+        if let Some(want) = actual_mm {
+            assert!((most - want).abs() < 1e-3, "{settings:?} {before}: {most} {want}");
+        } else {
+            assert!(most > 0.05, "{settings:?}: {most}");
+        }
+    }
+}

@@ -160,6 +160,13 @@ impl FeedforwardConfig {
         if on { g136_ratio.clamp(0.0, 1.0) } else { 0.0 }
     }
 
+    /// Share of the speed that is fed forward, in the same state.
+    pub fn velocity_share(&self, g135: bool, g136_ratio: f64) -> f64 {
+        let is_fed = self.mode.contains(FeedforwardMode::VEL);
+        let share = self.gain(g135, g136_ratio) * self.global_ratio * self.velocity_ratio;
+        if is_fed { share } else { 0.0 }
+    }
+
     /// Something goes to the additive torque.
     pub fn uses_torque(&self) -> bool {
         [FeedforwardMode::ADD_ACC, FeedforwardMode::ADD_JERK].iter().any(|m| self.mode.contains(*m))

@@ -2,8 +2,10 @@
 
 use crate::error::OpenError;
 use crate::files::Lists;
+use kontur_interpreter::diag::{Condition, Diagnostic};
 use kontur_interpreter::machine::project::Part;
 use std::fmt::Write as _;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
 
@@ -11,6 +13,8 @@ use walkdir::WalkDir;
 const START_UP: &str = "hochlauf.lis";
 /// Folder beside a project with the parts that are in files of their own.
 const CONFIGURATION: &str = "_Config";
+/// Levels from the folder of a solution to its projects.
+const SOLUTION_LEVELS: usize = 3;
 
 /// Where the lists of a machine are.
 pub(crate) enum Place {
@@ -43,6 +47,10 @@ impl Place {
             return Ok(Self::StartUp(start_up));
         }
         let mut projects = files(named, 1, "tsproj")?;
+        if projects.is_empty() {
+            // the folder of a solution, whose projects have folders of their own
+            projects = files(named, SOLUTION_LEVELS, "tsproj")?;
+        }
         if projects.len() > 1 {
             let names: Vec<String> =
                 projects.iter().map(|path| path.display().to_string()).collect();
@@ -110,8 +118,18 @@ fn natural(text: &str) -> String {
 /// A file that cannot be read, is too long or is no UTF-8.
 pub(crate) fn parts(paths: Vec<PathBuf>, lists: &Lists) -> Result<Vec<Part>, OpenError> {
     let of = |path: PathBuf| {
-        let text = lists.project(&path).map_err(|e| OpenError::Io(path.clone(), e))?;
+        let text = lists.project(&path).map_err(|e| match e.kind() {
+            ErrorKind::InvalidData => OpenError::Lists(vec![no_utf8(&path)]),
+            _ => OpenError::Io(path.clone(), e),
+        })?;
         Ok(Part { name: path.display().to_string(), text })
     };
     paths.into_iter().map(of).collect()
+}
+
+/// K-0141 for another encoding.
+fn no_utf8(path: &Path) -> Diagnostic {
+    let message = format!("{}: the text is no UTF-8", path.display());
+    Diagnostic::new(Condition::ProjectWrong, message)
+        .hint("the engineering tool writes UTF-8; save the file in this encoding")
 }

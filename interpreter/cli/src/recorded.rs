@@ -8,109 +8,59 @@
 //!
 //! Source: TE13xx TC3 Scope View, export in csv.
 
+mod even;
+
+pub(crate) use even::{DropOut, Even};
+
 use crate::Error;
+use even::{JITTER_RATIO, median};
 use kontur_interpreter::source::text::Text;
-use serde::Serialize;
 use std::fs::File;
 use std::io::Read as _;
-use std::ops::Range;
 use std::path::Path;
 
 /// Largest file that is read, in bytes: two minutes of many channels at 4 kHz.
 const MOST_BYTES: u64 = 1 << 28;
-/// Samples of one signal with the missing ones filled in: more than an hour at 4 kHz.
-const MOST_SAMPLES: f64 = 16_777_216.0;
-/// Steps longer than this many sampling times are drop-outs.
-const GAP: f64 = 1.5;
 /// Header keys whose cells are names, the better one first.
 const NAME_KEYS: [&str; 2] = ["SymbolName", "Name"];
 /// Header key of the sampling time in ms.
 const SAMPLE_TIME: &str = "SampleTime[ms]";
 /// Columns of times in tables with one header line, and their unit in s.
-const TIME_NAMES: [(&str, f64); 6] =
-    [("t_s", 1.0), ("time", 1.0), ("t", 1.0), ("time_s", 1.0), ("t_ms", 1e-3), ("time_ms", 1e-3)];
+const TIME_NAMES: [(&str, f64); 8] = [
+    ("t_s", 1.0),
+    ("time", 1.0),
+    ("t", 1.0),
+    ("time_s", 1.0),
+    ("t_ms", 1e-3),
+    ("time_ms", 1e-3),
+    ("t_us", 1e-6),
+    ("time_us", 1e-6),
+];
+/// Units of times in s; both signs for micro, and what is left of it where the text is not UTF-8.
+const TIME_UNITS: [(&str, f64); 10] = [
+    ("s", 1.0),
+    ("sec", 1.0),
+    ("ms", 1e-3),
+    ("us", 1e-6),
+    ("\u{b5}s", 1e-6),
+    ("\u{3bc}s", 1e-6),
+    ("\u{fffd}s", 1e-6),
+    ("ns", 1e-9),
+    ("min", 60.0),
+    ("h", 3600.0),
+];
+/// Units of times in exports of TwinCAT Scope in s: milliseconds, and ticks of file times.
+const SCOPE_UNITS: [f64; 2] = [1e-3, 1e-7];
 
 /// One recorded signal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Channel {
     /// Name in the file.
     pub(crate) name: String,
-    /// Times in s from the first sample; empty without a column of times.
+    /// Times in s from the first time of the file; empty without a column of times.
     pub(crate) times_s: Vec<f64>,
     /// Values as they stand in the file.
     pub(crate) values: Vec<f64>,
-    /// Sampling time in s that the header states.
-    pub(crate) step_s: Option<f64>,
-}
-
-/// A stretch without samples. In JSON: after how many seconds, and how many are missing.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(into = "(f64, usize)")]
-pub(crate) struct DropOut {
-    /// Time of the last sample before it in s.
-    pub(crate) after_s: f64,
-    /// Where the missing samples are among those in equal steps.
-    pub(crate) samples: Range<usize>,
-}
-
-impl From<DropOut> for (f64, usize) {
-    fn from(d: DropOut) -> Self {
-        (d.after_s, d.samples.len())
-    }
-}
-
-/// A signal in equal steps.
-#[derive(Clone, Debug)]
-pub(crate) struct Even {
-    /// The values, missing ones on a straight line between their neighbours.
-    pub(crate) values: Vec<f64>,
-    /// Sampling time in s.
-    pub(crate) step_s: f64,
-    /// Where samples are missing.
-    pub(crate) drop_outs: Vec<DropOut>,
-}
-
-impl Channel {
-    /// The sampling time in s: that of the header, else the median step.
-    pub(crate) fn step_s(&self) -> Option<f64> {
-        let mut steps: Vec<f64> = self.times_s.windows(2).map(|w| w[1] - w[0]).collect();
-        if steps.is_empty() {
-            return self.step_s;
-        }
-        let middle = steps.len() / 2;
-        let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-        Some(*median).filter(|s| *s > 0.0)
-    }
-
-    /// The values in equal steps; `None` if the times do not rise, there are none, or the gaps hold more than
-    /// [`MOST_SAMPLES`].
-    pub(crate) fn even(&self) -> Option<Even> {
-        let step_s = self.step_s()?;
-        if self.times_s.is_empty() {
-            return Some(Even { values: self.values.clone(), step_s, drop_outs: Vec::new() });
-        }
-        let (mut even, mut drop_outs) = (Vec::new(), Vec::new());
-        for (i, value) in self.values.iter().enumerate() {
-            if let (Some(before), true) = (even.last().copied(), i > 0) {
-                let dt = self.times_s[i] - self.times_s[i - 1];
-                let count = (dt / step_s).round();
-                if dt <= 0.0 || even.len() as f64 + count > MOST_SAMPLES {
-                    return None;
-                }
-                if dt > GAP * step_s {
-                    drop_outs.push(DropOut {
-                        after_s: self.times_s[i - 1],
-                        samples: even.len()..even.len() + count as usize - 1,
-                    });
-                }
-                for k in 1..count as usize {
-                    even.push(before + (value - before) * k as f64 / count);
-                }
-            }
-            even.push(*value);
-        }
-        Some(Even { values: even, step_s, drop_outs })
-    }
 }
 
 /// Reads every channel of a file.
@@ -194,7 +144,8 @@ fn parse(text: &str) -> Result<Vec<Channel>, String> {
 }
 
 /// Values of a column, with the times of another one; rows in which one of them is missing are left out, and rows that
-/// only repeat a time.
+/// repeat time and value (a slow channel among faster ones). Another value at the same time is refused: the times have too
+/// few decimals.
 fn column(
     data: &[Vec<&str>],
     time: Option<usize>,
@@ -217,6 +168,12 @@ fn column(
             let Some(t) = cell(time) else { continue };
             let t = read(t)?;
             if times.last().is_some_and(|last: &f64| (t - last).abs() <= 0.0) {
+                if values.last().is_some_and(|last: &f64| (x - last).abs() > 0.0) {
+                    return Err(format!(
+                        "row {}, column {name}: another value at the same time {t}, the times have too few decimals",
+                        first_line + i
+                    ));
+                }
                 continue;
             }
             times.push(t);
@@ -246,25 +203,65 @@ fn scope(
             continue;
         }
         let step_s = step_row.and_then(|row| number(row.get(i)?, separator)).map(|ms| ms * 1e-3);
-        let (mut times, values) = column(data, time, i, separator, header.len() + 1, name)?;
-        let channel = Channel {
-            name: (*name).to_owned(),
-            times_s: times.clone(),
-            values: Vec::new(),
-            step_s: None,
-        };
-        // milliseconds, ticks of 100 ns or plain numbers of samples: the header knows how long a step is
-        let unit_s = match (step_s, channel.step_s()) {
-            (Some(step_s), Some(step)) => step_s / step,
-            _ => 1e-3,
-        };
-        let first = times.first().copied().unwrap_or(0.0);
-        for t in &mut times {
-            *t = (*t - first) * unit_s;
-        }
-        channels.push(Channel { name: channel.name, times_s: times, values, step_s });
+        let (times, values) = column(data, time, i, separator, header.len() + 1, name)?;
+        channels.push(scope_channel(name, times, values, step_s)?);
     }
+    // one zero for all channels, that of the earliest
+    for unit_s in SCOPE_UNITS {
+        let of_unit = |c: &&mut (f64, Channel)| (c.0 - unit_s).abs() <= 0.0;
+        let begins =
+            channels.iter_mut().filter(of_unit).filter_map(|c| c.1.times_s.first().copied());
+        let zero = begins.fold(f64::INFINITY, f64::min);
+        for (unit_s, channel) in channels.iter_mut().filter(of_unit) {
+            channel.times_s.iter_mut().for_each(|t| *t = (*t - zero) * *unit_s);
+        }
+    }
+    let channels: Vec<Channel> = channels.into_iter().map(|c| c.1).collect();
     if channels.is_empty() { Err("no channel".to_owned()) } else { Ok(channels) }
+}
+
+/// A channel of TwinCAT Scope with its times as they stand in the file, and their unit in s: milliseconds, or ticks of file
+/// times where steps are that large. `step_s` is the sampling time of the header.
+///
+/// A slow channel may share the times of a fast one; its samples are repeated until the next one then, and the first of each
+/// counts. What the header says otherwise contradicts the times.
+///
+/// Source: TE13xx TC3 Scope View, export to csv.
+fn scope_channel(
+    name: &str,
+    times: Vec<f64>,
+    values: Vec<f64>,
+    step_s: Option<f64>,
+) -> Result<(f64, Channel), String> {
+    let of = |times_s, values| Channel { name: name.to_owned(), times_s, values };
+    let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+    let positive = |s: &f64| *s > 0.0;
+    let listed = step_s.filter(positive);
+    let (Some(step), Some(step_s)) = (median(&steps).filter(positive), listed) else {
+        return Ok((SCOPE_UNITS[0], of(times, values)));
+    };
+    let away = |unit_s: &f64| libm::fabs(libm::log(step * unit_s / step_s));
+    let nearer = |a: f64, b: f64| if away(&b) < away(&a) { b } else { a };
+    let unit_s = SCOPE_UNITS.into_iter().reduce(nearer).unwrap_or(SCOPE_UNITS[0]);
+    let repeats = step_s / (step * unit_s);
+    let same = (repeats - 1.0).abs() <= JITTER_RATIO;
+    let each = repeats.round() as usize;
+    let held = |block: &[f64]| block.iter().all(|x| x.to_bits() == block[0].to_bits());
+    if same {
+        return Ok((unit_s, of(times, values)));
+    }
+    if (repeats - repeats.round()).abs() <= JITTER_RATIO
+        && each > 1
+        && values.chunks(each).all(held)
+    {
+        let thin = |all: &[f64]| all.iter().copied().step_by(each).collect();
+        return Ok((unit_s, of(thin(&times), thin(&values))));
+    }
+    Err(format!(
+        "column {name}: its header says {SAMPLE_TIME} {}, its times rise by {} ms",
+        1e3 * step_s,
+        1e3 * step * unit_s
+    ))
 }
 
 /// A table with column names in the last header line that is wide enough, units in another or in the names.
@@ -275,7 +272,8 @@ fn plain(
     columns: usize,
 ) -> Result<Vec<Channel>, String> {
     let unit = |c: &str| {
-        c.starts_with('[') || ["s", "ms", "mm", "m", "m/s2", "mm/s2", "g", "V"].contains(&c)
+        let time = || TIME_UNITS.iter().any(|(unit, _)| *unit == c);
+        c.starts_with('[') || ["mm", "m", "m/s2", "mm/s2", "g", "V"].contains(&c) || time()
     };
     let words =
         |row: &&Vec<&str>| row.len() >= columns && !row.iter().all(|c| c.is_empty() || unit(c));
@@ -293,9 +291,14 @@ fn plain(
             lower.split_once(['[', '(']).map(|(_, u)| u.trim_end_matches([']', ')']).to_owned());
         let below = units.get(i).map(|u| u.trim_matches(['[', ']', '(', ')']).to_owned());
         let (_, seconds) = TIME_NAMES.iter().find(|(n, _)| *n == base)?;
-        let unit = written.or(below).filter(|u| !u.is_empty());
-        Some((i, unit.map_or(*seconds, |u| if u == "ms" { 1e-3 } else { 1.0 })))
+        let unit = written.or(below).map(|u| u.trim().to_owned()).filter(|u| !u.is_empty());
+        let Some(unit) = unit else { return Some(Ok((i, *seconds))) };
+        let known = TIME_UNITS.iter().find(|(u, _)| *u == unit).map(|(_, seconds)| (i, *seconds));
+        Some(known.ok_or_else(|| {
+            format!("column {name}: `{unit}` is no unit of time, known are s, ms, us, ns, min, h")
+        }))
     });
+    let time = time.transpose()?;
     let mut channels = Vec::new();
     for (i, name) in names.iter().enumerate().take(columns) {
         if time.is_some_and(|(t, _)| t == i) {
@@ -308,13 +311,15 @@ fn plain(
         if data.first().is_some_and(|row| word(&row)) {
             continue;
         }
-        let (mut times, values) =
+        let (times, values) =
             column(data, time.map(|t| t.0), i, separator, header.len() + 1, name)?;
-        let first = times.first().copied().unwrap_or(0.0);
-        for t in &mut times {
-            *t = (*t - first) * time.map_or(1.0, |t| t.1);
-        }
-        channels.push(Channel { name: name.clone(), times_s: times, values, step_s: None });
+        channels.push(Channel { name: name.clone(), times_s: times, values });
+    }
+    // one zero for all channels, that of the earliest
+    let begins = channels.iter().filter_map(|c| c.times_s.first().copied());
+    let zero = begins.fold(f64::INFINITY, f64::min);
+    for channel in &mut channels {
+        channel.times_s.iter_mut().for_each(|t| *t = (*t - zero) * time.map_or(1.0, |t| t.1));
     }
     if channels.is_empty() {
         Err("no column of numbers beside the times".to_owned())
@@ -387,26 +392,69 @@ mod tests {
         assert!((ticks[0].times_s[3] - 0.003).abs() < 1e-9, "{:?}", ticks[0].times_s);
     }
 
+    /// A record of a second in units of all kinds begins at 0 and ends at 1 s; what is no unit of time is named.
     #[test]
-    fn drop_outs_are_named_and_bridged() {
-        let channel = &parse("t_s,a\n0,0\n0.001,1\n0.004,4\n0.005,5\n").unwrap()[0];
-        let even = channel.even().unwrap();
-        assert!((even.step_s - 0.001).abs() < 1e-12);
-        assert_eq!(even.drop_outs, [DropOut { after_s: 0.001, samples: 2..4 }]);
-        for (i, x) in even.values.iter().enumerate() {
-            assert!((x - i as f64).abs() < 1e-9);
+    fn units_of_time() {
+        for (title, last) in [
+            ("Time [us]", "1000000"),
+            ("Time (\u{b5}s)", "1000000"),
+            ("time [\u{3bc}s]", "1000000"),
+            ("time[\u{fffd}s]", "1000000"),
+            ("t_us", "1e6"),
+            ("Time [ns]", "1e9"),
+            ("time [ ms ]", "1000"),
+            ("t_ms", "1000"),
+            ("time [s]", "1"),
+            ("time [h]", "0.0002777777777777778"),
+            ("time (min)", "0.016666666666666666"),
+        ] {
+            let times = &values(&format!("{title};a [g]\n0;1\n{last};2\n"))[0].1;
+            assert!((times[1] - 1.0).abs() < 1e-12, "{title}: {times:?}");
         }
+        let below = values("time;a\nus;g\n0;1\n1000000;2\n");
+        assert_eq!((below[0].0.as_str(), below[0].1[1].to_bits()), ("a", 1.0_f64.to_bits()));
+        let unknown = parse("time [days];a\n0;1\n1;2\n").unwrap_err();
+        assert!(unknown.contains("`days`") && unknown.contains("ms, us"), "{unknown}");
     }
 
-    /// Gaps are filled up to a bound: a short file cannot ask for the memory of days of samples.
+    /// A repeated time with its value is a slow channel among faster ones, with another value it has lost its decimals.
     #[test]
-    fn gaps_of_hours_are_not_filled() {
-        let even = |hours: u32| {
-            let row = |h: u32| format!("{0},1\n{0}.001,1\n{0}.002,1\n", 3600 * h);
-            let rows: Vec<String> = (0..hours).map(row).collect();
-            parse(&format!("t_s,a\n{}", rows.concat())).unwrap()[0].even()
-        };
-        assert!(even(4).is_some());
-        assert!(even(30).is_none());
+    fn repeated_times() {
+        let slow = values("t_s,a,b\n0,1,5\n0,1,5\n0.1,2,6\n0.1,2,6\n");
+        assert_eq!(slow[0].2, [1.0, 2.0]);
+        let coarse = parse("t_s,a\n0.000,1\n0.000,2\n0.001,3\n0.001,4\n").unwrap_err();
+        assert!(coarse.contains("row 3") && coarse.contains("decimals"), "{coarse}");
+    }
+
+    fn scope(sample_ms: [&str; 2], rows: &str) -> String {
+        let [a, b] = sample_ms;
+        format!(
+            "Name\tA\tB\tName\tC\nSampleTime[ms]\t{a}\t{b}\tSampleTime[ms]\t{a}\n\
+             SymbolName\tM.A\tM.B\tSymbolName\tM.C\n\n{rows}"
+        )
+    }
+
+    /// All channels count from the first time of the file, whichever group has it.
+    #[test]
+    fn one_clock_for_all_channels() {
+        let rows = "0\t1\t1\t40\t9\n1\t2\t2\t41\t8\n2\t3\t3\t42\t7\n";
+        let found = parse(&scope(["1", "1"], rows)).unwrap();
+        assert_eq!(found[0].times_s, [0.0, 1e-3, 2e-3]);
+        assert!((found[2].times_s[0] - 0.040).abs() < 1e-12);
+        let late = values("t_s,a,b\n0.5,1,\n0.6,2,\n0.7,3,9\n0.8,4,8\n");
+        assert!((late[1].1[0] - 0.2).abs() < 1e-12 && late[0].1[0].abs() <= 0.0, "{late:?}");
+    }
+
+    /// The sampling time of the header has to fit the times; a slow channel whose samples are repeated does.
+    #[test]
+    fn sampling_times_of_the_header() {
+        let rows = "0\t1\t5\t0\t9\n1\t2\t5\t1\t8\n2\t3\t6\t2\t7\n3\t3\t6\t3\t7\n";
+        let found = parse(&scope(["1", "2"], rows)).unwrap();
+        assert_eq!((found[1].values.as_slice(), found[1].times_s.len()), (&[5.0, 6.0][..], 2));
+        assert!((found[1].times_s[1] - 0.002).abs() < 1e-12);
+        for (a, b) in [("10", "1"), ("1", "3"), ("1", "0.1")] {
+            let wrong = parse(&scope([a, b], rows)).unwrap_err();
+            assert!(wrong.contains("SampleTime[ms]"), "{a} {b}: {wrong}");
+        }
     }
 }

@@ -129,7 +129,6 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     let folder = folder();
     let parts = folder.path("_Config/CNC/Axes");
     fs::create_dir_all(&parts).unwrap();
-    let item = |inside: &str| format!("<TcSmItem>{inside}</TcSmItem>");
     for (name, i) in ["X", "Y", "Z"].iter().zip(0..) {
         let text = item(&axis(name, &format!("{}.lis", name.to_lowercase()), (1, i)));
         fs::write(parts.join(format!("Axis {}.xti", i + 9)), text).unwrap();
@@ -249,4 +248,130 @@ fn hostile_xml_ends_in_a_message() {
         assert_eq!(exit, Exit::Usage);
         assert!(said.contains("K-0141"), "{said}");
     }
+}
+
+/// The item of an axis or channel in a file of its own.
+fn item(inside: &str) -> String {
+    format!("<TcSmItem>{inside}</TcSmItem>")
+}
+
+/// The number of a channel says which is the first, not the place of its file or element.
+#[test]
+fn the_first_channel_is_that_with_the_smallest_number() {
+    let folder = folder();
+    let expected = expected();
+    let of =
+        |id: u32, list: &str| channel(list).replace("<Channel>", &format!("<Channel Id=\"{id}\">"));
+    let first = list("channel.lis");
+    // steps of acceleration in place of ramps: another trace
+    let second =
+        first.replace("prog_start.slope.profile           1", "prog_start.slope.profile 0");
+    assert_ne!(first, second);
+    let inside = format!("{TASK}{}{}{}", all_axes(), of(2, &second), of(1, &first));
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let (exit, trace, said) = run(&folder, "machine.tsproj");
+    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
+    assert!(said.contains("one channel is simulated") && !said.contains("kanal_anzahl"), "{said}");
+    // the same by files: Aux.xti comes first by its name
+    fs::create_dir_all(folder.path("_Config")).unwrap();
+    fs::write(folder.path("_Config/Aux.xti"), item(&channel(&second))).unwrap();
+    fs::write(folder.path("_Config/Main.xti"), item(&channel(&first))).unwrap();
+    let named = "<Channel File=\"Main.xti\" Id=\"1\"/><Channel File=\"Aux.xti\" Id=\"2\"/>";
+    fs::write(folder.path("machine.tsproj"), project(&format!("{TASK}{}{named}", all_axes())))
+        .unwrap();
+    let (exit, trace, said) = run(&folder, "machine.tsproj");
+    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
+}
+
+/// Files that the project does not name and items that are switched off are no axes; they are named.
+#[test]
+fn what_does_not_belong_to_the_project_is_left_out() {
+    let folder = folder();
+    let expected = expected();
+    let x = axis("X", "x.lis", (1, 0));
+    fs::create_dir_all(folder.path("_Config/CNC")).unwrap();
+    fs::write(folder.path("_Config/CNC/Axis_0 (old).xti"), item(&x)).unwrap();
+    fs::write(folder.path("_Config/CNC/Axis_1.xti"), item(&x)).unwrap();
+    let others = all_axes().replace(&x, "");
+    let off =
+        axis("Q", "x.lis", (1, 5)).replace("<Axis Id=\"1\">", "<Axis Id=\"9\" Disabled=\"true\">");
+    let channel = channel(&list("channel.lis"));
+    let inside = format!("{TASK}<Axis File=\"Axis_1.xti\" Id=\"1\"/>{others}{off}{channel}");
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let (exit, trace, said) = run(&folder, "machine.tsproj");
+    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
+    assert!(said.contains("Axis_0 (old).xti (not named by the project)"), "{said}");
+    assert!(said.contains("`Q-Achse`") && said.contains("(switched off)"), "{said}");
+    // without references all of them are exported items: one number twice, others of their own
+    fs::remove_file(folder.path("machine.tsproj")).unwrap();
+    fs::write(folder.path("_Config/CNC/Rest.xti"), item(&format!("{others}{channel}"))).unwrap();
+    let (exit, _, said) = run(&folder, "_Config");
+    assert_eq!(exit, Exit::Usage, "{said}");
+    assert!(said.contains("K-0141") && said.contains("kopf.achs_nr 1"), "{said}");
+}
+
+/// The cycle of the GEO task reaches a `kontur.lis` with an end mark, gives way to a key of any case, and is not cut off.
+#[test]
+fn the_cycle_of_the_task() {
+    let folder = folder();
+    let own = fs::read_to_string(folder.path("kontur.lis")).unwrap();
+    let inside = |units: &str| {
+        let task = TASK.replace("10000", units);
+        project(&format!("{task}{}{}", all_axes(), channel(&list("channel.lis"))))
+    };
+    // time of the second cycle
+    let step = |trace: &str| {
+        let row = trace.lines().nth(2).unwrap();
+        row.split(',').next().unwrap().parse::<f64>().unwrap()
+    };
+    for (units, own, want_s, words) in [
+        ("20000", format!("{own}\nEnde\n"), 0.002, "cycle 2000 us of the GEO task"),
+        ("20000", format!("{own}\nKONTUR.Cycle_Time_us 500\n"), 0.0005, "replaced by that of"),
+        ("3333", own.clone(), 0.001, "333.3 us of the GEO task is no whole number"),
+    ] {
+        fs::write(folder.path("kontur.lis"), own).unwrap();
+        fs::write(folder.path("machine.tsproj"), inside(units)).unwrap();
+        let (exit, trace, said) = run(&folder, "machine.tsproj");
+        assert_eq!(exit, Exit::Finished, "{said}");
+        assert!((step(&trace) - want_s).abs() < 1e-9, "{units}: {}", step(&trace));
+        assert!(said.contains(words) && !said.contains("kontur.lis:"), "{said}");
+    }
+}
+
+/// Names and places of the axes: none at all, and places that are left empty.
+#[test]
+fn names_and_places_of_the_axes() {
+    let folder = folder();
+    let nameless = all_axes()
+        .replace("<DefaultProgName>", "<Other>")
+        .replace("</DefaultProgName>", "</Other>");
+    let inside = format!("{TASK}{nameless}{}", channel("prog_start.slope.profile 1"));
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let (exit, _, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Usage, "{said}");
+    assert!(said.contains("K-0141") && said.contains("names an axis"), "{said}");
+    let gap =
+        all_axes().replace("<DefaultIndex>2</DefaultIndex>", "<DefaultIndex>4</DefaultIndex>");
+    let inside = format!("{TASK}{gap}{}", channel(&list("channel.lis")));
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let (exit, _, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Finished, "{said}");
+    assert!(said.contains("DefaultIndex: X 0, Y 1, Z 4"), "{said}");
+    // another encoding
+    fs::write(folder.path("machine.tsproj"), b"<P>\xb5</P>").unwrap();
+    let (exit, _, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Usage, "{said}");
+    assert!(said.contains("K-0141") && said.contains("UTF-8"), "{said}");
+}
+
+/// The folder of a solution, whose project has a folder of its own.
+#[test]
+fn a_solution_has_its_project_below() {
+    let folder = folder();
+    fs::create_dir_all(folder.path("solution/Project")).unwrap();
+    let inside = format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis")));
+    fs::write(folder.path("solution/Project/machine.tsproj"), project(&inside)).unwrap();
+    fs::copy(folder.path("kontur.lis"), folder.path("solution/Project/kontur.lis")).unwrap();
+    let (exit, trace, said) = run(&folder, "solution");
+    assert_eq!((exit, trace), (Exit::Finished, expected()), "{said}");
 }

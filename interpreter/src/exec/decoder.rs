@@ -85,8 +85,7 @@ impl Decoder {
             machine,
         };
         decoder.presets();
-        let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
-        decoder.shaping.setup = setup;
+        let diagnostics = decoder.shaping.start(&decoder.machine);
         // what is wrong with single filters of the lists is reported, with its place, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
         let of_forced =

@@ -133,9 +133,24 @@ impl ShapingState {
         Tolerance { ax_dev_mm: self.ax_dev_mm, acc_fact: self.acc_fact.unwrap_or(1.0) }
     }
 
+    /// Puts the setup of the program start in force, and returns what there is to say about it.
+    ///
+    /// Spindles are shaped by their lists alone: the commands act on the path axes of the channel.
+    pub(super) fn start(&mut self, machine: &Machine) -> Vec<Diagnostic> {
+        let (of_lists, mut found) = (Self::default(), Vec::new());
+        let spindles = machine.spindles.iter();
+        self.setup.spindles =
+            spindles.map(|axis| of_lists.axis(axis, machine.cycle, &mut found)).collect();
+        let Worked { setup, diagnostics } = self.work_out(machine);
+        self.setup = setup;
+        found.extend(diagnostics);
+        found
+    }
+
     /// The setup that follows from lists and program.
     pub(super) fn work_out(&self, machine: &Machine) -> Worked {
         let mut worked = Worked::default();
+        worked.setup.spindles.clone_from(&self.setup.spindles);
         for axis in &machine.axes {
             let shaping = self.axis(axis, machine.cycle, &mut worked.diagnostics);
             worked.setup.axes.push(shaping);
@@ -208,27 +223,26 @@ fn with_axis(axis: &Axis, text: &str) -> String {
     format!("axis {}: {text}", axis.name())
 }
 
-/// Axes of one group whose kernels and standard filters together delay them differently run asynchronously.
+/// Axes of one group whose kernels and standard filters together delay them differently run asynchronously; gantry slaves
+/// have the kernel of their master and filters of their own.
 fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic> {
-    let kernel = |a: &AxisShaping| a.kernel.as_ref().map_or(0.0, |k| k.delay_cycles());
-    let delays: Vec<f64> = setup
-        .axes
-        .iter()
-        .zip(&machine.axes)
-        .map(|(a, axis)| kernel(a) + axis.standard_filter_delay_cycles(machine.cycle))
+    let slaves =
+        machine.gantry_slaves.iter().filter_map(|slave| Some((machine.master_of(slave)?, slave)));
+    let axes = machine.axes.iter().enumerate().chain(slaves);
+    let delays: Vec<(&Axis, f64)> = axes
+        .map(|(shaped_as, axis)| {
+            let kernel = setup.axes[shaped_as].kernel.as_ref().map_or(0.0, |k| k.delay_cycles());
+            (axis, kernel + axis.standard_filter_delay_cycles(machine.cycle))
+        })
         .collect();
-    let low = delays.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = delays.iter().copied().fold(0.0, f64::max);
+    let low = delays.iter().map(|(_, d)| *d).fold(f64::INFINITY, f64::min);
+    let high = delays.iter().map(|(_, d)| *d).fold(0.0, f64::max);
     if high - low < 1e-6 || delays.is_empty() {
         return None;
     }
     let ms = f64::from(machine.cycle.us()) / 1e3;
-    let list: Vec<String> = machine
-        .axes
-        .iter()
-        .zip(&delays)
-        .map(|(a, d)| format!("{} {:.3} ms", a.name(), d * ms))
-        .collect();
+    let list: Vec<String> =
+        delays.iter().map(|(a, d)| format!("{} {:.3} ms", a.name(), d * ms)).collect();
     let text = format!(
         "axes of one group are shaped with different delays and run asynchronously: {}",
         list.join(", ")

@@ -130,11 +130,13 @@ pub(crate) enum EndReason {
     Aborted,
 }
 
-/// Kernels of all path axes, in channel order.
+/// Kernels of path axes and spindles, in channel order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ShapingSetup {
-    /// One entry per axis.
+    /// One entry per path axis; its gantry slaves are shaped like it.
     pub axes: Vec<AxisShaping>,
+    /// One entry per spindle: what its list says, from the start of the program to its end.
+    pub spindles: Vec<AxisShaping>,
 }
 
 /// Kernel of one axis.

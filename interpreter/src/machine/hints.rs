@@ -3,7 +3,7 @@
 //! Only what a list states is judged; the vendor's defaults are not.
 
 use super::table::param::{Number, Param, Place};
-use super::table::{axis_control, axis_drive, axis_filters};
+use super::table::{axis_control, axis_drive, axis_filters, axis_general};
 use super::{Axis, Machine, issues};
 use crate::diag::{Condition, Diagnostic};
 
@@ -110,6 +110,7 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
     }
     let Some(number) = axis.gantry_master() else { return };
     let Some(master) = machine.all_axes().find(|a| a.number() == number) else { return };
+    racks(axis, master, diagnostics);
     for [numerator, denominator] in SCALINGS {
         let quotient = |axis: &Axis| {
             let number = |place| axis.parameters().listed(place);
@@ -120,6 +121,26 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
             let what = format!("scaling {own} of the gantry slave, {other} of {}", master.name());
             let advice = "the scaling of both is normally the same";
             diagnostics.push(issues::about(axis, Condition::ListAdvice, numerator, &what, advice));
+        }
+    }
+}
+
+/// Feedforward that only one side of a bridge has, and limits of the slave, which no program asks.
+///
+/// Assumption: a slave has the software limits of its master (the pages say that it takes its set positions).
+fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
+    let lags = |on: bool| (slave.lag_s(on, 1.0) - master.lag_s(on, 1.0)).abs() > 1e-9;
+    if lags(true) && !lags(false) {
+        let place = axis_drive::FEEDFORWARD;
+        let what = format!("feedforward of the gantry slave is not that of {}", master.name());
+        let advice = "the bridge racks by the difference of the lags under G135";
+        diagnostics.push(issues::about(slave, Condition::ListAdvice, place, &what, advice));
+    }
+    for limit in [axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT] {
+        if listed(slave, limit) && (slave.get(limit) - master.get(limit)).abs() > 0.0 {
+            let what = format!("software limit {} of the gantry slave", slave.listed(limit));
+            let advice = format!("not watched, those of {} count", master.name());
+            diagnostics.push(issues::about(slave, Condition::ListAdvice, limit, &what, &advice));
         }
     }
 }

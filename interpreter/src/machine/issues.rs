@@ -200,10 +200,15 @@ pub(crate) fn vib_guard(
             about(damping).value(ValueKind::Wrong, wrong, "-")
         }
         VibGuardError::NotRealisable { freq_hz, damping: given } => {
-            about(if given > VibGuardSettings::MAX_DAMPING { damping } else { frequency })
-                .value(ValueKind::Wrong, freq_hz, "Hz")
-                .value(ValueKind::Wrong, given, "-")
-                .value(ValueKind::Limit, cycle.us(), "us")
+            let place = if given > VibGuardSettings::MAX_DAMPING { damping } else { frequency };
+            let about = about(place);
+            // what a list describes and cannot be built is left out, the machine runs without it; a command is refused
+            let about = if listed { about.severity(Severity::Warning) } else { about };
+            about.value(ValueKind::Wrong, freq_hz, "Hz").value(ValueKind::Wrong, given, "-").value(
+                ValueKind::Limit,
+                cycle.us(),
+                "us",
+            )
         }
     }
 }

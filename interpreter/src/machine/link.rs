@@ -9,7 +9,7 @@ use super::settled::Settled;
 use super::table::param::{Place, whole};
 use super::table::{ListKind, axis_general, channel as of, with_indices};
 use super::tools;
-use crate::diag::{Condition, Diagnostic, Location};
+use crate::diag::{Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
 /// One axis or spindle of the channel list.
@@ -209,6 +209,16 @@ pub(super) fn machine(
         let kind = kind_of(&parameters);
         gantry_slaves.push(Axis::new(name.clone(), kind, parameters, own_of(&own, *number)));
     }
+    let left: Vec<String> = lists.iter().flatten().map(called).collect();
+    // what is wrong with the names may be why a list has none
+    if !left.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
+        let message =
+            format!("axis lists that no channel names, not simulated: {}", left.join(", "));
+        let hint = "name them in the channel list (gruppe[0].achse[i]); a gantry slave needs its master \
+                    (kenngr.gantry_ax_nr)";
+        let note = Diagnostic::new(Condition::ListNoEffect, message).severity(Severity::Note);
+        diagnostics.push(note.hint(hint));
+    }
     if !marked.contains(&true) {
         marked.iter_mut().take(3).for_each(|feed| *feed = true);
     }
@@ -223,6 +233,12 @@ pub(super) fn machine(
         tools: tools::tools(&tools),
         zero_offsets: tools::zero_offsets(&zero),
     })
+}
+
+/// Number and name of an axis list.
+fn called(list: &Parameters) -> String {
+    let number = logical_number(list);
+    list.get(axis_general::NAME).map_or(number.to_string(), |name| format!("{number} ({name})"))
 }
 
 /// The entries of `kontur.lis` that concern one axis.

@@ -39,7 +39,7 @@ use super::axis::{AxisKind, kind_of, logical_number};
 use super::chain::{OWN_LIST, SEPARATORS, beside};
 use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
-use super::table::{ListKind, channel as of};
+use super::table::{ListKind, channel as of, kontur as own};
 use crate::diag::{Condition, Diagnostic, Severity};
 pub use content::Part;
 use content::{Content, ListText};
@@ -74,7 +74,8 @@ impl<'a> Project<'a> {
     /// `kontur.lis`.
     ///
     /// # Errors
-    /// K-0141 for a part that is no XML, and for a project without axes or channel of a CNC.
+    /// K-0141 for a part that is no XML, for a project without axes or channel of a CNC or without a name of an axis, and for
+    /// axis lists of which some but not all have the same number.
     pub fn read(
         files: &'a dyn ListFiles,
         name: &str,
@@ -86,6 +87,7 @@ impl<'a> Project<'a> {
         if !wrong.is_empty() {
             return Err(wrong);
         }
+        let left_out = content.settle();
         let start_up = name.to_owned();
         if content.axes.is_empty() || content.channels.is_empty() {
             let missing = if content.axes.is_empty() {
@@ -97,7 +99,7 @@ impl<'a> Project<'a> {
             return Err(vec![Diagnostic::new(Condition::ProjectWrong, message)]);
         }
         let mut project = Self { files, start_up, lists: BTreeMap::new(), said: Vec::new() };
-        project.fill(content);
+        project.fill(content, &left_out)?;
         Ok(project)
     }
 
@@ -131,7 +133,7 @@ impl<'a> Project<'a> {
         beside(&self.start_up, name)
     }
 
-    fn fill(&mut self, mut content: Content) {
+    fn fill(&mut self, mut content: Content, left_out: &[String]) -> Result<(), Vec<Diagnostic>> {
         let mut note = String::new();
         let defaults =
             content.axis_defaults.as_ref().map(|list| parameters(ListKind::Axis, &[list]));
@@ -150,7 +152,11 @@ impl<'a> Project<'a> {
             })
             .collect();
         let mut numbers: Vec<u32> = axes.iter().map(logical_number).collect();
-        if numbers.iter().collect::<BTreeSet<_>>().len() < numbers.len() {
+        let different = numbers.iter().collect::<BTreeSet<_>>().len();
+        if different > 1 && different < numbers.len() {
+            return Err(vec![same_number(&content, &numbers)]);
+        }
+        if different < numbers.len() {
             // lists of one prototype, which the tool numbers
             numbers = (1..).take(axes.len()).collect();
             for (axis, number) in content.axes.iter_mut().zip(&numbers) {
@@ -161,13 +167,18 @@ impl<'a> Project<'a> {
         let spindle: Vec<bool> =
             axes.iter().map(|axis| kind_of(axis) == AxisKind::Spindle).collect();
         let named = self.name_axes(&mut content, &numbers, &spindle);
+        let channel = content.channel_defaults.iter().chain([&content.channels[0].list]);
+        let channel = parameters(ListKind::Channel, &channel.collect::<Vec<_>>());
+        if channel.set_by(of::AXIS_NAME.and(0).place()).is_none() {
+            let name = &content.channels[0].list.name;
+            let message =
+                format!("neither a dialog nor the list of the channel `{name}` names an axis");
+            let hint = "give the axes their names in programs (DefaultProgName), or list them in the channel";
+            return Err(vec![Diagnostic::new(Condition::ProjectWrong, message).hint(hint)]);
+        }
 
         let mut start_up = content.start_up.take().unwrap_or_default();
-        let mut entries = format!(
-            "listen ASCII\nkanal_anzahl {}\nzahl_mds {}\n",
-            content.channels.len(),
-            axes.len()
-        );
+        let mut entries = format!("listen ASCII\nkanal_anzahl 1\nzahl_mds {}\n", axes.len());
         for (i, axis) in content.axes.iter().enumerate() {
             let _ = writeln!(entries, "achs_mds[{i}] \"{}\"", self.keep(&axis.list));
         }
@@ -197,11 +208,22 @@ impl<'a> Project<'a> {
         start_up.replace(&own, &entries);
         self.lists.insert(self.start_up.clone(), start_up.placed());
 
-        match content.cycle_us {
-            Some(us) => {
+        match content.cycle_100ns {
+            Some(units) if units % 10 == 0 => {
+                let us = units / 10;
                 let _ = write!(note, "; cycle {us} us of the GEO task{}", self.cycle(us));
             }
+            Some(units) => {
+                let us = f64::from(units) / 10.0;
+                let _ = write!(
+                    note,
+                    "; the cycle {us} us of the GEO task is no whole number of microseconds: kontur.lis or --cycle-us says it"
+                );
+            }
             None => note.push_str("; no GEO task with a cycle: kontur.lis or --cycle-us says it"),
+        }
+        if !left_out.is_empty() {
+            let _ = write!(note, "; left out: {}", left_out.join(", "));
         }
         if !first.unread.is_empty() {
             let _ = write!(note, "; not read: {}", first.unread.join(", "));
@@ -220,6 +242,20 @@ impl<'a> Project<'a> {
             }
         );
         self.said.insert(0, Diagnostic::new(Condition::ProjectRead, message));
+        if let [first, others @ ..] = content.channels.as_slice()
+            && !others.is_empty()
+        {
+            let names: Vec<&str> = others.iter().map(|c| c.list.name.as_str()).collect();
+            let message = format!(
+                "one channel is simulated, the first, `{}`; not simulated: {}",
+                first.list.name,
+                names.join(", ")
+            );
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            let hint = "export the axes and the channel to be simulated, and name their folder";
+            self.said.push(said.hint(hint));
+        }
+        Ok(())
     }
 
     /// Enters the axes of the first channel by their dialogs, as the tool does, and says where its list has others. Empty
@@ -241,6 +277,16 @@ impl<'a> Project<'a> {
             .map(|((axis, number), _)| (axis.index, axis.program_name.clone(), *number))
             .collect();
         named.sort_by_key(|(index, ..)| *index);
+        if named.iter().zip(0..).any(|((index, ..), place)| *index != place) {
+            let places: Vec<String> =
+                named.iter().map(|(index, name, _)| format!("{name} {index}")).collect();
+            let message = format!(
+                "the dialogs of the axes leave places of the channel empty or give one twice (DefaultIndex: {}): they are taken one after the other, the first three are the main axes",
+                places.join(", ")
+            );
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            self.said.push(said.hint("number the axes of the channel without gaps"));
+        }
         let named: Vec<(String, u32)> =
             named.into_iter().map(|(_, name, number)| (name, number)).collect();
         let list = &mut content.channels[0].list;
@@ -294,12 +340,31 @@ impl<'a> Project<'a> {
             // the chain reads it again and says why it cannot be read
             Err(_) => return "",
         };
-        if real.lines().any(|line| line.trim_start().starts_with("kontur.cycle_time_us")) {
+        let mut list = ListText::of(real);
+        if parameters(ListKind::Kontur, &[&list]).set_by(own::CYCLE_TIME.place()).is_some() {
             return ", replaced by that of kontur.lis";
         }
-        self.lists.insert(path, format!("{real}\nkontur.cycle_time_us {us}\n"));
+        list.enter(&format!("kontur.cycle_time_us {us}"));
+        self.lists.insert(path, list.text);
         ""
     }
+}
+
+/// Two axis lists have the same number, others have their own: K-0141.
+fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
+    let twice = numbers.iter().enumerate().find(|(i, number)| numbers[..*i].contains(*number));
+    let number = twice.map_or(0, |(_, number)| *number);
+    let names: Vec<String> = content
+        .axes
+        .iter()
+        .zip(numbers)
+        .filter(|(_, n)| **n == number)
+        .map(|(axis, _)| format!("`{}` of {}", axis.list.name, axis.list.file))
+        .collect();
+    let message = format!("axis lists with the same kopf.achs_nr {number}: {}", names.join(", "));
+    let hint = "give each axis a number of its own, or take the list out that is left over; only \
+                where all lists have the same number they are numbered in their order";
+    Diagnostic::new(Condition::ProjectWrong, message).hint(hint)
 }
 
 /// The parameters of texts, without their messages: the lists are read once more as files.

@@ -36,14 +36,15 @@ impl Machine {
     /// The chains of the path axes, then of the spindles, then of the gantry slaves (the order of
     /// [`all_axes`](Self::all_axes)), and what there is to say about them.
     ///
-    /// A gantry slave has its own filters and controller and Improved Position Control after its master. All chains
+    /// A gantry slave has its own standard filters and controller; FIR filter, HSC filter and Vibration Guard are those of its
+    /// master ([`shaped_as`](Self::shaped_as)), and so is Improved Position Control. All chains
     /// get the delay of the axis that needs the longest one, so that they stay in step; spindles too, because threads
     /// tie them to the path.
     ///
     /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
     /// 110361, K-0033, K-0036 to K-0041 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
     /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063, K-0066 (Improved Position
-    /// Control); K-0070 (numbers that mean nothing).
+    /// Control); K-0070 (numbers that mean nothing); K-0075 (kernels in the list of a gantry slave).
     pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
         let mut diagnostics = Vec::new();
         let mut chains: Vec<ChainSetup> =
@@ -57,7 +58,12 @@ impl Machine {
 
     fn chain(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
         let cascade = filters::cascade(axis, self.cycle, diagnostics);
-        filters::check_kernels(axis, self.cycle, diagnostics);
+        match self.master_of(axis) {
+            Some(master) => {
+                filters::check_slave(axis, &self.axes[master], self.cycle, diagnostics);
+            }
+            None => filters::check_kernels(axis, self.cycle, diagnostics),
+        }
         let mut config = control::config(axis, diagnostics);
         config.ipc = self.ipc(axis, diagnostics);
         let (control, found) = config.checked(self.cycle);
@@ -96,6 +102,14 @@ impl Axis {
     /// [`Machine::chains`] reports what is wrong with them.
     pub fn kernel_preset(&self, cycle: CycleTime) -> KernelPreset {
         filters::preset(self, cycle)
+    }
+
+    /// Time in s by which the actual position follows the set position at constant speed, with feedforward in this state of
+    /// G135 and G136: the part of the speed that is not fed forward, by the gain kv.
+    pub(crate) fn lag_s(&self, feedforward_on: bool, weight_ratio: f64) -> f64 {
+        let config = control::config(self, &mut Vec::new());
+        let fed = config.feedforward.velocity_share(feedforward_on, weight_ratio);
+        (1.0 - fed) / self.kv_1_s()
     }
 
     /// Mean delay of the standard filters that the list switches on, in cycles.

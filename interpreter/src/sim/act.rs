@@ -5,10 +5,13 @@ use super::axes::Driver;
 use super::chain::AxisChain;
 use super::out::MESSAGES_MAX;
 use crate::diag::{Condition, Diagnostic};
-use crate::exec::Event;
+use crate::exec::{Event, ShapingSetup};
 use crate::machine::ChainSetup;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
+
+/// Jumps of a speed command in mm/s (deg/s) up to this are those of filters that end their motion.
+const LEAST_JUMP_MM_S: f64 = 1e-3;
 
 impl Simulation {
     /// Something happens in cycle `k`.
@@ -95,18 +98,24 @@ impl Simulation {
     }
 
     pub(super) fn feedforward(&mut self, on: bool, weights: &[f64]) {
-        let mut changed = false;
+        let mut largest: Option<(usize, f64)> = None;
         for (i, chain) in self.chains.iter().enumerate() {
             if let Driver::Path(p) = self.drivers[i] {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
                 let gain = chain.feedforward_gain(on, weight);
-                changed |= gain.to_bits() != self.gains[i].to_bits();
-                self.gains[i] = gain;
+                let step = std::mem::replace(&mut self.gains[i], gain) - gain;
+                // the record is that of the cycle before, whose speed may be that of a last step
+                let jump = |(i, step): (usize, f64)| (step * self.record.axes[i].vel).abs();
+                let moves = self.record.path.v_mm_s > 0.0
+                    || self.independent.is_moving(p)
+                    || !chain.settled();
+                if moves && jump((i, step)) > largest.map_or(LEAST_JUMP_MM_S, jump) {
+                    largest = Some((i, step));
+                }
             }
         }
-        // the record is that of the cycle before
-        if changed && self.record.path.v_mm_s > 0.0 {
-            self.switched_while_moving();
+        if let Some((chain, step)) = largest {
+            self.switched_while_moving(chain, step);
         }
     }
 
@@ -118,11 +127,11 @@ impl Simulation {
         }
     }
 
-    /// Puts new kernels into the path axes; they are flushed.
-    pub(super) fn swap_kernels(&mut self, setup: &crate::exec::ShapingSetup) {
-        for (chain, axis) in self.chains.iter_mut().zip(&setup.axes) {
-            if chain.set_kernel(axis.kernel.clone()).is_err() {
-                self.messages.own.push(super::fault::switch_while_moving());
+    /// Puts new kernels into the path axes and their gantry slaves; they are flushed. Those of spindles never change.
+    pub(super) fn swap_kernels(&mut self, setup: &ShapingSetup) {
+        for i in 0..self.chains.len() {
+            if !matches!(self.drivers[i], Driver::Spindle(_)) {
+                self.set_kernel(i, setup);
             }
         }
         let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
@@ -132,6 +141,13 @@ impl Simulation {
         self.totals.shaped(setup);
         for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
             *delay = delay.max(chain.delay_cycles());
+        }
+    }
+
+    /// Puts the kernel of a setup into a chain at rest.
+    pub(super) fn set_kernel(&mut self, i: usize, setup: &ShapingSetup) {
+        if self.chains[i].set_kernel(self.drivers[i].kernel(setup).cloned()).is_err() {
+            self.messages.own.push(super::fault::switch_while_moving());
         }
     }
 
@@ -158,7 +174,7 @@ impl Simulation {
         match AxisChain::new(new, before.set_mm(), self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
                 chain.take_over(before, same_filters, same_interface);
-                let kernel = self.executor.shaping().axes.get(i).and_then(|a| a.kernel.clone());
+                let kernel = self.drivers[i].kernel(self.executor.shaping()).cloned();
                 if !same_filters && chain.set_kernel(kernel).is_err() {
                     self.messages.own.push(super::fault::switch_while_moving());
                 }

@@ -1,9 +1,11 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
 use super::{Phase, SettledStop, Simulation};
-use crate::exec::SourceRef;
+use crate::exec::{ShapingSetup, SourceRef};
 use crate::machine::{Axis, Machine};
 use crate::record::{PathRecord, Rest};
+use kontur_filters::kernel::Kernel;
+use std::sync::Arc;
 
 /// Where the setpoint of a chain comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,14 +17,22 @@ pub(super) enum Driver {
     Standing,
 }
 
+impl Driver {
+    /// The kernel of a chain with this driver.
+    pub(super) fn kernel(self, setup: &ShapingSetup) -> Option<&Arc<Kernel>> {
+        let shaping = match self {
+            Self::Path(p) => setup.axes.get(p),
+            Self::Spindle(s) => setup.spindles.get(s),
+            Self::Standing => None,
+        };
+        shaping.and_then(|shaping| shaping.kernel.as_ref())
+    }
+}
+
 /// The driver of every chain, in the order of [`Machine::all_axes`].
 pub(super) fn drivers(machine: &Machine) -> Vec<Driver> {
-    let master = |axis: &Axis| {
-        let number = axis.gantry_master()?;
-        machine.axes.iter().position(|a| a.number() == number)
-    };
-    let slaves =
-        machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
+    let slave = |axis: &Axis| machine.master_of(axis).map_or(Driver::Standing, Driver::Path);
+    let slaves = machine.gantry_slaves.iter().map(slave);
     let paths = (0..machine.axes.len()).map(Driver::Path);
     let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
     paths.chain(spindles).chain(slaves).collect()

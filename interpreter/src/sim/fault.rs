@@ -370,21 +370,35 @@ pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
 }
 
 impl Simulation {
-    /// K-0022, each place once.
-    pub(super) fn switched_while_moving(&mut self) {
+    /// K-0022, each place once: the set position of a chain moves while its gain changes by `step`.
+    pub(super) fn switched_while_moving(&mut self, chain: usize, step: f64) {
         let at = self.current;
         if self.smoothing.is_new(Condition::FeedforwardSwitchedMoving, at) {
-            let v = self.record.path.v_mm_s;
+            let v = self.record.axes[chain].vel;
+            let axis = self.machine.all_axes().nth(chain);
+            let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
+            let unit = axis.map_or("mm", Axis::unit);
             let text = format!(
-                "feedforward is switched or weighted at the path speed {v:.3} mm/s: the speed command jumps"
+                "feedforward is switched or weighted while {name} moves at {v:.3} {unit}/s: its speed command jumps by {:.3} {unit}/s",
+                (step * v).abs()
             );
-            let mut d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text).value(
-                ValueKind::Current,
-                v,
-                "mm/s",
-            );
+            let d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text).axis(number, name);
+            let mut d = d.value(ValueKind::Current, v, "mm/s");
             d.cycle = Some(self.record.k + 1);
             d.time_s = Some(self.cycle.time_of(self.record.k + 1));
+            d.source = self.executor.locate(at);
+            self.messages.own.push(d);
+        }
+    }
+
+    /// K-0143, each place once: a block that waits for every axis ends an oscillation.
+    pub(super) fn oscillation_ends(&mut self, axis: usize) {
+        let at = self.waits_at;
+        if self.smoothing.is_new(Condition::OscillationEnded, at) {
+            let name = self.machine.axes[axis].name();
+            let text = format!("this block waits for all axes at rest: {name} oscillates no more");
+            let mut d = Diagnostic::new(Condition::OscillationEnded, text)
+                .axis(self.machine.axes[axis].number(), name);
             d.source = self.executor.locate(at);
             self.messages.own.push(d);
         }

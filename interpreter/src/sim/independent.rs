@@ -167,14 +167,19 @@ impl IndependentAxes {
     }
 
     /// An oscillation ends when the axis comes to its second position; all of them if no axis is named.
-    pub(super) fn end_oscillations(&mut self, axes: Option<&[usize]>) {
+    pub(super) fn end_oscillations(&mut self, axes: Option<&[usize]>) -> Vec<usize> {
+        let mut ended = Vec::new();
         for (axis, lane) in self.lanes.iter_mut().enumerate() {
             if axes.is_none_or(|axes| axes.contains(&axis))
                 && let Some(oscillation) = &mut lane.oscillation
             {
+                if oscillation.left.is_none_or(|left| left > 1) {
+                    ended.push(axis);
+                }
                 oscillation.left = Some(oscillation.left.map_or(1, |left| left.min(1)));
             }
         }
+        ended
     }
 
     /// Way of an axis in cycle `k`; cycles do not fall.

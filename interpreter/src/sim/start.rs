@@ -97,6 +97,11 @@ impl Simulation {
             simulation.spindle_feedforward(spindle, false, 1.0);
         }
         let setup = simulation.executor.shaping().clone();
+        for i in 0..simulation.chains.len() {
+            if matches!(simulation.drivers[i], Driver::Spindle(_)) {
+                simulation.set_kernel(i, &setup);
+            }
+        }
         simulation.swap_kernels(&setup);
         simulation.planner.report_changes(true);
         Ok(simulation)

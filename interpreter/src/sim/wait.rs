@@ -131,12 +131,18 @@ impl Wait {
         Self { until: Until::AllInPosition, action, patience: Patience::default() }
     }
 
-    /// Axes that it waits for oscillate no more.
-    pub(super) fn end_oscillations(&self, independent: &mut IndependentAxes) {
+    /// Axes that it waits for oscillate no more; returns those for which neither the program nor its end says so.
+    pub(super) fn end_oscillations(&self, independent: &mut IndependentAxes) -> Vec<usize> {
         match &self.until {
-            Until::Arrived(axes) => independent.end_oscillations(Some(axes)),
-            Until::Flushed | Until::AllInPosition => independent.end_oscillations(None),
-            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => {}
+            Until::Arrived(axes) => {
+                independent.end_oscillations(Some(axes));
+                Vec::new()
+            }
+            Until::Flushed | Until::AllInPosition => {
+                let ended = independent.end_oscillations(None);
+                if matches!(self.action, Action::End(_)) { Vec::new() } else { ended }
+            }
+            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => Vec::new(),
         }
     }
 
@@ -198,7 +204,7 @@ impl Wait {
     pub(super) fn is_over(&self, parts: Parts<'_>) -> bool {
         let ready = |i: usize, chain: &AxisChain| match &self.action {
             Action::Shaping(setup) => {
-                setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
+                chain.ready_for(parts.drivers[i].kernel(setup).map(AsRef::as_ref))
             }
             Action::None
             | Action::MachineData

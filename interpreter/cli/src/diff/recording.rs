@@ -167,7 +167,7 @@ fn pair(
     let leaves = |values: &[f64], from: f64| values.iter().any(|x| (x - from).abs() > tolerance);
     outcome.trace_goes_on = leaves(&a[..first], a[first]) || leaves(&a[last + 1..], a[last]);
     let begin_s = times_s[0];
-    let place = |row: usize| (times_s[row] - begin_s + shift_s) / recorded.step_s;
+    let place = |row: usize| recorded.place(times_s[row] - begin_s + shift_s);
     let values = &recorded.values;
     let (head, tail) = (place(first).floor().max(0.0) as usize, place(last).ceil() as usize);
     let (head, tail) = (head.min(values.len() - 1), tail.min(values.len() - 1));

@@ -45,9 +45,11 @@ pub(super) fn curves(
             let known = known.join(", ");
             return Err(Error::Usage(format!("--axis: no axis `{name}`; the axes are {known}")));
         };
-        let preset = axis.kernel_preset(machine.cycle);
-        let guard = Some(preset.vib_guard).filter(|guard| guard.active).map(|g| g.settings);
-        let fir = preset.fir.filter(|fir| fir.enable && guard.is_none());
+        let preset = machine.shaped_as(axis).kernel_preset(machine.cycle);
+        let fir = preset.fir.filter(|fir| fir.enable);
+        // as in a run: an active FIR filter keeps the guard off
+        let guard = Some(preset.vib_guard).filter(|guard| guard.active && fir.is_none());
+        let guard = guard.map(|g| g.settings);
         // what gives no kernel has been announced with its ID
         let kernel = match (guard, fir) {
             (Some(settings), _) => settings.kernel(machine.cycle).ok(),

@@ -15,8 +15,6 @@ const LEAST_SAMPLES: usize = 64;
 const MOST_SAMPLES: usize = 1 << 19;
 /// A rate that is given may differ from that of the times by this share.
 const RATE_RATIO: f64 = 0.01;
-/// Steps may differ from a multiple of the sampling time by this share of it.
-const JITTER_RATIO: f64 = 0.25;
 
 /// One recording with what it shows.
 #[derive(Clone, Debug)]
@@ -170,7 +168,7 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error>
             .ok_or_else(|| wrong(format!("no column `{wanted}`; {}", known())))?,
         None => channels.last().ok_or_else(|| wrong("no columns".to_owned()))?,
     };
-    let Even { values: samples, step_s, drop_outs } =
+    let Even { values: samples, begin_s, step_s, drop_outs } =
         even(channel, args.rate, &known).map_err(wrong)?;
     let rate_hz = 1.0 / step_s;
     let missing: Vec<_> = drop_outs.iter().map(|d| d.samples.clone()).collect();
@@ -186,7 +184,7 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error>
         window_s: args.window.unwrap_or(whole.window_s),
     };
     let found = analyse(&samples, &missing, rate_hz, &focus);
-    let lost_s = drop_outs.first().map(|d| d.after_s);
+    let lost_s = drop_outs.first().map(|d| d.after_s - begin_s);
     Ok((Recording { name, samples, missing, rate_hz, found }, lost_s))
 }
 
@@ -196,37 +194,27 @@ fn even(
     rate_hz: Option<f64>,
     known: &dyn Fn() -> String,
 ) -> Result<Even, String> {
-    let Some(step) = channel.step_s() else {
+    if channel.times_s.is_empty() {
+        let values = channel.values.clone();
         return match rate_hz {
-            Some(rate_hz) => Ok(Even {
-                values: channel.values.clone(),
-                step_s: 1.0 / rate_hz,
-                drop_outs: Vec::new(),
-            }),
+            Some(rate_hz) => {
+                Ok(Even { values, begin_s: 0.0, step_s: 1.0 / rate_hz, drop_outs: Vec::new() })
+            }
             None => Err(format!(
                 "no column t_s, time or t; --rate names the samples per second; {}",
                 known()
             )),
         };
-    };
-    if let Some(given) = rate_hz.filter(|given| (given * step - 1.0).abs() > RATE_RATIO) {
+    }
+    let even = channel.even()?;
+    let step_s = even.step_s;
+    if let Some(given) = rate_hz.filter(|given| (given * step_s - 1.0).abs() > RATE_RATIO) {
         return Err(format!(
             "--rate {given} Hz disagrees with its time column, which says {} Hz; leave one of the two out",
-            number(1.0 / step, 3)
+            number(1.0 / step_s, 3)
         ));
     }
-    let off = |pair: &[f64]| {
-        let steps = (pair[1] - pair[0]) / step;
-        steps < 0.5 || (steps - steps.round()).abs() > JITTER_RATIO
-    };
-    if channel.times_s.windows(2).any(off) {
-        return Err("its times do not rise in equal steps".to_owned());
-    }
-    let even = channel.even().ok_or_else(|| "its times do not rise in equal steps".to_owned())?;
-    // the mean step is more accurate than a printed one
-    let last = channel.times_s.last().copied().unwrap_or(0.0);
-    let mean = if last > 0.0 { last / (even.values.len() - 1) as f64 } else { even.step_s };
-    Ok(Even { step_s: mean, ..even })
+    Ok(even)
 }
 
 #[cfg(test)]

@@ -64,6 +64,8 @@ def sweep(
     plan = _plan(words)
     if output is not None:
         _must_be_empty(output)
+        # missing, it must not cost the rows of hours
+        import pyarrow.dataset  # noqa: F401
     try:
         table = _run(words, plan, client, retries)
     except BaseException:

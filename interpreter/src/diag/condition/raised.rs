@@ -430,7 +430,7 @@ conditions! {
     Unsupported = Kontur 19 "K-UNSUPPORTED": Error ProgramAbort 3 0, "legal command that is not simulated", hint "it would change the path: program the motion without it";
     FeedforwardLimit = Kontur 20 "K-G136-LIMIT": Warning None 1 0, "weight above 100 %, limited", hint "100 % feeds the whole value forward";
     FeedforwardNegative = Kontur 21 "K-G136-NEGATIVE": Error ProgramAbort 3 0, "negative weight", hint "weights are 0 to 100 %";
-    FeedforwardSwitchedMoving = Kontur 22 "K-FF-SWITCH-MOVING": Warning None 1 0, "feedforward switched or weighted at path speed > 0", hint "switch it at standstill: the setpoint of the controller jumps by the lag";
+    FeedforwardSwitchedMoving = Kontur 22 "K-FF-SWITCH-MOVING": Warning None 1 0, "feedforward switched or weighted while an axis moves", cause "the path moves, an axis moves alone, or its filters still let motion out", hint "switch it at standstill, behind filters after #FLUSH WAIT: the setpoint of the controller jumps by the lag";
     FeedforwardConflict = Kontur 23 "K-FF-CONFLICT": Warning None 1 0, "default_active and global_disable both set; output bit without activation bit", hint "choose one of the two";
     FeedforwardLoad = Kontur 24 "K-FF-LOAD": Warning None 1 0, "torque at a_max more than 10 × reference torque: check the unit of `load`", hint "check the unit of the load";
     IpcRange = Kontur 25 "K-IPC-RANGE": Error ProgramAbort 3 0, "IPC order, f0, Q, damping or mode out of range: IPC off for the axis", hint "write a value within the range";
@@ -511,4 +511,5 @@ conditions! {
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is not XML or contains no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
     OverrideLimited = Kontur 142 "K-OVERRIDE": Warning None 1 0, "override above the largest one of the channel", cause "P-CHAN-00056, by default 100 %; kontur limits only where the channel list gives it", hint "write max_vb_override in the channel list, in 0.1 %: 1500 allows 150 %", parameter "P-CHAN-00056";
+    OscillationEnded = Kontur 143 "K-OSC-ENDED": Warning None 1 0, "a block that needs all axes at rest ends an oscillation", cause "#FLUSH WAIT, #VIB GUARD, #FILTER, #WAIT FOR, an axis exchange or #GET CMDPOS while an axis oscillates", hint "move it before X[OSC ON ..], or program X[OSC ON ..] again behind it";
 }

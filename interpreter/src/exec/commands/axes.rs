@@ -46,6 +46,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "the face turning axis cannot be released under G51";
         return Err(Fault::new(Condition::FaceAxisReleased, text, call.span()));
     }
+    full_feedforward(decoder, &named);
     if all {
         decoder.names.axes.fill(None);
         for main in 0..3 {
@@ -106,6 +107,7 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
+    full_feedforward_of_all(decoder);
     decoder.names.axes.fill(None);
     for main in 0..3 {
         decoder.geometry.coordinates.set_main_axis(main, None);
@@ -119,6 +121,7 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
     match call.rest {
         [word] if word.is("DEFAULT") => {
+            full_feedforward_of_all(decoder);
             for axis in 0..decoder.machine.axes.len() {
                 decoder.names.axes[axis] = Some(decoder.machine.axes[axis].name().to_owned());
             }
@@ -302,8 +305,9 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
         }
     }
     let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
-        let text = format!("no axis has the logical number {logical}");
-        return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)));
+        let text = format!("no axis of the channel has the logical number {logical}");
+        let hint = "axes are those that the channel list names at start-up; other lists are not simulated (K-0075)";
+        return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)).hint(hint));
     };
     taken.add(index, logical, [at(1), at(2)])?;
     decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
@@ -314,7 +318,23 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     if index < 3 {
         decoder.geometry.coordinates.set_main_axis(index as usize, Some(axis));
     }
-    // weights of feedforward of an exchanged axis return to 100 %
-    decoder.motion.feedforward.weight_ratios[axis] = 1.0;
+    full_feedforward(decoder, &[axis]);
     Ok(())
+}
+
+/// The G136 weights of exchanged axes return to 100 %.
+fn full_feedforward(decoder: &mut Decoder, axes: &[usize]) {
+    let weights = &mut decoder.motion.feedforward.weight_ratios;
+    if axes.iter().any(|axis| weights[*axis] < 1.0) {
+        for axis in axes {
+            weights[*axis] = 1.0;
+        }
+        decoder.feedforward_event();
+    }
+}
+
+/// The same for every axis of the machine.
+fn full_feedforward_of_all(decoder: &mut Decoder) {
+    let all: Vec<usize> = (0..decoder.machine.axes.len()).collect();
+    full_feedforward(decoder, &all);
 }

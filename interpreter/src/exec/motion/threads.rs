@@ -23,7 +23,9 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::step::{Event, SpindleState, Sync};
+use crate::machine::Axis;
 use crate::syntax::ast::{ItemKind, Span};
+use kontur_filters::kernel::Kernel;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
@@ -279,9 +281,7 @@ impl Decoder {
         if self.report.failed() && !self.checking {
             return Ok(());
         }
-        if self.shaping.setup.axes.iter().any(|axis| axis.kernel.is_some()) {
-            let text =
-                "tapping while the axes are shaped and the spindle is not: it runs ahead of them";
+        if let Some(text) = self.apart_from_spindle(&block.path, spindle) {
             self.report.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
         }
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
@@ -292,6 +292,39 @@ impl Decoder {
         self.motion.spindles[0].turning = Turning::Stopped;
         self.sync(Sync::Stop);
         Ok(())
+    }
+
+    /// What keeps an axis of a thread and its spindle from being at the same place of it: other filters, another lag.
+    fn apart_from_spindle(&self, path: &Path, spindle: usize) -> Option<String> {
+        let (cycle, turning) = (self.machine.cycle, &self.machine.spindles[spindle]);
+        let of_spindle = self.shaping.setup.spindles.get(spindle)?.kernel.as_deref();
+        let ms = |kernel: Option<&Kernel>, axis: &Axis| {
+            let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
+            (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
+        };
+        let main = &self.motion.spindles[0];
+        let spindle_lag_s = turning.lag_s(main.feedforward, main.weight_ratio);
+        let feedforward = &self.motion.feedforward;
+        let moves = |i: &usize| (path.end()[*i] - path.start()[*i]).abs() > 0.0;
+        (0..self.machine.axes.len()).filter(moves).find_map(|i| {
+            let axis = &self.machine.axes[i];
+            let kernel = self.shaping.setup.axes[i].kernel.as_deref();
+            let [own, of_other] = [ms(kernel, axis), ms(of_spindle, turning)];
+            let (name, other) = (axis.name(), turning.name());
+            if kernel != of_spindle || (own - of_other).abs() > 1e-6 {
+                return Some(format!(
+                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not together in the thread"
+                ));
+            }
+            let lag_s = axis.lag_s(feedforward.on, feedforward.weight_ratios[i]);
+            ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
+                format!(
+                    "tapping while {name} follows {:.3} ms behind its set position, spindle {other} {:.3} ms (gain kv, feedforward): they are not together in the thread",
+                    1e3 * lag_s,
+                    1e3 * spindle_lag_s
+                )
+            })
+        })
     }
 
     /// How the spindle goes with the path, and the velocity of the path.

@@ -1,6 +1,7 @@
 //! What the XML of a project holds: texts of lists with their places, and the fields beside them.
 
 use crate::diag::{Condition, Diagnostic, Location};
+use crate::machine::chain::SEPARATORS;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Elements and texts of one file: with more it is nothing that an engineering tool has written.
@@ -36,9 +37,23 @@ pub(super) struct ListText {
 }
 
 impl ListText {
+    /// A list in a file of its own.
+    pub(super) fn of(text: String) -> Self {
+        Self { text, ..Self::default() }
+    }
+
     /// The text after as many empty lines that its lines have the numbers they have in the file.
     pub(super) fn placed(&self) -> String {
         format!("{}{}", "\n".repeat(self.before), self.text)
+    }
+
+    /// Puts an entry behind the last line that is read: in front of the end mark if there is one.
+    pub(super) fn enter(&mut self, entry: &str) {
+        let lines: Vec<&str> = self.text.split('\n').collect();
+        let end = lines.iter().position(|line| is_end(line)).unwrap_or(lines.len());
+        let (read, rest) = lines.split_at(end);
+        let lines: Vec<&str> = read.iter().chain([&entry]).chain(rest).copied().collect();
+        self.text = lines.join("\n");
     }
 
     /// Takes the lines of these keys out and puts entries after the rest of the list.
@@ -52,12 +67,15 @@ impl ListText {
                     && (key.ends_with('[') || word.len() == key.len())
             })
         };
-        let is_end =
-            |line: &str| ["ende", "end"].iter().any(|end| line.trim().eq_ignore_ascii_case(end));
         let kept = self.text.split('\n').take_while(|line| !is_end(line));
         let lines: Vec<&str> = kept.map(|line| if is_one(line) { "" } else { line }).collect();
         self.text = format!("{}\n{entries}", lines.join("\n"));
     }
+}
+
+/// The end mark of a list.
+fn is_end(line: &str) -> bool {
+    ["ende", "end"].iter().any(|end| line.trim().eq_ignore_ascii_case(end))
 }
 
 /// An axis of the project.
@@ -65,6 +83,8 @@ impl ListText {
 pub(super) struct AxisItem {
     /// Its list.
     pub(super) list: ListText,
+    /// It is switched off in the tree of the project.
+    disabled: bool,
     /// Channel it belongs to from the start, from 1.
     pub(super) channel: Option<u32>,
     /// Place in that channel, from 0.
@@ -78,6 +98,10 @@ pub(super) struct AxisItem {
 pub(super) struct ChannelItem {
     /// Its list.
     pub(super) list: ListText,
+    /// Its number in the project.
+    id: Option<u32>,
+    /// It is switched off in the tree of the project.
+    disabled: bool,
     /// List of tools.
     pub(super) tools: Option<ListText>,
     /// List of zero offsets.
@@ -94,8 +118,23 @@ pub(super) struct Content {
     pub(super) axis_defaults: Option<ListText>,
     pub(super) channel_defaults: Option<ListText>,
     pub(super) start_up: Option<ListText>,
-    /// Cycle of the GEO task in microseconds.
-    pub(super) cycle_us: Option<u32>,
+    /// Cycle of the GEO task in units of 100 ns.
+    pub(super) cycle_100ns: Option<u32>,
+    /// Items that are in files of their own.
+    references: Vec<Reference>,
+}
+
+/// An item that the project names with the file that holds it.
+#[derive(Clone, Debug)]
+struct Reference {
+    file: String,
+    id: Option<u32>,
+    disabled: bool,
+}
+
+/// The last part of a path, in lower case.
+fn file_name(path: &str) -> String {
+    path.rsplit(SEPARATORS).next().unwrap_or_default().to_lowercase()
 }
 
 impl Content {
@@ -109,6 +148,10 @@ impl Content {
         let document =
             Document::parse_with_options(text, options).map_err(|e| no_xml(part, text, &e))?;
         for node in document.descendants().filter(Node::is_element) {
+            if let Some(file) = node.attribute("File") {
+                let (id, disabled) = (number(node, "Id"), is_disabled(node));
+                self.references.push(Reference { file: file_name(file), id, disabled });
+            }
             match node.tag_name().name() {
                 "AchsMds" if self.axes.len() == AXES_MAX => {
                     return Err(too_many(part, AXES_MAX, "axis lists"));
@@ -129,12 +172,55 @@ impl Content {
         Ok(())
     }
 
+    /// Keeps what the project names and has switched on, its channels in the order of their numbers; returns what is left out
+    /// and why.
+    ///
+    /// Assumptions: the references of a project (`File`) say which of the files beside it belong to it, unless they name none
+    /// of those with lists, as among exported items; an item with `Disabled="true"`, or inside one, is not activated.
+    pub(super) fn settle(&mut self) -> Vec<String> {
+        let named = |list: &ListText| {
+            let name = file_name(&list.file);
+            self.references.iter().find(|reference| reference.file == name)
+        };
+        let axes = self.axes.iter().map(|axis| &axis.list);
+        let mut lists = axes.chain(self.channels.iter().map(|channel| &channel.list));
+        let any_named = lists.any(|list| named(list).is_some());
+        let mut left_out = Vec::new();
+        let mut stays = |list: &ListText, disabled: bool| {
+            let reference = named(list);
+            let is_part = file_name(&list.file).rsplit('.').next() == Some("xti");
+            let why = if disabled || reference.is_some_and(|r| r.disabled) {
+                "switched off"
+            } else if any_named && is_part && reference.is_none() {
+                "not named by the project"
+            } else {
+                return true;
+            };
+            left_out.push(format!("`{}` of {} ({why})", list.name, list.file));
+            false
+        };
+        let axes = self.axes.iter().map(|axis| stays(&axis.list, axis.disabled));
+        let axes: Vec<bool> = axes.collect();
+        let channels = self.channels.iter().map(|c| stays(&c.list, c.disabled));
+        let channels: Vec<bool> = channels.collect();
+        let ids: Vec<Option<u32>> =
+            self.channels.iter().map(|c| named(&c.list).and_then(|r| r.id).or(c.id)).collect();
+        for (channel, id) in self.channels.iter_mut().zip(ids) {
+            channel.id = id;
+        }
+        let (mut axes, mut channels) = (axes.into_iter(), channels.into_iter());
+        self.axes.retain(|_| axes.next().unwrap_or(true));
+        self.channels.retain(|_| channels.next().unwrap_or(true));
+        self.channels.sort_by_key(|channel| channel.id.unwrap_or(u32::MAX));
+        left_out
+    }
+
     /// The cycle of the interpolator's task, which the tool keeps in units of 100 ns.
     fn task(&mut self, node: Node<'_, '_>) {
         let name = node.attribute("Name").or_else(|| child(node, "Name")).unwrap_or_default();
         let cycle = node.attribute("CycleTime").and_then(|text| text.trim().parse::<u32>().ok());
-        if name.to_ascii_uppercase().contains("GEO") && self.cycle_us.is_none() {
-            self.cycle_us = cycle.map(|units| units / 10).filter(|us| *us > 0);
+        if name.to_ascii_uppercase().contains("GEO") && self.cycle_100ns.is_none() {
+            self.cycle_100ns = cycle.filter(|units| *units > 0);
         }
     }
 }
@@ -157,6 +243,16 @@ fn no_xml(part: &Part, text: &str, e: &roxmltree::Error) -> Box<Diagnostic> {
         text: crate::source::text::beginning(line.trim_end()).into(),
     };
     Box::new(Diagnostic::new(Condition::ProjectWrong, format!("no XML: {e}")).at(place))
+}
+
+/// A number in an attribute.
+fn number(node: Node<'_, '_>, attribute: &str) -> Option<u32> {
+    node.attribute(attribute)?.trim().parse().ok()
+}
+
+/// An item, or one around it, is switched off in the tree of the project.
+fn is_disabled(node: Node<'_, '_>) -> bool {
+    node.ancestors().filter_map(|item| item.attribute("Disabled")).any(|text| text == "true")
 }
 
 /// Texts and CDATA sections of an element itself.
@@ -219,6 +315,7 @@ fn axis(part: &Part, node: Node<'_, '_>, count: usize) -> AxisItem {
     let number = |tag: &str| field(tag).and_then(|text| text.parse::<u32>().ok());
     AxisItem {
         list: list_text(part, node, name(node, &format!("axis {}", count + 1))),
+        disabled: is_disabled(node),
         channel: number("DefaultChannel"),
         index: number("DefaultIndex").unwrap_or(count as u32),
         program_name: field("DefaultProgName").unwrap_or_default().to_owned(),
@@ -229,6 +326,11 @@ fn channel(part: &Part, node: Node<'_, '_>, count: usize) -> ChannelItem {
     let beside = |tag: &str| list(part, near(node, tag)?, tag);
     ChannelItem {
         list: list_text(part, node, name(node, &format!("channel {}", count + 1))),
+        id: node
+            .ancestors()
+            .find(|item| item.tag_name().name() == "Channel")
+            .and_then(|item| number(item, "Id")),
+        disabled: is_disabled(node),
         tools: beside("WerkzD"),
         zero_offsets: beside("NullpD"),
         unread: ["PzvD", "VeD"].into_iter().filter(|tag| beside(tag).is_some()).collect(),

@@ -6,6 +6,7 @@ use crate::machine::axis::AxisKind;
 use crate::machine::issues;
 use crate::machine::table::axis_filters as of;
 use crate::machine::table::axis_guard;
+use crate::machine::table::param::Place;
 use kontur_filters::{
     cascade::{Cascade, FilterEntry, ListedPrototype, ListedType},
     fir::{FirConfig, FirKind},
@@ -186,5 +187,31 @@ pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec
         && let Err(error) = preset.vib_guard.settings.kernel(cycle)
     {
         diagnostics.push(issues::vib_guard(axis, true, &error, cycle));
+    }
+}
+
+/// Kernels that the list of a gantry slave states and its master has not: they have no effect.
+pub(super) fn check_slave(
+    slave: &Axis,
+    master: &Axis,
+    cycle: CycleTime,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let (own, of_master) = (preset(slave, cycle), preset(master, cycle));
+    let effect = format!("no effect, the slave is shaped like its master {}", master.name());
+    let mut say = |param: Place, what: &str| {
+        diagnostics.push(
+            issues::about(slave, Condition::ListNoEffect, param, what, &effect)
+                .hint("write it in the list of the master"),
+        );
+    };
+    if own.vib_guard.active && own.vib_guard != of_master.vib_guard {
+        say(axis_guard::ACTIVE.place(), "Vibration Guard of a gantry slave");
+    }
+    if own.fir.is_some_and(|fir| fir.enable) && own.fir != of_master.fir {
+        say(of::FIR_FILTER.enable.place(), "FIR filter of a gantry slave");
+    }
+    if own.hsc.is_some() && own.hsc != of_master.hsc {
+        say(of::standard(0).prototype.place(), "HSC filter of a gantry slave");
     }
 }

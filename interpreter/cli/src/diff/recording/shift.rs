@@ -5,6 +5,8 @@ use realfft::RealFftPlanner;
 
 /// Steps of the search for the part of a cycle: 2 cycles shrink to a ten-thousandth.
 const GOLDEN_STEPS: usize = 21;
+/// Cycles by which the correlation may be aside.
+const SLIDE_CYCLES: usize = 50;
 /// A shift between two cycles is taken if it lowers the difference to this part.
 const BETTER: f64 = 0.95;
 
@@ -76,12 +78,28 @@ fn coarse_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
     if place > longest { place as f64 - length as f64 } else { place as f64 }
 }
 
+/// The whole number of cycles near another one at which the misfit is least: a channel that begins in the midst of the motion
+/// draws the correlation some cycles aside.
+fn slide(from: f64, misfit: &impl Fn(f64) -> f64) -> f64 {
+    let (mut place, mut least) = (from, misfit(from));
+    for _ in 0..SLIDE_CYCLES {
+        let [a, b] = [place - 1.0, place + 1.0].map(|shift| (shift, misfit(shift)));
+        let (next, at_next) = if b.1 < a.1 { b } else { a };
+        if at_next >= least {
+            break;
+        }
+        (place, least) = (next, at_next);
+    }
+    place
+}
+
 /// The same with a part of a cycle, if that fits better than the whole number.
 fn fine_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64, whole: f64) -> f64 {
     let misfit = |shift_cycles: f64| -> f64 {
         let pairs = trace.columns.iter().zip(recorded);
         pairs.map(|(a, r)| statistics(&trace.times_s, a, r, shift_cycles * cycle_s).rms).sum()
     };
+    let whole = slide(whole, &misfit);
     // golden section: near the best fit the misfit has one minimum
     let ratio = 0.5 * (libm::sqrt(5.0) - 1.0);
     let (mut low, mut high) = (whole - 1.0, whole + 1.0);

@@ -26,14 +26,21 @@ impl Trace {
 /// A channel in the steps of its recording, in the units of the trace.
 pub(super) struct Recorded {
     pub(super) values: Vec<f64>,
-    pub(super) step_s: f64,
+    /// Time of the first sample in the clock that all channels have in common.
+    begin_s: f64,
+    step_s: f64,
     pub(super) drop_outs: Vec<DropOut>,
 }
 
 impl Recorded {
     /// Time of the last sample.
     pub(super) fn end_s(&self) -> f64 {
-        self.step_s * self.values.len().saturating_sub(1) as f64
+        self.begin_s + self.step_s * self.values.len().saturating_sub(1) as f64
+    }
+
+    /// Number of the sample at a time, with its part.
+    pub(super) fn place(&self, time_s: f64) -> f64 {
+        (time_s - self.begin_s) / self.step_s
     }
 
     /// Linear between the samples; `None` outside, and where samples are missing.
@@ -50,7 +57,7 @@ impl Recorded {
 
     /// The same with what is missing filled in.
     pub(super) fn between(&self, time_s: f64) -> Option<f64> {
-        let place = time_s / self.step_s;
+        let place = self.place(time_s);
         let last = self.values.len().checked_sub(1)?;
         if place < -1e-6 || place > last as f64 + 1e-6 {
             return None;
@@ -72,14 +79,13 @@ pub(super) fn channels(
             let names: Vec<&str> = found.iter().map(|c| c.name.as_str()).collect();
             format!("{file}: no channel `{}`; it has {}", p.channel, names.join(", "))
         })?;
-        let Even { values, step_s, drop_outs } = channel.even().ok_or_else(|| {
-            format!(
-                "{file}: the times of `{}` do not rise, leave gaps of hours, or there are none",
-                channel.name
-            )
-        })?;
+        if channel.times_s.is_empty() {
+            return Err(format!("{file}: no column of times, t_s, time or t"));
+        }
+        let even = channel.even().map_err(|e| format!("{file}: `{}`: {e}", channel.name))?;
+        let Even { values, begin_s, step_s, drop_outs } = even;
         let values = values.iter().map(|v| p.factor * v).collect();
-        Ok(Recorded { values, step_s, drop_outs })
+        Ok(Recorded { values, begin_s, step_s, drop_outs })
     };
     pairings.iter().map(|p| one(p).map_err(Error::Usage)).collect()
 }

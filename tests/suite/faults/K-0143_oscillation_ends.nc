@@ -1,0 +1,6 @@
+; run: exit 0
+; warning K-0143 at 4:1
+X[OSC ON 1ST_POS=0 2ND_POS=20 FEED=6000]
+#VIB GUARD ON [MODE=2 FREQ=25]
+G04 0.1
+M30
