@@ -351,11 +351,17 @@ fn sample_of_feedhold_and_override() {
     assert!(json.out.contains("\"held_s\":0.385,"), "{json:?}");
     let text = command(["run", &program, "--input", &csv]).out;
     assert!(text.contains("held           0.385 s"), "{text}");
+    let folder = tempfile::tempdir().unwrap();
     // what is wrong with a file refuses run and check; a file that is not there is no mistake in one
     for verb in ["run", "check"] {
         let refused = command([verb, &program, "--input", &program]);
         assert_eq!(refused.exit, kontur::Exit::Usage);
         assert!(refused.err.contains("K-0076") && refused.err.contains("t_s"), "{refused:?}");
+        let semicolons = folder.path().join("semicolons.csv").display().to_string();
+        std::fs::write(&semicolons, "t_s;override_percent\n0;50\n").unwrap();
+        let refused = command([verb, &program, "--input", &semicolons]);
+        assert_eq!(refused.exit, kontur::Exit::Usage);
+        assert!(refused.err.contains("separated by semicolons"), "{refused:?}");
         let absent = command([verb, &program, "--input", "no_such_file.csv"]);
         assert_eq!(absent.exit, kontur::Exit::Io);
     }

@@ -237,10 +237,11 @@ fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic>
         .collect();
     let low = delays.iter().map(|(_, d)| *d).fold(f64::INFINITY, f64::min);
     let high = delays.iter().map(|(_, d)| *d).fold(0.0, f64::max);
-    if high - low < 1e-6 || delays.is_empty() {
+    let ms = f64::from(machine.cycle.us()) / 1e3;
+    // what is printed with three digits
+    if (high - low) * ms < 1e-3 || delays.is_empty() {
         return None;
     }
-    let ms = f64::from(machine.cycle.us()) / 1e3;
     let list: Vec<String> =
         delays.iter().map(|(a, d)| format!("{} {:.3} ms", a.name(), d * ms)).collect();
     let text = format!(

@@ -110,6 +110,11 @@ impl<R: Read> InputFile<R> {
     fn header(&mut self, machine: &Machine, taken: &[Signal]) -> Result<(), Problem> {
         let all = Signal::all(machine);
         let text = Arc::clone(&self.text);
+        if text.starts_with("t_s;") {
+            let problem = self.wrong(0, &text, "the columns are separated by semicolons");
+            let hint = "separate them by commas, with a point in numbers: 0.5,100";
+            return Err(problem.hint(hint.to_owned()));
+        }
         for (i, (at, name)) in fields(&text).enumerate() {
             let known = all.iter().find(|(n, _)| n.eq_ignore_ascii_case(name));
             match known {

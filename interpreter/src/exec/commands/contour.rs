@@ -240,7 +240,7 @@ arguments! {
     /// Keys of `#HSC`.
     struct HscArguments {
         bspline: Flag "BSPLINE", "", "the first key: a B-spline through short blocks";
-        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 0.2";
+        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 0.2; 0: not monitored";
         track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default 5; 0: not monitored";
         merge: MaybeNumber "MERGE", "", "no effect";
         auto_off_path: MaybeNumber "AUTO_OFF_PATH", "", "ends the spline";

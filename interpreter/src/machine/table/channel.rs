@@ -98,7 +98,7 @@ parameters! {
     chan("P-CHAN-00097", "use_drive_curr_limit", Raw::Boolean, "feedhold uses its own parameters")
         .default(0.0), as OWN_FEEDHOLD: Switch;
     chan("P-CHAN-00099", "prog_start.feedrate", Raw::Real64, "F at program start; 0 means F must be programmed (20008)")
-        .default(0.0).unit("mm/min", "mm/min"), as FEED: Number;
+        .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as FEED: Number;
     chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "100 mm/min, 0.1 m/min; 0 warns and becomes 100")
         .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default), as FEED_UNIT: Number;
     chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials")
