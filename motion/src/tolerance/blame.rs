@@ -9,7 +9,8 @@
 //! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
 //! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
 //! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
-//! filter holds them are isolated again: between them it is faster to speed up and to brake.
+//! filter holds them are isolated again: between them it is faster to speed up and to brake. Where a stretch exceeds however slowly
+//! it is run, the starts and stops beside it are the cause (`du a M2 / 2`, whatever the speed): then the path rests at its ends.
 
 use super::Demands;
 use super::even::{ALIKE, Evenly, aim, fastest};
