@@ -511,4 +511,5 @@ conditions! {
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is not XML or contains no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
     OverrideLimited = Kontur 142 "K-OVERRIDE": Warning None 1 0, "override above the largest one of the channel", cause "P-CHAN-00056, by default 100 %; kontur limits only where the channel list gives it", hint "write max_vb_override in the channel list, in 0.1 %: 1500 allows 150 %", parameter "P-CHAN-00056";
+    MacroControl = Kontur 144 "K-MACRO-CONTROL": Error ProgramAbort 3 1, "control statement in a macro (no vendor ID known)", cause "\"M\" = \"$BREAK\"; #IF, #ELSE, #COMMENT BEGIN or % from a macro", hint "write the statement out, only its condition may be a macro: $IF \"A\" > 1";
 }

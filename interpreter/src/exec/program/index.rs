@@ -17,7 +17,7 @@ use crate::syntax::ast::{LabelKind, Span};
 pub(super) use build::STRUCTURE_MAX;
 pub(in crate::exec) use build::build;
 use entries::Entries;
-pub(in crate::exec) use head::number_of;
+pub(in crate::exec) use head::{number_of, structure};
 pub(in crate::exec) use keyword::Keyword;
 pub(super) use labels::Labels;
 use std::collections::BTreeMap;

@@ -59,6 +59,28 @@ pub(super) fn head(text: &str) -> Head<'_> {
     Head { skip, label, label_at, rest, at: text.len() - rest.len() }
 }
 
+/// What an index takes from a block beside `$` and labels: `%`, and the commands that hide blocks. With its place.
+pub(in crate::exec) fn structure(text: &str) -> Option<(&'static str, usize)> {
+    let Head { rest, at, .. } = head(text);
+    let name = match rest.bytes().next()? {
+        b'%' => "%",
+        b'#' => match word(&rest[1..]).as_str() {
+            "IF" => "#IF",
+            "ELSE" => "#ELSE",
+            "ENDIF" => "#ENDIF",
+            "COMMENT" if is_command(rest, "COMMENT", "BEGIN") => "#COMMENT BEGIN",
+            "COMMENT" if is_command(rest, "COMMENT", "END") => "#COMMENT END",
+            "RT" => match real_time_cycle(rest)? {
+                true => "#RT CYCLE",
+                false => "#RT CYCLE END",
+            },
+            _ => return None,
+        },
+        _ => return None,
+    };
+    Some((name, at))
+}
+
 /// Number of a block, unless it is computed.
 pub(in crate::exec) fn number_of(text: &str) -> Option<u64> {
     let mut rest = blank(text);
