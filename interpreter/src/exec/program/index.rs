@@ -12,6 +12,7 @@ mod packed;
 #[cfg(test)]
 mod tests;
 
+use crate::diag::Location;
 use crate::source::Position;
 use crate::syntax::ast::{LabelKind, Span};
 pub(super) use build::STRUCTURE_MAX;
@@ -80,6 +81,8 @@ pub(in crate::exec) struct Index {
     locals: BTreeMap<Arc<str>, usize>,
     /// The same without regard to case: names in upper case.
     locals_upper: BTreeMap<String, usize>,
+    /// Head of a further program with blocks, behind the end of the main one.
+    pub(super) further: Option<Location>,
 }
 
 impl Index {
