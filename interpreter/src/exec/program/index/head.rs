@@ -70,10 +70,8 @@ pub(in crate::exec) fn structure(text: &str) -> Option<(&'static str, usize)> {
             "ENDIF" => "#ENDIF",
             "COMMENT" if is_command(rest, "COMMENT", "BEGIN") => "#COMMENT BEGIN",
             "COMMENT" if is_command(rest, "COMMENT", "END") => "#COMMENT END",
-            "RT" => match real_time_cycle(rest)? {
-                true => "#RT CYCLE",
-                false => "#RT CYCLE END",
-            },
+            "RT" if real_time_cycle(rest)? => "#RT CYCLE",
+            "RT" => "#RT CYCLE END",
             _ => return None,
         },
         _ => return None,
