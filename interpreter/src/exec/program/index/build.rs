@@ -206,7 +206,7 @@ impl Builder<'_> {
     }
 
     fn command(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
-        let name = word(&head.rest[1..]);
+        let name = word(head.rest[1..].trim_start());
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
                 self.alone(raw, head, Condition::CommentBeginNotAlone);
@@ -289,7 +289,7 @@ impl Builder<'_> {
         let word = |text: &str| {
             text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
         };
-        let second = &head.rest[head.rest.len() - word(&head.rest[1..])..];
+        let second = &head.rest[head.rest.len() - word(head.rest[1..].trim_start())..];
         let behind = blank(&second[second.len() - word(second)..]);
         if !behind.is_empty() && !behind.starts_with(';') {
             let name = if condition == Condition::CommentBeginNotAlone { "BEGIN" } else { "END" };

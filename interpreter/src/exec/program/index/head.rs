@@ -64,7 +64,7 @@ pub(in crate::exec) fn structure(text: &str) -> Option<(&'static str, usize)> {
     let Head { rest, at, .. } = head(text);
     let name = match rest.bytes().next()? {
         b'%' => "%",
-        b'#' => match word(&rest[1..]).as_str() {
+        b'#' => match word(rest[1..].trim_start()).as_str() {
             "IF" => "#IF",
             "ELSE" => "#ELSE",
             "ENDIF" => "#ENDIF",
@@ -153,7 +153,7 @@ pub(super) fn name_of(text: &str) -> Option<&str> {
 
 /// True for `#FIRST SECOND`.
 pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
-    let behind = &rest[1..];
+    let behind = rest[1..].trim_start();
     let length = behind.bytes().take_while(u8::is_ascii_alphanumeric).count();
     behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
 }
@@ -163,7 +163,7 @@ pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
     if !is_command(rest, "RT", "CYCLE") {
         return None;
     }
-    let behind = rest[1 + "RT".len()..].trim_start();
+    let behind = rest[1..].trim_start()["RT".len()..].trim_start();
     match word(behind["CYCLE".len()..].trim_start()).as_str() {
         "" | "DEF" => Some(true),
         "END" => Some(false),

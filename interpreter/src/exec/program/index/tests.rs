@@ -135,6 +135,8 @@ fn nothing_inside_comment_blocks_counts() {
 fn comments_and_their_ends_are_pairs() {
     assert_eq!(index("X1\n#COMMENT BEGIN\nX2\nM30\n").1, ["K-0145 2"]);
     assert_eq!(index("X1\n#COMMENT END\nM30\n").1, ["K-0145 2"]);
+    assert!(index("# COMMENT BEGIN\n$IF (\n#\tCOMMENT END\nX1\nM30\n").1.is_empty());
+    assert!(index("# IF 1\nX1\n# ELSE\nX2\n# ENDIF\nM30\n").1.is_empty());
     // the first end is that of both
     let nested = "#COMMENT BEGIN\n#COMMENT BEGIN\n#COMMENT END\nX1\n#COMMENT END\nM30\n";
     assert_eq!(index(nested).1, ["K-0145 5"]);
