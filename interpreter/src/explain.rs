@@ -123,7 +123,7 @@ fn parameter(row: &'static Row) -> Explanation {
     let mut facts = Vec::new();
     facts.push(("list", list_name(row.list).to_owned()));
     if row.key.is_empty() {
-        facts.push(("key", "printed in no public document; a list cannot set it here".to_owned()));
+        facts.push(("key", "none is read here: a list cannot set it".to_owned()));
     } else {
         // the tables print STRING where a number is accepted too
         let printed = ["P-AXIS-00153", "P-AXIS-00737", "P-AXIS-00738"].contains(&row.id);

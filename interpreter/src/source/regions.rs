@@ -126,6 +126,12 @@ pub(crate) fn brackets_are_complete(text: &str) -> bool {
     depth == 0
 }
 
+/// True if a character stands in a text, outside of its strings and comments.
+pub(crate) fn code_has(text: &str, byte: u8) -> bool {
+    regions(text)
+        .any(|(region, range)| region == Region::Code && text.as_bytes()[range].contains(&byte))
+}
+
 /// Places of the strings of a block, quotes included.
 pub(crate) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
     regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)

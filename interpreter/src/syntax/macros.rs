@@ -37,8 +37,8 @@ impl Expanded {
 ///
 /// # Errors
 /// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep, K-MACRO-BRACKET if the text of a macro holds one half of
-/// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions). An expansion that is too
-/// long is cut and gets 20301 from the parser.
+/// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions), K-MACRO-CONTROL if it holds
+/// `$` (source: 208426123, restrictions). An expansion that is too long is cut and gets 20301 from the parser.
 pub(crate) fn expand<'m>(
     raw: &RawBlock<'_>,
     file: &Arc<str>,
@@ -76,6 +76,11 @@ pub(crate) fn expand<'m>(
                         format!("the macro text `{shown}` holds one half of a pair of brackets");
                     Diagnostic::new(Condition::MacroBracket, text)
                 }
+                Wrong::Control(text) => {
+                    let shown: String = text.chars().take(40).collect();
+                    let text = format!("the macro text `{shown}` holds a control statement ($)");
+                    Diagnostic::new(Condition::MacroControl, text)
+                }
             };
             return Err(Box::new(diagnostic.at(location)));
         }
@@ -100,6 +105,8 @@ enum Wrong<'m> {
     TooDeep,
     /// This text has a bracket without its partner.
     HalfBracket(&'m str),
+    /// This text has a `$`: the structure of a program is known before its macros are.
+    Control(&'m str),
 }
 
 /// Appends the text of a macro, its own macros replaced.
@@ -114,6 +121,9 @@ fn insert<'m>(
     }
     if !regions::brackets_are_complete(text) {
         return Err(Wrong::HalfBracket(text));
+    }
+    if regions::code_has(text, b'$') {
+        return Err(Wrong::Control(text));
     }
     let mut at = 0;
     for (range, inner) in uses(text, lookup) {
@@ -201,6 +211,9 @@ mod tests {
             "HALF" => Some("COS["),
             "INSIDE" => Some("X\"HALF\"90]"),
             "WHOLE" => Some("SIN[90] (a remark [)"),
+            "JUMP" => Some("$GOTO [E]"),
+            "DOLLAR" => Some("\"JUMP\""),
+            "PRICE" => Some("#MSG [\"5 $\"] (or $)"),
             "LOOP" => Some("\"LOOP\""),
             "TWICE" => Some("\"LONG\" \"LONG\""),
             "LONG" => {
@@ -249,6 +262,15 @@ mod tests {
         assert!(run("X\"WHOLE\"").unwrap().is_some());
         // the definition itself is text
         assert_eq!(run("\"HALF\" = \"COS[\""), Ok(None));
+    }
+
+    #[test]
+    fn a_macro_holds_no_control_statement() {
+        for line in ["\"JUMP\"", "$IF 1 \"JUMP\"", "X1 \"DOLLAR\""] {
+            assert_eq!(run(line).unwrap_err().id, Condition::MacroControl, "{line}");
+        }
+        assert!(run("\"PRICE\"").unwrap().is_some());
+        assert!(run("$IF \"B\"").unwrap().is_some());
     }
 
     #[test]

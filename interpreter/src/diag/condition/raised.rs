@@ -220,6 +220,7 @@ conditions! {
     BlockNumberTwice = Vendor 20841: Error ProgramAbort 3 1, "block number twice in one block", cause "N100 N100: X1", hint "leave one of the two out; N100: is number and label";
     DwellTwice = Vendor 20844: Error ProgramAbort 3 1, "dwell time twice in one block", cause "G04 2 G04 3", hint "leave one of the two out";
     OverrideSwitchTwice = Vendor 20846: Error ProgramAbort 3 1, "G166 twice in one block", hint "leave one of the two out";
+    ValueOutOfType = Vendor 20847: Error ProgramAbort 3 1, "value outside the range of its variable", cause "256 written to a UNS08", hint "declare the variable with a wider type, or check the value before it is written";
     SpindlePositionTwice = Vendor 20851: Error ProgramAbort 3 1, "spindle position twice in one block", cause "S[M19 POS45 POS90]", hint "leave one of the positions";
     MirrorSwitch = Vendor 20860: Error ProgramAbort 3 1, "mirroring is switched by 1 and -1 only", cause "G351 X2", hint "-1 mirrors the axis, 1 does not";
     ExistArgument = Vendor 20868: Error ProgramAbort 3 1, "EXIST without the name of a parameter or variable", hint "write EXIST[P1] or EXIST[V.P.NAME]";
@@ -287,6 +288,7 @@ conditions! {
     NumberExpected = Vendor 21461: Error ProgramAbort 3 1, "a number is expected, not a text", cause "a text written to a number", hint "STR_TO_INT and STR_TO_REAL make numbers of texts";
     TextTooLong = Vendor 21462: Error ProgramAbort 3 1, "text too long for its variable", hint "declare it with a longer STRING[n], up to 126";
     DigitExpected = Vendor 21464: Error ProgramAbort 3 1, "a text that is no number", cause "STR_TO_INT[\"abc\"]", hint "the text holds digits";
+    DigitsTooMany = Vendor 21465: Error ProgramAbort 3 1, "a text with too many digits for a number", cause "STR_TO_INT[\"99999999999999\"]", hint "STR_TO_REAL takes longer numbers than STR_TO_INT";
     RepeatNotAlone = Vendor 21468: Error ProgramAbort 3 1, "$REPEAT is not alone in its block", hint "move the words to the block after $REPEAT";
     UntilTrailing = Vendor 21470: Error ProgramAbort 3 1, "trailing words after $UNTIL", cause "$UNTIL P2>20 X100", hint "only the condition may follow $UNTIL; move the words to the next block";
     TooFewArguments = Vendor 21471: Error ProgramAbort 3 1, "too few arguments of a function", cause "LEFT[\"Hello\"]", hint "kontur explain NAME shows the arguments";
@@ -299,6 +301,7 @@ conditions! {
     ThreadOffsetTwice = Vendor 21540: Error ProgramAbort 3 1, "offset angle of a thread twice in one block", hint "leave one of the two out";
     BehindCall = Vendor 21542: Error ProgramAbort 3 1, "NC command after a subroutine or cycle call", cause "LL SUB Z300", hint "write it before the call or in the next block";
     ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
+    TextPosition = Vendor 21545: Error ProgramAbort 3 1, "position outside the text of a text function", cause "DELETE[\"Hello world!\", 7, 100]: the text comes first, then the count, then the position", hint "positions count from 1 to LEN[..], for INSERT from 0";
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
@@ -512,4 +515,6 @@ conditions! {
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is not XML or contains no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
     OverrideLimited = Kontur 142 "K-OVERRIDE": Warning None 1 0, "override above the largest one of the channel", cause "P-CHAN-00056, by default 100 %; kontur limits only where the channel list gives it", hint "write max_vb_override in the channel list, in 0.1 %: 1500 allows 150 %", parameter "P-CHAN-00056";
     OscillationEnded = Kontur 143 "K-OSC-ENDED": Warning None 1 0, "a block that needs all axes at rest ends an oscillation", cause "#FLUSH WAIT, #VIB GUARD, #FILTER, #WAIT FOR, an axis exchange or #GET CMDPOS while an axis oscillates", hint "move it before X[OSC ON ..], or program X[OSC ON ..] again behind it";
+    MacroControl = Kontur 144 "K-MACRO-CONTROL": Error ProgramAbort 3 1, "control statement in a macro (no vendor ID known)", cause "\"M\" = \"$BREAK\"; #IF, #ELSE, #COMMENT BEGIN or % from a macro", hint "write the statement out, only its condition may be a macro: $IF \"A\" > 1";
+    Unpaired = Kontur 145 "K-UNPAIRED": Error ProgramAbort 3 1, "#COMMENT BEGIN without #COMMENT END, or the reverse (no vendor ID known)", cause "a #COMMENT BEGIN hides everything up to #COMMENT END; comments do not nest", hint "write the missing one; an end without a beginning is left out";
 }

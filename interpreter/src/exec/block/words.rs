@@ -117,7 +117,9 @@ impl Decoder {
                 let fault = Fault::new(Condition::Undefined, text, span);
                 Err(match suggest::hint(name, known) {
                     Some(hint) => fault.hint(hint),
-                    None => fault,
+                    None => fault.hint(
+                        "define it before its use: \"NAME\" = \"NC code\"; macros of the channel list (makro_def) are not read",
+                    ),
                 })
             }
             WordKind::Hash(hash) => {

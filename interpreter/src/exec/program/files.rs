@@ -1,8 +1,8 @@
 //! Open program files: text, structure, and the parsed blocks of what runs more than once.
 
 use super::actual::needs_actual;
-use super::index::{Index, Labels, STRUCTURE_MAX, Section, build};
-use crate::diag::{Diagnostic, Location};
+use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
+use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::step::Sync;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
@@ -419,7 +419,11 @@ fn parse(
     }
     let lookup = |name: &str| table.get(name).map(|text| &**text);
     match macros::expand(raw, file, &lookup) {
-        Ok(Some(expanded)) => read(&expanded.raw(), diagnostics),
+        Ok(Some(expanded)) => {
+            let expanded = expanded.raw();
+            diagnostics.extend(structure_of_macro(raw, &expanded, file));
+            read(&expanded, diagnostics)
+        }
         Ok(None) => read(raw, diagnostics),
         Err(mut diagnostic) => {
             if let Some(location) = &mut diagnostic.source {
@@ -429,4 +433,21 @@ fn parse(
             Block::default()
         }
     }
+}
+
+/// K-MACRO-CONTROL if a block gets a place in the structure of its program only by its macros: the structure is known
+/// before them.
+fn structure_of_macro(
+    raw: &RawBlock<'_>,
+    expanded: &RawBlock<'_>,
+    file: &Arc<str>,
+) -> Option<Diagnostic> {
+    let (name, at) = structure(expanded.text)?;
+    if structure(raw.text).is_some_and(|(written, _)| written == name) {
+        return None;
+    }
+    let mut location = expanded.locate(file, Span::new(at, at + 1));
+    location.block = super::index::number_of(raw.text);
+    let text = format!("`{name}` comes from a macro");
+    Some(Diagnostic::new(Condition::MacroControl, text).at(location))
 }

@@ -12,12 +12,13 @@ mod packed;
 #[cfg(test)]
 mod tests;
 
+use crate::diag::Location;
 use crate::source::Position;
 use crate::syntax::ast::{LabelKind, Span};
 pub(super) use build::STRUCTURE_MAX;
 pub(in crate::exec) use build::build;
 use entries::Entries;
-pub(in crate::exec) use head::number_of;
+pub(in crate::exec) use head::{number_of, structure};
 pub(in crate::exec) use keyword::Keyword;
 pub(super) use labels::Labels;
 use std::collections::BTreeMap;
@@ -80,6 +81,8 @@ pub(in crate::exec) struct Index {
     locals: BTreeMap<Arc<str>, usize>,
     /// The same without regard to case: names in upper case.
     locals_upper: BTreeMap<String, usize>,
+    /// Head of a further program with blocks, behind the end of the main one.
+    pub(super) further: Option<Location>,
 }
 
 impl Index {

@@ -44,7 +44,7 @@ fn indirect_and_array_parameters() {
     );
     let id =
         |text: &str| run(&format!("#VAR\nV.P.T[2]\nV.L.N : UNS08\n#ENDVAR\n{text}\nM30\n")).ids();
-    assert_eq!(id("V.L.N=256"), ["K-0009"]);
+    assert_eq!(id("V.L.N=256"), ["20847"]);
     assert_eq!(id("V.L.N=255"), [""; 0]);
 }
 

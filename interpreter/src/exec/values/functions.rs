@@ -173,10 +173,12 @@ fn is_text_function(function: Function) -> bool {
 /// Highest count of characters. Assumption: the vendor prints no limit for 21472; it is the length of a block.
 const COUNT_MAX: u32 = 4096;
 
-/// Functions of texts.
-///
-/// Assumption: arguments as in IEC 61131-3: `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`,
-/// `INSERT[s, t, position]`, `REPLACE[s, t, n, position]`.
+/// Largest result of `STR_TO_INT`. Assumption: the vendor prints no limit for 21465; it is that of the widest type of whole
+/// numbers, UNS32.
+const INTEGER_MAX: f64 = u32::MAX as f64;
+
+/// Functions of texts (206023179): `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`, `INSERT[s, t, position]`,
+/// `REPLACE[s, t, n, position]`.
 fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
     let text = |i: usize| match decoder.value(&call.arguments[i])? {
         Value::Text(text) => Ok(text.chars().collect::<Vec<char>>()),
@@ -191,15 +193,37 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
             Fault::new(Condition::TextCount, text, call.arguments[i].span)
         })
     };
+    // where a text is taken apart, counted from 0. Assumption: 21545 has limits and prints no numbers for them; MID, DELETE
+    // and REPLACE begin at one of the characters, INSERT may also put its text before the first one.
+    let position = |i: usize, least: usize, s: &[char]| {
+        let (x, most) = (decoder.number(&call.arguments[i])?, s.len());
+        let at = whole(x, 0, u32::MAX).map(|at| at as usize);
+        at.filter(|at| (least..=most).contains(at)).map(|at| at - least).ok_or_else(|| {
+            let name = call.function.name();
+            let text = format!("{name}: the text has {most} characters, there is no position {x}");
+            Fault::new(Condition::TextPosition, text, call.arguments[i].span).with(|d| {
+                d.value(ValueKind::Wrong, x, "-")
+                    .value(ValueKind::LowerLimit, least as f64, "-")
+                    .value(ValueKind::UpperLimit, most as f64, "-")
+            })
+        })
+    };
     let joined =
         |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
-    let parsed = |i: usize| -> Outcome<f64> {
+    let parsed = |i: usize, largest: f64| -> Outcome<f64> {
         let written: String = text(i)?.iter().collect();
+        // `inf` and `NaN` are no digits
+        let digits = written.bytes().any(|b| b.is_ascii_digit());
         let number: Option<f64> = written.trim().parse().ok();
-        number.filter(|x| x.is_finite()).ok_or_else(|| {
+        let number = number.filter(|_| digits).ok_or_else(|| {
             let text = format!("`{written}` is no number");
             Fault::new(Condition::DigitExpected, text, call.arguments[i].span)
-        })
+        })?;
+        if number.abs() > largest {
+            let text = format!("`{written}` has too many digits: it is above {largest:e}");
+            return Err(Fault::new(Condition::DigitsTooMany, text, call.arguments[i].span));
+        }
+        Ok(number)
     };
     Ok(match call.function {
         Function::Len => Value::Number(text(0)?.len() as f64),
@@ -223,24 +247,24 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         }
         Function::Mid => {
             let s = text(0)?;
-            let from = count(2)?.saturating_sub(1).min(s.len());
+            let from = position(2, 1, &s)?;
             let to = (from + count(1)?).min(s.len());
             joined([&s[from..to], &[], &[]])
         }
         Function::Delete => {
             let s = text(0)?;
-            let from = count(2)?.saturating_sub(1).min(s.len());
+            let from = position(2, 1, &s)?;
             let to = (from + count(1)?).min(s.len());
             joined([&s[..from], &s[to..], &[]])
         }
         Function::Insert => {
             let (s, t) = (text(0)?, text(1)?);
-            let at = count(2)?.min(s.len());
+            let at = position(2, 0, &s)?;
             joined([&s[..at], &t, &s[at..]])
         }
         Function::Replace => {
             let (s, t) = (text(0)?, text(1)?);
-            let from = count(3)?.saturating_sub(1).min(s.len());
+            let from = position(3, 1, &s)?;
             let to = (from + count(2)?).min(s.len());
             joined([&s[..from], &t, &s[to..]])
         }
@@ -256,8 +280,8 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
             let x = as_number(&decoder.value(&call.arguments[0])?, span)?;
             Value::Text(format!("{x:.6}").into())
         }
-        Function::StrToInt => Value::Number(parsed(0)?.trunc()),
-        Function::StrToReal => Value::Number(parsed(0)?),
+        Function::StrToInt => Value::Number(parsed(0, INTEGER_MAX)?.trunc()),
+        Function::StrToReal => Value::Number(parsed(0, f64::MAX)?),
         other => return Err(Fault::unsupported(other.name(), span)),
     })
 }

@@ -80,7 +80,8 @@ parameters! {
         .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
         .default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
-    chan("P-CHAN-00062", "", Raw::Uns32, "not found in any public document; read and ignored");
+    chan("P-CHAN-00062", "", Raw::Text, "NC code of a macro of the channel list (makro_def[i].nc_code); not read: write \"NAME\" = \"NC code\" into the program")
+        .source("TF5200 channel parameters");
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
     chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what the override multiplies")
@@ -91,6 +92,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default), as SLOPE: Whole;
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse), as RAMP_SELECTION: Whole;
+    chan("P-CHAN-00085", "", Raw::Text, "name of a macro of the channel list (makro_def[i].symbol); not read: write \"NAME\" = \"NC code\" into the program")
+        .source("TF5200 channel parameters");
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
         .range(Bound::Beyond(0.0), Bound::None).default(2000000000.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as PATH_SPEED: Number;
     chan("P-CHAN-00091", "versch_im_durchm", Raw::Boolean, "offsets of a face turning axis are diameters; 1 is not supported with G51")

@@ -168,6 +168,8 @@ fn commands_in_all_their_spellings() {
         ("#SUPPRESS OFFSETS", "#SUPPRESS OFFSETS"),
         ("N10 #VAR", "N10 #VAR"),
         ("#COMMENT BEGIN", "#COMMENT BEGIN"),
+        ("# COMMENT  BEGIN", "#COMMENT BEGIN"),
+        ("N10 #\tSLOPE [TYPE=STEP]", "N10 #SLOPE [TYPE=STEP]"),
         ("#IF P1 == 2", "#IF P1 == 2"),
     ] {
         assert_eq!(printed(line), expected, "{line}");
@@ -307,7 +309,7 @@ fn what_is_refused_and_where() {
         ("#VIB GUARD ON [MODE==2]", &[("21220", 20)]),
         ("#HSC [BSPLINE] X10", &[("20450", 16)]),
         ("X10 #FLUSH", &[("20207", 5)]),
-        ("# SLOPE", &[("K-0002", 1)]),
+        ("# 5", &[("K-0002", 1)]),
         ("$IF P1 = 5", &[("K-0002", 8)]),
         ("$FOO", &[("K-0002", 1)]),
         ("$FOR COUNT=1,2,1", &[("20227", 6)]),

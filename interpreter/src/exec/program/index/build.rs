@@ -6,7 +6,7 @@ use super::head::{
 };
 use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
-use crate::diag::{Condition, Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
@@ -41,13 +41,15 @@ struct Builder<'a> {
     conditional_open: Vec<EntryId>,
     /// Last clause of each open structure.
     last_clause: BTreeMap<EntryId, EntryId>,
-    /// Open comment or cycle in real time.
-    silent: Option<EntryId>,
+    /// Open comment or cycle in real time, and its place.
+    silent: Option<(EntryId, Location)>,
     pub(super) section: Option<usize>,
     has_main: bool,
     /// `%` blocks inside the main program, with the end of the program seen before each.
     remarks: Vec<(EntryId, bool)>,
     end_seen: bool,
+    /// `%` behind the end of the main program, until a block follows.
+    behind_end: Option<Location>,
     diagnostics: Vec<Diagnostic>,
     /// Nothing more is read: it is nested too deep, or there is too much of it.
     gives_up: bool,
@@ -57,7 +59,7 @@ impl Builder<'_> {
     fn block(&mut self, raw: &RawBlock<'_>, skip: SkipLevels) {
         let head = head(raw.text);
         let first = head.rest.bytes().next();
-        if let Some(open) = self.silent {
+        if let Some((open, _)) = self.silent {
             if first == Some(b'#') {
                 self.end_of_silence(raw, &head, open);
             }
@@ -77,6 +79,9 @@ impl Builder<'_> {
             || raw.characters > BLOCK_LENGTH_MAX;
         if self.section.is_none() && content {
             self.open_section(None, false, raw.position);
+        }
+        if content && let Some(place) = self.behind_end.take() {
+            self.index.further = Some(place);
         }
         if let Some(label) = head.label.clone() {
             self.label(raw, label, head.label_at);
@@ -140,6 +145,7 @@ impl Builder<'_> {
             .filter(|name| name_of(name).is_some());
         let next = Position { offset: raw.position.offset, line: raw.position.line };
         if let Some(name) = local {
+            self.behind_end = None;
             self.close(raw.position.offset);
             let name = name_of(name);
             if self.has_main {
@@ -156,6 +162,11 @@ impl Builder<'_> {
         } else if self.has_main {
             // whether it is a remark is known at the end of the file
             let id = self.push(raw.position, raw.text.len() - rest.len(), Keyword::Remark);
+            if self.end_seen && !self.remarks.iter().any(|(_, ended_before)| *ended_before) {
+                let at = raw.text.len() - rest.len();
+                let end = at + rest.trim_end().len();
+                self.behind_end = Some(raw.locate(self.file, Span::new(at, end)));
+            }
             self.remarks.push((id, self.end_seen));
         } else {
             self.close(raw.position.offset);
@@ -195,14 +206,18 @@ impl Builder<'_> {
     }
 
     fn command(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
-        let name = word(&head.rest[1..]);
+        let name = word(head.rest[1..].trim_start());
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
                 self.alone(raw, head, Condition::CommentBeginNotAlone);
-                self.silent = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
+                self.silence(raw, head, Keyword::CommentBegin);
+            }
+            "COMMENT" if is_command(head.rest, "COMMENT", "END") => {
+                let d = Diagnostic::new(Condition::Unpaired, "#COMMENT END without #COMMENT BEGIN");
+                self.report(raw, head.at, Keyword::CommentEnd.text().len(), d);
             }
             "RT" if real_time_cycle(head.rest) == Some(true) => {
-                self.silent = Some(self.push(raw.position, head.at, Keyword::RealTimeBegin));
+                self.silence(raw, head, Keyword::RealTimeBegin);
             }
             "IF" => {
                 let id = self.push(raw.position, head.at, Keyword::ConditionalIf);
@@ -235,6 +250,22 @@ impl Builder<'_> {
         }
     }
 
+    /// From here to its end nothing is looked at.
+    fn silence(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, keyword: Keyword) {
+        let place = Span::new(head.at, head.at + head.rest.trim_end().len());
+        let id = self.push(raw.position, head.at, keyword);
+        self.silent = Some((id, raw.locate(self.file, place)));
+    }
+
+    /// A comment that does not end in its file; a cycle in real time is refused where it is executed.
+    fn end_of_file(&mut self) {
+        let Some((open, place)) = self.silent.take() else { return };
+        if self.index.entry(open).keyword == Keyword::CommentBegin {
+            let text = "#COMMENT BEGIN without #COMMENT END: it hides the rest of the file";
+            self.diagnostics.push(Diagnostic::new(Condition::Unpaired, text).at(place));
+        }
+    }
+
     /// A command inside of a comment or a cycle in real time, which may be its end.
     fn end_of_silence(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, open: EntryId) {
         let end = if self.index.entry(open).keyword == Keyword::CommentBegin {
@@ -258,7 +289,7 @@ impl Builder<'_> {
         let word = |text: &str| {
             text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
         };
-        let second = &head.rest[head.rest.len() - word(&head.rest[1..])..];
+        let second = &head.rest[head.rest.len() - word(head.rest[1..].trim_start())..];
         let behind = blank(&second[second.len() - word(second)..]);
         if !behind.is_empty() && !behind.starts_with(';') {
             let name = if condition == Condition::CommentBeginNotAlone { "BEGIN" } else { "END" };
@@ -357,12 +388,14 @@ pub(in crate::exec) fn build(
         has_main: false,
         remarks: Vec::new(),
         end_seen: false,
+        behind_end: None,
         diagnostics: Vec::new(),
         gives_up: false,
     };
     reader.seek(Position::START);
     loop {
-        if builder.section.is_some() && builder.silent.is_none() {
+        let looks = builder.silent.is_some() || builder.behind_end.is_some();
+        if builder.section.is_some() && !looks {
             reader.skip_lines(SAYING, says_nothing);
         }
         let Some(raw) = reader.next_block()? else { break };
@@ -381,6 +414,9 @@ pub(in crate::exec) fn build(
         if builder.gives_up {
             break;
         }
+    }
+    if !builder.gives_up {
+        builder.end_of_file();
     }
     builder.close(reader.position().offset);
     builder.decide_remarks();

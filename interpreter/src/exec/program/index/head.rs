@@ -59,6 +59,26 @@ pub(super) fn head(text: &str) -> Head<'_> {
     Head { skip, label, label_at, rest, at: text.len() - rest.len() }
 }
 
+/// What an index takes from a block beside `$` and labels: `%`, and the commands that hide blocks. With its place.
+pub(in crate::exec) fn structure(text: &str) -> Option<(&'static str, usize)> {
+    let Head { rest, at, .. } = head(text);
+    let name = match rest.bytes().next()? {
+        b'%' => "%",
+        b'#' => match word(rest[1..].trim_start()).as_str() {
+            "IF" => "#IF",
+            "ELSE" => "#ELSE",
+            "ENDIF" => "#ENDIF",
+            "COMMENT" if is_command(rest, "COMMENT", "BEGIN") => "#COMMENT BEGIN",
+            "COMMENT" if is_command(rest, "COMMENT", "END") => "#COMMENT END",
+            "RT" if real_time_cycle(rest)? => "#RT CYCLE",
+            "RT" => "#RT CYCLE END",
+            _ => return None,
+        },
+        _ => return None,
+    };
+    Some((name, at))
+}
+
 /// Number of a block, unless it is computed.
 pub(in crate::exec) fn number_of(text: &str) -> Option<u64> {
     let mut rest = blank(text);
@@ -133,7 +153,7 @@ pub(super) fn name_of(text: &str) -> Option<&str> {
 
 /// True for `#FIRST SECOND`.
 pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
-    let behind = &rest[1..];
+    let behind = rest[1..].trim_start();
     let length = behind.bytes().take_while(u8::is_ascii_alphanumeric).count();
     behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
 }
@@ -143,7 +163,7 @@ pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
     if !is_command(rest, "RT", "CYCLE") {
         return None;
     }
-    let behind = rest[1 + "RT".len()..].trim_start();
+    let behind = rest[1..].trim_start()["RT".len()..].trim_start();
     match word(behind["CYCLE".len()..].trim_start()).as_str() {
         "" | "DEF" => Some(true),
         "END" => Some(false),

@@ -132,6 +132,30 @@ fn nothing_inside_comment_blocks_counts() {
 }
 
 #[test]
+fn comments_and_their_ends_are_pairs() {
+    assert_eq!(index("X1\n#COMMENT BEGIN\nX2\nM30\n").1, ["K-0145 2"]);
+    assert_eq!(index("X1\n#COMMENT END\nM30\n").1, ["K-0145 2"]);
+    assert!(index("# COMMENT BEGIN\n$IF (\n#\tCOMMENT END\nX1\nM30\n").1.is_empty());
+    assert!(index("# IF 1\nX1\n# ELSE\nX2\n# ENDIF\nM30\n").1.is_empty());
+    // the first end is that of both
+    let nested = "#COMMENT BEGIN\n#COMMENT BEGIN\n#COMMENT END\nX1\n#COMMENT END\nM30\n";
+    assert_eq!(index(nested).1, ["K-0145 5"]);
+}
+
+#[test]
+fn a_further_main_program_is_noticed() {
+    let further = |text: &str| index(text).0.further.map(|place| place.line);
+    assert_eq!(further("%A\nX1\nM30\n%B\nX5\nM30\n%C\nX6\n"), Some(4));
+    assert_eq!(further("X1\nM30\n%\n\nG01 X5\n"), Some(3));
+    assert_eq!(further("X1\n%B\nX5\nM30\n"), None);
+    assert_eq!(further("X1\nM30\n%L B\nX5\nM17\n"), None);
+    // the sign that ends a tape
+    for end in ["%", "%\n", "%\n\n (end) \n; end", "%\n%\n"] {
+        assert_eq!(further(&format!("%\nX1\nM30\n{end}")), None, "{end}");
+    }
+}
+
+#[test]
 fn nothing_inside_cycles_in_real_time_counts() {
     for begin in ["#RT CYCLE", "#rt cycle [ID=1]", "N5 #RT  CYCLE DEF [ID = 2]", "#RT CYCLE ; a"] {
         let text = format!("{begin}\n$IF ONCE 1\n#COMMENT BEGIN\n%L X\n#RT CYCLE END\nX1\n");

@@ -70,7 +70,11 @@ impl Type {
                 let x = as_number(&value, span)?.round();
                 if x < low as f64 || x > high as f64 {
                     let text = format!("{x} is outside {low} to {high}");
-                    return Err(Fault::new(Condition::Range, text, span));
+                    return Err(Fault::new(Condition::ValueOutOfType, text, span).with(|d| {
+                        d.value(ValueKind::Wrong, x, "-")
+                            .value(ValueKind::LowerLimit, low as f64, "-")
+                            .value(ValueKind::UpperLimit, high as f64, "-")
+                    }));
                 }
                 Value::Number(x + 0.0)
             }
