@@ -33,23 +33,23 @@ pub struct TuneArgs {
     pub recording: Vec<PathBuf>,
 
     /// Column of the recordings with the acceleration [default: the last one]
-    #[arg(long, value_name = "NAME", requires = "recording")]
+    #[arg(long, value_name = "NAME", requires = "recording", conflicts_with_all = ["freq", "order_for"])]
     pub column: Option<String>,
 
     /// Samples per second of the recordings [default: from their column `t_s`, `time` or `t` in seconds]
-    #[arg(long, value_name = "HZ", requires = "recording", value_parser = above_zero)]
+    #[arg(long, value_name = "HZ", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = above_zero)]
     pub rate: Option<f64>,
 
     /// Look at these frequencies of the recordings only
-    #[arg(long, value_name = "HZ..HZ", requires = "recording", value_parser = span)]
+    #[arg(long, value_name = "HZ..HZ", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = span)]
     pub range: Option<(f64, f64)>,
 
     /// Look at this part of the recordings only, in seconds from their first sample
-    #[arg(long, value_name = "S..S", requires = "recording", value_parser = span)]
+    #[arg(long, value_name = "S..S", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = span)]
     pub window: Option<(f64, f64)>,
 
     /// Draw the recordings, their spectra and what was seen in them (.svg)
-    #[arg(short, long, value_name = "FILE", requires = "recording", value_parser = picture)]
+    #[arg(short, long, value_name = "FILE", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = picture)]
     pub output: Option<PathBuf>,
 
     /// Damping ratio of the vibration [default: that of the recordings, else 0.1]

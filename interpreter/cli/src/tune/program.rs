@@ -89,7 +89,8 @@ pub(super) fn answer(
     check_delays(&outcomes, machine)?;
     console.print(&table(task, &outcomes, max_dev_mm))?;
     let command = chosen(task, &outcomes, max_dev_mm, &own);
-    console.print(&verdict(task, command.as_ref(), max_dev_mm))?;
+    let off = own.off.as_ref().map(|place| line_of(place, file));
+    console.print(&verdict(task, command.as_ref(), max_dev_mm, off.as_deref()))?;
     let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);
     Ok(Answer {
         choices: numbers(task, &outcomes, max_dev_mm),
@@ -155,11 +156,7 @@ fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64)
         "assumed   every choice on all path axes, in place of the lists (vib_guard.active, mode, freq, damping)"
             .to_owned(),
     );
-    let main = file.display().to_string();
-    let line = |place: &Location| match &*place.file {
-        name if name == main => format!("line {}", place.line),
-        name => format!("line {} of {name}", place.line),
-    };
+    let line = |place: &Location| line_of(place, file);
     lines.push(match &own.ax_dev {
         Some((place, value)) => {
             let line = line(place);
@@ -181,6 +178,15 @@ fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64)
         ));
     }
     lines.join("\n") + "\n\n"
+}
+
+/// A line of the program or of a file that it calls.
+fn line_of(place: &Location, file: &Path) -> String {
+    if *place.file == *file.display().to_string() {
+        format!("line {}", place.line)
+    } else {
+        format!("line {} of {}", place.line, place.file)
+    }
 }
 
 impl Outcome {
@@ -252,14 +258,28 @@ fn chosen(
     Some((command, outcome.summary.duration_s))
 }
 
-fn verdict(task: &Task, chosen: Option<&(String, f64)>, max_dev_mm: f64) -> String {
+/// `off`: where the program switches the guard off.
+fn verdict(
+    task: &Task,
+    chosen: Option<&(String, f64)>,
+    max_dev_mm: f64,
+    off: Option<&str>,
+) -> String {
     let percent = 100.0 * task.limit_ratio;
     match chosen {
         None => format!("\nchoice    none keeps both {percent} % and {max_dev_mm} mm\n"),
-        Some((command, duration_s)) => format!(
-            "\nchoice    {command}\n          the fastest that keeps {percent} % and {max_dev_mm} mm: {} s\n",
-            number(*duration_s, 3)
-        ),
+        Some((command, duration_s)) => {
+            let seconds = number(*duration_s, 3);
+            let only = off.map(|line| {
+                format!(
+                    "          up to {line}: behind it nothing was damped, and this says nothing\n"
+                )
+            });
+            format!(
+                "\nchoice    {command}\n          the fastest that keeps {percent} % and {max_dev_mm} mm: {seconds} s\n{}",
+                only.unwrap_or_default()
+            )
+        }
     }
 }
 
