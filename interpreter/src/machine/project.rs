@@ -95,7 +95,10 @@ impl<'a> Project<'a> {
             } else {
                 "channel list (SdaMds)"
             };
-            let message = format!("{start_up} and its parts hold no {missing} of a CNC");
+            let mut message = format!("{start_up} and its parts hold no {missing} of a CNC");
+            if !left_out.is_empty() {
+                let _ = write!(message, "; left out: {}", left_out.join(", "));
+            }
             return Err(vec![Diagnostic::new(Condition::ProjectWrong, message)]);
         }
         let mut project = Self { files, start_up, lists: BTreeMap::new(), said: Vec::new() };

@@ -383,7 +383,7 @@ impl Simulation {
                 (step * v).abs()
             );
             let d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text).axis(number, name);
-            let mut d = d.value(ValueKind::Current, v, "mm/s");
+            let mut d = d.value(ValueKind::Current, v, if unit == "mm" { "mm/s" } else { "deg/s" });
             d.cycle = Some(self.record.k + 1);
             d.time_s = Some(self.cycle.time_of(self.record.k + 1));
             d.source = self.executor.locate(at);

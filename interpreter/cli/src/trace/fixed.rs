@@ -2,11 +2,21 @@
 //!
 //! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine needs 13
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
-//! rounding error matters only when the product lands on a tie, and then a fused multiply-add gives its sign. Digits are
-//! made eight at a time in one register and go from there to their place.
+//! rounding error matters only when the product lands on a tie, and then a fused multiply-add gives its sign.
 
-/// `10^d` for the number of decimals in use, and for eight digits.
-const POWERS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
+/// Two decimal digits of 0..=99.
+const PAIRS: [[u8; 2]; 100] = {
+    let mut table = [[b'0'; 2]; 100];
+    let mut i = 0;
+    while i < 100 {
+        table[i] = [b'0' + (i / 10) as u8, b'0' + (i % 10) as u8];
+        i += 1;
+    }
+    table
+};
+
+/// `10^d` for the number of decimals in use.
+const POWERS: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 
 /// Zero with the largest number of decimals.
 const ZERO: &[u8] = b"0.0000000";
@@ -40,69 +50,85 @@ fn push<const DECIMALS: usize>(out: &mut Vec<u8>, value: f64) {
         // what stands, and what is not in use
         out.extend_from_slice(if DECIMALS > 0 { &ZERO[..DECIMALS + 2] } else { &ZERO[..1] });
     } else if product.abs() < EXACT_BELOW {
-        if product < 0.0 {
-            let digits = round_product(-value, scale, -product);
-            // what is rounded away leaves no sign
-            if digits > 0 {
-                out.push(b'-');
-            }
-            push_scaled::<DECIMALS>(out, digits);
-        } else {
-            push_scaled::<DECIMALS>(out, round_product(value, scale, product));
-        }
+        push_scaled::<DECIMALS>(out, round_product(value, scale, product));
     } else if value.is_finite() {
         push_slow(out, value, DECIMALS as u8);
     }
 }
 
-/// `value * scale` rounded half away from zero, where `product`, which is positive, is their rounded product.
+/// `value * scale` rounded half away from zero, where `product` is their rounded product.
 #[expect(clippy::float_cmp, reason = "a tie is an exact bit pattern")]
-fn round_product(value: f64, scale: f64, product: f64) -> u64 {
-    // from here on the last bit of a number counts ones
-    let sum = product + EXACT_BELOW;
-    let nearest = sum.to_bits() - EXACT_BELOW.to_bits();
-    // exact, as both lie close together
-    let rest = product - (sum - EXACT_BELOW);
-    if rest.abs() != 0.5 {
-        return nearest;
-    }
-    // the true product may lie on either side of the tie: the sign of the rounding error decides
-    let away = value.mul_add(scale, -product) >= 0.0;
-    product as u64 + u64::from(away)
+fn round_product(value: f64, scale: f64, product: f64) -> i64 {
+    // truncation is exact, and so is the rest
+    let whole = product as i64;
+    let rest = (product - whole as f64).abs();
+    let away = if rest == 0.5 {
+        // the true product may lie on either side of the tie: the sign of the rounding error decides
+        let error = value.mul_add(scale, -product);
+        error * product.signum() >= 0.0
+    } else {
+        rest > 0.5
+    };
+    if away { whole + if product < 0.0 { -1 } else { 1 } } else { whole }
+}
+
+/// Room for the digits of a number, which end at [`END`], and as much again after them.
+type Digits = [u8; 2 * END];
+
+/// Longest number: 20 digits of an integer, or 16 with sign and point.
+const END: usize = 24;
+
+/// Appends the digits from `at` to [`END`]. A copy of fixed length is a few instructions, one of any length a call.
+fn push_digits(out: &mut Vec<u8>, text: &Digits, at: usize) {
+    let length = out.len() + END - at;
+    out.extend_from_slice(&text[at..at + END]);
+    out.truncate(length);
 }
 
 /// Appends `scaled / 10^DECIMALS`.
-fn push_scaled<const DECIMALS: usize>(out: &mut Vec<u8>, scaled: u64) {
-    push_integer(out, scaled / POWERS[DECIMALS]);
-    push_part::<DECIMALS>(out, scaled % POWERS[DECIMALS]);
-}
-
-/// Appends point and digits of `part / 10^DECIMALS`, less than one.
-fn push_part<const DECIMALS: usize>(out: &mut Vec<u8>, part: u64) {
-    if DECIMALS > 0 {
-        let digits = as_text(digits(part * POWERS[8 - DECIMALS]));
-        let length = out.len() + 1 + DECIMALS;
-        out.extend_from_slice(&(u64::from(b'.') | digits << 8).to_le_bytes());
-        out.truncate(length);
+fn push_scaled<const DECIMALS: usize>(out: &mut Vec<u8>, scaled: i64) {
+    let magnitude = scaled.unsigned_abs();
+    let (whole, mut part) = (magnitude / POWERS[DECIMALS], magnitude % POWERS[DECIMALS]);
+    let mut text: Digits = [b'0'; 2 * END];
+    let mut at = END;
+    for _ in 0..DECIMALS / 2 {
+        at -= 2;
+        text[at..at + 2].copy_from_slice(&PAIRS[(part % 100) as usize]);
+        part /= 100;
     }
+    if DECIMALS % 2 == 1 {
+        at -= 1;
+        text[at] = b'0' + part as u8;
+    }
+    if DECIMALS > 0 {
+        at -= 1;
+        text[at] = b'.';
+    }
+    at = put_digits(&mut text, at, whole, 1);
+    if scaled < 0 {
+        at -= 1;
+        text[at] = b'-';
+    }
+    push_digits(out, &text, at);
 }
 
-/// The eight digits of a number below 10^8, the first one in the lowest byte.
-#[inline]
-fn digits(n: u64) -> u64 {
-    // parts of four digits, of two, of one: each division is a product that is exact for so many digits
-    let fours = n / 10_000;
-    let fours = fours | (n - 10_000 * fours) << 32;
-    let twos = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
-    let twos = twos | (fours - 100 * twos) << 16;
-    let ones = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
-    ones | (twos - 10 * ones) << 8
-}
-
-/// Digits as characters.
-#[inline]
-fn as_text(digits: u64) -> u64 {
-    digits | u64::from_le_bytes([b'0'; 8])
+/// Writes the digits of `n`, at least `width`, so that they end before `at`; gives back where they start.
+fn put_digits(text: &mut Digits, mut at: usize, mut n: u64, width: usize) -> usize {
+    let end = at;
+    while n >= 10 {
+        at -= 2;
+        text[at..at + 2].copy_from_slice(&PAIRS[(n % 100) as usize]);
+        n /= 100;
+    }
+    if n > 0 {
+        at -= 1;
+        text[at] = b'0' + n as u8;
+    }
+    while end - at < width {
+        at -= 1;
+        text[at] = b'0';
+    }
+    at
 }
 
 /// Values beyond the range of machines, and more decimals than any column has.
@@ -111,25 +137,19 @@ fn push_slow(out: &mut Vec<u8>, value: f64, decimals: u8) {
 }
 
 /// Appends an unsigned integer.
-#[inline]
 pub(crate) fn push_integer(out: &mut Vec<u8>, n: u64) {
-    if n < 10 {
-        out.push(b'0' + n as u8);
-    } else if n < POWERS[8] {
-        let digits = digits(n);
-        let leading = digits.trailing_zeros() / 8;
-        let length = out.len() + 8 - leading as usize;
-        out.extend_from_slice(&(as_text(digits) >> (8 * leading)).to_le_bytes());
-        out.truncate(length);
-    } else {
-        push_integer(out, n / POWERS[8]);
-        out.extend_from_slice(&as_text(digits(n % POWERS[8])).to_le_bytes());
-    }
+    let mut text: Digits = [b'0'; 2 * END];
+    let at = put_digits(&mut text, END, n, 1);
+    push_digits(out, &text, at);
 }
 
 /// Appends microseconds as seconds with six decimals, exactly.
 pub(crate) fn push_seconds(out: &mut Vec<u8>, micros: u64) {
-    push_scaled::<6>(out, micros);
+    push_integer(out, micros / 1_000_000);
+    let mut text: Digits = [b'0'; 2 * END];
+    let at = put_digits(&mut text, END, micros % 1_000_000, 6);
+    out.push(b'.');
+    push_digits(out, &text, at);
 }
 
 #[cfg(test)]
@@ -196,21 +216,6 @@ mod tests {
                     );
                 }
             }
-        }
-    }
-
-    /// Every pair of digits in every place, beside the formatting of the standard library.
-    #[test]
-    fn digits_are_those_of_the_standard_library() {
-        for n in 0..10_000 {
-            for n in [n, 10_000 * n, 10_000 * n + n, 10_000 * n + 9_999 - n] {
-                assert_eq!(as_text(digits(n)).to_le_bytes(), *format!("{n:08}").as_bytes());
-            }
-        }
-        for n in (0..64).flat_map(|bits| [(1_u64 << bits) - 1, 1 << bits, u64::MAX >> bits]) {
-            let mut out = Vec::new();
-            push_integer(&mut out, n);
-            assert_eq!(String::from_utf8(out).unwrap(), n.to_string());
         }
     }
 

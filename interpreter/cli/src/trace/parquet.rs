@@ -8,12 +8,10 @@
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
-mod numbers;
-
 use crate::target::{Target, folder_of};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::writer::ColumnCloseResult;
-use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, Int64Type};
+use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::WriterProperties;
@@ -24,7 +22,6 @@ use bytes::Bytes;
 use kontur_interpreter::job::{Facts, FileNames, Totals};
 use kontur_interpreter::record::columns::{Column, Content};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
-use numbers::NumberPages;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -57,7 +54,6 @@ pub(crate) struct ParquetWriter {
     cycle_us: u64,
     files: FileNames,
     limits: Vec<(SpeedLimit, ByteArray)>,
-    pages: NumberPages,
     schema: Arc<Type>,
     properties: Arc<WriterProperties>,
     target: Target,
@@ -133,7 +129,6 @@ impl ParquetWriter {
             cycle_us: u64::from(facts.cycle_us),
             files: facts.files.clone(),
             limits: SpeedLimit::ALL.map(|l| (l, word(l.name()))).into(),
-            pages: NumberPages::new(),
             schema,
             properties: Arc::new(properties.build()),
             target,
@@ -201,14 +196,10 @@ impl ParquetWriter {
         let file = BufWriter::with_capacity(PIECE, File::create(&unfinished)?);
         let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
         let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
-        let descriptions = writer.schema_descr().columns().to_vec();
         let mut group = writer.next_row_group().map_err(to_io)?;
-        for ((_, values), description) in self.columns.iter_mut().zip(&descriptions) {
+        for (_, values) in &mut self.columns {
             match values {
-                Values::Number(v) => {
-                    self.pages.put(&mut group, description, v).map_err(to_io)?;
-                    v.clear();
-                }
+                Values::Number(v) => put::<DoubleType>(&mut group, v, None)?,
                 Values::Integer(v) => put::<Int64Type>(&mut group, v, None)?,
                 Values::Optional(v, present) => {
                     put::<Int64Type>(&mut group, v, Some(present))?;
@@ -252,12 +243,11 @@ impl ParquetWriter {
             return Ok(());
         }
         let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
-        let file = self.target.file()?;
-        let file = BufWriter::with_capacity(PIECE, file);
+        let file = BufWriter::with_capacity(PIECE, self.target.file()?);
         let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
         for part in &self.parts {
-            let part = Bytes::from(std::fs::read(part)?);
-            let reader = SerializedFileReader::new(part.clone()).map_err(to_io)?;
+            let part = File::open(part)?;
+            let reader = SerializedFileReader::new(part.try_clone()?).map_err(to_io)?;
             let mut group = writer.next_row_group().map_err(to_io)?;
             let metadata = reader.metadata().row_group(0);
             for column in metadata.columns() {

@@ -229,16 +229,15 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
     let feed = &motion.block.dynamics.feed_axes;
     let moves = |i: usize| feed.get(i).copied().unwrap_or(true);
     let measured = (0..start.len()).any(|i| moves(i) && start[i].to_bits() != end[i].to_bits());
-    let pace = |x: f64| {
+    let norm = |part: &dyn Fn(&Coefficients) -> f64| {
         let axes = piece.iter().enumerate().filter(|(i, _)| !measured || moves(*i));
-        axes.map(|(_, c)| c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]))
-            .map(|d| d * d)
-            .sum::<f64>()
-            .sqrt()
+        axes.map(|(_, c)| part(c) * part(c)).sum::<f64>().sqrt()
     };
-    let slowest = least(pace);
+    let pace = |x: f64| norm(&|c| c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]));
+    // the second derivative is largest at one end
+    let slope = norm(&|c| (2.0 * c[2]).abs().max((2.0 * c[2] + 6.0 * c[3]).abs()));
     let cusp = || Fault::unsupported("a spline with a cusp", motion.span).in_block(motion.source);
-    if slowest < CUSP * length {
+    if falls_below(pace, CUSP * length, slope) {
         return Err(cusp());
     }
     let extents = piece.iter().zip(start.iter().zip(end.iter()));
@@ -249,14 +248,16 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
     Ok(Curve { motion, extents_mm })
 }
 
-/// Least value of a function over 0 to 1 that has few valleys: a cusp is narrow, and lies between samples.
-fn least(f: impl Fn(f64) -> f64) -> f64 {
+/// True if a function falls below a limit between 0 and 1, where it changes by at most `slope`: a cusp is narrow, and lies
+/// between samples. Only samples that it can fall from are looked around, in the valley that they are the lowest of.
+fn falls_below(f: impl Fn(f64) -> f64, limit: f64, slope: f64) -> bool {
     let at = |k: u32| f64::from(k) / f64::from(SAMPLES);
     let values: Vec<f64> = (0..=SAMPLES).map(|k| f(at(k))).collect();
+    let near = limit + slope / f64::from(SAMPLES);
     let valley = |k: u32| {
         let here = values[k as usize];
         let around = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-        around.filter_map(|n| values.get(n as usize)).all(|value| here <= *value)
+        here <= near && around.filter_map(|n| values.get(n as usize)).all(|value| here <= *value)
     };
     let lowest = |k: u32| {
         let (mut low, mut high) = (at(k.saturating_sub(1)), at((k + 1).min(SAMPLES)));
@@ -266,7 +267,7 @@ fn least(f: impl Fn(f64) -> f64) -> f64 {
         }
         f(0.5 * (low + high)).min(values[k as usize])
     };
-    (0..=SAMPLES).filter(|k| valley(*k)).map(lowest).fold(f64::INFINITY, f64::min)
+    (0..=SAMPLES).filter(|k| valley(*k)).any(|k| lowest(k) < limit)
 }
 
 /// Lowest and highest value of a cubic over 0 to 1: at its ends, exactly, or where its derivative is zero.
@@ -369,10 +370,21 @@ pub(super) fn rest_inside() -> Box<Fault> {
 
 #[cfg(test)]
 mod tests {
-    use super::cubic_extent;
+    use super::{cubic_extent, falls_below};
     use proptest::prelude::*;
 
     proptest! {
+        /// A dip of known depth anywhere, wide or far narrower than the samples are apart, is found, and one less deep is not.
+        #[test]
+        fn a_dip_is_found_wherever_it_lies(
+            at in 0.0..=1.0_f64, slope in 0.01..10.0_f64, depth in -9.0..-1.0_f64
+        ) {
+            let depth = libm::pow(10.0, depth);
+            let f = |x: f64| libm::hypot(slope * (x - at), depth);
+            prop_assert!(falls_below(f, depth * 1.01 + 1e-12, slope));
+            prop_assert!(!falls_below(f, depth * 0.99, slope));
+        }
+
         /// A thousand points of the cubic: none lies outside, and one comes near to each end.
         #[test]
         fn nothing_lies_outside_the_extent(c in prop::array::uniform4(-10.0..10.0_f64), zeros in 0..16_u32) {

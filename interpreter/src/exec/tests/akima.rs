@@ -125,6 +125,18 @@ fn what_splines_do_not_do() {
         let ids = said(&format!("F1000\n{text}"));
         assert_eq!(ids.first().map(String::as_str), Some(id), "{text}");
     }
+    // a tip anywhere between the points, on a straight line or beside one by less than a trace can show; a blunt one runs
+    let tip = |points: &str| said(&format!("F1500\nG151\n{points}\nG150"));
+    for points in [
+        "G01 X5\nX10\nX0\nX10\nX12",
+        "G01 X5 Y5\nX10 Y10\nX0 Y0\nX10 Y10\nX12 Y12",
+        "G01 X5 Y1\nX10 Y1\nX0 Y1\nX10 Y1\nX10 Y2",
+        "G01 X5 Y1\nX10 Y1\nX0 Y1.000001\nX10 Y1\nX10 Y2",
+        "G01 X0 Y-1\nX-5\nX0\nX-1 Y-2",
+    ] {
+        assert_eq!(tip(points).first().map(String::as_str), Some("K-0019"), "{points}");
+    }
+    assert_eq!(tip("G01 X5 Y1\nX10 Y1\nX0 Y1.01\nX10 Y1\nX10 Y2"), [""; 0]);
     // the points stay inside 200 mm, the curve does not
     let text = "F1000\nG151\nX190 Y0\nX199 Y10\nX199 Y20\nX190 Y30\nG150\nM30\n";
     assert_eq!(run_on(&["X.kenngr.swe_pos=2000000"], text).ids(), [""; 0]);
