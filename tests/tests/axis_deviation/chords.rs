@@ -2,7 +2,7 @@
 //! dwell between some of them.
 
 use crate::measure::Case;
-use crate::program::{Writer, dynamics, filter, off, rounded};
+use crate::program::{Writer, dynamics, filter, off, reach_of_guard, rounded};
 use kontur_kit::Random;
 use std::f64::consts::TAU;
 
@@ -65,12 +65,11 @@ fn curve(r: &mut Random) -> Vec<[f64; 3]> {
 fn guard(r: &mut Random, tolerance_mm: f64, cycle_us: u32) -> (String, Vec<String>, usize) {
     let (mode, freq_hz) = (1 + r.below(4), rounded(r.log(10.0, 100.0)));
     let damping = rounded(r.between(0.0, 0.3));
-    let half_periods = [1.0, 2.0, 3.0, 2.0][mode - 1];
-    let length_s = half_periods * 0.5 / (freq_hz * (1.0 - damping * damping).sqrt());
     let command = format!(
         "#VIB GUARD ON [MODE={mode} FREQ={freq_hz} DAMPING={damping} AX_DEV={tolerance_mm}]"
     );
-    (command, Vec::new(), (length_s / (1e-6 * f64::from(cycle_us))).ceil() as usize + 4)
+    let reach = reach_of_guard(mode, freq_hz, damping, 1e-6 * f64::from(cycle_us));
+    (command, Vec::new(), reach)
 }
 
 /// The curve of a seed as a program.

@@ -214,6 +214,13 @@ pub(crate) fn splined(r: &mut Random, w: &mut Writer) -> f64 {
     path_dev
 }
 
+/// Cycles that the Vibration Guard reaches back, with a few for rounding: half periods of the damped vibration.
+pub(crate) fn reach_of_guard(mode: usize, freq_hz: f64, damping: f64, cycle_s: f64) -> usize {
+    let half_periods = [1.0, 2.0, 3.0, 2.0][mode - 1];
+    let length_s = half_periods * 0.5 / (freq_hz * (1.0 - damping * damping).sqrt());
+    (length_s / cycle_s).ceil() as usize + 4
+}
+
 /// The command that switches a filter on with the tolerance, list entries for it, and its reach in cycles.
 pub(crate) fn filter(
     r: &mut Random,
@@ -233,11 +240,9 @@ pub(crate) fn filter(
         // a slow cycle has no kernel for a high frequency
         let highest = (0.4 / cycle_s).min(150.0);
         let (freq, damping) = (rounded(r.log(5.0, highest)), rounded(r.between(0.0, 0.3)));
-        let half_periods = [1.0, 2.0, 3.0, 2.0][mode - 1];
-        let length = half_periods * 0.5 / (freq * (1.0 - damping * damping).sqrt());
         let command =
             format!("#VIB GUARD ON [MODE={mode} FREQ={freq} DAMPING={damping} AX_DEV={tolerance}]");
-        return (command, Vec::new(), (length / cycle_s).ceil() as usize + 4);
+        return (command, Vec::new(), reach_of_guard(mode, freq, damping, cycle_s));
     }
     let order = r.log(2.0, 200.0) as usize;
     if kind < 0.8 {

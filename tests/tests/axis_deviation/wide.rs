@@ -6,7 +6,9 @@
 
 use crate::SLACK_MM;
 use crate::measure::{Case, largest, missed, off_contour, recomputed};
-use crate::program::{Writer, arcs, dynamics, filter, off, polygon, rounded, short_blocks};
+use crate::program::{
+    Writer, arcs, dynamics, filter, off, polygon, reach_of_guard, rounded, short_blocks,
+};
 use kontur_interpreter::diag::Condition;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::{Run, machine, run_with_inputs};
@@ -54,8 +56,8 @@ fn filters(r: &mut Random, tolerance: f64, cycle_us: u32) -> (String, Vec<String
         let hz = (freq_hz * r.between(0.7, 1.4)).round().max(6.0);
         entries.push(format!("{axis}.vib_guard.mode={mode}"));
         entries.push(format!("{axis}.vib_guard.freq={hz}"));
-        // three half periods at the most, none of them damped
-        reach = reach.max((1.5 / hz / (1e-6 * f64::from(cycle_us))).ceil() as usize + 4);
+        // with the damping that a list has by default; what has left the filters of all axes counts no more, near as it may be
+        reach = reach.max(reach_of_guard(mode, hz, 0.1, 1e-6 * f64::from(cycle_us)));
     }
     (format!("#VIB GUARD ON [AX_DEV={tolerance}]"), entries, reach)
 }
