@@ -126,9 +126,9 @@ fn smoothing(c: &mut Criterion) {
     let rounded: Vec<Block> = lines(count).into_iter().map(|b| Block { contour, ..b }).collect();
     group.bench_function("G261", |b| {
         b.iter(|| {
-            let mut stage = Contouring::new();
+            let mut stage = Contouring::new(CycleTime::DEFAULT);
             for block in &rounded {
-                for out in stage.push(block.clone()) {
+                for out in stage.push(block.clone(), false) {
                     black_box(out);
                 }
             }

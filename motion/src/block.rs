@@ -48,6 +48,14 @@ pub struct Slope {
     pub constant_ramp_time: bool,
 }
 
+impl Slope {
+    /// True if the profile of a block may run on across its ends with a non-zero acceleration.
+    pub(crate) fn plans_across(self) -> bool {
+        let scales = self.optimised || !self.constant_ramp_time;
+        self.kind == SlopeKind::Hsc || self.kind != SlopeKind::Step && scales
+    }
+}
+
 /// How fast the programmer wants the path to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feed {

@@ -10,14 +10,15 @@
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
 //! use kontur_motion::block::{ContourMode, ContourSettings};
 //! use kontur_motion::contouring::Contouring;
 //!
-//! let mut stage = Contouring::new();
+//! let mut stage = Contouring::new(CycleTime::DEFAULT);
 //! let mut first = block(1, [0.0, 0.0], [10.0, 0.0], 100.0);
 //! first.contour = Some(ContourSettings::default());
-//! assert_eq!(stage.push(first).count(), 0);
-//! let rounded: Vec<Block> = stage.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0)).collect();
+//! assert_eq!(stage.push(first, false).count(), 0);
+//! let rounded: Vec<Block> = stage.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0), false).collect();
 //! // what is left of the first block, then the parts of the curve in its name
 //! assert!(rounded.iter().filter(|b| b.seq == 1).count() == rounded.len() - 1);
 //! assert!(rounded[0].path.is_straight() && !rounded[1].path.is_straight());
@@ -29,13 +30,16 @@
 mod blend;
 mod notice;
 mod rounding;
+mod worth;
 
 use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath, PolyPiece};
+use kontur_filters::time::CycleTime;
 pub(crate) use rounding::NEEDLE_RAD;
 use rounding::{Curve, curve};
 use std::sync::Arc;
+use worth::Passage;
 
 pub use notice::{NoContour, Notice};
 
@@ -55,8 +59,9 @@ struct Held {
 }
 
 /// The stage.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Contouring {
+    cycle: CycleTime,
     held: Option<Held>,
     skipped: Vec<Block>,
     ready: Vec<Block>,
@@ -67,8 +72,9 @@ pub struct Contouring {
 
 impl Contouring {
     /// A stage that holds nothing.
-    pub fn new() -> Self {
-        Self::default()
+    pub fn new(cycle: CycleTime) -> Self {
+        let (skipped, ready, notices) = (Vec::new(), Vec::new(), Vec::new());
+        Self { cycle, held: None, skipped, ready, notices, checked: None }
     }
 
     /// No corner at the block is rounded, and none waits: pushed, it would come back at once and alone.
@@ -76,9 +82,9 @@ impl Contouring {
         block.contour.is_none() && self.held.is_none()
     }
 
-    /// Takes a block; what is final comes back.
-    pub fn push(&mut self, block: Block) -> impl Iterator<Item = Block> + '_ {
-        self.take(block);
+    /// Takes a block; what is final comes back. `kernel_active`: some axis has a filter, and `ACC_FACT` acts at corners.
+    pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
+        self.take(block, kernel_active);
         self.ready.drain(..)
     }
 
@@ -101,7 +107,7 @@ impl Contouring {
         self.notices.push(Notice { seq, reason });
     }
 
-    fn take(&mut self, block: Block) {
+    fn take(&mut self, block: Block, kernel_active: bool) {
         let waits = self.held.take().and_then(|held| Some((held.block.contour?, held)));
         let Some((settings, held)) = waits else {
             self.hold(Held { block, from: 0.0 });
@@ -114,8 +120,29 @@ impl Contouring {
         }
         let seq = held.block.seq;
         let mut from = 0.0;
-        match curve(&held, &self.skipped, &block, &settings) {
-            Ok(Some(curve)) => {
+        let rounded = curve(&held, &self.skipped, &block, &settings).and_then(|curve| {
+            let Some(curve) = curve else { return Ok(None) };
+            let parts = self.parts(&held.block, &block, &curve, &settings);
+            let passage = Passage {
+                from: &held.block,
+                bridged: &self.skipped,
+                to: &block,
+                cycle: self.cycle,
+                kernel_active,
+            };
+            // how fast a sharp corner is under a tolerance is known to the planner alone; an interim point and
+            // the speed at the end of a block are programmed
+            let monitored = [&held.block, &block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
+            let demanded = matches!(settings.mode, ContourMode::Pos { .. })
+                || held.block.end_velocity_mm_s.is_some();
+            if monitored || demanded || passage.is_worth(&parts, curve.pre_mm, curve.post_mm) {
+                Ok(Some((curve, parts)))
+            } else {
+                Err(NoContour::Slower)
+            }
+        });
+        match rounded {
+            Ok(Some((curve, parts))) => {
                 let soft = matches!(
                     settings.mode,
                     ContourMode::DistSoft { .. } | ContourMode::DistMaster { .. }
@@ -123,18 +150,15 @@ impl Contouring {
                 if soft {
                     self.notice(seq, NoContour::ModeReplaced);
                 }
-                let before = held.block.clone();
                 self.emit(held, Some(curve.pre_mm));
-                self.emit_curve(&before, &block, &curve, &settings);
+                self.ready.extend(parts.into_iter().map(|(part, _)| part));
                 self.skipped.clear();
                 from = curve.post_mm;
             }
-            Ok(None) => {
-                self.emit(held, None);
-                self.ready.append(&mut self.skipped);
-            }
-            Err(reason) => {
-                self.notice(seq, reason);
+            refused => {
+                if let Err(reason) = refused {
+                    self.notice(seq, reason);
+                }
                 self.emit(held, None);
                 self.ready.append(&mut self.skipped);
             }
@@ -168,7 +192,14 @@ impl Contouring {
         self.ready.push(block);
     }
 
-    fn emit_curve(&mut self, from: &Block, to: &Block, curve: &Curve, settings: &ContourSettings) {
+    /// The blocks of a curve, each with its speed in mm/s.
+    fn parts(
+        &mut self,
+        from: &Block,
+        to: &Block,
+        curve: &Curve,
+        settings: &ContourSettings,
+    ) -> Vec<(Block, f64)> {
         let mut block = from.clone();
         block.contour = None;
         (block.feed, block.feed_ratio) = slower(from, to);
@@ -184,22 +215,24 @@ impl Contouring {
         let parts = if settings.constant_velocity { 1 } else { PARTS };
         // neighbouring pieces that allow the same speed are one block
         let mut group: Vec<PolyPiece> = Vec::new();
-        let mut speed = None;
+        let mut out: Vec<(Block, f64)> = Vec::new();
+        let mut speed = f64::INFINITY;
         let feed_axes = from.dynamics.feed_axes.clone();
         for piece in curve.blend.pieces(parts) {
             let Some(path) = PolyPath::through(vec![piece.clone()], &feed_axes) else { continue };
             block.path = Path::Curve(Box::new(path));
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
             let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
-            let same =
-                settings.constant_velocity || speed.is_some_and(|w: f64| (v - w).abs() <= 1e-9 * w);
+            let same = settings.constant_velocity || (v - speed).abs() <= 1e-9 * speed;
             if !same && !group.is_empty() {
-                self.ready.extend(with_path(&block, std::mem::take(&mut group), &feed_axes));
+                let done = with_path(&block, std::mem::take(&mut group), &feed_axes);
+                out.extend(done.map(|block| (block, speed)));
             }
-            speed = Some(v);
+            speed = v;
             group.push(piece);
         }
-        self.ready.extend(with_path(&block, group, &feed_axes));
+        out.extend(with_path(&block, group, &feed_axes).map(|block| (block, speed)));
+        out
     }
 
     fn with_check(

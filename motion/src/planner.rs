@@ -175,6 +175,11 @@ impl Planner {
         });
     }
 
+    /// True if the set positions of some axis are filtered, see [`Self::set_kernels`].
+    pub fn has_kernels(&self) -> bool {
+        self.kernels.any()
+    }
+
     /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
     pub fn set_override_mode(&mut self, mode: OverrideMode) {
         self.wanted.ratios.mode = mode;

@@ -196,10 +196,8 @@ impl Queued {
         groups.into_iter().enumerate().map(part).collect()
     }
 
-    /// True if the profile of this block may run on across its ends with a non-zero acceleration.
+    /// See [`Slope::plans_across`](crate::block::Slope::plans_across).
     pub(crate) fn plans_across(&self) -> bool {
-        let s = self.block.slope;
-        let scales = s.optimised || !s.constant_ramp_time;
-        s.kind == SlopeKind::Hsc || s.kind != SlopeKind::Step && scales
+        self.block.slope.plans_across()
     }
 }

@@ -9,6 +9,7 @@
 mod common;
 
 use common::{Job, axis, channel, second_order_time};
+use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
@@ -71,11 +72,11 @@ fn job(dynamics: AxisDynamics, kind: SlopeKind) -> Job {
 
 fn rounded(job: &Job, paths: &[Path], mode: ContourMode, feed: f64) -> Vec<Block> {
     let settings = ContourSettings { mode, ..ContourSettings::default() };
-    let mut stage = Contouring::new();
+    let mut stage = Contouring::new(CycleTime::from_us(CYCLE_US).unwrap());
     let mut out = Vec::new();
     for (i, path) in paths.iter().enumerate() {
         let block = job.block(i as u64, path.clone(), feed);
-        out.extend(stage.push(Block { contour: Some(settings), ..block }));
+        out.extend(stage.push(Block { contour: Some(settings), ..block }, false));
     }
     out.extend(stage.flush());
     out
@@ -173,4 +174,53 @@ fn a_larger_tolerance_never_lengthens_and_nothing_crawls() {
         }
     }
     println!("at most {most_over:.3} ramps per hill, {most_longer:.4} longer");
+}
+
+/// Chords of a curve of changing bend, as CAM writes them, also with the noise of few decimals.
+fn chords(r: &mut Random) -> Vec<Path> {
+    let length = r.log(0.02, 2.0);
+    let noise = r.pick(&[0.0, 0.1, 0.3]) * length;
+    let (mut at, mut heading, mut bend) = ([0.0_f64, 0.0], 0.0, r.between(-0.3, 0.3));
+    let mut points = vec![at];
+    for _ in 0..r.pick(&[8, 30, 80]) {
+        bend += r.between(-0.05, 0.05);
+        heading += bend;
+        let (sin, cos) = libm::sincos(heading);
+        let l = length * r.between(0.4, 1.4);
+        at = [at[0] + l * cos, at[1] + l * sin];
+        points.push([at[0] + r.between(-noise, noise), at[1] + r.between(-noise, noise)]);
+    }
+    let line = |w: &[[f64; 2]]| {
+        LinePath::new(AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]), &[]).map(Path::Line)
+    };
+    points.windows(2).filter_map(line).collect()
+}
+
+/// A contour with rounded corners takes no longer than the sharp one, up to a cycle at every corner and 3 %: whether a curve
+/// is worth it is judged at one corner alone.
+#[test]
+fn rounding_costs_no_time() {
+    let count = count(40);
+    let mut r = Random::from_state(21);
+    for program in 0..count {
+        let paths = if r.chance(0.6) { chords(&mut r) } else { contour(&mut r) };
+        let a = limits(&mut r);
+        let feed = r.log(5.0, 500.0);
+        let eps = r.log(1e-3, 1.0);
+        let mode = r.pick(&[
+            ContourMode::Dev { path_dev_mm: eps },
+            ContourMode::Dist { pre_mm: eps, post_mm: eps },
+        ]);
+        for kind in [Trapez, Sin2, Hsc] {
+            let job = job(a, kind);
+            let cycles = |blocks: Vec<Block>| job.run(paths[0].start(), blocks.into_iter()).len();
+            let sharp = (0..).zip(&paths).map(|(i, path)| job.block(i, path.clone(), feed));
+            let (sharp, round) =
+                (cycles(sharp.collect()), cycles(rounded(&job, &paths, mode, feed)));
+            let name =
+                format!("{program} {kind:?} {mode:?} at {feed} mm/s, {} corners", paths.len() - 1);
+            let most = sharp + paths.len() + sharp * 3 / 100;
+            assert!(round <= most, "{name}: {round} cycles, {sharp} sharp");
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::chain::Remaining;
 use super::inputs::SpeedChange;
 use super::{Phase, Simulation};
 use crate::diag::{Condition, Diagnostic, Reaction, Severity, ValueKind, rounded};
-use crate::exec::SpindleMotion;
+use crate::exec::{SourceRef, SpindleMotion};
 use crate::machine::{Axis, AxisKind, Machine};
 use kontur_filters::control::fault::{Derivative, Fault};
 use kontur_filters::control::plant::PlantError;
@@ -446,17 +446,25 @@ impl Simulation {
                 NoContour::NothingFollows
                 | NoContour::AngleAboveMaximum { .. }
                 | NoContour::ModeReplaced => continue,
+                NoContour::Slower => (
+                    Condition::CornerFaster,
+                    "the curve would take longer than the corner, here and perhaps at other corners",
+                ),
             };
             let source = self
                 .underway
                 .iter()
                 .find(|u| u.seq == notice.seq)
                 .map_or(self.current, |u| u.source);
-            if self.smoothing.is_new(condition, source) {
+            // a choice, of which one example is enough
+            let chosen = condition == Condition::CornerFaster;
+            let place = if chosen { SourceRef { line: 0, ..source } } else { source };
+            if self.smoothing.is_new(condition, place) {
                 // Assumption: the run continues, with the corner as programmed, where the control would abort
+                let severity = if chosen { Severity::Note } else { Severity::Warning };
                 let mut d =
                     Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))
-                        .severity(crate::diag::Severity::Warning);
+                        .severity(severity);
                 d.source = self.executor.locate(source);
                 self.messages.own.push(d);
             }

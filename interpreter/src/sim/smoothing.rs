@@ -2,6 +2,7 @@
 
 use crate::diag::Condition;
 use crate::exec::SourceRef;
+use kontur_filters::time::CycleTime;
 use kontur_motion::block::Block;
 use kontur_motion::contouring::{Contouring, Notice};
 use kontur_motion::planner::Planner;
@@ -9,7 +10,7 @@ use kontur_motion::spline::Splining;
 use std::collections::BTreeSet;
 
 /// The two stages in their order.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Smoothing {
     splining: Splining,
     contouring: Contouring,
@@ -18,6 +19,12 @@ pub(super) struct Smoothing {
 }
 
 impl Smoothing {
+    /// Stages that hold nothing.
+    pub(super) fn new(cycle: CycleTime) -> Self {
+        let (splining, contouring) = (Splining::default(), Contouring::new(cycle));
+        Self { splining, contouring, said: BTreeSet::new() }
+    }
+
     /// Takes a programmed motion; what is final goes to the planner.
     pub(super) fn push(&mut self, block: Box<Block>, planner: &mut Planner) {
         if self.splining.passes(&block) && self.contouring.passes(&block) {
@@ -25,7 +32,7 @@ impl Smoothing {
             return;
         }
         for block in self.splining.push(*block) {
-            for block in self.contouring.push(block) {
+            for block in self.contouring.push(block, planner.has_kernels()) {
                 planner.push(block);
             }
         }
@@ -34,7 +41,7 @@ impl Smoothing {
     /// The path stops after the last motion: everything goes to the planner.
     pub(super) fn flush(&mut self, planner: &mut Planner) {
         for block in self.splining.flush() {
-            for block in self.contouring.push(block) {
+            for block in self.contouring.push(block, planner.has_kernels()) {
                 planner.push(block);
             }
         }

@@ -53,7 +53,7 @@ impl Simulation {
             machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
         let records = chains.iter().map(AxisChain::at_start).collect();
         let mut simulation = Self {
-            smoothing: Smoothing::default(),
+            smoothing: Smoothing::new(cycle),
             planner: Planner::new(cycle, window, &start[..n]),
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },

@@ -30,6 +30,8 @@ pub enum NoContour {
         /// Angle of the corner in deg.
         angle_deg: f64,
     },
+    /// The curve would take longer than the corner.
+    Slower,
     /// The mode is not available; the corner was contoured as DEV.
     ModeReplaced,
 }
