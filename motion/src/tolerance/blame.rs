@@ -139,8 +139,11 @@ impl View<'_> {
             let line = [v.cycle.saturating_sub(1), v.cycle];
             parts = self.parts_of(v, &line, record, (first, last));
         }
-        // far off the contour the nearest point is not the middle of what the filters hold, and no part may point the same way
-        if !parts.iter().any(|p| free(p) && p.size > 0.0) {
+        // far off the contour the nearest point is not the middle of what the filters hold: no part may point the same way, or
+        // all of them together may not
+        if !parts.iter().any(|p| free(p) && p.size > 0.0)
+            || parts.iter().map(|p| p.size).sum::<f64>() <= 0.0
+        {
             for part in &mut parts {
                 part.size = part.size.abs();
             }
@@ -300,12 +303,13 @@ impl View<'_> {
             })
         };
         let (oldest, newest) = (at(kernel.length()), at(0));
-        let sign = if v.positive { 1.0 } else { -1.0 };
+        let length = v.vector.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let toward: AxisVec = v.vector.iter().map(|c| c / length).collect();
         let mut curvature = AxisVec::zeros(marks[first].point.len());
         let mut parts = Vec::new();
         for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
             if m > first && mark.is_kink() {
-                let size = sign * self.turn(m, v.axis) * weight(mark.s_mm);
+                let size = self.turn(m, &toward) * weight(mark.s_mm);
                 parts.push(Part { mark: m, bend: false, size, s: mark.s_mm });
             }
             if mark.queued.bend > 0.0 {
@@ -319,7 +323,8 @@ impl View<'_> {
                         .block
                         .path
                         .curvature(mark.queued.offset + s - mark.s_mm, &mut curvature);
-                    size += sign * curvature[v.axis] * weight(s) * step;
+                    let pull: f64 = curvature.iter().zip(toward.iter()).map(|(c, u)| c * u).sum();
+                    size += pull * weight(s) * step;
                 }
                 if step > 0.0 {
                     parts.push(Part { mark: m, bend: true, size, s: middle.clamp(from, to) });

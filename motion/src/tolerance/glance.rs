@@ -60,9 +60,8 @@ impl View<'_> {
                 let Some(axis) = (0..n).max_by(largest) else { continue };
                 let deviation_mm = vector[axis].abs();
                 if deviation_mm > within(tolerance_mm) {
-                    let (positive, missed) = (vector[axis] > 0.0, None);
-                    let cycle = k;
-                    let v = Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed };
+                    let (cycle, vector, missed) = (k, vector.clone(), None);
+                    let v = Violation { cycle, deviation_mm, tolerance_mm, axis, vector, missed };
                     harvest.take(v, &record);
                 }
             }

@@ -62,8 +62,8 @@ impl View<'_> {
             deviation_mm = deviation_mm.max(set.doubtful(contour, k, within_reach, apart));
         }
         let axis = out.axis();
-        let (positive, missed) = (out.vector[axis] > 0.0, None);
-        let v = Violation { cycle: k, deviation_mm, tolerance_mm, axis, positive, missed };
+        let (vector, missed) = (out.vector, None);
+        let v = Violation { cycle: k, deviation_mm, tolerance_mm, axis, vector, missed };
         (deviation_mm > within(tolerance_mm)).then_some(v)
     }
 }

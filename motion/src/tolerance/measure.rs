@@ -1,5 +1,6 @@
 //! Measures what the set path misses of the contour.
 
+use super::bound::distance;
 use super::harvest::Harvest;
 use super::search::Suspects;
 use super::set_points::SetPoints;
@@ -33,9 +34,10 @@ pub(super) struct Violation {
     pub(super) deviation_mm: f64,
     /// Its tolerance in mm.
     pub(super) tolerance_mm: f64,
+    /// Axis of the largest component.
     pub(super) axis: usize,
-    /// The component points to larger positions.
-    pub(super) positive: bool,
+    /// The deviation in mm, from the contour to the set point.
+    pub(super) vector: AxisVec,
     /// Point of the contour that the set path misses, with its path length; `None`: the set path leaves the contour.
     pub(super) missed: Option<(AxisVec, f64)>,
 }
@@ -102,8 +104,12 @@ struct Foot {
 
 impl Foot {
     fn apart(&self, other: &Self) -> f64 {
-        let squares = self.point.iter().zip(other.point.iter()).map(|(a, b)| (a - b) * (a - b));
-        squares.sum::<f64>().sqrt()
+        distance(&self.point, &other.point)
+    }
+
+    /// Way along the contour in mm over all axes; its path length leaves out those beside the feed group.
+    fn way(&self, other: &Self) -> f64 {
+        (other.s - self.s).abs().max(distance(&self.of, &other.of))
     }
 
     /// True if a point of the contour between two can be missed by more than both of them and the tolerance. `bend` is that
@@ -121,11 +127,12 @@ impl Foot {
         if most > limit {
             return false;
         }
-        let way = (other.s - self.s).abs();
+        let way = self.way(other);
         if 0.5 * (self.length + other.length + way) <= certain(tolerance_mm) {
             return false;
         }
-        let beside = bend * way * way / 8.0 * (self.of.len() as f64).sqrt();
+        let along = other.s - self.s;
+        let beside = bend * along * along / 8.0 * (self.of.len() as f64).sqrt();
         let lines = [self.cycle.min(other.cycle), self.cycle.max(other.cycle)];
         let aside = if lines[1] - lines[0] <= MOST_LINES {
             set.bulge(lines[0]..lines[1], &self.point, &other.point)
@@ -194,10 +201,10 @@ impl View<'_> {
                 let deviation_mm = out.largest();
                 if deviation_mm > within(tolerance_mm) {
                     let axis = out.axis();
-                    let positive = out.vector[axis] > 0.0;
+                    let vector = out.vector.clone();
                     let missed = Some((AxisVec::from_slice(point), s));
                     harvest.take(
-                        Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed },
+                        Violation { cycle, deviation_mm, tolerance_mm, axis, vector, missed },
                         &record,
                     );
                 }
@@ -292,12 +299,13 @@ impl View<'_> {
         bounds.fold(f64::INFINITY, f64::min)
     }
 
-    /// Change of direction of an axis at the entry of a mark's block.
-    pub(super) fn turn(&self, m: usize, axis: usize) -> f64 {
+    /// Change of direction at the entry of a mark's block, in the direction `toward`.
+    pub(super) fn turn(&self, m: usize, toward: &[f64]) -> f64 {
         let Some(before) = m.checked_sub(1).map(|b| &self.marks[b]) else { return 0.0 };
         if self.marks[m].goes_on_from(before) {
             return 0.0;
         }
-        self.marks[m].queued.ends.tangent_in[axis] - before.queued.ends.tangent_out[axis]
+        let [out, into] = [&before.queued.ends.tangent_out, &self.marks[m].queued.ends.tangent_in];
+        toward.iter().zip(into.iter().zip(out.iter())).map(|(u, (b, a))| u * (b - a)).sum()
     }
 }

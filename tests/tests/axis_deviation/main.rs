@@ -8,6 +8,7 @@
 mod chords;
 mod measure;
 mod program;
+mod rests;
 mod splines;
 mod wide;
 
