@@ -5,7 +5,7 @@
 
 use super::axis::{AxisKind, kind_of};
 use super::lists::parameter;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, Setting};
 use super::table::param::{Number, Param, Place, whole};
 use super::table::{
     self, Bound, Correction, Default, Indices, ListKind, Raw, Reaction, Row, with_indices,
@@ -327,7 +327,14 @@ pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut V
     let keys =
         [&channel::M_SYNCHRONISATION, &channel::H_SYNCHRONISATION].map(|p| p.place().row.key);
     let mut listed = parameters.settings().filter(|(_, s)| keys.contains(&s.row.key));
-    let Some((i, setting)) = listed.find(|(_, s)| waits(s.value.number())) else { return };
+    // a declared duration is waited for, or named in the summary
+    let lasts = |i: u32, key: &str| {
+        let duration = if key == keys[0] { channel::M_DURATION } else { channel::H_DURATION };
+        parameters.listed(duration.at(i)).is_some_and(|us| us > 0.0)
+    };
+    let waited_for =
+        |(i, s): &(Indices, &Setting)| waits(s.value.number()) && !lasts(i[0], s.row.key);
+    let Some((i, setting)) = listed.find(waited_for) else { return };
     let text = format!(
         "{}[{}]: no time is spent on the acknowledgement of functions, the path does not wait for it",
         setting.row.key.trim_end_matches("[i]"),

@@ -102,6 +102,7 @@ conditions! {
     TwoInsertions = Vendor 20130: Error ProgramAbort 3 1, "two of G301/G302", hint "one of G301, G302 per block";
     GUnknown = Vendor 20131: Error ProgramAbort 3 1, "unknown G function", hint "the number is not assigned in this dialect: kontur explain G<number> describes those that are";
     PlaneWithCompensation = Vendor 20133: Error ProgramAbort 3 1, "plane selection with active tool radius compensation", hint "switch the compensation off with G40 before G17, G18, G19";
+    CompensationWithoutAxis = Vendor 20136: Error ProgramAbort 3 1, "tool radius compensation without a main axis of its plane", cause "#PUT AX [X] and then G41", hint "the first two main axes of the plane have to be in the channel";
     MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
@@ -214,6 +215,7 @@ conditions! {
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
     CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "five systems are stored at most, with numbers above 0";
     NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
+    ActiveSystemDefined = Vendor 20825: Error ProgramAbort 3 1, "active coordinate system defined anew", cause "#CS ON [1][..] while system 1 is active", hint "write #CS OFF before it, or take another number";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
     LabelTooLarge = Vendor 20838: Error ProgramAbort 3 1, "label number outside the data format", cause "$GOTO N99999999999", hint "label numbers are at most 4294967295";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "$GOTO is not followed by a label", hint "write $GOTO N20 or $GOTO [NAME]";
@@ -303,6 +305,8 @@ conditions! {
     ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
     TextPosition = Vendor 21545: Error ProgramAbort 3 1, "position outside the text of a text function", cause "DELETE[\"Hello world!\", 7, 100]: the text comes first, then the count, then the position", hint "positions count from 1 to LEN[..], for INSERT from 0";
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
+    CompensationModulo = Vendor 21555: Error ProgramAbort 3 1, "tool radius compensation with a modulo axis", cause "G41 while a main axis of the plane counts modulo 360 degrees (P-AXIS-00015)", hint "take another plane, or an axis that does not count modulo";
+    SystemOfModuloAxis = Vendor 21556: Error ProgramAbort 3 1, "coordinate system over a modulo axis", cause "#CS ON while a main axis counts modulo 360 degrees (P-AXIS-00015)", hint "only axes that do not count modulo are main axes of a coordinate system";
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE twice, or keys that do not go together", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
@@ -407,6 +411,7 @@ conditions! {
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
     ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
     BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";
+    FeedGroupOfArc = Vendor 120462: Warning None 1 1, "feed group does not fit an arc", cause "#FGROUP [X] and G02 in the plane X, Y", hint "#FGROUP names all axes of the arc, or none of the main axes";
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is on", cause "G261 before G100", hint "write G260 before the run";

@@ -245,7 +245,7 @@ impl Decoder {
                 let text = "G115: single functions of the look-ahead are not switched off";
                 self.report.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
-            Act::Compensation(side) => self.compensation(side, g.span),
+            Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
             Act::Tangential => self.select_tangentially(g, words)?,

@@ -87,7 +87,6 @@ fn what_the_manual_knows_is_never_unknown() {
         "#CS DEF ACT [1]",
         "#INFO",
         "#GANTRY ON ALL",
-        "#AX LINK NBR [1, X=Y]",
         "#RT CYCLE [ID=1]",
         "#MEAS PREPARE",
         "#MEAS [AX=X EDGE=POS]",
@@ -297,6 +296,8 @@ fn definitions_of_couplings_are_checked() {
         "#SET AX LINK [1, [Y = X, G, 0.01, 0.25]]",
         "#AX LINK [2, [Y = X, -1, 1], Z=X]",
         "#AX LINK [3, [Y = X, 2, -2], [Z=X, 5, 5]]",
+        "#AX LINK NBR [2, 2 = 1, 3 = 1]",
+        "#AX LINK NBR [2,[2 = 1,G]]",
         "#AX LINK OFF",
         "#AX LINK OFF ALL",
         "#DISABLE AX LINK [1]",
@@ -321,6 +322,15 @@ fn definitions_of_couplings_are_checked() {
         ("", "21220"),
     ] {
         assert_eq!(said(&format!("#SET AX LINK {text}")), [id], "{text}");
+    }
+    for (text, id) in [
+        ("[1, Y=X]", "21220"),
+        ("[1, 2=2]", "20475"),
+        ("[1, 2=1, 2=3]", "20476"),
+        ("[1, 9=1]", "20312"),
+        ("[1, 2=1.5]", "20312"),
+    ] {
+        assert_eq!(said(&format!("#AX LINK NBR {text}")), [id], "{text}");
     }
 }
 

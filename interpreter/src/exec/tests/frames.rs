@@ -210,3 +210,36 @@ fn stack_of_systems() {
     }
     assert_eq!(ids("#CS DEL ALL"), [""; 0]);
 }
+
+/// 20825: the same number twice was two systems, one within the other; a definition without a number takes a free one (208480907).
+#[test]
+fn active_systems_are_not_defined_anew() {
+    let ids = |text: &str| said(text).first().cloned().unwrap_or_default();
+    let on = "#CS ON [1][1,2,3,0,0,0]\nG00 X0 Y0 Z0\n";
+    assert_eq!(ids(&format!("{on}#CS ON [1][10,20,30]")), "20825");
+    assert_eq!(ids(&format!("{on}#CS DEF [1][10,20,30]")), "20825");
+    assert_eq!(ids(&format!("{on}#MCS ON\n#CS DEF [1][10,20,30]")), "20825");
+    assert_eq!(ids("#CS DEF [1][1,2]\n#CS ON [1]\n#CS DEF [1][10,20,30]"), "20825");
+    let end = |text: &str| clean(&format!("{text}\nG00 X0 Y0 Z0\nM30\n")).end;
+    assert_near(&end(&format!("{on}#CS OFF\n#CS ON [1][10,20,30]")), &[10.0, 20.0, 30.0]);
+    assert_near(&end(&format!("{on}#CS ON [2][10,20,30]")), &[11.0, 22.0, 33.0]);
+    assert_near(&end("#CS DEF [1]\n#CS DEF [2]\n#CS ON [1]"), &[1.0, 0.0, 0.0]);
+}
+
+/// 21556, and refused where no page names a number: a turn of millimetres into degrees went to the axes as it was.
+#[test]
+fn rotary_axes_are_not_turned_into_linear_ones() {
+    let ids =
+        |settings: &[&str], text: &str| super::run_on(settings, &format!("{text}\nM30\n")).ids();
+    let rotary = "Z.kenngr.achs_typ=ACHSTYP_ROTATOR";
+    let modulo = [rotary, "Z.kenngr.achs_mode=0x4"];
+    assert_eq!(ids(&modulo, "#CS ON [1,2,3]"), ["21556"]);
+    assert_eq!(ids(&modulo, "#CS ADD [A][1,2,3]\n#CS SELECT [A]"), ["21556"]);
+    assert_eq!(ids(&modulo, "G18\n#ROTATION ON [ANGLE=30]"), ["K-0019"]);
+    assert_eq!(ids(&modulo, "G18\nG68 R30"), ["K-0019"]);
+    assert_eq!(ids(&modulo, "G68 R30\n#ROTATION ON [ANGLE=30]"), [""; 0]);
+    assert_eq!(ids(&modulo, "G18 G41"), ["21555"]);
+    assert_eq!(ids(&[rotary], "#CS ON [1,2,3,30]"), ["K-0019"]);
+    assert_eq!(ids(&[rotary], "#CS ADD [A][1,2,3,0,30]"), ["K-0019"]);
+    assert_eq!(ids(&[rotary], "#CS ON [1,2,3,0,0,30]"), [""; 0]);
+}

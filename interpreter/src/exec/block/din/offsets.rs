@@ -6,6 +6,7 @@ use crate::exec::block::modal::Compensation;
 use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
 
 fn zero_group(g: &GWord) -> Outcome<u32> {
     let value = g.value.unwrap_or_default();
@@ -221,6 +222,25 @@ impl Decoder {
         }
         let deg = words.radius.map_or(0.0, |(deg, _)| deg);
         let plane = [main[0], main[1]];
-        self.geometry.coordinates.rotate_about(plane, deg, centre, g.span)
+        self.rotate_plane(plane, deg, centre, g.span)
+    }
+
+    /// G68, `#ROTATION`; refused where degrees and millimetres would mix.
+    pub(in crate::exec) fn rotate_plane(
+        &mut self,
+        plane: [usize; 2],
+        deg: f64,
+        centre: [Option<f64>; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        let axis = |main: usize| self.geometry.coordinates.main_axis(main);
+        let axes = plane.map(|main| axis(main).map(|axis| &self.machine.axes[axis]));
+        if let [Some(first), Some(second)] = axes
+            && (first.kind() != second.kind() || first.is_modulo() || second.is_modulo())
+        {
+            let what = format!("a rotation of the axes {} and {}", first.name(), second.name());
+            return Err(Fault::unsupported(what, span).hint("only linear axes are turned"));
+        }
+        self.geometry.coordinates.rotate_about(plane, deg, centre, span)
     }
 }

@@ -19,6 +19,8 @@ const NO_GROUP: u32 = u32::MAX;
 pub(super) struct Layer {
     /// Where it stands in the system below, with the offsets of that one.
     pub(super) system: Frame,
+    /// The number that it is stored under; `None` without one.
+    number: Option<u32>,
     /// Active zero-offset group, 0 = G53.
     zero_group: u32,
     /// It was selected by G159.
@@ -36,6 +38,7 @@ impl Layer {
     pub(super) fn new(system: Frame, axes: usize) -> Self {
         Self {
             system,
+            number: None,
             zero_group: NO_GROUP,
             zero_group_by_value: false,
             zero_written: BTreeMap::new(),
@@ -178,9 +181,16 @@ impl Coordinates {
         self.systems.len()
     }
 
-    pub(in crate::exec) fn push_system(&mut self, frame: Frame) {
+    /// A stored system with this number is active.
+    pub(in crate::exec) fn is_system_active(&self, number: u32) -> bool {
+        let aside = self.suspended.as_ref().map_or(&[][..], |before| before.systems());
+        self.systems.iter().chain(aside).any(|layer| layer.number == Some(number))
+    }
+
+    /// A system within those that are active; `number`: the one that it is stored under.
+    pub(in crate::exec) fn push_system(&mut self, frame: Frame, number: Option<u32>) {
         let axes = self.target.len();
-        self.systems.push(Layer::new(frame, axes));
+        self.systems.push(Layer { number, ..Layer::new(frame, axes) });
         self.frame_changed();
     }
 
