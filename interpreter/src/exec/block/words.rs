@@ -102,6 +102,9 @@ impl Decoder {
                         [_, _, offset, ..] if offset.name.eq_ignore_ascii_case("V") => {
                             Condition::ToolOffsetTwice
                         }
+                        [_, _, radius, ..] if radius.name.eq_ignore_ascii_case("R") => {
+                            Condition::ToolRadiusTwice
+                        }
                         _ => Condition::ToolTwice,
                     };
                     block.tool_written = Some((condition, span));

@@ -169,7 +169,7 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 arguments! {
     /// Keys of `#TIMER`.
     struct TimerArguments {
-        id: Number "ID" in between(0.0, 127.0).whole(), "", "default 0";
+        id: Number "ID" in between(0.0, 127.0).whole().or(Condition::TimerNumber), "", "default 0";
     }
 }
 

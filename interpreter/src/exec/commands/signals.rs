@@ -84,7 +84,9 @@ impl<'c> Words<'c> {
         let Some(value) = whole(number, least, u32::MAX) else {
             let text =
                 format!("{}: {known}={number} is no whole number from {least}", call.title());
-            return Err(Fault::new(Condition::Range, text, span));
+            let negative = known == "ID" && number < 0.0;
+            let condition = if negative { Condition::SignalNumber } else { Condition::Range };
+            return Err(Fault::new(condition, text, span));
         };
         match known {
             "ID" => self.id = Some(value),

@@ -98,6 +98,10 @@ impl Decoder {
     /// The page does not say what F means then: here along the plane, as without `#FGROUP`.
     fn feed_group_fits(&mut self, plane: [usize; 2], span: Span) -> Outcome<()> {
         let feed = &self.motion.feed_axes;
+        // the group of the lists is that of the main axes, whatever an axis exchange makes of them
+        if *feed == self.machine.channel.feed_axes {
+            return Ok(());
+        }
         let in_group = |axis: usize| feed.get(axis).copied().unwrap_or(false);
         let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
         let group = || (0..feed.len()).filter(|axis| in_group(*axis));

@@ -243,3 +243,19 @@ fn rotary_axes_are_not_turned_into_linear_ones() {
     assert_eq!(ids(&[rotary], "#CS ADD [A][1,2,3,0,30]"), ["K-0019"]);
     assert_eq!(ids(&[rotary], "#CS ON [1,2,3,0,0,30]"), [""; 0]);
 }
+
+/// #PSET lies in the axes of its coordinate system and ends with it (1086442763).
+#[test]
+fn position_presets_in_systems() {
+    let end = |text: &str| clean(&format!("F1000 G01\n{text}\nM30\n")).end;
+    // X of the system is Y of the machine, 10 mm beside its origin
+    let on = "#CS ON [10,0,0,0,0,90]\nX5 Y0\n";
+    assert_near(&end(&format!("{on}#PSET X1\nX2")), &[10.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1 Y2\nX2 Y2")), &[10.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1\n#PSET X7\nG91 X1\nG90 X8")), &[10.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1\n#PRESET X0\nX2")), &[10.0, 2.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1\n#CS OFF\nX0 Y0")), &[0.0, 0.0, 0.0]);
+    // offsets below stay, and a system within counts from them
+    assert_near(&end("X3\n#PSET X0\n#CS ON [10,0]\nX0\n#PSET X100\nX101"), &[14.0, 0.0, 0.0]);
+    assert_eq!(said("#SET AX [X,1,0][Y,2,1][C,3,3]\n#CS ON [1,2]\n#PSET C1"), ["K-0019"]);
+}

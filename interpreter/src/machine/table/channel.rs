@@ -69,19 +69,23 @@ parameters! {
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
     chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 goes to the PLC and is acknowledged; acknowledged at once here")
-        .source("TF5200 channel parameters");
+        .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
     chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 goes to the PLC and is acknowledged; acknowledged at once here")
-        .source("TF5200 channel parameters");
+        .source("TF5200 channel parameters"), as SPINDLE_M4_SYNCHRONISATION: Optional;
     chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 goes to the PLC and is acknowledged; acknowledged at once here")
-        .source("TF5200 channel parameters");
+        .source("TF5200 channel parameters"), as SPINDLE_M5_SYNCHRONISATION: Optional;
     chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 goes to the PLC and is acknowledged; acknowledged at once here")
-        .source("TF5200 channel parameters");
+        .source("TF5200 channel parameters"), as SPINDLE_M19_SYNCHRONISATION: Optional;
     chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word goes to the PLC and is acknowledged; acknowledged at once here")
-        .source("TF5200 channel parameters");
+        .source("TF5200 channel parameters"), as SPINDLE_SPEED_SYNCHRONISATION: Optional;
     chan("P-CHAN-00070", "m_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which M function i goes out early; read and ignored, it changes no motion")
         .default(0.0).source("TF5200 channel parameters");
     chan("P-CHAN-00107", "h_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which H function i goes out early; read and ignored, it changes no motion")
         .default(0.0).source("TF5200 channel parameters");
+    chan("P-CHAN-00397", "coordinate_system.axes_offsets_layer_specific", Raw::Boolean, "offsets of axes that are no main axes belong to their coordinate system; 0, to the channel, is not simulated")
+        .default(1.0).source("TF5200 channel parameters"), as OFFSETS_IN_SYSTEMS: Switch;
+    chan("P-CHAN-00100", "move_tool_offsets_directly", Raw::Boolean, "0: a new tool moves an axis with its next absolute word, 1: at once with D, which is not simulated")
+        .default(0.0).source("TF5200 channel parameters"), as TOOL_OFFSETS_AT_ONCE: Switch;
     chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always go the shortest way, their first sign belongs to the position")
         .default(0.0).source("TF5200 channel parameters"), as SHORTEST_WAY: Switch;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")

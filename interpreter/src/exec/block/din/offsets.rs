@@ -107,16 +107,23 @@ impl Decoder {
             self.report.note(Fault::new(Condition::PresetWhileMirrored, text, at));
             return true;
         }
-        let conflicts = !self.geometry.coordinates.frame().is_identity()
-            || self.modal.compensation != Compensation::Off;
+        let coordinates = &self.geometry.coordinates;
+        let conflicts =
+            coordinates.rotation().is_some() || self.modal.compensation != Compensation::Off;
         if conflicts {
-            let text = "#PSET and #PRESET do not go with rotation, #CS or tool radius compensation";
+            let text = "#PSET and #PRESET do not go with rotation or tool radius compensation";
             self.report.note(Fault::new(Condition::Syntax, text, at));
             return true;
         }
         if words.axes.iter().any(|(axis, _, _)| self.modal.diameter == Some(*axis)) {
             self.report
                 .note(Fault::unsupported("#PSET and #PRESET of an axis with diameters (G51)", at));
+            return true;
+        }
+        let beside = words.axes.iter().find(|(axis, _, _)| coordinates.main_index(*axis).is_none());
+        if let Some((_, _, span)) = beside.filter(|_| coordinates.systems() > 0) {
+            let what = "#PSET and #PRESET of an axis that is no main axis, in a coordinate system";
+            self.report.note(Fault::unsupported(what, *span));
             return true;
         }
         for (axis, value, _) in &words.axes {
@@ -131,6 +138,16 @@ impl Decoder {
             self.report.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
         }
         true
+    }
+
+    /// G74 takes the position presets of its axes back, without axes of all (207101835).
+    pub(super) fn home(&mut self, words: &Words<'_>) {
+        let named = |axis: usize| words.axes.iter().any(|(other, _, _)| *other == axis);
+        for axis in 0..self.machine.axes.len() {
+            if words.axes.is_empty() || named(axis) {
+                self.geometry.coordinates.preset_position(axis, None);
+            }
+        }
     }
 
     /// G98, G99: until the end of the program.

@@ -143,9 +143,18 @@ impl Coordinates {
         self.offsets_changed();
     }
 
-    /// `#PSET`: where the axis is has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
-    /// not move. Not in a system.
+    /// `#PSET`: where the axis is has this coordinate from now on, in a system in that; `None` (`#PRESET`) takes that back.
+    /// The axis does not move. In a system only main axes.
     pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
+        if !self.systems.is_empty() {
+            self.recompute_program();
+            let here = self.program[axis];
+            self.change(|layer| match value_mm {
+                Some(value) => layer.position_preset[axis] += here - value,
+                None => layer.position_preset[axis] = 0.0,
+            });
+            return;
+        }
         let before = self.lowest.position_preset[axis];
         let after = match value_mm {
             Some(value) => before + (self.target[axis] - self.applied[axis]) - value,
