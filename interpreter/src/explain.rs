@@ -182,6 +182,7 @@ fn range(row: &Row) -> String {
         Raw::Word(words) => return words.join(", "),
         Raw::Boolean => return "0 or 1".to_owned(),
         Raw::Text => return "any text".to_owned(),
+        Raw::Code => return "a block of an NC program, to the end of the line".to_owned(),
         Raw::Flags(_) => return "names joined by |, or their sum".to_owned(),
         Raw::Names(_) if row.low == Bound::None && row.high == Bound::None => {
             return "the names, or their numbers".to_owned();
@@ -254,6 +255,7 @@ fn example(row: &Row) -> Option<String> {
         (Some(value), _) => value.to_owned(),
         (None, Raw::Word(words)) => words.first().copied().unwrap_or_default().to_owned(),
         (None, Raw::Text) => "NAME".to_owned(),
+        (None, Raw::Code) => "G01 X10 F1000".to_owned(),
         (None, Raw::Boolean) => "1".to_owned(),
         (None, _) => match (row.default, row.low) {
             (Default::Number(x), _) | (_, Bound::At(x)) => value::write(row.raw, &Value::Number(x)),

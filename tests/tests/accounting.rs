@@ -162,6 +162,27 @@ fn declared_durations_are_waited_for() {
     }
 }
 
+/// M00, M01 and M30 take the durations that the list declares (M and H functions 15319587595: 0.8 s of M1).
+#[test]
+fn durations_of_stops_and_ends() {
+    let folder = Folder::new(&[("part.nc", "N10 M1 X100 G01 F6000\nM0\nX0\nG04 0.5\nM30\n")]);
+    let set = |m: u32, us: u32| {
+        [format!("channel.m_synch[{m}]=0x2"), format!("channel.m_prozess_zeit[{m}]={us}")]
+    };
+    let settings = [set(0, 500_000), set(1, 800_000), set(30, 200_000)].concat();
+    let words: Vec<&str> = settings.iter().flat_map(|s| ["--set", s]).collect();
+    let on = folder.summary(&[&words[..], &["--techno-times"]].concat());
+    near(&on["technology_s"], 1.5, 1e-9);
+    let off = folder.summary(&words);
+    assert!(
+        (on["duration_s"].as_f64().unwrap() - off["duration_s"].as_f64().unwrap() - 1.5).abs()
+            < 1e-9
+    );
+    let named = off["not_counted"].to_string();
+    assert!(named.contains("M1 (0.8 s each by P-CHAN-00040)"), "{named}");
+    assert_eq!(folder.summary(&[])["not_counted"].as_array().unwrap().len(), 0);
+}
+
 /// A function with a duration stops the path where it acts: M07 in front of its block, M05 after it. Its cycles are of its
 /// block.
 #[test]

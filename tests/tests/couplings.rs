@@ -48,6 +48,11 @@ fn slaves_follow() {
         for (x, z) in x.iter().zip(&z).skip(from) {
             assert!((z - (5.0 + ratio * x)).abs() < 1e-9, "seed {}: X{x} Z{z}", seed() + k);
         }
+        // by the logical numbers of the axes it is the same (207120267)
+        let numbers = if ratio > 0.0 { "3 = 1" } else { "[3 = 1, -1, 1]" };
+        let by_number =
+            format!("#AX LINK NBR [1, {numbers}]\nG00 C5\n#ENABLE AX LINK [1]\n{contour}");
+        assert_eq!(set(&go(&[], &by_number), 2), z);
         let alone = go(&[], &format!("G00 C5\n{contour}"));
         let end = |run: &Run| [0, 1].map(|axis| *set(run, axis).last().unwrap());
         assert_eq!(end(&run), end(&alone));

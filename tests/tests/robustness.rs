@@ -173,7 +173,7 @@ fn parameters_out_of_all_bounds() {
         ("P1=2**100000", "K-0009"),
         ("X1000000000 F1000", "20011"),
         ("V.G.NP[4000000000].V.X=1", "20403"),
-        ("#TIMER START [ID=4000000000]", "K-0009"),
+        ("#TIMER START [ID=4000000000]", "21167"),
     ] {
         let found = refused(&format!("{text}\nM30\n"), &[]);
         assert!(found[0].starts_with(&format!("{said} ")), "{text}: {found:?}");

@@ -1,6 +1,7 @@
 //! The channel: start values of a program and limits of the path.
 
-use super::parameters::Parameters;
+use super::parameters::{Parameters, Setting};
+use super::table::Indices;
 use super::table::channel as of;
 use super::table::param::{Number, Optional, Param, Text, Whole, whole};
 use super::table::start_up as from;
@@ -134,6 +135,8 @@ pub struct Channel {
     pub h_durations_s: BTreeMap<u32, f64>,
     /// Durations of the functions of each spindle in s, in the order of the list.
     pub spindle_durations_s: Vec<SpindleDurations>,
+    /// Macros of every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
+    pub macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
     /// Offsets of a face turning axis are diameters (P-CHAN-00091).
@@ -288,6 +291,7 @@ impl Channel {
                 .collect(),
             h_durations_s: table(of::H_DURATION),
             spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
+            macros: macros(p),
             g8x_programs: (80..)
                 .zip(CYCLE_PROGRAMS)
                 .filter_map(|(g, param)| Some((g, p.get(param)?)))
@@ -326,6 +330,17 @@ impl Channel {
     pub fn start_up(&self) -> &Parameters {
         &self.start_up
     }
+}
+
+/// The macros of the list that have both a name and a text.
+fn macros(p: &Parameters) -> BTreeMap<Box<str>, Box<str>> {
+    let named = p.settings().filter(|(_, s)| s.row.key == of::MACRO_NAME.place().row.key);
+    let both = |(i, setting): (Indices, &Setting)| {
+        let name = setting.value.text().filter(|name| !name.is_empty())?;
+        let code = p.get(of::MACRO_CODE.at(i[0]))?;
+        Some((name.into(), code.replace("\\\"", "\"").into()))
+    };
+    named.filter_map(both).collect()
 }
 
 fn slope(profile: u32) -> SlopeKind {

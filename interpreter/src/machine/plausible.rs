@@ -5,7 +5,7 @@
 
 use super::axis::{AxisKind, kind_of};
 use super::lists::parameter;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, Setting};
 use super::table::param::{Number, Param, Place, whole};
 use super::table::{
     self, Bound, Correction, Default, Indices, ListKind, Raw, Reaction, Row, with_indices,
@@ -316,6 +316,30 @@ pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Ve
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
+/// K-0075: P-CHAN-00100 = 1 (offsets of a tool move with its D word) and P-CHAN-00397 = 0 (systems without offsets of their own).
+pub(super) fn check_offsets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let at_once = (
+        channel::TOOL_OFFSETS_AT_ONCE,
+        true,
+        "a D word moves nothing, new tool offsets act with the next absolute word of an axis",
+        "write absolute words (G90) of the axes behind D",
+    );
+    let in_systems = (
+        channel::OFFSETS_IN_SYSTEMS,
+        false,
+        "offsets of all axes belong to the coordinate system that they are programmed in",
+        "program G92 and zero offsets of these axes outside of coordinate systems",
+    );
+    for (parameter, without_effect, what, hint) in [at_once, in_systems] {
+        let Some(setting) = parameters.set_by(parameter) else { continue };
+        if parameters.get(parameter) == without_effect {
+            let text = format!("{}: {what}", parameter.place());
+            let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
+            diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
+        }
+    }
+}
+
 /// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 and 00027 say.
 pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let waiting = ["MVS_SVS", "MVS_SNS", "MNS_SNS", "MVS_SLM", "MVS_SLP", "MEP_SVS", "MET_SVS"];
@@ -324,16 +348,31 @@ pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut V
         .filter(|(name, _)| waiting.contains(name))
         .fold(0, |all, (_, bits)| all | bits);
     let waits = |value: Option<f64>| value.and_then(whole).is_some_and(|v| v & waiting != 0);
-    let keys =
-        [&channel::M_SYNCHRONISATION, &channel::H_SYNCHRONISATION].map(|p| p.place().row.key);
-    let mut listed = parameters.settings().filter(|(_, s)| keys.contains(&s.row.key));
-    let Some((i, setting)) = listed.find(|(_, s)| waits(s.value.number())) else { return };
+    let durations = [
+        (channel::M_SYNCHRONISATION, channel::M_DURATION),
+        (channel::H_SYNCHRONISATION, channel::H_DURATION),
+        (channel::SPINDLE_M3_SYNCHRONISATION, channel::SPINDLE_M3_DURATION),
+        (channel::SPINDLE_M4_SYNCHRONISATION, channel::SPINDLE_M4_DURATION),
+        (channel::SPINDLE_M5_SYNCHRONISATION, channel::SPINDLE_M5_DURATION),
+        (channel::SPINDLE_M19_SYNCHRONISATION, channel::SPINDLE_M19_DURATION),
+        (channel::SPINDLE_SPEED_SYNCHRONISATION, channel::SPINDLE_SPEED_DURATION),
+    ];
+    // a declared duration is waited for, or named in the summary
+    let is_missing = |(i, setting): &(Indices, &Setting)| {
+        let mut rows = durations.iter();
+        let row =
+            rows.find(|(synchronisation, _)| synchronisation.place().row.key == setting.row.key);
+        row.is_some_and(|(_, duration)| {
+            waits(setting.value.number())
+                && parameters.listed(duration.at(i[0])).is_none_or(|us| us <= 0.0)
+        })
+    };
+    let Some((i, setting)) = parameters.settings().find(is_missing) else { return };
     let text = format!(
-        "{}[{}]: no time is spent on the acknowledgement of functions, the path does not wait for it",
-        setting.row.key.trim_end_matches("[i]"),
-        i[0]
+        "{}: no time is spent on the acknowledgement of functions, the path does not wait for it",
+        with_indices(setting.row.key, i)
     );
-    let hint = "m_prozess_zeit and h_prozess_zeit (P-CHAN-00040, 00026) with --techno-times let the path wait for functions";
+    let hint = "m_prozess_zeit and its relatives (P-CHAN-00040, 00026, 00044) with --techno-times let the path wait for functions";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

@@ -57,7 +57,7 @@ pub struct BadValue {
 /// [`BadValue`] (1001138) for text that is no number, a number outside the data type, or an unknown name.
 pub fn read(raw: Raw, text: &str) -> Result<Value, BadValue> {
     match raw {
-        Raw::Text => Ok(Value::Text(text.trim_end().to_owned())),
+        Raw::Text | Raw::Code => Ok(Value::Text(text.trim_end().to_owned())),
         Raw::Word(words) => match words.iter().find(|w| w.eq_ignore_ascii_case(text)) {
             Some(word) => Ok(Value::Text((*word).to_owned())),
             None => Err(BadValue {
@@ -147,6 +147,7 @@ pub fn write(raw: Raw, value: &Value) -> String {
             name.map_or_else(|| x.to_string(), |(name, _)| (*name).to_owned())
         }
         (Value::Number(x), _) => x.to_string(),
+        (Value::Text(code), Raw::Code) => code.clone(),
         (Value::Text(text), _) => {
             let plain = !text.is_empty()
                 && !text.contains(char::is_whitespace)

@@ -63,7 +63,8 @@ pub(crate) fn expand<'m>(
         // a call without its blank stays one, so that the block says so
         let quote = if is_call(&raw.text[..range.start]) { "\"" } else { "" };
         out.text.push_str(quote);
-        if let Err(wrong) = insert(text, 1, lookup, &mut out.text) {
+        let is_number = numbers(&raw.text[..range.start]);
+        if let Err(wrong) = insert(text, is_number, 1, lookup, &mut out.text) {
             let location = raw.locate(file, Span::new(range.start, range.end));
             let diagnostic = match wrong {
                 Wrong::TooDeep => {
@@ -109,9 +110,10 @@ enum Wrong<'m> {
     Control(&'m str),
 }
 
-/// Appends the text of a macro, its own macros replaced.
+/// Appends the text of a macro, its own macros replaced; the number of a function is one value: `G"A"` is `G[60 - 7]`.
 fn insert<'m>(
     text: &'m str,
+    is_number: bool,
     depth: usize,
     lookup: &impl Fn(&str) -> Option<&'m str>,
     out: &mut String,
@@ -125,17 +127,20 @@ fn insert<'m>(
     if regions::code_has(text, b'$') {
         return Err(Wrong::Control(text));
     }
+    let computed = is_number && !text.bytes().all(|b| b.is_ascii_digit());
+    out.push_str(if computed { "[" } else { "" });
     let mut at = 0;
     for (range, inner) in uses(text, lookup) {
         out.push_str(&text[at..range.start]);
         at = range.end;
-        insert(inner, depth + 1, lookup, out)?;
+        insert(inner, numbers(&text[..range.start]), depth + 1, lookup, out)?;
         // Macros that use others twice grow without bound.
         if out.len() > 4 * BLOCK_LENGTH_MAX as usize {
             return Ok(());
         }
     }
     out.push_str(&text[at..]);
+    out.push_str(if computed { "]" } else { "" });
     Ok(())
 }
 
@@ -160,6 +165,12 @@ fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range
 fn is_call(before: &str) -> bool {
     let word = before.trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.');
     before[word.len()..].eq_ignore_ascii_case("LL")
+}
+
+/// True for `G`, `M` or `H` with nothing between it and the name (source: TF5200 channel parameters 149215627).
+fn numbers(before: &str) -> bool {
+    let Some(word) = before.strip_suffix(['G', 'g', 'M', 'm', 'H', 'h']) else { return false };
+    !word.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.')
 }
 
 /// The piece in which a place of the unexpanded text lies, moved so that it begins there.
@@ -208,6 +219,9 @@ mod tests {
         let lookup = |name: &str| match name {
             "A" => Some("X10 \"B\" Y5"),
             "B" => Some("Z1"),
+            "SUM" => Some("60 - 7"),
+            "FIVE" => Some("54"),
+            "CANCEL" => Some("G\"SUM\""),
             "HALF" => Some("COS["),
             "INSIDE" => Some("X\"HALF\"90]"),
             "WHOLE" => Some("SIN[90] (a remark [)"),
@@ -238,6 +252,11 @@ mod tests {
         assert_eq!(text("L\"B\"").as_deref(), Some("LZ1"));
         assert_eq!(text("V.P.S = \"other\" ; \"A\""), None);
         assert_eq!(text("P1==\"B\"").as_deref(), Some("P1==Z1"));
+        // as the number of a function a text is one value
+        assert_eq!(text("G\"SUM\"").as_deref(), Some("G[60 - 7]"));
+        assert_eq!(text("N10 M\"SUM\"G\"FIVE\"").as_deref(), Some("N10 M[60 - 7]G54"));
+        assert_eq!(text("\"CANCEL\" X1").as_deref(), Some("G[60 - 7] X1"));
+        assert_eq!(text("XG\"SUM\"").as_deref(), Some("XG60 - 7"));
     }
 
     #[test]

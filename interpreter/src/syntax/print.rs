@@ -117,6 +117,7 @@ impl Display for Jump {
 impl Display for Word {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match &self.kind {
+            WordKind::ComputedG(number) => write!(f, "G[{number}]"),
             WordKind::G { number, value } => {
                 write!(f, "G{number}")?;
                 match value.as_deref() {

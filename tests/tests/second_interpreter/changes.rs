@@ -46,7 +46,8 @@ impl Writer<'_> {
                 }
             }
             6 if !place.cycle => Statement::Tool(self.random.below(4) as u32),
-            7 if place.lowest => {
+            // in systems too
+            7 if place.lowest || (place.framed > 0 && !place.turned && !place.machine) => {
                 let mut all = vec![Statement::Mirror(20), self.whole_move()];
                 if self.random.chance(0.3) {
                     all.push(Statement::PresetOff);
@@ -112,7 +113,8 @@ impl Writer<'_> {
                 let on = if self.random.chance(0.5) {
                     Statement::System(values)
                 } else {
-                    Statement::StoredSystem(1 + self.random.below(5) as u32, values)
+                    // no number that is in use (20825)
+                    Statement::StoredSystem(inside.framed as u32, values)
                 };
                 (on, off, inside)
             }

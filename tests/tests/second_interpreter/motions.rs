@@ -122,7 +122,12 @@ impl Model<'_> {
                 let letter = ['I', 'J', 'K'][axis];
                 motion.centre.iter().find(|(l, _)| *l == letter).map_or(0.0, |(_, value)| *value)
             };
-            [base[a] + given(a), base[b] + given(b)]
+            let centre = [base[a] + given(a), base[b] + given(b)];
+            // G165, in force from the start: the foot of the centre on the bisector of the chord
+            let off = ((centre[0] - (from[a] + to[a]) / 2.0) * dx
+                + (centre[1] - (from[b] + to[b]) / 2.0) * dy)
+                / (way * way);
+            if way > 1e-6 { [centre[0] - off * dx, centre[1] - off * dy] } else { centre }
         };
         let angle_of = |p: Point| libm::atan2(p[b] - centre[1], p[a] - centre[0]);
         let mut angle = angle_of(to) - angle_of(from);

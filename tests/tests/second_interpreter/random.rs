@@ -231,7 +231,12 @@ impl Writer<'_> {
         }
         // a centre on the bisector of the chord
         let height = decimal(self.random, 8.0);
-        let centre = [x / 2.0 - height * y / way, y / 2.0 + height * x / way];
+        // beside the bisector it is corrected, up to 5 % of the radius and 2 mm (P-CHAN-00059, 00060)
+        let aside =
+            if self.random.chance(0.3) { 0.03 * libm::hypot(height, way / 2.0) / way } else { 0.0 };
+        let aside = self.random.between(-aside, aside);
+        let centre =
+            [x / 2.0 - height * y / way + aside * x, y / 2.0 + height * x / way + aside * y];
         let word = |axis: usize, value: f64| Word { axis, value: Expr::Number(value) };
         let mut holds = false;
         match self.random.below(4) {

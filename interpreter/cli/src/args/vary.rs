@@ -93,7 +93,7 @@ impl Vary {
         let Some(row) = row.and_then(|o| o.parameter()) else { return false };
         match (row.raw, row.low, row.high) {
             (Raw::Boolean | Raw::Names(_) | Raw::Word(_) | Raw::Flags(_), _, _) => true,
-            (Raw::Real64 | Raw::Text, _, _) => false,
+            (Raw::Real64 | Raw::Text | Raw::Code, _, _) => false,
             (_, Bound::At(low), Bound::At(high)) => high - low < MOST_CHOICES,
             _ => false,
         }

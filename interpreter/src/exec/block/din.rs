@@ -99,8 +99,13 @@ impl Decoder {
             if *i == 0 {
                 self.motion.threads.speed(taps.then_some(*speed));
             }
-            if *i != 0 || !(taps || cuts) {
-                self.speed(*i, *speed, *span);
+            if *i != 0 {
+                let name = self.motion.spindles[*i].name.clone();
+                let text = format!("{name} is not the main spindle: its speed goes into a bracket");
+                let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
+                self.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
+            } else if !(taps || cuts) {
+                self.speed(0, *speed, *span);
             }
         }
     }
@@ -245,7 +250,7 @@ impl Decoder {
                 let text = "G115: single functions of the look-ahead are not switched off";
                 self.report.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
-            Act::Compensation(side) => self.compensation(side, g.span),
+            Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
             Act::Tangential => self.select_tangentially(g, words)?,
@@ -260,6 +265,9 @@ impl Decoder {
                 self.report.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
             }
             Act::Simplified(how) => {
+                if g.row.number == 74 {
+                    self.home(words);
+                }
                 let text = format!("G{}: {how}", g.row.number);
                 let key = format!("G{}", g.row.number);
                 self.report.note_once(&key, Fault::new(Condition::Fallback, text, g.span));

@@ -249,7 +249,13 @@ impl Decoder {
     }
 
     /// G40, G41, G42.
-    pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) {
+    ///
+    /// # Errors
+    /// 20136 and 21555 for a plane without its two axes, or with one that counts modulo.
+    pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
+        if side != Compensation::Off {
+            self.plane_has_axes(span)?;
+        }
         if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
@@ -260,5 +266,24 @@ impl Decoder {
             self.deselect_in_place();
         }
         self.modal.compensation = side;
+        Ok(())
+    }
+
+    fn plane_has_axes(&self, span: Span) -> Outcome<()> {
+        let [first, second, _] = self.modal.plane.main_axes();
+        for main in [first, second] {
+            let Some(axis) = self.geometry.coordinates.main_axis(main) else {
+                let text = format!("the channel has no main axis {} of the plane", main + 1);
+                return Err(Fault::new(Condition::CompensationWithoutAxis, text, span));
+            };
+            let axis = &self.machine.axes[axis];
+            if axis.is_modulo() {
+                let name = axis.name().to_owned();
+                let text = format!("axis {name} of the plane counts modulo 360 degrees");
+                return Err(Fault::new(Condition::CompensationModulo, text, span)
+                    .with(|d| d.axis(axis.number(), name)));
+            }
+        }
+        Ok(())
     }
 }

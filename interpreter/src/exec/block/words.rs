@@ -55,6 +55,10 @@ impl Decoder {
                 self.address(name, *sign, value, span, block)
             }
             WordKind::G { number, value } => self.g_word(*number, value.as_deref(), span, block),
+            WordKind::ComputedG(number) => {
+                let number = self.whole(number, "the number of a G function", 0, u32::MAX)?;
+                self.g_word(number, None, span, block)
+            }
             WordKind::M(number, value) => {
                 let code = self.code(number, value.as_deref(), "M", span)?;
                 once(&block.m, &code, "M", Condition::MTwice)?;
@@ -98,6 +102,9 @@ impl Decoder {
                         [_, _, offset, ..] if offset.name.eq_ignore_ascii_case("V") => {
                             Condition::ToolOffsetTwice
                         }
+                        [_, _, radius, ..] if radius.name.eq_ignore_ascii_case("R") => {
+                            Condition::ToolRadiusTwice
+                        }
                         _ => Condition::ToolTwice,
                     };
                     block.tool_written = Some((condition, span));
@@ -118,7 +125,7 @@ impl Decoder {
                 Err(match suggest::hint(name, known) {
                     Some(hint) => fault.hint(hint),
                     None => fault.hint(
-                        "define it before its use: \"NAME\" = \"NC code\"; macros of the channel list (makro_def) are not read",
+                        "define it before its use: \"NAME\" = \"NC code\", or in the channel list (makro_def)",
                     ),
                 })
             }

@@ -41,7 +41,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         call.command.groups.iter().flat_map(|g| &g.items).filter_map(released).collect()
     };
     decoder.releases_no_coupled(named.iter().copied(), call.span())?;
-    exchange(decoder, call.span());
+    exchange(decoder, call.span())?;
     if decoder.modal.diameter.is_some_and(|axis| named.contains(&axis)) {
         let text = "the face turning axis cannot be released under G51";
         return Err(Fault::new(Condition::FaceAxisReleased, text, call.span()));
@@ -83,7 +83,7 @@ pub(super) const CALL_AX: Row = Row::run("CALL AX", call).several()
 
 /// `#CALL AX [FAST] [name, number, index, options]..`.
 pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    exchange(decoder, call.span());
+    exchange(decoder, call.span())?;
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
@@ -103,7 +103,7 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
 /// `#SET AX [name, number, index, options]..`: a new set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     decoder.releases_no_coupled(0..decoder.machine.axes.len(), call.span())?;
-    exchange(decoder, call.span());
+    exchange(decoder, call.span())?;
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
@@ -118,7 +118,7 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     decoder.releases_no_coupled(0..decoder.machine.axes.len(), call.span())?;
-    exchange(decoder, call.span());
+    exchange(decoder, call.span())?;
     match call.rest {
         [word] if word.is("DEFAULT") => {
             full_feedforward_of_all(decoder);
@@ -157,7 +157,18 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
 }
 
 /// The path comes to rest; a Vibration Guard of the program ends.
-fn exchange(decoder: &mut Decoder, span: Span) {
+///
+/// # Errors
+/// 20535 under G63, 20684 while a coordinate system is active.
+fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
+    if decoder.modal.path.is_tapping() {
+        let text = "an axis exchange during tapping";
+        return Err(Fault::new(Condition::ExchangeWhileTapping, text, span));
+    }
+    if decoder.geometry.coordinates.systems() > 0 {
+        let text = "an axis exchange while a coordinate system is active";
+        return Err(Fault::new(Condition::ExchangeInSystem, text, span));
+    }
     decoder.sync(Sync::FlushWait);
     if decoder.shaping.guard_on == Some(true) {
         let text = "the axis exchange switches the Vibration Guard of the program off";
@@ -170,6 +181,7 @@ fn exchange(decoder: &mut Decoder, span: Span) {
         decoder.shaping.guard = crate::exec::shaping::GuardKeys::default();
         decoder.update_shaping(span);
     }
+    Ok(())
 }
 
 fn release(decoder: &mut Decoder, axis: usize) {
@@ -311,12 +323,20 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     };
     taken.add(index, logical, [at(1), at(2)])?;
     decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
-    if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
-        release(decoder, other);
+    if decoder.names.of_name(&letters).is_some_and(|other| other != axis) {
+        let text = format!("two axes of the channel would have the name {letters}");
+        return Err(Fault::new(Condition::ExchangeNameTwice, text, name.span));
+    }
+    let main = index as usize;
+    if index < 3 && decoder.geometry.coordinates.main_axis(main).is_some_and(|other| other != axis)
+    {
+        let text = format!("the axis index {index} is another axis of the channel");
+        return Err(Fault::new(Condition::ExchangeIndexTaken, text, at(2))
+            .with(|d| d.value(ValueKind::Wrong, index, "-")));
     }
     decoder.names.axes[axis] = Some(letters);
     if index < 3 {
-        decoder.geometry.coordinates.set_main_axis(index as usize, Some(axis));
+        decoder.geometry.coordinates.set_main_axis(main, Some(axis));
     }
     full_feedforward(decoder, &[axis]);
     Ok(())

@@ -10,7 +10,7 @@ use crate::exec::contour::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::is_true;
-use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Command, Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::block::{CurveJerk, VectorLimits};
 
 arguments! {
@@ -399,6 +399,40 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     decoder.motion.dynamics_changed();
     Ok(())
+}
+
+/// Row of `#VECTORVEL`.
+pub(super) const VECTORVEL: Row = Row::run("VECTORVEL", vector_of_one)
+    .form("#VECTORVEL ON [v]   #VECTORVEL [v] ON   #VECTORVEL OFF")
+    .meaning("older form of #VECTOR LIMIT ON [VEL=v]; without v the configured limit")
+    .example("#VECTORVEL ON [5000]")
+    .related(&["#VECTOR LIMIT", "P-CHAN-00090"]);
+
+/// Row of `#VECTORACC`.
+pub(super) const VECTORACC: Row = Row::run("VECTORACC", vector_of_one)
+    .form("#VECTORACC ON [a]   #VECTORACC [a] ON   #VECTORACC OFF")
+    .meaning("older form of #VECTOR LIMIT ON [ACC=a]; without a the configured limit")
+    .example("#VECTORACC ON [2700000]")
+    .related(&["#VECTOR LIMIT", "P-CHAN-00002"]);
+
+/// `#VECTORVEL`, `#VECTORACC` (HSC 15427960971): the same as `#VECTOR LIMIT` with one key.
+fn vector_of_one(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let key = if call.name == "VECTORVEL" { "VEL" } else { "ACC" };
+    let kind = match call.command.groups.first().map(|group| &group.items[..]) {
+        None => ItemKind::Flag(Ident { text: key.into(), span: call.span() }),
+        Some([Item { kind: ItemKind::Value(value), span }]) => {
+            let key = Ident { text: key.into(), span: *span };
+            ItemKind::Pair { key, value: value.clone() }
+        }
+        Some(_) => {
+            let text = format!("{} takes one value", call.title());
+            return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+        }
+    };
+    let group = Group { items: vec![Item { kind, span: call.span() }], span: call.span() };
+    let command = Command { groups: vec![group], ..call.command.clone() };
+    vector_limit(decoder, &Call { command: &command, name: call.name, rest: call.rest })
 }
 
 /// Row of `#TRANSVELMIN`.

@@ -41,7 +41,7 @@ pub(super) const DISABLE_AX_LINK: Row = Row::run("DISABLE AX LINK", disable)
 
 /// Row of `#AX LINK`.
 pub(super) const AX_LINK: Row = Row::run("AX LINK", link)
-    .form("#AX LINK [group, slave=master ..]   #AX LINK ON [group]   #AX LINK OFF [group]   #AX LINK OFF ALL")
+    .form("#AX LINK [group, slave=master ..]   #AX LINK NBR [group, number=number ..]   #AX LINK ON [group]   #AX LINK OFF [group]   #AX LINK OFF ALL")
     .meaning("#SET AX LINK, #ENABLE AX LINK and #DISABLE AX LINK in one command")
     .example("#AX LINK ON [1]")
     .related(&["#SET AX LINK", "#ENABLE AX LINK"]);
@@ -99,10 +99,13 @@ fn group_number(decoder: &Decoder, number: &Expr, least: u32) -> Outcome<u32> {
 
 /// `[1, Y=X, [Z=X, G, 0.01, 0.25], [A=X, -1, 2]]`: the number of the group, then its pairs.
 fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    if call.rest.first().is_some_and(|word| word.is("NBR")) {
-        return Err(Fault::unsupported("#AX LINK NBR", call.span()));
-    }
-    call.no_more_words()?;
+    let by_number = match call.rest {
+        [word] if call.name == "AX LINK" && word.is("NBR") => true,
+        _ => {
+            call.no_more_words()?;
+            false
+        }
+    };
     let wrong = |span| {
         let text = format!("{} needs the number of a group and couplings", call.title());
         Fault::new(Condition::TokenUnknown, text, span).hint("write #SET AX LINK [1, C=X]")
@@ -125,13 +128,13 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     let mut known: Vec<Pair> = Vec::new();
     for item in pairs {
-        let (slave, master) = coupling(item).ok_or_else(|| wrong(item.span))?;
-        let mut pair = Pair {
-            slave: axis(decoder, slave)?,
-            master: axis(decoder, master)?,
-            ratio: 1.0,
-            is_gantry: false,
+        let (slave, master) = if by_number {
+            numbered_coupling(decoder, item)?.ok_or_else(|| wrong(item.span))?
+        } else {
+            let (slave, master) = coupling(item).ok_or_else(|| wrong(item.span))?;
+            (axis(decoder, slave)?, axis(decoder, master)?)
         };
+        let mut pair = Pair { slave, master, ratio: 1.0, is_gantry: false };
         fits(decoder, group, &known, (pair.slave, pair.master), item.span)?;
         if let ItemKind::Value(ItemValue::List(inner)) = &item.kind {
             match inner.items.get(1).map(|item| &item.kind) {
@@ -151,6 +154,31 @@ fn coupling(item: &Item) -> Option<(&Ident, &Ident)> {
         ItemKind::Value(ItemValue::List(group)) => coupling(group.items.first()?),
         _ => None,
     }
+}
+
+/// `8 = 2`, `[8 = 2, ..]`: the logical numbers of two axes.
+///
+/// Assumption: unlike on the control an axis has to be there when the group is defined, not only when it is switched on.
+fn numbered_coupling(decoder: &Decoder, item: &Item) -> Outcome<Option<(usize, usize)>> {
+    let (key, master) = match &item.kind {
+        ItemKind::Pair { key, value: ItemValue::Expr(master) } => (key, master),
+        ItemKind::Value(ItemValue::List(group)) => {
+            let Some(first) = group.items.first() else { return Ok(None) };
+            return numbered_coupling(decoder, first);
+        }
+        _ => return Ok(None),
+    };
+    let Ok(slave) = key.text.parse::<f64>() else { return Ok(None) };
+    let axis = |number: f64, span: Span| {
+        let numbered =
+            |axis: &crate::machine::Axis| f64::from(axis.number()).total_cmp(&number).is_eq();
+        decoder.machine.axes.iter().position(numbered).ok_or_else(|| {
+            let text = format!("there is no axis with the logical number {number}");
+            Fault::new(Condition::AxisNumberUnknown, text, span)
+                .with(|d| d.value(ValueKind::Wrong, number, "-"))
+        })
+    };
+    Ok(Some((axis(slave, key.span)?, axis(decoder.number(master)?, master.span)?)))
 }
 
 /// `-1, 1` behind a pair: its factor from numerator and denominator, 1 or -1.

@@ -1,6 +1,7 @@
 //! `#ROTATION`, `#CS`, `#MCS`, `#TRAFO` and relatives.
 //!
-//! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX); 20671, 20676, 20875.
+//! Source: TF5200 programming manual, coordinate systems (208480907); P-CHAN-00394 (rotations ZYX); 20671, 20676, 20825,
+//! 20875, 21556.
 
 use super::keys::arguments;
 use super::row::{Call, Row};
@@ -39,7 +40,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
             let deg = value(keys.angle);
-            decoder.geometry.coordinates.rotate_about([main[0], main[1]], deg, centre, call.span())
+            decoder.rotate_plane([main[0], main[1]], deg, centre, call.span())
         }
         Some(false) => {
             decoder.geometry.coordinates.set_rotation(None);
@@ -116,10 +117,39 @@ fn id_of(decoder: &Decoder, group: &Group) -> Outcome<u32> {
     }
 }
 
-fn undefined(id: u32, span: Span) -> Box<Fault> {
-    let text = format!("coordinate system {id} is not defined");
-    Fault::new(Condition::NoCoordinateSystem, text, span)
-        .with(|d| d.value(ValueKind::Wrong, f64::from(id), "-"))
+/// A stored system with its number; 20821 if there is none.
+fn stored(decoder: &Decoder, id: u32, span: Span) -> Outcome<(Frame, Option<u32>)> {
+    let frame = decoder.geometry.coordinates.stored_system(id).ok_or_else(|| {
+        let text = format!("coordinate system {id} is not defined");
+        Fault::new(Condition::NoCoordinateSystem, text, span)
+            .with(|d| d.value(ValueKind::Wrong, f64::from(id), "-"))
+    })?;
+    Ok((frame, Some(id)))
+}
+
+/// Millimetres do not become degrees: a system turns linear axes among themselves, and rotary ones.
+pub(super) fn turns_alike(decoder: &Decoder, call: &Call<'_>, frame: &Frame) -> Outcome<()> {
+    let main = |i: usize| decoder.geometry.coordinates.main_axis(i);
+    let kind = |i: usize| main(i).map(|axis| decoder.machine.axes[axis].kind());
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        let turned = frame.m[i][j].abs() > 0.0 || frame.m[j][i].abs() > 0.0;
+        if turned && main(i).is_some() && main(j).is_some() && kind(i) != kind(j) {
+            let what = format!("{} that turns a rotary axis and a linear one", call.title());
+            return Err(Fault::unsupported(what, call.span()));
+        }
+    }
+    Ok(())
+}
+
+/// 21556: no main axis of a coordinate system counts modulo.
+pub(super) fn no_modulo_axes(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    let axes = (0..3).filter_map(|main| decoder.geometry.coordinates.main_axis(main));
+    let mut modulo = axes.map(|axis| &decoder.machine.axes[axis]).filter(|axis| axis.is_modulo());
+    let Some(axis) = modulo.next() else { return Ok(()) };
+    let name = axis.name().to_owned();
+    let text = format!("{}: the main axis {name} counts modulo 360 degrees", call.title());
+    Err(Fault::new(Condition::SystemOfModuloAxis, text, call.span())
+        .with(|d| d.axis(axis.number(), name)))
 }
 
 /// `#CS ON [..]`, `#CS ON [id]`, `#CS OFF`, `#CS OFF ALL`.
@@ -153,30 +183,19 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                 let text = format!("more than {SYSTEMS_MAX} coordinate systems are active");
                 return Err(Fault::new(Condition::Range, text, call.span()));
             }
-            let frame = match groups {
-                [] => {
-                    let id = decoder.geometry.last_system;
-                    decoder
-                        .geometry
-                        .coordinates
-                        .stored_system(id)
-                        .ok_or_else(|| undefined(id, call.span()))?
-                }
+            let (frame, number) = match groups {
+                [] => stored(decoder, decoder.geometry.last_system, call.span())?,
                 // one value alone is the number of a stored system
                 [group] if group.items.len() == 1 => {
                     let id = id_of(decoder, group)?;
-                    decoder
-                        .geometry
-                        .coordinates
-                        .stored_system(id)
-                        .ok_or_else(|| undefined(id, group.span))?
+                    stored(decoder, id, group.span)?
                 }
-                [group] => system(decoder, group)?,
+                [group] => (system(decoder, group)?, None),
                 [id, group] => {
                     let id = id_of(decoder, id)?;
                     let frame = system(decoder, group)?;
                     store(decoder, id, frame, call.span())?;
-                    frame
+                    (frame, Some(id))
                 }
                 _ => {
                     return Err(Fault::new(
@@ -186,7 +205,9 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                     ));
                 }
             };
-            decoder.geometry.coordinates.push_system(frame);
+            no_modulo_axes(decoder, call)?;
+            turns_alike(decoder, call, &frame)?;
+            decoder.geometry.coordinates.push_system(frame, number);
             Ok(())
         }
         (_, [word, ..], _) => Err(call.unexpected(word)),
@@ -195,6 +216,11 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
 }
 
 fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()> {
+    if decoder.geometry.coordinates.is_system_active(id) {
+        let text = format!("coordinate system {id} is active: it cannot be defined anew");
+        return Err(Fault::new(Condition::ActiveSystemDefined, text, span)
+            .with(|d| d.value(ValueKind::Wrong, f64::from(id), "-")));
+    }
     let known = decoder.geometry.coordinates.stored_system(id).is_some();
     if !known && decoder.geometry.coordinates.stored_systems() >= SYSTEMS_MAX {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
@@ -211,7 +237,11 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
     match &call.command.groups[..] {
         [group] => {
             let frame = system(decoder, group)?;
-            store(decoder, 1, frame, call.span())
+            // the next number that is free
+            let coordinates = &decoder.geometry.coordinates;
+            let is_taken = |id: &u32| coordinates.stored_system(*id).is_some();
+            let id = (1..=SYSTEMS_MAX as u32).find(|id| !is_taken(id));
+            store(decoder, id.unwrap_or(u32::MAX), frame, call.span())
         }
         [id, group] => {
             let id = id_of(decoder, id)?;

@@ -5,7 +5,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
-use crate::exec::values::number::is_whole;
+use crate::exec::values::number::{as_number, is_whole};
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// The arguments of a command: a struct with one field per key, and the description of the keys.
@@ -358,6 +358,15 @@ fn read(
                 if let Some(key) =
                     key.filter(|k| matches!(k.kind, KeyKind::Number | KeyKind::MaybeNumber))
                 {
+                    return Ok(Some((key.name, Written::Number(number))));
+                }
+            }
+            // `IDP100`: a key and a parameter written together
+            if let Some((name, place)) = ident.split_parameter() {
+                let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
+                let takes = |k: &&Key| matches!(k.kind, KeyKind::Number | KeyKind::MaybeNumber);
+                if let Some(key) = key.filter(takes) {
+                    let number = as_number(&decoder.read(&place)?, item.span)?;
                     return Ok(Some((key.name, Written::Number(number))));
                 }
             }

@@ -16,7 +16,7 @@ use crate::syntax::ast::{Expr, ItemKind, ItemValue, Span};
 const RECEIVERS: &[&str] = &["ISG_DIAG_BED", "HMI", "PLC", "DIAG", "EVENT_LOGGER"];
 
 /// Modes and destinations; the log is the same for all of them.
-const MODES: &[&str] = &["SYN", "SYN_ACK", "ACK", "SAVE", "EXCLUSIVE", "INFO"];
+const MODES: &[&str] = &["SYN", "SYN_ACK", "ACK", "SAVE", "EXCLUSIVE", "CONTINUE", "INFO"];
 
 /// Row of `#MSG`.
 pub(super) const MSG: Row = Row::run("MSG", message)
@@ -92,6 +92,8 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Replaces `%d`, `%f`, `%s` by the values in turn.
 fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Outcome<String> {
     let mut text = String::new();
+    // behind a comma a value is expected, which a list without any cannot tell from one without a comma
+    let missing = if values.is_empty() { Condition::MessageValue } else { Condition::MessageCount };
     let mut values = values.iter();
     let mut chars = format.chars();
     while let Some(c) = chars.next() {
@@ -120,16 +122,13 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         };
         let Some(expr) = values.next() else {
             let message = format!("no value for %{letter}");
-            return Err(Fault::new(Condition::MessageValue, message, at));
+            return Err(Fault::new(missing, message, at));
         };
         text.push_str(&one(&decoder.value(expr)?, letter, &precision));
     }
     if let Some(left) = values.next() {
-        return Err(Fault::new(
-            Condition::TokenUnknown,
-            "a value without a format in the text",
-            left.span,
-        ));
+        let text = "a value without a format in the text";
+        return Err(Fault::new(Condition::MessageCount, text, left.span));
     }
     Ok(text)
 }

@@ -77,16 +77,20 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let text = "#CHANNEL INIT needs CMDPOS or ACTPOS";
             Err(Fault::new(Condition::TokenUnknown, text, group.span))
         }
-        // set positions are what the program already counts with
-        Some(false) => {
-            decoder.sync(Sync::FlushWait);
-            Ok(())
-        }
+        Some(false) => take_command_positions(decoder, call),
         Some(true) => {
             decoder.take_actual_positions(&axes);
             Ok(())
         }
     }
+}
+
+/// `#CHANNEL INIT [CMDPOS]`, and `#SET DEC LR SOLL`, its older name (206703627): set positions are what the program already counts
+/// with.
+pub(super) fn take_command_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    decoder.sync(Sync::FlushWait);
+    Ok(())
 }
 
 /// Row of `#TIME`.
@@ -165,7 +169,7 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 arguments! {
     /// Keys of `#TIMER`.
     struct TimerArguments {
-        id: Number "ID" in between(0.0, 127.0).whole(), "", "default 0";
+        id: Number "ID" in between(0.0, 127.0).whole().or(Condition::TimerNumber), "", "default 0";
     }
 }
 
@@ -230,10 +234,10 @@ pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// `#INIT MACRO TAB`.
+/// `#INIT MACRO TAB`: the macros of the channel list stay.
 pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.calls.macros.clear();
+    decoder.calls.macros.clone_from(&decoder.machine.channel.macros);
     decoder.calls.macros_changed = true;
     Ok(())
 }

@@ -10,7 +10,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::{Decoder, Signal};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::number::whole;
+use crate::exec::values::number::{as_number, whole};
 use crate::syntax::ast::{
     ExprKind, Group, ItemKind, ItemValue, ParameterIndex, Place, PlaceKind, Span,
 };
@@ -54,8 +54,13 @@ impl<'c> Words<'c> {
                 ItemKind::Missing => {}
                 ItemKind::Flag(word) if word.is("AHEAD") => {}
                 ItemKind::Flag(word) => {
-                    let (name, number) =
-                        word.split_number().ok_or_else(|| wrong(call, item.span))?;
+                    // `ID4711`, `IDP100`
+                    let (name, number) = match word.split_parameter() {
+                        Some((name, place)) => {
+                            (name, as_number(&decoder.read(&place)?, item.span)?)
+                        }
+                        None => word.split_number().ok_or_else(|| wrong(call, item.span))?,
+                    };
                     words.key(call, name, number, item.span)?;
                 }
                 ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
@@ -79,7 +84,9 @@ impl<'c> Words<'c> {
         let Some(value) = whole(number, least, u32::MAX) else {
             let text =
                 format!("{}: {known}={number} is no whole number from {least}", call.title());
-            return Err(Fault::new(Condition::Range, text, span));
+            let negative = known == "ID" && number < 0.0;
+            let condition = if negative { Condition::SignalNumber } else { Condition::Range };
+            return Err(Fault::new(condition, text, span));
         };
         match known {
             "ID" => self.id = Some(value),

@@ -116,6 +116,7 @@ fn add(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::SystemNameInUse, text, name.span));
     }
     let frame = frames::system(decoder, values)?;
+    frames::turns_alike(decoder, call, &frame)?;
     if !decoder.geometry.coordinates.stack_add(&name.text, frame) {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems in the stack");
         return Err(Fault::new(Condition::CoordinateSystemNumber, text, call.span()));
@@ -130,6 +131,7 @@ fn select(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     let place = place(decoder, name(group)?)?;
     changes(decoder, call)?;
+    frames::no_modulo_axes(decoder, call)?;
     decoder.geometry.coordinates.stack_select(place + 1);
     Ok(())
 }
@@ -141,6 +143,7 @@ fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     let place = place(decoder, name(first)?)?;
     let frame = frames::system(decoder, values)?;
+    frames::turns_alike(decoder, call, &frame)?;
     if place < decoder.geometry.coordinates.stack_active() {
         changes(decoder, call)?;
     }

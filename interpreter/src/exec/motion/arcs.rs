@@ -84,12 +84,40 @@ impl Decoder {
         self.geometry.last_arc.radius_mm =
             libm::hypot(self.geometry.last_arc.centre_mm[0], self.geometry.last_arc.centre_mm[1]);
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
+        self.feed_group_fits(plane, span)?;
         let arc = ArcPath::new(start, end, shape, &self.motion.feed_axes)
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
         Ok(match tilt {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
+    }
+
+    /// 120462 where the axes of the feed group are neither the arc's (with its pitch) nor others alone.
+    ///
+    /// The page does not say what F means then: here along the plane, as without `#FGROUP`.
+    fn feed_group_fits(&mut self, plane: [usize; 2], span: Span) -> Outcome<()> {
+        let feed = &self.motion.feed_axes;
+        // the group of the lists is that of the main axes, whatever an axis exchange makes of them
+        if *feed == self.machine.channel.feed_axes {
+            return Ok(());
+        }
+        let in_group = |axis: usize| feed.get(axis).copied().unwrap_or(false);
+        let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
+        let group = || (0..feed.len()).filter(|axis| in_group(*axis));
+        let whole = plane.into_iter().all(in_group) && group().all(is_main);
+        if !group().any(is_main) && group().next().is_some() {
+            return Err(Fault::unsupported(
+                "an arc whose F counts along other axes (#FGROUP)",
+                span,
+            ));
+        }
+        if whole || group().next().is_none() {
+            return Ok(());
+        }
+        let text = "the axes of #FGROUP are not those of the arc: F counts along the plane";
+        self.report.note_once("feed group", Fault::new(Condition::FeedGroupOfArc, text, span));
+        Ok(())
     }
 
     /// `#CANG`: the end of an arc by its centre and the angle that it spans, instead of an end point.

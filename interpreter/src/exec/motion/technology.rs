@@ -15,6 +15,13 @@ impl Decoder {
         self.technology.pending_s = self.technology.pending_s.max(self.counted_time_s(function));
     }
 
+    /// M00, M01 and the end of a program: only a declared duration counts, they do without one.
+    pub(in crate::exec) fn takes_declared_time(&mut self, function: Function) {
+        if declared(&self.machine.channel, function).is_some() {
+            self.takes_time(function);
+        }
+    }
+
     /// Time in s that a function takes; if it is not counted, 0, and it is named once.
     pub(in crate::exec) fn counted_time_s(&mut self, function: Function) -> f64 {
         let declared = declared(&self.machine.channel, function);

@@ -13,7 +13,7 @@
 //!
 //! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33), settings for
 //! turning functions (`#TURN`); TF5200 turning functions, tapping (G331/G332), thread chain; P-CHAN-00836, P-CHAN-00837;
-//! 20007, 20635, 20636, 21000, 21540.
+//! 20007, 20032, 20635 to 20637, 21000, 21540.
 
 use crate::diag::{Condition, rounded};
 use crate::exec::block::groups::Act;
@@ -86,7 +86,17 @@ impl Decoder {
             }
             self.motion.threads.pitch_mm[main] = Some(pitch_mm);
         }
-        let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else { return Ok(()) };
+        let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else {
+            let Some((axis, _, at)) = words.axes.first().filter(|_| mode.is_tapping()) else {
+                return Ok(());
+            };
+            let name = self.names.name(*axis).to_owned();
+            let text = format!("tapping without a way of axis {name}");
+            let number = self.machine.axes[*axis].number();
+            return Err(
+                Fault::new(Condition::TappingWithoutWay, text, *at).with(|d| d.axis(number, name))
+            );
+        };
         let path = Path::Line(line);
         let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
         self.check_limits(&path, place, span);
@@ -147,6 +157,10 @@ impl Decoder {
         if self.motion.cutting.speed.is_some() {
             let text = "tapping with constant cutting speed (G96)";
             return Err(Fault::new(Condition::TappingCuttingSpeed, text, span));
+        }
+        if let Some(g) = words.g.iter().find(|g| g.row.number == 196) {
+            let text = "tapping and G196 in one block";
+            return Err(Fault::new(Condition::TappingWithSpeedLimit, text, g.span));
         }
         let turns = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19));
         if turns.is_some() || self.motion.spindles[0].is_turning() {

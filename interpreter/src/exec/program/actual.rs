@@ -31,6 +31,7 @@ fn reads_actual(block: &Block) -> bool {
                 GValue::List(list) => list.iter().flatten().any(expr_needs_actual),
             },
             WordKind::Address { value, .. } => expr_needs_actual(value),
+            WordKind::ComputedG(number) => expr_needs_actual(number),
             WordKind::Assign(assign) => {
                 expr_needs_actual(&assign.value) || place_needs_actual(&assign.target)
             }

@@ -63,6 +63,7 @@ pub(super) struct Counter {
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Calls {
     pub(in crate::exec) info: ProgramInfo,
+    /// Macros and their texts.
     pub(in crate::exec) macros: BTreeMap<Box<str>, Box<str>>,
     /// The table of macros has changed: parsed blocks are out of date.
     pub(in crate::exec) macros_changed: bool,
@@ -79,9 +80,10 @@ pub(in crate::exec) struct Calls {
 }
 
 impl Calls {
-    /// At program start, with the subroutines of the channel list.
+    /// At program start, with the macros and subroutines of the channel list.
     pub(in crate::exec) fn new(channel: &Channel) -> Self {
         Self {
+            macros: channel.macros.clone(),
             cycle_files: channel.g8x_programs.clone(),
             tool_change_file: channel.tool_change_program.clone(),
             cycle_changes_stay: channel.cycle_changes_stay,

@@ -152,6 +152,7 @@ impl Executor {
         words.iter().any(|word| match &word.kind {
             WordKind::Call(call) => !call.local && !matches!(call.kind, CallKind::Sequence(_)),
             WordKind::G { number, .. } => is_cycle_call(*number),
+            WordKind::ComputedG(_) => true,
             WordKind::M(CodeNumber::Literal(6) | CodeNumber::Computed(_), _) => {
                 self.decoder.calls.tool_change_file.is_some()
             }

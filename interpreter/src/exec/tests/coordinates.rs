@@ -158,6 +158,23 @@ fn the_feed_group() {
     assert_near(&lengths, &[3.0, 5.0]);
 }
 
+/// 120462 (264750475): F of an arc counts along all of its axes, or along other axes alone, which is refused.
+#[test]
+fn the_feed_group_of_an_arc() {
+    let ids = |group: &str| {
+        let text = format!("F1000 #FGROUP {group}\nG02 X10 I5\nG03 X0 I-5\nM30\n");
+        run(&text.replace("F1000 ", "F1000\n")).ids()
+    };
+    for group in ["", "[X,Y]", "[X,Y,Z]"] {
+        assert_eq!(ids(group), [""; 0], "{group}");
+    }
+    for group in ["[X]", "[Y,Z]", "[Z]"] {
+        assert_eq!(ids(group), ["120462"], "{group}");
+    }
+    let text = "#SET AX [X,1,0][Y,2,1][C,3,3]\nF1000\n#FGROUP [C]\nG02 X10 I5\nM30\n";
+    assert_eq!(run(text).ids(), ["K-0019"]);
+}
+
 #[test]
 fn tool_length_acts_on_the_third_main_axis() {
     assert_end("V.G.WZ[2].L=50 V.G.WZ[2].R=5\nD2 Z10 F100\nX1", [1.0, 0.0, 60.0]);

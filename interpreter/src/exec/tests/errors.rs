@@ -24,7 +24,7 @@ fn fractions_of_whole_numbers_are_refused() {
         ("G159=1.5", "K-0009"),
         ("G160=1.5 X1", "K-0009"),
         ("#CS DEF[1.5][0,0,0,0,0,0]", "20820"),
-        ("#TIMER START [ID=1.5]", "K-0009"),
+        ("#TIMER START [ID=1.5]", "21167"),
         ("#ERROR [ID=1.5 RC=0]", "K-0009"),
         ("#ERROR [ID=5 RC=1.5]", "K-0009"),
         ("#FILTER ON [ORDER=3.5]", "K-0033"),
@@ -87,7 +87,6 @@ fn what_the_manual_knows_is_never_unknown() {
         "#CS DEF ACT [1]",
         "#INFO",
         "#GANTRY ON ALL",
-        "#AX LINK NBR [1, X=Y]",
         "#RT CYCLE [ID=1]",
         "#MEAS PREPARE",
         "#MEAS [AX=X EDGE=POS]",
@@ -297,6 +296,8 @@ fn definitions_of_couplings_are_checked() {
         "#SET AX LINK [1, [Y = X, G, 0.01, 0.25]]",
         "#AX LINK [2, [Y = X, -1, 1], Z=X]",
         "#AX LINK [3, [Y = X, 2, -2], [Z=X, 5, 5]]",
+        "#AX LINK NBR [2, 2 = 1, 3 = 1]",
+        "#AX LINK NBR [2,[2 = 1,G]]",
         "#AX LINK OFF",
         "#AX LINK OFF ALL",
         "#DISABLE AX LINK [1]",
@@ -321,6 +322,15 @@ fn definitions_of_couplings_are_checked() {
         ("", "21220"),
     ] {
         assert_eq!(said(&format!("#SET AX LINK {text}")), [id], "{text}");
+    }
+    for (text, id) in [
+        ("[1, Y=X]", "21220"),
+        ("[1, 2=2]", "20475"),
+        ("[1, 2=1, 2=3]", "20476"),
+        ("[1, 9=1]", "20312"),
+        ("[1, 2=1.5]", "20312"),
+    ] {
+        assert_eq!(said(&format!("#AX LINK NBR {text}")), [id], "{text}");
     }
 }
 
@@ -358,4 +368,62 @@ fn brackets_and_values_that_a_command_does_not_take() {
         let said = said(&format!("P1=1\n{text}"));
         assert!(!said.contains(&"21220".to_owned()), "{text}: {said:?}");
     }
+}
+
+/// Axis exchanges as 20535, 20684, 21256 and 21260 print them: two axes of one name moved the second one, silently.
+#[test]
+fn axis_exchanges_are_checked() {
+    for (text, id) in [
+        ("#SET AX [X,1,0][X,2,1]", "21256"),
+        ("#PUT AX [Z]\n#CALL AX [X,3,2]", "21256"),
+        ("#PUT AX [Z]\n#CALL AX [Z,3,0]", "21260"),
+        ("#CS ON [10,20,0,0,0,45]\n#PUT AX [X]", "20684"),
+        ("#CS ADD [A][1]\n#CS SELECT [A]\n#SET AX [X,1,0]", "20684"),
+        ("G63 Z10 F1000 S100\n#SET AX [X,1,0]", "20535"),
+        ("#PUT AX [X]\nG41", "20136"),
+    ] {
+        let run = super::run(&format!("{text}\nM30\n"));
+        assert_eq!(run.ids().last().map(String::as_str), Some(id), "{text}");
+    }
+    for text in [
+        "#CALL AX [X,1,0]",
+        "#PUT AX [X]\n#CALL AX [X,1,0]",
+        "#PUT AX [X][Y]\n#CALL AX [X,2,0][Y,1,1]",
+        "#SET AX [Y,1,0][X,2,1]",
+        "#CS ON [1,2]\n#CS OFF\n#PUT AX [X]",
+    ] {
+        super::clean(&format!("{text}\nM30\n"));
+    }
+}
+
+/// A position preset ends with homing (207101835): the offset stayed, and X0 was 80 mm away.
+#[test]
+fn homing_takes_presets_back() {
+    let end = |text: &str| {
+        super::run(&format!("F6000 G01 X20 Y5\n#PSET X100 Y50\nX110\n{text}\nX0 Y0\nM30\n")).end
+    };
+    super::assert_near(&end("G74 X1"), &[0.0, -45.0, 0.0]);
+    super::assert_near(&end("G74"), &[0.0, 0.0, 0.0]);
+    super::assert_near(&end("G74 Z1"), &[-80.0, -45.0, 0.0]);
+}
+
+/// Numbers that the pages of the mistakes print: 20032, 20083, 20637, 20721, 20995, 21167.
+#[test]
+fn numbers_of_single_mistakes() {
+    for (text, id) in [
+        ("D1 V.G.WZ_AKT.R=3", "20083"),
+        ("D1 V.G.WZ_AKT.L=3", "20738"),
+        ("G63 Z0 F100 S100", "20032"),
+        ("G63 G196 S1000 Z5 F100", "20637"),
+        ("#MSG [\"%D %D\", 1]", "20721"),
+        ("#MSG [\"%D\", 1, 2]", "20721"),
+        ("#MSG [\"%D\", ]", "20726"),
+        ("#SIGNAL [ID=-1]", "20995"),
+        ("#WAIT [ID=-1]", "20995"),
+        ("#TIMER START [ID=128]", "21167"),
+    ] {
+        let run = super::run(&format!("{text}\nM30\n"));
+        assert!(run.ids().iter().any(|found| found == id), "{text}: {:?}", run.ids());
+    }
+    super::clean("#MSG SAVE CONTINUE [\"text\"]\nM30\n");
 }

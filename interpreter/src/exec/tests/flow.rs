@@ -260,6 +260,93 @@ fn macros() {
     assert_eq!(run("\"A\" = \"\\\"A\\\"\"\n\"A\"\nM30\n").ids()[0], "20734");
 }
 
+/// Macros of the channel list (149215627, with its examples) hold in every program, also behind #INIT MACRO TAB.
+#[test]
+fn macros_of_the_channel_list() {
+    let list = [
+        "channel.makro_def[4].symbol=CALC_P5",
+        "channel.makro_def[4].nc_code=P5 = P2 + 3",
+        "channel.makro_def[6].symbol=RELPOS1",
+        "channel.makro_def[6].nc_code=G01 G91 X10 Y20 F100",
+        "channel.makro_def[15].symbol=ABWAHL",
+        "channel.makro_def[15].nc_code=60 - 7",
+        "channel.makro_def[18].symbol=NPV_ABWAHL",
+        "channel.makro_def[18].nc_code=G\\\"ABWAHL\\\"",
+        "channel.makro_def[19].symbol=WITHOUT_TEXT",
+    ];
+    let text = "P2=4\n\"CALC_P5\"\n\"RELPOS1\" Z P5\n\"RELPOS1\" = \"X1\"\n\"RELPOS1\"
+#INIT MAKRO TAB\n\"RELPOS1\"\nV.G.NP[1].V.X=100\nG54\n\"NPV_ABWAHL\"\nG90 Y2 X1\nM30\n";
+    let run = run_on(&list, text);
+    assert_eq!(run.ids(), [""; 0]);
+    let ends = [[10.0, 20.0, 7.0], [11.0, 20.0, 7.0], [21.0, 40.0, 7.0], [1.0, 2.0, 7.0]];
+    assert_eq!(run.ends(), ends);
+    assert_eq!(run_on(&list, "\"WITHOUT_TEXT\"\nM30\n").ids(), ["K-0012"]);
+}
+
+/// A macro as the number of a function is one value, in programs too.
+#[test]
+fn macros_as_numbers_of_functions() {
+    assert_end("\"N\" = \"100 - 9\"\nG01 F100 X1\nG\"N\" X1\nX1", [3.0, 0.0, 0.0]);
+    assert_eq!(said("\"N\" = \"60 - 7.5\"\nG\"N\""), ["K-0009"]);
+    assert_eq!(said("\"N\" = \"1000 - 1\"\nG\"N\""), ["20131"]);
+    let run = super::clean("\"N\" = \"5 * 2\"\nM\"N\" H\"N\"\nM30\n");
+    let called = |e: &&crate::exec::step::Event| {
+        matches!(
+            e,
+            crate::exec::step::Event::MFunction { number: 10, .. }
+                | crate::exec::step::Event::HFunction { number: 10, .. }
+        )
+    };
+    assert_eq!(run.events().into_iter().filter(called).count(), 2);
+}
+
+/// $ENDDO is FALSE below 0.5 and $UNTIL TRUE above 0.5 (206946827): negative values went on, and ended.
+#[test]
+fn negative_conditions_of_loops() {
+    assert_end("P1=2 P2=0\n$DO\nP1=P1-3 P2=P2+1\n$ENDDO P1\nG01 X P2 F100", [1.0, 0.0, 0.0]);
+    assert_end("P2=0\n$REPEAT\nP2=P2+1\n$UNTIL P2-3\nG01 X P2 F100", [4.0, 0.0, 0.0]);
+    assert_end("P2=0\n$REPEAT\nP2=P2+0.25\n$UNTIL P2\nG01 X P2 F100", [0.75, 0.0, 0.0]);
+    assert_end("P2=0\n$DO\nP2=P2+1\n$ENDDO 2.5-P2\nG01 X P2 F100", [3.0, 0.0, 0.0]);
+}
+
+/// `IDP100`: a key and a parameter written together (207431819).
+#[test]
+fn keys_with_parameters() {
+    assert_end(
+        "P100=814 P1=0\n#SIGNAL [IDP100 P[0]=7 CH1]\n#WAIT [ID814 P[0]=P1 CH1]\nX P1 F100 G01",
+        [7.0, 0.0, 0.0],
+    );
+    assert_eq!(said("P1=3\n#TIMER START [IDP1]\n#TIMER READ [ID=P1]"), [""; 0]);
+    assert_eq!(said("#TIMER START [IDP1]"), ["20925"]);
+    assert_eq!(said("P1=3\n#TIMER START [IDQ1]"), ["21220"]);
+}
+
+/// Commands under their older names (5252766831026775947, 15427960971).
+#[test]
+fn older_commands() {
+    let speed = |text: &str| {
+        let run = super::clean(&format!("{text}\nG01 X100 F60000\nM30\n"));
+        let dynamics = run.blocks()[0].dynamics.clone();
+        (dynamics.vector.vel_mm_s, dynamics.vector.acc_mm_s2)
+    };
+    for (old, new) in [
+        ("#VECTORVEL [5000] ON", "#VECTOR LIMIT ON [VEL=5000]"),
+        ("#VECTORVEL ON", "#VECTOR LIMIT ON [VEL]"),
+        ("#VECTORACC ON[2700000]", "#VECTOR LIMIT ON [ACC=2700000]"),
+        (
+            "#VECTORVEL ON [50]\n#VECTORACC ON [2700000]\n#VECTORVEL OFF",
+            "#VECTOR LIMIT ON [ACC=2700000]",
+        ),
+    ] {
+        assert_eq!(speed(old), speed(new), "{old}");
+        assert_ne!(speed(old), speed(""), "{old}");
+    }
+    assert_eq!(said("#SET DEC LR SOLL\n#INIT MAKRO TAB"), [""; 0]);
+    assert_eq!(said("#GET IPO OFFSET"), ["K-0019"]);
+    assert_eq!(said("#VIB GUARD [MODE=2] ON").first().map(String::as_str), Some("K-0002"));
+    assert_eq!(said("#VECTORVEL ON [1, 2]"), ["21220"]);
+}
+
 #[test]
 fn parameters_of_earlier_programs_do_not_exist() {
     // P-CHAN-00067: every run is the first program

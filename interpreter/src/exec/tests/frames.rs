@@ -210,3 +210,52 @@ fn stack_of_systems() {
     }
     assert_eq!(ids("#CS DEL ALL"), [""; 0]);
 }
+
+/// 20825: the same number twice was two systems, one within the other; a definition without a number takes a free one (208480907).
+#[test]
+fn active_systems_are_not_defined_anew() {
+    let ids = |text: &str| said(text).first().cloned().unwrap_or_default();
+    let on = "#CS ON [1][1,2,3,0,0,0]\nG00 X0 Y0 Z0\n";
+    assert_eq!(ids(&format!("{on}#CS ON [1][10,20,30]")), "20825");
+    assert_eq!(ids(&format!("{on}#CS DEF [1][10,20,30]")), "20825");
+    assert_eq!(ids(&format!("{on}#MCS ON\n#CS DEF [1][10,20,30]")), "20825");
+    assert_eq!(ids("#CS DEF [1][1,2]\n#CS ON [1]\n#CS DEF [1][10,20,30]"), "20825");
+    let end = |text: &str| clean(&format!("{text}\nG00 X0 Y0 Z0\nM30\n")).end;
+    assert_near(&end(&format!("{on}#CS OFF\n#CS ON [1][10,20,30]")), &[10.0, 20.0, 30.0]);
+    assert_near(&end(&format!("{on}#CS ON [2][10,20,30]")), &[11.0, 22.0, 33.0]);
+    assert_near(&end("#CS DEF [1]\n#CS DEF [2]\n#CS ON [1]"), &[1.0, 0.0, 0.0]);
+}
+
+/// 21556, and refused where no page names a number: a turn of millimetres into degrees went to the axes as it was.
+#[test]
+fn rotary_axes_are_not_turned_into_linear_ones() {
+    let ids =
+        |settings: &[&str], text: &str| super::run_on(settings, &format!("{text}\nM30\n")).ids();
+    let rotary = "Z.kenngr.achs_typ=ACHSTYP_ROTATOR";
+    let modulo = [rotary, "Z.kenngr.achs_mode=0x4"];
+    assert_eq!(ids(&modulo, "#CS ON [1,2,3]"), ["21556"]);
+    assert_eq!(ids(&modulo, "#CS ADD [A][1,2,3]\n#CS SELECT [A]"), ["21556"]);
+    assert_eq!(ids(&modulo, "G18\n#ROTATION ON [ANGLE=30]"), ["K-0019"]);
+    assert_eq!(ids(&modulo, "G18\nG68 R30"), ["K-0019"]);
+    assert_eq!(ids(&modulo, "G68 R30\n#ROTATION ON [ANGLE=30]"), [""; 0]);
+    assert_eq!(ids(&modulo, "G18 G41"), ["21555"]);
+    assert_eq!(ids(&[rotary], "#CS ON [1,2,3,30]"), ["K-0019"]);
+    assert_eq!(ids(&[rotary], "#CS ADD [A][1,2,3,0,30]"), ["K-0019"]);
+    assert_eq!(ids(&[rotary], "#CS ON [1,2,3,0,0,30]"), [""; 0]);
+}
+
+/// #PSET lies in the axes of its coordinate system and ends with it (1086442763).
+#[test]
+fn position_presets_in_systems() {
+    let end = |text: &str| clean(&format!("F1000 G01\n{text}\nM30\n")).end;
+    // X of the system is Y of the machine, 10 mm beside its origin
+    let on = "#CS ON [10,0,0,0,0,90]\nX5 Y0\n";
+    assert_near(&end(&format!("{on}#PSET X1\nX2")), &[10.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1 Y2\nX2 Y2")), &[10.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1\n#PSET X7\nG91 X1\nG90 X8")), &[10.0, 6.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1\n#PRESET X0\nX2")), &[10.0, 2.0, 0.0]);
+    assert_near(&end(&format!("{on}#PSET X1\n#CS OFF\nX0 Y0")), &[0.0, 0.0, 0.0]);
+    // offsets below stay, and a system within counts from them
+    assert_near(&end("X3\n#PSET X0\n#CS ON [10,0]\nX0\n#PSET X100\nX101"), &[14.0, 0.0, 0.0]);
+    assert_eq!(said("#SET AX [X,1,0][Y,2,1][C,3,3]\n#CS ON [1,2]\n#PSET C1"), ["K-0019"]);
+}

@@ -466,7 +466,7 @@ fn signals_of_the_own_channel() {
         ("#SIGNAL [ID=1]\n#WAIT SYN [ID=1 P[0]=P1]", "21344"),
         ("#SIGNAL [ID=1]\n#WAIT [ID=1 P[0]=P1]", "21549"),
         ("#SIGNAL [ID=1 P[12]=1]", "21220"),
-        ("#SIGNAL [ID=-1]", "K-0009"),
+        ("#SIGNAL [ID=-1]", "20995"),
         ("#SIGNAL [CH=1]", "21220"),
         ("$FOR P1=1,2000,1\n#SIGNAL [ID=P1]\n$ENDFOR", "K-0009"),
     ] {

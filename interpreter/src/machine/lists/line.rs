@@ -69,6 +69,9 @@ fn is_comment(text: &str) -> bool {
 
 /// Takes the rest of a line (without blanks at its ends) after the key apart.
 pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
+    if raw == Raw::Code {
+        return Parts { value: Some(code(rest)).filter(|code| !code.is_empty()), dropped: None };
+    }
     let rest = if raw == Raw::Text { rest } else { behind_remarks(rest) };
     if rest.is_empty() || is_comment(rest) {
         return Parts { value: None, dropped: None };
@@ -94,6 +97,20 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     }
     let end = word.find('#').unwrap_or(word.len());
     Parts { value: Some(&word[..end]), dropped: None }
+}
+
+/// NC code goes to the end of the line: brackets and `#` belong to it.
+///
+/// Assumption: a `#` behind a blank and before one, and `/*`, begin a comment of the list.
+fn code(rest: &str) -> &str {
+    let ends = |text: &str| text.chars().next_back().is_none_or(char::is_whitespace);
+    let begins = |text: &str| text.chars().next().is_none_or(char::is_whitespace);
+    let remark = |at: &usize| ends(&rest[..*at]) && begins(&rest[at + 1..]);
+    let number_sign = rest.match_indices('#').map(|(at, _)| at).find(remark);
+    let end = rest.find("/*").into_iter().chain(number_sign).min().unwrap_or(rest.len());
+    let code = rest[..end].trim_end();
+    let inner = code.strip_prefix('"').and_then(|code| code.strip_suffix('"'));
+    inner.filter(|inner| !inner.replace("\\\"", "").contains('"')).unwrap_or(code)
 }
 
 /// What follows remarks in closed brackets: the documents print some between key and value.
@@ -146,6 +163,12 @@ mod tests {
         assert_eq!(text("\"two words \" (c"), Parts { value: Some("two words"), dropped: None });
         assert_eq!(text("two words"), Parts { value: Some("two"), dropped: Some("words") });
         assert_eq!(text("(only a comment"), Parts { value: None, dropped: None });
+        let code = |rest| value(Raw::Code, rest).value;
+        assert_eq!(code("G01 X10 (to the edge)  # start"), Some("G01 X10 (to the edge)"));
+        assert_eq!(code("#SLOPE[TYPE=STEP] /* hard"), Some("#SLOPE[TYPE=STEP]"));
+        assert_eq!(code("\"P5 = P2 + 3\""), Some("P5 = P2 + 3"));
+        assert_eq!(code("\"A\" \"B\""), Some("\"A\" \"B\""));
+        assert_eq!(code("# nothing"), None);
         let number = |rest| value(Raw::Uns32, rest).value;
         assert_eq!(number("5000      50/s"), Some("5000"));
         assert_eq!(number("500000    /* um/s"), Some("500000"));

@@ -134,6 +134,7 @@ fn any_value(row: &'static Row) -> BoxedStrategy<Value> {
             .prop_filter("no quote, no blank at the end", |s| !s.contains('"') && s.trim_end() == s)
             .prop_map(Value::Text)
             .boxed(),
+        Raw::Code => "[A-Z][A-Z0-9=+ ]{0,20}[0-9]".prop_map(Value::Text).boxed(),
         Raw::Word(words) => {
             (0..words.len()).prop_map(move |i| Value::Text(words[i].to_owned())).boxed()
         }

@@ -68,6 +68,24 @@ parameters! {
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 goes to the PLC and is acknowledged; acknowledged at once here")
+        .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 goes to the PLC and is acknowledged; acknowledged at once here")
+        .source("TF5200 channel parameters"), as SPINDLE_M4_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 goes to the PLC and is acknowledged; acknowledged at once here")
+        .source("TF5200 channel parameters"), as SPINDLE_M5_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 goes to the PLC and is acknowledged; acknowledged at once here")
+        .source("TF5200 channel parameters"), as SPINDLE_M19_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word goes to the PLC and is acknowledged; acknowledged at once here")
+        .source("TF5200 channel parameters"), as SPINDLE_SPEED_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00070", "m_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which M function i goes out early; read and ignored, it changes no motion")
+        .default(0.0).source("TF5200 channel parameters");
+    chan("P-CHAN-00107", "h_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which H function i goes out early; read and ignored, it changes no motion")
+        .default(0.0).source("TF5200 channel parameters");
+    chan("P-CHAN-00397", "coordinate_system.axes_offsets_layer_specific", Raw::Boolean, "offsets of axes that are no main axes belong to their coordinate system; 0, to the channel, is not simulated")
+        .default(1.0).source("TF5200 channel parameters"), as OFFSETS_IN_SYSTEMS: Switch;
+    chan("P-CHAN-00100", "move_tool_offsets_directly", Raw::Boolean, "0: a new tool moves an axis with its next absolute word, 1: at once with D, which is not simulated")
+        .default(0.0).source("TF5200 channel parameters"), as TOOL_OFFSETS_AT_ONCE: Switch;
     chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always go the shortest way, their first sign belongs to the position")
         .default(0.0).source("TF5200 channel parameters"), as SHORTEST_WAY: Switch;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")
@@ -80,8 +98,8 @@ parameters! {
         .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
         .default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
-    chan("P-CHAN-00062", "", Raw::Text, "NC code of a macro of the channel list (makro_def[i].nc_code); not read: write \"NAME\" = \"NC code\" into the program")
-        .source("TF5200 channel parameters");
+    chan("P-CHAN-00062", "makro_def[i].nc_code", Raw::Code, "NC code of a macro that every program has, to the end of the line; \\\"NAME\\\" in it uses another one")
+        .source("TF5200 channel parameters"), as MACRO_CODE: Text;
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
     chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what the override multiplies")
@@ -92,8 +110,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default), as SLOPE: Whole;
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse), as RAMP_SELECTION: Whole;
-    chan("P-CHAN-00085", "", Raw::Text, "name of a macro of the channel list (makro_def[i].symbol); not read: write \"NAME\" = \"NC code\" into the program")
-        .source("TF5200 channel parameters");
+    chan("P-CHAN-00085", "makro_def[i].symbol", Raw::Text, "name of a macro that every program has, see P-CHAN-00062")
+        .source("TF5200 channel parameters"), as MACRO_NAME: Text;
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
         .range(Bound::Beyond(0.0), Bound::None).default(2000000000.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as PATH_SPEED: Number;
     chan("P-CHAN-00091", "versch_im_durchm", Raw::Boolean, "offsets of a face turning axis are diameters; 1 is not supported with G51")

@@ -132,7 +132,7 @@ impl Param<Text> {
 }
 
 const fn is_number(row: &Row) -> bool {
-    !matches!(row.raw, Raw::Text | Raw::Word(_))
+    !matches!(row.raw, Raw::Text | Raw::Code | Raw::Word(_))
 }
 
 const fn has_default(row: &Row) -> bool {

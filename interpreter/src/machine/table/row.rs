@@ -38,6 +38,8 @@ pub enum Raw {
     Boolean,
     /// Any text.
     Text,
+    /// A block of an NC program: the rest of the line.
+    Code,
     /// One of these words.
     Word(&'static [&'static str]),
     /// A number or the name of a number.
@@ -57,7 +59,7 @@ impl Raw {
             Self::Sgn32 => Some((-2147483648.0, 2147483647.0)),
             Self::Real64 => Some((f64::MIN, f64::MAX)),
             Self::Boolean => Some((0.0, 1.0)),
-            Self::Text | Self::Word(_) => None,
+            Self::Text | Self::Code | Self::Word(_) => None,
         }
     }
 
@@ -71,7 +73,7 @@ impl Raw {
             Self::Sgn32 => "SGN32",
             Self::Real64 => "REAL64",
             Self::Boolean => "BOOLEAN",
-            Self::Text | Self::Word(_) => "STRING",
+            Self::Text | Self::Code | Self::Word(_) => "STRING",
             Self::Names(_) => "UNS32 (names accepted)",
             Self::Flags(_) => "STRING (flags, numbers accepted)",
         }

@@ -1,6 +1,6 @@
 //! Commands: words, switches and groups of keys.
 
-use super::{Expr, Place, Span};
+use super::{Expr, ParameterIndex, Place, PlaceKind, Span};
 
 /// A name with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +26,17 @@ impl Ident {
             return None;
         }
         number.parse().ok().map(|value| (name, value))
+    }
+
+    /// Splits a name written together with a parameter, `IDP100`, into both.
+    pub(crate) fn split_parameter(&self) -> Option<(&str, Place)> {
+        let at = self.text.rfind(['P', 'p']).filter(|at| *at > 0)?;
+        let (name, parameter) = self.text.split_at(at);
+        let digits = parameter[1..].bytes().all(|b| b.is_ascii_digit());
+        let number = parameter[1..].parse().ok().filter(|_| digits)?;
+        let index = ParameterIndex::Literal(number);
+        let kind = PlaceKind::Parameter { indirections: 0, index, subscripts: Vec::new() };
+        Some((name, Place { kind, span: self.span }))
     }
 }
 

@@ -21,6 +21,8 @@ pub enum WordKind {
         /// Value or list.
         value: Option<Box<GValue>>,
     },
+    /// `G[60 - 7]`: what is left of `G"NAME"`.
+    ComputedG(Box<Expr>),
     /// `M30`, `M200=800`, `M@P6`.
     M(CodeNumber, Option<Box<Expr>>),
     /// `M17 [MAIN [END]]`, `M29 [JUMPS=2 N100]`.

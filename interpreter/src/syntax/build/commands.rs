@@ -117,7 +117,7 @@ impl Builder<'_> {
         for part in whole.into_inner() {
             match part.as_rule() {
                 Rule::place => target = Some(self.place(part)),
-                Rule::key | Rule::cycle_key | Rule::ordinal | Rule::name_key => {
+                Rule::key | Rule::cycle_key | Rule::ordinal | Rule::number_key | Rule::name_key => {
                     key = Some(self.upper(&part));
                 }
                 Rule::equals => {}
@@ -164,6 +164,15 @@ impl Builder<'_> {
                 Rule::group => {
                     let group = self.command_group(part, &command);
                     command.groups.push(group);
+                }
+                Rule::late_switch => {
+                    let of_vector = ["VECTORVEL", "VECTORACC"].iter().any(|name| command.is(name));
+                    if of_vector && command.on.is_none() {
+                        command.on = Some(part.as_str().eq_ignore_ascii_case("ON"));
+                    } else {
+                        let text = format!("{} behind the bracket", part.as_str());
+                        self.report(Problem::syntax(self.span(&part), text));
+                    }
                 }
                 Rule::arguments => {
                     for argument in part.into_inner() {

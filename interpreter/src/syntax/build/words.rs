@@ -42,6 +42,7 @@ impl Builder<'_> {
         let mut place = None;
         let mut number = 0;
         let mut code = CodeNumber::Literal(0);
+        let mut computed = None;
         let mut value = None;
         let mut sign = None;
         let mut operator = None;
@@ -54,6 +55,7 @@ impl Builder<'_> {
                     number = part.as_str()[1..].parse().unwrap_or(u32::MAX);
                 }
                 Rule::code_number => code = self.code_number(part),
+                Rule::index => computed = Some(self.index(part)),
                 Rule::marked_name
                 | Rule::bracket_name
                 | Rule::equals_name
@@ -90,6 +92,9 @@ impl Builder<'_> {
             }
             (Rule::g_word, value) => {
                 WordKind::G { number, value: value.map(|v| Box::new(GValue::Scalar(v))) }
+            }
+            (Rule::g_computed, _) => {
+                WordKind::ComputedG(Box::new(computed.unwrap_or_else(Self::zero)))
             }
             (Rule::m_word, value) => WordKind::M(code, value.map(Box::new)),
             (Rule::h_word, value) => WordKind::H(code, value.map(Box::new)),

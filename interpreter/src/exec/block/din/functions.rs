@@ -110,6 +110,8 @@ impl Decoder {
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Before => self.m_function(m),
+                // Assumption: waited for before the motion, as every function; m_synch is not simulated
+                MKind::Stop { .. } => self.takes_declared_time(Function::M(m.number)),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
                 MKind::Spindle if positions && m.number != 19 => {}
                 MKind::Spindle => {
@@ -165,7 +167,10 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::After => self.turn_main_spindle(m, None),
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
-                MKind::End => after = After::End,
+                MKind::End => {
+                    self.takes_declared_time(Function::M(m.number));
+                    after = After::End;
+                }
                 MKind::Return if !matches!(after, After::End) => {
                     after = After::Return(words.back);
                 }

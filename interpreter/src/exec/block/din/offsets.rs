@@ -6,6 +6,7 @@ use crate::exec::block::modal::Compensation;
 use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
 
 fn zero_group(g: &GWord) -> Outcome<u32> {
     let value = g.value.unwrap_or_default();
@@ -106,16 +107,23 @@ impl Decoder {
             self.report.note(Fault::new(Condition::PresetWhileMirrored, text, at));
             return true;
         }
-        let conflicts = !self.geometry.coordinates.frame().is_identity()
-            || self.modal.compensation != Compensation::Off;
+        let coordinates = &self.geometry.coordinates;
+        let conflicts =
+            coordinates.rotation().is_some() || self.modal.compensation != Compensation::Off;
         if conflicts {
-            let text = "#PSET and #PRESET do not go with rotation, #CS or tool radius compensation";
+            let text = "#PSET and #PRESET do not go with rotation or tool radius compensation";
             self.report.note(Fault::new(Condition::Syntax, text, at));
             return true;
         }
         if words.axes.iter().any(|(axis, _, _)| self.modal.diameter == Some(*axis)) {
             self.report
                 .note(Fault::unsupported("#PSET and #PRESET of an axis with diameters (G51)", at));
+            return true;
+        }
+        let beside = words.axes.iter().find(|(axis, _, _)| coordinates.main_index(*axis).is_none());
+        if let Some((_, _, span)) = beside.filter(|_| coordinates.systems() > 0) {
+            let what = "#PSET and #PRESET of an axis that is no main axis, in a coordinate system";
+            self.report.note(Fault::unsupported(what, *span));
             return true;
         }
         for (axis, value, _) in &words.axes {
@@ -130,6 +138,16 @@ impl Decoder {
             self.report.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
         }
         true
+    }
+
+    /// G74 takes the position presets of its axes back, without axes of all (207101835).
+    pub(super) fn home(&mut self, words: &Words<'_>) {
+        let named = |axis: usize| words.axes.iter().any(|(other, _, _)| *other == axis);
+        for axis in 0..self.machine.axes.len() {
+            if words.axes.is_empty() || named(axis) {
+                self.geometry.coordinates.preset_position(axis, None);
+            }
+        }
     }
 
     /// G98, G99: until the end of the program.
@@ -221,6 +239,25 @@ impl Decoder {
         }
         let deg = words.radius.map_or(0.0, |(deg, _)| deg);
         let plane = [main[0], main[1]];
-        self.geometry.coordinates.rotate_about(plane, deg, centre, g.span)
+        self.rotate_plane(plane, deg, centre, g.span)
+    }
+
+    /// G68, `#ROTATION`; refused where degrees and millimetres would mix.
+    pub(in crate::exec) fn rotate_plane(
+        &mut self,
+        plane: [usize; 2],
+        deg: f64,
+        centre: [Option<f64>; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        let axis = |main: usize| self.geometry.coordinates.main_axis(main);
+        let axes = plane.map(|main| axis(main).map(|axis| &self.machine.axes[axis]));
+        if let [Some(first), Some(second)] = axes
+            && (first.kind() != second.kind() || first.is_modulo() || second.is_modulo())
+        {
+            let what = format!("a rotation of the axes {} and {}", first.name(), second.name());
+            return Err(Fault::unsupported(what, span).hint("only linear axes are turned"));
+        }
+        self.geometry.coordinates.rotate_about(plane, deg, centre, span)
     }
 }

@@ -19,6 +19,8 @@ const NO_GROUP: u32 = u32::MAX;
 pub(super) struct Layer {
     /// Where it stands in the system below, with the offsets of that one.
     pub(super) system: Frame,
+    /// The number that it is stored under; `None` without one.
+    number: Option<u32>,
     /// Active zero-offset group, 0 = G53.
     zero_group: u32,
     /// It was selected by G159.
@@ -36,6 +38,7 @@ impl Layer {
     pub(super) fn new(system: Frame, axes: usize) -> Self {
         Self {
             system,
+            number: None,
             zero_group: NO_GROUP,
             zero_group_by_value: false,
             zero_written: BTreeMap::new(),
@@ -140,9 +143,18 @@ impl Coordinates {
         self.offsets_changed();
     }
 
-    /// `#PSET`: where the axis is has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
-    /// not move. Not in a system.
+    /// `#PSET`: where the axis is has this coordinate from now on, in a system in that; `None` (`#PRESET`) takes that back.
+    /// The axis does not move. In a system only main axes.
     pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
+        if !self.systems.is_empty() {
+            self.recompute_program();
+            let here = self.program[axis];
+            self.change(|layer| match value_mm {
+                Some(value) => layer.position_preset[axis] += here - value,
+                None => layer.position_preset[axis] = 0.0,
+            });
+            return;
+        }
         let before = self.lowest.position_preset[axis];
         let after = match value_mm {
             Some(value) => before + (self.target[axis] - self.applied[axis]) - value,
@@ -178,9 +190,16 @@ impl Coordinates {
         self.systems.len()
     }
 
-    pub(in crate::exec) fn push_system(&mut self, frame: Frame) {
+    /// A stored system with this number is active.
+    pub(in crate::exec) fn is_system_active(&self, number: u32) -> bool {
+        let aside = self.suspended.as_ref().map_or(&[][..], |before| before.systems());
+        self.systems.iter().chain(aside).any(|layer| layer.number == Some(number))
+    }
+
+    /// A system within those that are active; `number`: the one that it is stored under.
+    pub(in crate::exec) fn push_system(&mut self, frame: Frame, number: Option<u32>) {
         let axes = self.target.len();
-        self.systems.push(Layer::new(frame, axes));
+        self.systems.push(Layer { number, ..Layer::new(frame, axes) });
         self.frame_changed();
     }
 

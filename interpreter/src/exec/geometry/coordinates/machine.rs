@@ -22,6 +22,13 @@ pub(super) struct Suspended {
     tool_aside: bool,
 }
 
+impl Suspended {
+    /// Coordinate systems that come back.
+    pub(super) fn systems(&self) -> &[Layer] {
+        &self.systems
+    }
+}
+
 impl Coordinates {
     /// The words of the program are positions of the axes (`#MCS ON`).
     pub(in crate::exec) fn is_machine(&self) -> bool {

@@ -7,7 +7,6 @@ use crate::exec::program::executor::Executor;
 use crate::exec::program::index::EntryId;
 use crate::exec::program::index::Keyword;
 use crate::exec::program::state::Counter;
-use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Expr, Place, PlaceKind, Span};
 
 impl Executor {
@@ -134,18 +133,24 @@ impl Executor {
     }
 
     /// Repeats while the condition is true, without one forever.
+    ///
+    /// Here FALSE is all below 0.5, negative values too; for `$WHILE` and `$IF` it is -0.5 to 0.5 (206946827, 206940939).
     pub(super) fn end_do(&mut self, condition: Option<&Expr>, id: EntryId) {
-        if condition.is_none_or(|c| self.test(c)) {
+        let goes_on = condition.is_none_or(|condition| {
+            let value = self.decoder.number(condition);
+            self.decoder.report.keep(value).is_some_and(|x| x >= 0.5)
+        });
+        if goes_on {
             self.repeat(id, false);
         } else {
             self.pop_frame_of(id);
         }
     }
 
-    /// Repeats until the condition is true.
+    /// Repeats until the condition is true, which is all above 0.5 here (206946827, in its German text and 15556885643).
     pub(super) fn until(&mut self, condition: &Expr, id: EntryId) -> Outcome<()> {
         match self.decoder.number(condition) {
-            Ok(x) if !is_true(x) => self.repeat(id, false),
+            Ok(x) if x <= 0.5 => self.repeat(id, false),
             Ok(_) => self.pop_frame_of(id),
             Err(fault) => {
                 self.pop_frame_of(id);

@@ -1,0 +1,7 @@
+; run: exit 0
+; page 251816331 diagnosis 20535, right
+; end X100 Y100 Z10
+N10 G63 Z10 F1000 S100
+N20 G01 G90 X100 Y100
+N30 #SET AX[X, 1, 0]
+N40 M30

@@ -1,0 +1,16 @@
+; run: exit 0
+; page 206946827 loops with a condition at their end ($DO, $REPEAT)
+; end X11 Y0
+N10 X0 Y0 Z0 G01 F10000
+N20 P2=10 P1=0
+N30 $DO
+N40 P1=P1+1
+N50 XP1
+N60 $ENDDO P1 <= P2
+N70 X0
+N80 P2=10 P1=0
+N90 $REPEAT
+N100 P1=P1+1
+N110 XP1
+N120 $UNTIL P1 > P2
+N130 M30
