@@ -55,10 +55,10 @@ use std::sync::Arc;
 use stretch::{Stretch, cells, most_exceeded};
 
 /// Relative difference of speeds that is rounding.
-const ROUNDING: f64 = 1e-7;
+pub(crate) const ROUNDING: f64 = 1e-7;
 
 /// Acceleration that is zero but for rounding.
-const FLAT_MM_S2: f64 = 1e-6;
+pub(crate) const FLAT_MM_S2: f64 = 1e-6;
 
 /// Blocks planned as one profile.
 #[derive(Clone, Debug)]

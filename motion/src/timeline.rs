@@ -7,7 +7,7 @@
 use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::cap::{Cap, SpeedLimit};
-use crate::lookahead::Span;
+use crate::lookahead::{FLAT_MM_S2, ROUNDING, Span};
 use crate::profile::{Profile, State};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
@@ -258,11 +258,12 @@ impl Entry {
             path.position(queued.offset + state.s_mm - (s_end - queued.length), &mut out.position);
             (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
             let top = self.feeds.get(i).unwrap_or(&queued.velocity);
-            out.limit = if state.a_mm_s2 > 0.0 {
+            // what is driven evenly behind a change of speed keeps the rounding of that change
+            out.limit = if state.a_mm_s2 > FLAT_MM_S2 {
                 self.why_up
-            } else if state.a_mm_s2 < 0.0 {
+            } else if state.a_mm_s2 < -FLAT_MM_S2 {
                 self.why_down
-            } else if state.v_mm_s >= top.v_mm_s * (1.0 - 1e-9) {
+            } else if state.v_mm_s >= top.v_mm_s * (1.0 - ROUNDING) {
                 top.why
             } else {
                 self.why_down

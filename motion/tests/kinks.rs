@@ -5,6 +5,7 @@ mod common;
 use common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
+use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::Setpoint;
 
 const CYCLE_US: u32 = 100;
@@ -16,7 +17,7 @@ const ACC: f64 = 2000.0;
 const QUICK: f64 = ACC / 0.01;
 const SLOW: f64 = ACC / 0.1;
 
-fn drive(kind: SlopeKind, points: &[&[f64]]) -> Vec<Setpoint> {
+fn drive(kind: SlopeKind, points: &[&[f64]], feeds_mm_s: &[f64]) -> Vec<Setpoint> {
     let of = |ramp: f64| AxisDynamics {
         feed: FeedSlope { acc_mm_s2: ACC, dec_mm_s2: ACC, ramps_s: [ramp; 4] },
         ..axis(KINK_WEIGHT)
@@ -26,7 +27,7 @@ fn drive(kind: SlopeKind, points: &[&[f64]]) -> Vec<Setpoint> {
         cycle_us: CYCLE_US,
         ..Job::new(KINK_WEIGHT, kind)
     };
-    job.drive(points, &[200.0])
+    job.drive(points, feeds_mm_s)
 }
 
 /// Along X, then at 45 degrees, where Z holds the jerk down.
@@ -42,7 +43,7 @@ fn at_kink() -> f64 {
 #[test]
 fn the_lowest_speed_lies_on_the_quicker_side() {
     for kind in [Hsc, Trapez] {
-        let out = drive(kind, &POINTS.each_ref().map(|p| &p[..]));
+        let out = drive(kind, &POINTS.each_ref().map(|p| &p[..]), &[200.0]);
         let kink = out.iter().position(|p| p.seq == 1).unwrap();
         let Setpoint { v_mm_s: v, a_mm_s2: a, s_mm: s, .. } = out[kink];
         // the setpoint lies up to a cycle behind the kink
@@ -69,10 +70,31 @@ fn between_equal_lines_the_lowest_speed_is_at_the_kink() {
     // bends that one axis sees as the other one does
     let points = [[0.0, 0.0], [6.0, 2.0], [12.0, 0.0]];
     for kind in [Hsc, Trapez] {
-        let out = drive(kind, &points.each_ref().map(|p| &p[..]));
+        let out = drive(kind, &points.each_ref().map(|p| &p[..]), &[200.0]);
         let kink = out.iter().position(|p| p.seq == 1).unwrap();
         let near = &out[kink - 400..kink + 400];
         let lowest = near.iter().map(|p| p.v_mm_s).fold(f64::INFINITY, f64::min);
         assert!(out[kink].v_mm_s - lowest < 1e-3, "{kind:?}: {lowest}");
+    }
+}
+
+/// Behind a kink that is passed with an acceleration, what is driven at the feed of the block is held by the feed: as long
+/// as its way takes at the feed, but for the ramps of both ends.
+#[test]
+fn behind_a_kink_the_feed_is_the_reason_for_the_feed() {
+    for kind in [Hsc, Trapez] {
+        for feed in (5..60).map(f64::from) {
+            let way = [[0.0, 0.0], [20.0, 0.0], [20.0, feed]];
+            let out = drive(kind, &way.each_ref().map(|p| &p[..]), &[200.0, feed]);
+            let even = |p: &&Setpoint| {
+                p.seq == 1 && (p.v_mm_s - feed).abs() < 1e-5 && p.a_mm_s2.abs() < 1e-3
+            };
+            let at_feed: Vec<_> = out.iter().filter(even).collect();
+            let ramps_s = 2.0 * (ACC / SLOW + feed / ACC);
+            assert!(at_feed.len() as f64 > (1.0 - ramps_s) / CYCLE_S, "{feed}: {}", at_feed.len());
+            for p in at_feed {
+                assert_eq!(p.limit, SpeedLimit::Feed, "{kind:?}, {feed} mm/s: {p:?}");
+            }
+        }
     }
 }

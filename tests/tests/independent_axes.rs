@@ -381,3 +381,31 @@ fn afterwards_the_deviation_counts_again() {
     let without = largest("X5\nX0\n");
     assert!(without > 0.03 && (with - without).abs() < 1e-6, "{with} instead of {without}");
 }
+
+/// P-CHAN-00297 = 1, after the page's example: G60 waits until Z, which is on its way alone, is in its window; with 0 and 2 it
+/// waits for the axes of the path. An axis that oscillates is never awaited, and a slower Z never makes the path faster.
+#[test]
+fn an_exact_stop_waits_for_independent_axes() {
+    let arrives = |mode: u32, z: &str| {
+        let mode = format!("channel.mode_exact_stop_indp_axis={mode}");
+        let text = format!("%P\n{z}\nG01 G90 X10 Y10 G60 F3000\nG01 X20\n{{}}M30\n");
+        let text = text.replace("{}", if z.contains("OSC") { "Z[OSC OFF]\n" } else { "" });
+        let run = run_on(linear(&[&mode]), &text);
+        assert_eq!(run.diagnostics, [], "{z}");
+        let away = ipo(&run, 0).iter().position(|x| *x > 10.0).unwrap();
+        let window = run.records[away].axes[2].act;
+        (away as f64 * run.cycle_s, window)
+    };
+    let far = "Z[INDP_ASYN POS=100 G01 FEED=6000 G90]";
+    let (at, z) = arrives(1, far);
+    // 100 mm at 100 mm/s and 1000 mm/s2 take 1.1 s
+    assert!(at > 1.1 && at < 1.4 && (z - 100.0).abs() < 0.011, "{at} {z}");
+    for mode in [0, 2] {
+        let (at, _) = arrives(mode, far);
+        assert!(at < 0.6, "{at}");
+    }
+    let (slower, z) = arrives(1, "Z[INDP_ASYN POS=100 G01 FEED=3000 G90]");
+    assert!(slower > 2.0 && (z - 100.0).abs() < 0.011, "{slower} {z}");
+    let (oscillating, _) = arrives(1, "Z[OSC ON 1ST_POS=-1 2ND_POS=1 FEED=600]");
+    assert!(oscillating < 0.6, "{oscillating}");
+}

@@ -263,3 +263,26 @@ fn clocks_and_rounded_times() {
     let done = command(["diff", &program, &bench.path("t.csv"), "--map", "X_set_mm=x"]);
     assert!(done.exit == Exit::Usage && done.err.contains("equal steps"), "{}", done.err);
 }
+
+/// A recording of every second or fourth row, copied digit by digit, is equal to the trace; a step of its own of 1 um is found.
+#[test]
+fn a_recording_with_fewer_samples_is_compared_at_its_samples() {
+    let bench = Bench::new();
+    for each in [2, 4, 10] {
+        for spoiled in [false, true] {
+            let mut text = String::from("time,x,y\n");
+            for (k, [x, y]) in bench.set.iter().enumerate().step_by(each) {
+                let x = if spoiled && k / each == 20 { x + 1e-3 } else { *x };
+                let _ = writeln!(text, "{},{x},{y}", k as f64 * 1e-3);
+            }
+            std::fs::write(bench.path("coarse.csv"), text).unwrap();
+            let words =
+                ["diff", &bench.path("part.nc"), &bench.path("coarse.csv"), "--map", "X_set_mm=x"];
+            let said = command(words);
+            let expected = if spoiled { Exit::Aborted } else { Exit::Finished };
+            assert_eq!(said.exit, expected, "{each}: {}", said.out);
+            let differ = format!("{} differ by", u32::from(spoiled));
+            assert!(said.out.contains(&differ), "{each}: {}", said.out);
+        }
+    }
+}

@@ -6,6 +6,7 @@ pub(super) mod compensation;
 pub(super) mod contouring;
 mod feed_course;
 pub(super) mod insertion;
+mod interim;
 mod motion;
 
 use self::akima::{Akima, Curve};
@@ -13,6 +14,7 @@ use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
 use self::contouring::{Contouring, Hsc};
 use self::insertion::Insertion;
+use self::interim::Interim;
 use super::fault::{Fault, Outcome};
 use super::geometry::arc::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
@@ -58,6 +60,7 @@ pub(super) struct Contour {
     pub(super) tangential: bool,
     /// G151.
     pub(super) akima: Akima,
+    interim: Interim,
     driven: Vec<Driven>,
     blocks: u64,
     /// Where the tool is at the contour has to be told (`#OTC`), and what was told last.
@@ -195,7 +198,10 @@ impl Contour {
     pub(super) fn lets_by(&self) -> bool {
         let nothing_waits = self.queue.is_empty() && self.end.is_none() && self.events.is_empty();
         nothing_waits
-            && self.held.as_ref().is_some_and(|held| self.goes_out_as_it_is(held))
+            && self
+                .held
+                .as_ref()
+                .is_some_and(|held| self.goes_out_as_it_is(held) && self.interim.lets_by(held))
             && !self.akima.runs()
             && !self.tangential
     }
@@ -230,7 +236,7 @@ impl Contour {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             if self.goes_out_as_it_is(&before) {
-                self.queue.push_back(Item::Motion(before));
+                self.go_out(Item::Motion(before));
                 self.held = Some(motion);
                 return faults;
             }
@@ -346,13 +352,25 @@ impl Contour {
                 }
             }
         }
-        for item in self.done.drain(..) {
+        for item in std::mem::take(&mut self.done) {
             match item {
                 Item::Motion(motion) if motion.course.is_some() => {
-                    self.queue.extend(feed_course::pieces(motion));
+                    for piece in feed_course::pieces(motion) {
+                        self.go_out(piece);
+                    }
                 }
-                Item::Motion(_) | Item::Rest(_) | Item::Events(_) => self.queue.push_back(item),
+                Item::Motion(_) | Item::Rest(_) | Item::Events(_) => self.go_out(item),
             }
         }
+    }
+
+    /// The last stage before the simulation.
+    fn go_out(&mut self, item: Item) {
+        match &item {
+            Item::Motion(motion) => self.driven.extend(self.interim.motion(motion)),
+            Item::Rest(_) => self.interim.rest(),
+            Item::Events(_) => {}
+        }
+        self.queue.push_back(item);
     }
 }

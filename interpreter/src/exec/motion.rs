@@ -133,7 +133,7 @@ impl Decoder {
         let after_rapid =
             self.modal.path == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
         if exact_stop_once(words).is_some() || self.modal.exact_stop || after_rapid {
-            self.sync(Sync::ExactStop);
+            self.sync(Sync::ExactStop { alone: self.machine.channel.stops_join });
         }
     }
 

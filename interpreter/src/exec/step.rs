@@ -60,7 +60,10 @@ pub(crate) enum Step {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Sync {
     /// G60, G360: waiting until every axis is in its window (P-AXIS-00236).
-    ExactStop,
+    ExactStop {
+        /// Those that are on their way alone too (P-CHAN-00297 = 1).
+        alone: bool,
+    },
     /// A stop at the end of the block before and nothing else (`#FLUSH`, G115 and similar).
     Stop,
     /// G04, `#TIME`: waiting so long, in s.

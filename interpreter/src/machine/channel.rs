@@ -145,6 +145,8 @@ pub struct Channel {
     pub tool_data_with_tool: bool,
     /// `#WAIT INDP` waits for the windows of all axes (P-CHAN-00297 = 2).
     pub joins_in_windows: bool,
+    /// G60 and G360 wait for independent axes too (P-CHAN-00297 = 1).
+    pub stops_join: bool,
     /// Measuring type at program start, 1 to 7 (P-CHAN-00057).
     pub measuring_type: u32,
     /// Measuring type 1: a run without a signal of the probe is an error (P-CHAN-00176).
@@ -298,7 +300,8 @@ impl Channel {
                 .collect(),
             offsets_in_diameters: p.get(of::OFFSETS_IN_DIAMETERS),
             tool_data_with_tool: p.get(of::TOOL_DATA_WITH_TOOL),
-            joins_in_windows: p.get(of::JOIN_IN_WINDOWS) == 2,
+            joins_in_windows: p.get(of::INDEPENDENT_STOP) == 2,
+            stops_join: p.get(of::INDEPENDENT_STOP) == 1,
             measuring_type: p.get(of::MEASURING_TYPE),
             missing_signal_is_error: p.get(of::MISSING_SIGNAL_IS_ERROR),
             residual_path_mm: p.get(of::RESIDUAL_PATH),

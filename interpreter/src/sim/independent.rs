@@ -258,6 +258,16 @@ impl IndependentAxes {
         self.lanes.get(axis).is_some_and(|lane| lane.underway.is_some())
     }
 
+    /// It goes to and fro.
+    pub(super) fn oscillates(&self, axis: usize) -> bool {
+        self.lanes.get(axis).is_some_and(|lane| lane.oscillation.is_some())
+    }
+
+    /// One is on its way to a target.
+    pub(super) fn any_moving_once(&self) -> bool {
+        self.lanes.iter().any(|lane| lane.underway.is_some() && lane.oscillation.is_none())
+    }
+
     pub(super) fn any_moving(&self) -> bool {
         self.lanes.iter().any(|lane| lane.underway.is_some())
     }

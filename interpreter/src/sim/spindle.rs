@@ -1,12 +1,12 @@
-//! Set position of a spindle: speed ramps and positioning.
-//!
-//! The speed rises with P-AXIS-00001 and falls with P-AXIS-00002: accelerations of spindles are always those of the jerk-limited slope
-//! (TF5200 axis parameters, P-AXIS-00556). Assumption: without ramp times, whatever the slope type (P-AXIS-00270) is.
+//! Set position of a spindle: turning, positioning, going with the path.
+
+mod turning;
 
 use crate::exec::{Approach, CuttingSpeed, SpindleMotion};
 use kontur_filters::time::CycleTime;
-use kontur_motion::axis::AxisDynamics;
-use kontur_motion::profile::{Profile, SlopeLimits, StepAxis, StepLimits};
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::profile::{Profile, SlopeLimits};
+use turning::Turning;
 
 /// Positioning after M19: the profile, where it began, cycles since.
 #[derive(Clone, Debug)]
@@ -22,13 +22,12 @@ struct Positioning {
 /// One spindle.
 #[derive(Clone, Debug)]
 pub(super) struct Spindle {
-    acc_deg_s2: f64,
-    dec_deg_s2: f64,
+    slope: FeedSlope,
     /// Weight of the acceleration (G130).
     acc_ratio: f64,
     v_max_deg_s: f64,
     position_deg: f64,
-    speed_deg_s: f64,
+    turning: Turning,
     wanted: SpindleMotion,
     positioning: Option<Positioning>,
     /// Where a positioning that has just begun will end.
@@ -51,12 +50,11 @@ struct Following {
 impl Spindle {
     pub(super) fn new(dynamics: &AxisDynamics) -> Self {
         Self {
-            acc_deg_s2: dynamics.feed.acc_mm_s2,
-            dec_deg_s2: dynamics.feed.dec_mm_s2,
+            slope: dynamics.feed,
             acc_ratio: 1.0,
             v_max_deg_s: dynamics.v_max_mm_s,
             position_deg: 0.0,
-            speed_deg_s: 0.0,
+            turning: Turning::default(),
             wanted: SpindleMotion::Stop,
             positioning: None,
             target_deg: None,
@@ -75,7 +73,7 @@ impl Spindle {
         });
         self.wanted = SpindleMotion::Stop;
         self.positioning = None;
-        self.speed_deg_s = 0.0;
+        self.turning = Turning::default();
     }
 
     /// Keeps a cutting speed from now on, or the speed that it has.
@@ -97,8 +95,9 @@ impl Spindle {
 
     /// It turns with its speed and passes an angle between this cycle and the next one: the share of the cycle until then.
     pub(super) fn mark_ahead(&self, deg: f64, cycle: CycleTime) -> Option<f64> {
-        let way = self.speed_deg_s * cycle.seconds();
-        let steady = self.speed_deg_s.to_bits() == self.target_deg_s().to_bits();
+        let speed = self.turning.speed_deg_s();
+        let way = speed * cycle.seconds();
+        let steady = self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits();
         if !steady || way.abs() <= 0.0 {
             return None;
         }
@@ -112,7 +111,7 @@ impl Spindle {
         if let SpindleMotion::Position { approach: approach @ Approach::Free, .. } =
             &mut self.wanted
         {
-            *approach = match self.speed_deg_s {
+            *approach = match self.turning.speed_deg_s() {
                 v if v > 0.0 => Approach::Clockwise,
                 v if v < 0.0 => Approach::CounterClockwise,
                 _ => Approach::Free,
@@ -121,18 +120,13 @@ impl Spindle {
         self.positioning = None;
     }
 
-    /// G130: the acceleration of motions that begin from now on, and of the change of speed under way.
+    /// G130: the acceleration of motions and changes of speed that begin from now on.
     pub(super) fn weigh_acceleration(&mut self, ratio: f64) {
         self.acc_ratio = ratio;
     }
 
-    fn limits(&self) -> SlopeLimits {
-        let axis = StepAxis {
-            acc_mm_s2: [self.acc_deg_s2 * self.acc_ratio; 2],
-            dec_mm_s2: [self.dec_deg_s2 * self.acc_ratio; 2],
-            change_mm_s: self.v_max_deg_s,
-        };
-        SlopeLimits::Step(StepLimits::from_axes(&[axis]))
+    fn limits(&self, cycle: CycleTime) -> SlopeLimits {
+        turning::limits(self.slope, self.acc_ratio, cycle)
     }
 
     /// It has been ordered to an angle.
@@ -147,7 +141,7 @@ impl Spindle {
 
     /// The set position is at rest.
     pub(super) fn rests(&self) -> bool {
-        self.speed_deg_s.abs() <= 0.0 && !self.approaches()
+        self.turning.speed_deg_s().abs() <= 0.0 && !self.approaches()
     }
 
     /// Where the positioning that began in the last cycle will end, once.
@@ -166,25 +160,30 @@ impl Spindle {
 
     /// Set position of the next cycle in deg, counted on over the turns; `position`: that of the path axes.
     pub(super) fn step(&mut self, position: &[f64], cycle: CycleTime) -> f64 {
-        let t = cycle.seconds();
         if let Some(Following { axis, deg_per_mm, from_mm, from_deg }) = self.following {
             let way_mm = position.get(axis).map_or(0.0, |x| x - from_mm);
             let next = from_deg + deg_per_mm * way_mm;
-            (self.speed_deg_s, self.position_deg) = ((next - self.position_deg) / t, next);
+            self.turning = Turning::at((next - self.position_deg) / cycle.seconds());
+            self.position_deg = next;
             return next;
         }
         if let SpindleMotion::Position { deg, rpm, approach } = self.wanted
-            && (self.positioning.is_some() || self.speed_deg_s.abs() <= 0.0)
+            && (self.positioning.is_some() || self.turning.speed_deg_s().abs() <= 0.0)
         {
             self.approach(deg, rpm, approach, cycle);
             return self.position_deg;
         }
         let target = self.target_deg_s();
-        let rises = target.abs() > self.speed_deg_s.abs() && target * self.speed_deg_s >= 0.0;
-        let step = if rises { self.acc_deg_s2 } else { self.dec_deg_s2 } * self.acc_ratio * t;
-        let speed = self.speed_deg_s + (target - self.speed_deg_s).clamp(-step, step);
-        self.position_deg += 0.5 * (self.speed_deg_s + speed) * t;
-        self.speed_deg_s = speed;
+        let limits = self.limits(cycle);
+        let most = self.slope.acc_mm_s2.min(self.slope.dec_mm_s2) * self.acc_ratio;
+        let follows = self.cutting.is_some() && self.turning.is_steady();
+        let change = (target - self.turning.speed_deg_s()).abs();
+        // Assumption: under G96 a spindle that has its speed follows the radius, whose changes are those of the path, without ramps
+        self.position_deg += if follows && change <= most * cycle.seconds() {
+            self.turning.set_speed(target, cycle)
+        } else {
+            self.turning.step(target, &limits, cycle)
+        };
         self.position_deg
     }
 
@@ -202,7 +201,7 @@ impl Spindle {
                 Approach::Clockwise | Approach::Free => (1.0, clockwise),
             };
             let speed = rpm.map_or(self.v_max_deg_s, |rpm| (rpm * 6.0).min(self.v_max_deg_s));
-            let profile = self.limits().plan(0.0, 0.0, speed, way);
+            let profile = self.limits(cycle).plan(0.0, 0.0, speed, way);
             self.positioning = profile.ok().map(|profile| Positioning {
                 profile,
                 from_deg: self.position_deg,
@@ -217,11 +216,8 @@ impl Spindle {
             let time_s = cycle.time_of(p.cycles);
             let state = p.profile.at(time_s);
             p.arrived = time_s >= p.profile.duration();
-            (self.position_deg, self.speed_deg_s) =
-                (p.from_deg + p.sense * state.s_mm, p.sense * state.v_mm_s);
-            if p.arrived {
-                self.speed_deg_s = 0.0;
-            }
+            self.position_deg = p.from_deg + p.sense * state.s_mm;
+            self.turning = Turning::at(if p.arrived { 0.0 } else { p.sense * state.v_mm_s });
         }
     }
 }

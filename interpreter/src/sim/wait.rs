@@ -42,7 +42,10 @@ enum Until {
     /// A spindle is at rest, or passes its mark.
     Spindle(usize, SpindleState),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
-    InPosition,
+    InPosition {
+        /// Independent axes on their way too, until they are at their targets; those that oscillate never are.
+        alone: bool,
+    },
     /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
     /// monitors: the last row of the trace shows the axes inside their windows.
     AllInPosition,
@@ -87,7 +90,7 @@ impl Wait {
         let cycles =
             |seconds: f64, rest| Until::Cycles((seconds / cycle.seconds()).round() as u64, rest);
         let (until, action) = match sync {
-            Sync::ExactStop => (Until::InPosition, Action::None),
+            Sync::ExactStop { alone } => (Until::InPosition { alone }, Action::None),
             Sync::Spindle { spindle, state } => (Until::Spindle(spindle, state), Action::None),
             // the delay of the axes runs out in the first cycle of rest
             Sync::ThreadEnd => (Until::Cycles(1, Rest::Spindle), Action::ThreadEnd),
@@ -101,7 +104,7 @@ impl Wait {
             Sync::TakeActual => (Until::AllInPosition, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
             Sync::SetPosition { axis, offset_mm } => {
-                (Until::InPosition, Action::SetPosition { axis, offset_mm })
+                (Until::InPosition { alone: false }, Action::SetPosition { axis, offset_mm })
             }
             Sync::MachineData { .. } => (Until::Flushed, Action::MachineData),
         };
@@ -116,7 +119,11 @@ impl Wait {
 
     /// The path has halted: the axes come into their windows.
     pub(super) fn for_halt() -> Self {
-        Self { until: Until::InPosition, action: Action::Halted, patience: Patience::default() }
+        Self {
+            until: Until::InPosition { alone: false },
+            action: Action::Halted,
+            patience: Patience::default(),
+        }
     }
 
     /// What was called at a halt takes so many seconds.
@@ -142,7 +149,9 @@ impl Wait {
                 let ended = independent.end_oscillations(None);
                 if matches!(self.action, Action::End(_)) { Vec::new() } else { ended }
             }
-            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => Vec::new(),
+            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition { .. } => {
+                Vec::new()
+            }
         }
     }
 
@@ -154,7 +163,12 @@ impl Wait {
         let concerns = move |driver: Driver| match (&self.until, driver) {
             (Until::Arrived(axes), Driver::Path(p)) => axes.contains(&p),
             // axes on their way alone have no exact stop here
-            (Until::InPosition, Driver::Path(p)) => !parts.independent.is_moving(p),
+            (Until::InPosition { alone: true }, Driver::Path(p)) => {
+                !parts.independent.oscillates(p)
+            }
+            (Until::InPosition { alone: false }, Driver::Path(p)) => {
+                !parts.independent.is_moving(p)
+            }
             (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
             (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
             (Until::Now | Until::Cycles(..) | Until::Spindle(..), Driver::Path(_))
@@ -167,7 +181,8 @@ impl Wait {
     /// Something that the wait looks at is on its way by itself.
     fn under_way(&self, parts: Parts<'_>) -> bool {
         match &self.until {
-            Until::Now | Until::Cycles(..) | Until::InPosition => false,
+            Until::Now | Until::Cycles(..) | Until::InPosition { alone: false } => false,
+            Until::InPosition { alone: true } => parts.independent.any_moving_once(),
             Until::Spindle(spindle, state) => {
                 !parts.spindles.get(*spindle).is_none_or(|s| match state {
                     SpindleState::Rest => s.rests(),
@@ -187,7 +202,8 @@ impl Wait {
         let awaited = |axis: &usize| match &self.until {
             Until::Arrived(axes) => axes.contains(axis),
             Until::Flushed | Until::AllInPosition => true,
-            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => false,
+            Until::InPosition { alone } => *alone && !independent.oscillates(*axis),
+            Until::Now | Until::Cycles(..) | Until::Spindle(..) => false,
         };
         let mut moving =
             (0..independent.len()).filter(awaited).filter(|a| independent.is_moving(*a));
@@ -197,7 +213,7 @@ impl Wait {
 
     /// What keeps a chain from being where the wait wants it.
     fn remaining(&self, chain: &AxisChain) -> Option<Remaining> {
-        let position = matches!(self.until, Until::InPosition | Until::AllInPosition);
+        let position = matches!(self.until, Until::InPosition { .. } | Until::AllInPosition);
         chain.unsettled().or_else(|| position.then(|| chain.out_of_position()).flatten())
     }
 
@@ -261,7 +277,7 @@ impl Wait {
             Until::Spindle(..) => Rest::Spindle,
             Until::Now | Until::Flushed | Until::Arrived(_) => Rest::Flush,
             Until::AllInPosition if matches!(self.action, Action::End(_)) => Rest::Arrival,
-            Until::InPosition | Until::AllInPosition => Rest::ExactStop,
+            Until::InPosition { .. } | Until::AllInPosition => Rest::ExactStop,
         }
     }
 

@@ -58,7 +58,7 @@ fn add_product(out: &mut Poly, factor: f64, a: &[f64], b: &[f64]) {
 }
 
 /// Coefficients in Bernstein form over `0..=1`: the polynomial stays between the smallest and the largest one.
-fn bernstein(p: &[f64]) -> Poly {
+pub(super) fn bernstein(p: &[f64]) -> Poly {
     let mut out = Poly::from_slice(p);
     let n = out.len().saturating_sub(1);
     let mut choose = 1.0;

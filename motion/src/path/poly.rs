@@ -5,7 +5,7 @@
 //! Newton on the table of sub-intervals.
 
 use super::extremes;
-use super::piece::{self, Pace, PolyPiece, bend, slope, value};
+use super::piece::{self, Coefficients, Pace, PolyPiece, bend, section, slope, value};
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
 use std::cmp::Ordering;
@@ -21,6 +21,9 @@ const GUESS: f64 = 1e-4;
 const STEPS: usize = 4;
 /// Samples per sub-interval in the search for the nearest point.
 const SAMPLES: usize = 8;
+
+/// What a curve leaves its ends by at least, in mm and in proportion to its position: less is rounding.
+const BEYOND: (f64, f64) = (1e-9, 1e-12);
 
 /// Gauss-Legendre on `-1..=1`: nodes and weights of five points.
 #[rustfmt::skip]
@@ -73,6 +76,12 @@ fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
     piece.iter().map(of_axis).map(|r| r * r).sum::<f64>().sqrt() * (1.0 + 1e-9)
 }
 
+/// True if a position is outside a range by more than rounding.
+fn is_beyond(x: f64, (low, high): (f64, f64)) -> bool {
+    let slack = BEYOND.0 + BEYOND.1 * x.abs();
+    x < low - slack || x > high + slack
+}
+
 /// Derivatives of all axes by path length at one point.
 #[derive(Clone, Debug)]
 struct Derivatives {
@@ -104,6 +113,27 @@ impl PolyPath {
         let start = piece::point(pieces.first()?, 0.0);
         let end = piece::point(pieces.last()?, 1.0);
         Self::new(start, end, pieces, feed_axes)
+    }
+
+    /// Lowest and highest position of an axis in mm (deg), to a nanometre. A curve that turns at one of its ends is not beyond
+    /// it by rounding.
+    pub fn extent(&self, axis: usize) -> (f64, f64) {
+        let (start, end) = (self.start[axis], self.end[axis]);
+        let (mut low, mut high) = (start.min(end), start.max(end));
+        let mut left: Vec<Coefficients> = self.pieces.iter().map(|piece| piece[axis]).collect();
+        while let Some(part) = left.pop() {
+            // the part stays between the least and the largest of them
+            if !extremes::bernstein(&part).into_iter().any(|x| is_beyond(x, (low, high))) {
+                continue;
+            }
+            for x in [0.5, 0.0, 1.0].map(|x| value(&part, x)) {
+                if is_beyond(x, (low, high)) {
+                    (low, high) = (low.min(x), high.max(x));
+                }
+            }
+            left.extend([(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| section(&part, from, to)));
+        }
+        (low, high)
     }
 
     /// A curve through the pieces in order; `None` if it has no length or is not finite.
@@ -218,7 +248,8 @@ impl PolyPath {
         self.length
     }
 
-    pub(super) fn start(&self) -> &AxisVec {
+    /// First point.
+    pub fn start(&self) -> &AxisVec {
         &self.start
     }
 

@@ -83,6 +83,20 @@ impl SlopeLimits {
         change(v, a, target, sign, self.ramps(braking)?)
     }
 
+    /// Change from velocity `v` and acceleration `a` to the velocity `target` with zero acceleration, all in mm (deg) and s, both
+    /// velocities not negative. An acceleration that points the other way, or leads beyond the target, is brought to zero
+    /// first.
+    ///
+    /// `None` for STEP, where there is nothing to change, and for an acceleration beyond the limits.
+    pub fn change_of_speed(&self, v: f64, a: f64, target: f64) -> Option<Profile> {
+        self.change(v, a, target).or_else(|| {
+            let settled = self.settled(v, a);
+            let first = self.change(v, a, settled)?;
+            let second = self.change(settled, 0.0, target);
+            Some(second.map_or(first.clone(), |second| first.followed_by(&second)))
+        })
+    }
+
     /// The same limits with another deceleration; `ramp_s` is not used by STEP.
     #[must_use]
     pub(crate) fn with_braking(&self, dec_mm_s2: f64, ramp_s: f64) -> Self {

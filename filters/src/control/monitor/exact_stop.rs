@@ -114,11 +114,12 @@ impl ExactStopMonitor {
     }
 
     /// The path comes to a stop, for this axis at `target_mm`; to be called no later than right after the cycle in which the
-    /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
+    /// set position got there. An axis that has not moved since its last stop, and need not, has no new one; one that still
+    /// settles at this target goes on with its time, as a dwell behind an exact stop is no other stop.
     pub fn expect(&mut self, target_mm: f64) {
         if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
             self.state = State::Approaching { target_mm };
-        } else if self.moved {
+        } else if self.moved && !self.settles() {
             self.begin(target_mm);
         }
     }
@@ -219,6 +220,20 @@ mod tests {
         (1..=10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
         m.expect(1.0);
         assert_eq!((1..2000).find(|_| m.step(1.0, 0.94).is_some()), Some(200));
+    }
+
+    /// Told again while it settles, as by a dwell or a block without way: t1 is when the set position got there.
+    #[test]
+    fn a_stop_told_again_keeps_its_time() {
+        let mut m = monitor(Some(0.2));
+        (1..10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
+        m.expect(1.0);
+        // at the target in cycle 0, inside the window in cycle 43
+        (0..=43).for_each(|k| {
+            assert_eq!(m.step(1.0, if k < 43 { 0.9 } else { 0.96 }), None);
+            m.expect(1.0);
+        });
+        assert!(m.rests() && (m.settling_s() - 0.043).abs() < 1e-12, "{}", m.settling_s());
     }
 
     #[test]

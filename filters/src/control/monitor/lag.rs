@@ -88,6 +88,8 @@ impl LagMonitor {
     pub(crate) const MAX_DELAY: usize = 10;
     /// Longest shift of the limit curve in cycles.
     const MAX_SHIFT: usize = 10_000;
+    /// Relative difference of lags that is rounding.
+    const ROUNDING: f64 = 1e-9;
     /// Scale of P-AXIS-00167.
     const FULL: f64 = 1024.0;
 
@@ -166,8 +168,8 @@ impl LagMonitor {
         self.limit_mm = self.limit(step, kv_per_s);
         self.rests = self.still > self.steps_mm.len()
             && self.estimate_mm.to_bits() == estimate.to_bits()
-            && self.limit_mm.is_none_or(|limit_mm| self.lag_mm.abs() <= limit_mm);
-        let Some(limit_mm) = self.limit_mm.filter(|l| self.lag_mm.abs() > *l) else {
+            && !self.limit_mm.is_some_and(|limit_mm| self.exceeds(limit_mm));
+        let Some(limit_mm) = self.limit_mm.filter(|limit_mm| self.exceeds(*limit_mm)) else {
             self.excess_cycles = 0;
             self.raised = false;
             return None;
@@ -180,6 +182,11 @@ impl LagMonitor {
         }
         self.raised = true;
         Some(Fault::FollowingError { lag_mm: self.lag_mm, limit_mm })
+    }
+
+    /// The lag is above a limit by more than rounding: at constant speed it comes as near to `v / kv` as numbers allow.
+    fn exceeds(&self, limit_mm: f64) -> bool {
+        self.lag_mm.abs() > limit_mm * (1.0 + Self::ROUNDING)
     }
 
     /// Commanded movement per cycle, `shift_s` ago.
@@ -233,6 +240,16 @@ mod tests {
             }
         }
         (m.limit_mm(), first)
+    }
+
+    /// `x - (x - 2)` is above 2 by rounding in some cycles; an increment more is a fault.
+    #[test]
+    fn a_lag_at_its_limit_does_not_exceed_it() {
+        for kind in [LagMonitorType::VelocityIndependent, LagMonitorType::Linear] {
+            let c = LagMonitorConfig { kind, lag_max_mm: 2.0, dynamics: 0.0, ..Default::default() };
+            assert_eq!(drive(&mut monitor(c), 2.0).1, None, "{kind:?}");
+            assert!(drive(&mut monitor(c), 2.0001).1.is_some(), "{kind:?}");
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use kontur_interpreter::machine::{Axis, Lever};
 use kontur_interpreter::record::CycleRecord;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::HashMap;
 
 /// A reason that takes less than this share of the duration is not worth a run.
 const WORTHWHILE: f64 = 0.01;
@@ -51,9 +52,11 @@ pub(crate) fn try_out(times: &mut Times, request: &Request) {
     for (proposal, with) in tried {
         let saves_s = times.duration_s - with.duration_s;
         let proposal = Proposal { saves_s, ..proposal };
+        let seconds: HashMap<_, _> =
+            with.lines.iter().map(|l| ((&l.file, l.line), l.seconds)).collect();
         for line in &mut times.lines {
-            let there = with.lines.iter().find(|l| (&l.file, l.line) == (&line.file, line.line));
-            let saves_s = there.map_or(0.0, |there| line.seconds - there.seconds);
+            let there = seconds.get(&(&line.file, line.line));
+            let saves_s = there.map_or(0.0, |there| line.seconds - there);
             if saves_s > line.helps.as_ref().map_or(0.0, |best| best.saves_s) {
                 line.helps = Some(Help { what: proposal.what.clone(), saves_s });
             }

@@ -367,6 +367,10 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.motion.dynamics_changed();
         return Ok(());
     }
+    if limits.iter().all(Option::is_none) {
+        let text = "#VECTOR LIMIT ON limits nothing: a key or ALL is expected";
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    }
     let value = |key: Option<(Option<f64>, Span)>, scale: f64, listed: Option<f64>| {
         let (x, _) = key?;
         Some(if on { x.map(|x| x * scale).or(listed) } else { None })

@@ -24,9 +24,6 @@ const AHEAD: usize = 2;
 /// Chords before a segment that decide its start.
 const BEHIND: usize = 2;
 
-/// What rounding may make of a position in mm.
-const ROUNDING_MM: f64 = 1e-9;
-
 /// Smallest speed of the parameter, as a part of that on a straight line: below it the curve has a cusp, whose tip is sharper
 /// than the positions of a trace.
 const CUSP: f64 = 1e-5;
@@ -240,9 +237,8 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
     if falls_below(pace, CUSP * length, slope) {
         return Err(cusp());
     }
-    let extents = piece.iter().zip(start.iter().zip(end.iter()));
-    let extents_mm = extents.map(|(c, (start, end))| cubic_extent(c, *start, *end)).collect();
     let path = PolyPath::new(start, end, vec![piece], feed).ok_or_else(cusp)?;
+    let extents_mm = (0..path.start().len()).map(|axis| path.extent(axis)).collect();
     motion.block.path = Path::Curve(Box::new(path));
     (motion.block.contour, motion.block.spline) = (None, None);
     Ok(Curve { motion, extents_mm })
@@ -268,21 +264,6 @@ fn falls_below(f: impl Fn(f64) -> f64, limit: f64, slope: f64) -> bool {
         f(0.5 * (low + high)).min(values[k as usize])
     };
     (0..=SAMPLES).filter(|k| valley(*k)).any(|k| lowest(k) < limit)
-}
-
-/// Lowest and highest value of a cubic over 0 to 1: at its ends, exactly, or where its derivative is zero.
-fn cubic_extent(c: &Coefficients, start: f64, end: f64) -> (f64, f64) {
-    let (square, linear, constant) = (3.0 * c[3], 2.0 * c[2], c[1]);
-    let root = (linear * linear - 4.0 * square * constant).sqrt();
-    // free of cancellation; what is no root here is not finite
-    let sum = -0.5 * (linear + root.copysign(linear));
-    [sum / square, constant / sum]
-        .into_iter()
-        .filter(|x| *x > 0.0 && *x < 1.0)
-        .map(|x| c[0] + x * (c[1] + x * (c[2] + x * c[3])))
-        // a point on a software limit, where the curve turns, is not beyond it by rounding
-        .filter(|q| *q < start.min(end) - ROUNDING_MM || *q > start.max(end) + ROUNDING_MM)
-        .fold((start.min(end), start.max(end)), |(low, high), q| (low.min(q), high.max(q)))
 }
 
 impl Akima {
@@ -370,7 +351,7 @@ pub(super) fn rest_inside() -> Box<Fault> {
 
 #[cfg(test)]
 mod tests {
-    use super::{cubic_extent, falls_below};
+    use super::falls_below;
     use proptest::prelude::*;
 
     proptest! {
@@ -383,21 +364,6 @@ mod tests {
             let f = |x: f64| libm::hypot(slope * (x - at), depth);
             prop_assert!(falls_below(f, depth * 1.01 + 1e-12, slope));
             prop_assert!(!falls_below(f, depth * 0.99, slope));
-        }
-
-        /// A thousand points of the cubic: none lies outside, and one comes near to each end.
-        #[test]
-        fn nothing_lies_outside_the_extent(c in prop::array::uniform4(-10.0..10.0_f64), zeros in 0..16_u32) {
-            let mut all = [0.0; 6];
-            for (i, c) in c.into_iter().enumerate() {
-                all[i] = if zeros & (1 << i) == 0 { c } else { 0.0 };
-            }
-            let at = |x: f64| all[0] + all[1] * x + all[2] * x * x + all[3] * x * x * x;
-            let (low, high) = cubic_extent(&all, at(0.0), at(1.0));
-            let points = (0..=1000).map(|k| at(f64::from(k) / 1000.0));
-            let (least, most) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q), h.max(q)));
-            prop_assert!(low <= least + 2e-9 && high >= most - 2e-9);
-            prop_assert!(low >= least - 1e-4 && high <= most + 1e-4);
         }
     }
 }

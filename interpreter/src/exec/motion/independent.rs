@@ -269,7 +269,7 @@ impl Decoder {
         }
         self.join(axes);
         if in_windows {
-            self.sync(Sync::ExactStop);
+            self.sync(Sync::ExactStop { alone: false });
         }
         Ok(())
     }

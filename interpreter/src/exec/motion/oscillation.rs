@@ -9,7 +9,7 @@
 //! without its rests; the block after OSC OFF begins when the axis has stopped.
 
 use crate::diag::Condition;
-use crate::exec::commands::keys::{above_zero, arguments, at_least};
+use crate::exec::commands::keys::{above_zero, arguments, at_least, between};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
@@ -30,7 +30,7 @@ arguments! {
         feed: Number "FEED" in at_least(0.0), "mm/min", "";
         frequency: Number "FREQ" in above_zero(), "1/s", "instead of FEED";
         time: Number "TIME" in above_zero(), "s", "of an oscillation, instead of FEED";
-        count: Number "NBR_OSC" in above_zero().whole(), "", "so many oscillations";
+        count: Number "NBR_OSC" in between(1.0, u32::MAX as f64).whole(), "", "so many oscillations";
         zero: Number "ZERO_POS", "mm", "middle of both positions, in their place with EXCUR";
         excursion: Number "EXCUR", "mm", "from the middle: the first position is ZERO_POS - EXCUR";
         offsets: Flag "INCL_OFFSETS", "", "the positions are those of the program, with its offsets";

@@ -180,3 +180,34 @@ fn arcs_by_centre_and_angle() {
         assert_eq!(said(text), [id], "{text}");
     }
 }
+
+/// The curve of `#CONTOUR MODE [POS]` reaches its interim point, which lies beyond what the lines around it reach: in a check and
+/// in a run, for the block at whose end it is; with the limit beyond the curve, and in the other modes, nothing is said. The
+/// rest of a long line behind the curve is no part of it.
+#[test]
+fn a_curve_through_a_point_outside_the_limits() {
+    let text = |mode: &str, behind: &str| {
+        format!("G90 G01 F6000\n#CONTOUR MODE [{mode}]\nG261\nX9\nY10\nG260{behind}\nX0\nM30\n")
+    };
+    let at = |limit: u32| format!("X.kenngr.swe_pos={limit}");
+    let pos = "POS PRE_DIST=3 POST_DIST=3 X12 Y1 Z0";
+    for behind in ["", "\nY20", "\nG04 1", "\nZ1\nM0"] {
+        let said = |limit: u32| run_on(&[&at(limit)], &text(pos, behind));
+        assert_eq!(super::places(&said(100_000).diagnostics)[0], "21897 4:1", "{behind}");
+        assert_eq!(said(119_999).ids()[0], "21897", "{behind}");
+        assert!(said(130_000).ids().is_empty(), "{behind}: {:?}", said(130_000).diagnostics);
+    }
+    for mode in ["DEV PATH_DEV=1", "DIST PRE_DIST=3 POST_DIST=3"] {
+        assert!(run_on(&[&at(90_000)], &text(mode, "")).ids().is_empty(), "{mode}");
+    }
+    let machine = super::machine(&[&at(100_000)]);
+    let sources = crate::source::MemorySources::new().with("main.nc", text(pos, ""));
+    let found = crate::exec::check(
+        std::sync::Arc::new(sources),
+        "main.nc",
+        machine,
+        crate::exec::options::Options::default(),
+    );
+    // both corners lead through the point
+    assert_eq!(super::places(&found.diagnostics), ["21897 4:1", "21897 5:1"]);
+}

@@ -85,11 +85,11 @@ fn exact_stops_without_motion() {
         }
     }
     let circle = clean("X10 F100\nG60 G02 I5\nG01 X20\nM30\n");
-    assert_eq!(circle.syncs(), [&Sync::ExactStop]);
+    assert_eq!(circle.syncs(), [&Sync::ExactStop { alone: false }]);
     assert!(matches!(circle.steps[2], super::Step::Sync { .. }), "{:?}", circle.steps);
     // both of two contour lines end in a stop
     let lines = clean("G360\n#ANG=30 F100\nX20 Y20 #ANG=60\nG359 X0\nM30\n");
-    assert_eq!(lines.syncs(), [&Sync::ExactStop; 2]);
+    assert_eq!(lines.syncs(), [&Sync::ExactStop { alone: false }; 2]);
     assert_eq!(super::run("G60 #ANG=30 F100\nX20 Y20 #ANG=60\nM30\n").ids(), ["K-0019"]);
 }
 
@@ -498,4 +498,20 @@ fn the_value_of_a_character() {
     assert_eq!(run.end[..3], [72.0, 119.0, 72.0]);
     assert_eq!(super::run("P1=ORD[\"abc\", 4]\nM30\n").ids(), ["K-0009"]);
     assert_eq!(super::run("P1=ORD[\"\"]\nM30\n").ids(), ["K-0009"]);
+}
+
+/// A limit is expected: a command that switches none on would look as if the limits of the list acted.
+#[test]
+fn a_vector_limit_needs_a_limit() {
+    for command in ["#VECTOR LIMIT ON", "#VECTOR LIMIT ON [FEED]"] {
+        assert_eq!(run(&format!("{command}\nG01 X1 F100\nM30\n")).ids(), ["21220"], "{command}");
+    }
+}
+
+/// The number of oscillations begins with 1, and the message says where it ends.
+#[test]
+fn a_number_of_oscillations() {
+    let text = "X[OSC ON 1ST_POS=-10 2ND_POS=10 FREQ=1 NBR_OSC=0]\nM30\n";
+    let said = super::shown(&run(text).diagnostics);
+    assert_eq!(said, ["K-0009 NBR_OSC=0, allowed are the whole numbers 1 to 4294967295"]);
 }

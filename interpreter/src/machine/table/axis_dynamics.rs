@@ -60,7 +60,7 @@ parameters! {
         .unit("um/s", "0.001deg/s");
     axis("P-AXIS-00221", "getriebe[i].lslope_profil.vb_stufe_1_2", Raw::Uns32, "STEP slope switching speed")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00212")).default(100000.0).unit("um/s", "0.001deg/s"), as STEP_CHANGE: Number;
-    axis("P-AXIS-00270", "getriebe[i].slope_type", Raw::Uns16, "slope of single axes, homing, spindles; not of the path")
+    axis("P-AXIS-00270", "getriebe[i].slope_type", Raw::Uns16, "slope of homing, and of spindles before V2.11.2800; not of the path")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).above(Condition::SpindleSlopeType, Correction::Default);
     axis("P-AXIS-00280", "getriebe[i].lslope_profil.d_grenz_stufe_1", Raw::Uns32, "STEP deceleration in rapid, stage 1; 0 = P-AXIS-00005")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(0.0).unit("mm/s2", "deg/s2").special(0.0), as STEP_RAPID_DEC_1: Number;

@@ -156,8 +156,8 @@ parameters! {
     chan("P-CHAN-00252", "final_prog_file", Raw::Text, "subroutine at program end"), as END_PROGRAM: Text;
     chan("P-CHAN-00259", "opt_contour_mode", Raw::Uns32, "smoother curvature at arcs in DEV contouring")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0);
-    chan("P-CHAN-00297", "mode_exact_stop_indp_axis", Raw::Uns16, "0 and 1: #WAIT INDP waits for set positions, G60 for windows; 2: #WAIT INDP waits for the windows of all axes")
-        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as JOIN_IN_WINDOWS: Whole;
+    chan("P-CHAN-00297", "mode_exact_stop_indp_axis", Raw::Uns16, "0: #WAIT INDP waits for set positions; 1: G60 waits for independent axes too, until they are in their windows; 2: #WAIT INDP waits for the windows of all axes")
+        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as INDEPENDENT_STOP: Whole;
     chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
         .default(0.0), as CONSTANT_RAMP_TIME: Switch;
     chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "P-CHAN-00002 also limits arcs")

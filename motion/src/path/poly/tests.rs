@@ -167,3 +167,46 @@ fn no_sample_exceeds_the_extremes() {
         }
     }
 }
+
+/// Random quintics in several pieces: no dense sample lies beyond the extent, and one comes as near to it as its spacing lets;
+/// a parabola by its closed form.
+#[test]
+fn the_extent_of_an_axis_holds_every_sample() {
+    let parabola = [0.0, 4.0, -4.0, 0.0, 0.0, 0.0];
+    let straight = [0.0, 2.0, 0.0, 0.0, 0.0, 0.0];
+    let pieces = vec![PolyPiece::from_slice(&[parabola, straight])];
+    let path = PolyPath::through(pieces, &[true, true]).unwrap();
+    let (low, high) = path.extent(0);
+    assert!(low == 0.0 && (high - 1.0).abs() < 1e-9, "{low} {high}");
+    assert_eq!(path.extent(1), (0.0, 2.0));
+
+    let mut r = kontur_kit::Random::new(7);
+    for _ in 0..50 {
+        let mut from = [0.0; 2];
+        let pieces: Vec<PolyPiece> = (0..3)
+            .map(|_| {
+                let axes = from.map(|start| {
+                    let mut c = [0.0; 6].map(|_: f64| r.between(-10.0, 10.0));
+                    c[0] = start;
+                    c
+                });
+                from = axes.map(|c| c.iter().sum());
+                PolyPiece::from_slice(&axes)
+            })
+            .collect();
+        let path = PolyPath::through(pieces.clone(), &[true, true]).unwrap();
+        for axis in 0..2 {
+            let (low, high) = path.extent(axis);
+            let n = 2000;
+            let samples = pieces.iter().flat_map(|piece| {
+                (0..=n).map(move |k| piece::point(piece, f64::from(k) / f64::from(n))[axis])
+            });
+            let (least, most) =
+                samples.fold((f64::MAX, f64::MIN), |(a, b), x| (x.min(a), x.max(b)));
+            // a second derivative of up to 2200 over half a spacing
+            let miss = 0.125 * 2200.0 / f64::from(n * n);
+            assert!(low <= least + 2e-9 && least - low < miss, "{low} {least}");
+            assert!(high >= most - 2e-9 && high - most < miss, "{high} {most}");
+        }
+    }
+}

@@ -8,6 +8,9 @@ use crate::recorded::{self, Channel, DropOut, Even};
 /// Longest signals that are compared, in cycles: more than an hour at 1 ms.
 pub(super) const MOST_CYCLES: usize = 1 << 22;
 
+/// Cycles between two samples from which on a recording has fewer samples than the trace has rows.
+const COARSE: f64 = 1.5;
+
 /// The paired columns of a trace.
 pub(super) struct Trace {
     pub(super) times_s: Vec<f64>,
@@ -136,18 +139,41 @@ pub(super) struct Statistics {
     pub(super) rms: f64,
 }
 
-/// The signals row by row: row, time of the trace, both values.
+/// The signals row by row: row of the trace and both values. Of a recording with fewer samples than rows its samples count, as
+/// between them it says nothing.
 pub(super) fn rows<'a>(
     times_s: &'a [f64],
     a: &'a [f64],
     recorded: &'a Recorded,
     shift_s: f64,
 ) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
-    let begin_s = times_s.first().copied().unwrap_or_default();
-    times_s.iter().zip(a).enumerate().filter_map(move |(row, (t, a))| {
-        let b = recorded.at(t - begin_s + shift_s)?;
-        (a.is_finite() && b.is_finite()).then_some((row, *a, b))
-    })
+    let (begin_s, end_s) = (times_s[0], times_s[times_s.len() - 1]);
+    let cycle_s = (end_s - begin_s) / (times_s.len() - 1) as f64;
+    let is_coarse = recorded.step_s > COARSE * cycle_s;
+    let of_rows = times_s
+        .iter()
+        .zip(a)
+        .enumerate()
+        .filter_map(move |(row, (t, a))| Some((row, *a, recorded.at(t - begin_s + shift_s)?)));
+    let of_samples = (0..recorded.values.len()).filter_map(move |i| {
+        let time_s = recorded.begin_s + recorded.step_s * i as f64;
+        let b = recorded.at(time_s)?;
+        let (row, a) = sampled(times_s, a, time_s - shift_s + begin_s)?;
+        Some((row, a, b))
+    });
+    let of_rows = (!is_coarse).then_some(of_rows).into_iter().flatten();
+    let all = of_rows.chain(is_coarse.then_some(of_samples).into_iter().flatten());
+    all.filter(|(_, a, b)| a.is_finite() && b.is_finite())
+}
+
+/// Nearest row to a time, and the value of the trace then.
+fn sampled(times_s: &[f64], a: &[f64], time_s: f64) -> Option<(usize, f64)> {
+    let next = times_s.partition_point(|t| *t <= time_s).clamp(1, times_s.len() - 1);
+    let (before_s, after_s) = (times_s[next - 1], times_s[next]);
+    let part = (time_s - before_s) / (after_s - before_s);
+    let value = a[next - 1] + part.clamp(0.0, 1.0) * (a[next] - a[next - 1]);
+    let inside = (-1e-6..=1.0 + 1e-6).contains(&part);
+    inside.then(|| (if part > 0.5 { next } else { next - 1 }, value))
 }
 
 pub(super) fn statistics(
