@@ -3,7 +3,7 @@
 //! A filter knows neither its axis nor its place in a list, nor how a control numbers the condition; who configured it
 //! adds all three. The numbers in the texts below are those of the vendor's documents.
 //!
-//! Order of calls: a design returns the issues beside the filter; then each is asked for its [`Effect`] and its text.
+//! Order of calls: a design returns the filter and its issues; each issue has an [`Effect`] and a text.
 //!
 //! ```
 //! use kontur_filters::fir::{FirConfig, FirKind};

@@ -1,6 +1,6 @@
 //! What `kontur explain THING` prints, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
 //!
-//! Order of calls: none, every question is answered by itself.
+//! Order of calls: none, questions are independent.
 //!
 //! ```
 //! use kontur_interpreter::explain::explain;

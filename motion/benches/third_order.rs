@@ -1,4 +1,4 @@
-//! The general third-order profile beside `rsruckig`, a port of Ruckig, on the same random problems.
+//! The general third-order profile compared with `rsruckig`, a port of Ruckig, on the same random problems.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use kontur_motion::profile::{MotionState, ThirdOrderLimits};

@@ -132,7 +132,7 @@ impl SetPath {
         self.values.extend_from_slice(point);
     }
 
-    /// The cycle behind the last one.
+    /// The cycle after the last one.
     pub(crate) fn end(&self) -> u64 {
         self.first + self.ways.len() as u64
     }

@@ -30,7 +30,7 @@ use crate::limits::PathSpeeds;
 pub struct OverrideRatios {
     /// Feed blocks.
     pub feed: f64,
-    /// Rapid blocks (G00). Whether they have an override of their own is for the caller (P-CHAN-00181).
+    /// Rapid blocks (G00). Whether they have a separate override is up to the caller (P-CHAN-00181).
     pub rapid: f64,
 }
 

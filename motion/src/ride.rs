@@ -196,7 +196,7 @@ fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
     (jerk * time * time / 16.0).min(acc * time / 4.0) >= HILL * v
 }
 
-/// True if a limit is below the present speed: the fall towards it is none of the rise's business.
+/// True if a limit is below the present speed: the fall towards it does not belong to the rise.
 fn is_drop(limit: f64, v: f64) -> bool {
     limit < v * (1.0 - 10.0 * SLACK)
 }

@@ -133,7 +133,7 @@ fn chords_at_rising_feeds() {
     }
 }
 
-/// A long line, a block of 0.07 mm and a sharp corner behind it: the corner between them was missed because the rest there
+/// A long line, a block of 0.07 mm and a sharp corner after it: the corner between them was missed because the rest there
 /// was too short, and the line was driven at 3 mm/s for it.
 #[test]
 fn a_rest_that_is_too_short_slows_no_line_down() {

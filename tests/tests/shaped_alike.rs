@@ -9,7 +9,7 @@ use kontur_tests::{Run, run, run_on, sample_machine};
 
 /// Axes of the records: X, Y, Z, then the slave of X; the machine has no spindle.
 const SLAVE: usize = 3;
-/// The spindle of the machine `xyz` behind X, Y, Z.
+/// The spindle of the machine `xyz` after X, Y, Z.
 const SPINDLE: usize = 3;
 
 fn on_gantry(settings: &[String], lines: &str) -> Run {

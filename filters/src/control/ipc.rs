@@ -122,7 +122,7 @@ pub struct IpcConfig {
     pub delay_cycles: usize,
     /// Up to three stages.
     pub stages: Vec<IpcStageConfig>,
-    /// The axis is a gantry slave: it may not enable the function by itself (70600).
+    /// The axis is a gantry slave: it may not enable the function itself (70600).
     pub gantry_slave: bool,
 }
 

@@ -133,7 +133,7 @@ pub struct PlantInput {
     pub speed_mm_s: f64,
     /// Additive torque as acceleration in mm/s2.
     pub acc_mm_s2: f64,
-    /// External force as acceleration of the whole mass in mm/s2, beside the configured disturbance.
+    /// External force as acceleration of the whole mass in mm/s2, in addition to the configured disturbance.
     pub force_mm_s2: f64,
     /// Reference position in mm, for the model without dynamics.
     pub reference_mm: f64,

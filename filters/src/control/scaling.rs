@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 feedforward control 4 and 5; Improved Position Control 4.2.
 //!
-//! Order of calls: formats are made from the list once; afterwards each value is converted by itself.
+//! Order of calls: formats are made from the list once; afterwards each value is converted separately.
 //!
 //! ```
 //! use kontur_filters::control::scaling::{Motor, SpeedFormat, TorqueFormat, encoder_resolution};

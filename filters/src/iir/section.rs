@@ -4,7 +4,7 @@
 //! These sections keep the low-passed position itself as state: at rest all their differences are exactly zero, so
 //! output = input bit for bit, and the gain for constants is 1 by construction, not by the digits of coefficients.
 //!
-//! A section is coefficients only; each axis has a state of its own:
+//! A section is coefficients only; each axis has its own state:
 //!
 //! ```
 //! use kontur_filters::iir::section::{FirstOutput, Section, SectionState};

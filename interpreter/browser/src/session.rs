@@ -208,7 +208,7 @@ impl Session {
         json(&explained)
     }
 
-    /// Starts a run in place of the one before.
+    /// Starts a run instead of the one before.
     pub fn start(&mut self, request: &str) -> String {
         self.under_way = None;
         let request: Request = match serde_json::from_str(request) {

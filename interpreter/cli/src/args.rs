@@ -181,7 +181,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "KEY=VALUES")]
     pub vary: Vec<Vary>,
 
-    /// Draw these columns of the trace over time in place of contour and speed: names or groups, separated by commas
+    /// Draw these columns of the trace over time instead of contour and speed: names or groups, separated by commas
     #[arg(long, value_name = "GROUPS|NAMES")]
     pub signals: Option<String>,
 

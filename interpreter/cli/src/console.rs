@@ -135,7 +135,7 @@ impl Console {
     }
 }
 
-/// A handle on stdout; a trace is written by a thread of its own.
+/// A handle on stdout; a trace is written by a separate thread.
 #[derive(Clone)]
 pub struct Output(Arc<Mutex<dyn Write + Send>>);
 

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// The name that stands for standard input or output in place of a file.
+/// The name that stands for standard input or output instead of a file.
 pub(crate) const STANDARD: &str = "-";
 /// What messages call a program from standard input.
 pub(crate) const STANDARD_INPUT: &str = "<stdin>";
@@ -38,7 +38,7 @@ pub(crate) struct ProgramFiles {
     folders: Vec<PathBuf>,
     /// Subroutines may lie anywhere.
     anywhere: bool,
-    /// What is read in place of the main program's own text.
+    /// What is read instead of the main program's own text.
     text: Option<Arc<[u8]>>,
     opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }

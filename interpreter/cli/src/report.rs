@@ -92,7 +92,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             files.iter().map(|f| read_texts.insert(f.clone()).then(|| lines_of(f)).flatten());
         let texts = texts.collect();
         beside.push(Beside { times: times.finish(), texts, window: args.window });
-        // runs of one program are told apart by what they vary
+        // runs of one program are distinguished by what they vary
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
         runs.push(Drawn {
             recording,

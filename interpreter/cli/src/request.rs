@@ -47,7 +47,7 @@ pub struct Request {
     pub allow_outside: bool,
     /// Files of real-time inputs.
     pub inputs: Vec<PathBuf>,
-    /// Cycle time in microseconds in place of the machine's.
+    /// Cycle time in microseconds instead of the machine's.
     pub cycle_us: Option<u32>,
     /// Start positions in mm (deg) by axis name.
     pub start: Vec<(String, f64)>,
@@ -65,9 +65,9 @@ pub struct Request {
     pub techno_times: bool,
     /// External variables by their name after `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
-    /// Numbers of the program in place of those that are there.
+    /// Numbers of the program instead of those that are there.
     pub words: Vec<Word>,
-    /// Vibration Guard in place of that of lists and program.
+    /// Vibration Guard instead of that of lists and program.
     pub guard: Option<ForcedGuard>,
     /// Ends it from another thread.
     pub stop: Stop,

@@ -68,7 +68,7 @@ impl Failure {
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
 ///
-/// A sweep that was stopped continues where it stopped: finished rows wait in a journal beside the first `-o`.
+/// A sweep that was stopped continues where it stopped: finished rows are kept in a journal next to the first `-o`.
 ///
 /// Without any run that came to its end the exit is [`Exit::Aborted`], but for a shard: its job has been done.
 ///
@@ -95,7 +95,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let targets = create_all(files.iter().map(|path| path.as_path()))?;
     let mut journal = journal.map(|path| Journal::open(&path, args, &reads)).transpose()?;
     let (rows, reads) = run_all(args, &combinations, journal.as_mut(), console)?;
-    // one of the runs may have come to another subroutine
+    // one of the runs may have reached another subroutine
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
     let without = idle(&args.vary, &combinations, &rows.cells);

@@ -1,6 +1,6 @@
 //! Files that commands write.
 //!
-//! A file is written under a temporary name beside its target (`.NAME.*.part`) and gets its name when it is worth it:
+//! A file is written under a temporary name next to its target (`.NAME.*.part`) and gets its name when it is complete enough:
 //! until then, and if the command fails, an existing file stays as it was. The temporary file comes with the first byte, so
 //! that a killed run leaves none that is empty.
 
@@ -87,7 +87,7 @@ impl Target {
         if begins == start { self.show() } else { Ok(()) }
     }
 
-    /// Gives the file its name, in place of an existing one; one that was not begun gets none.
+    /// Gives the file its name, replacing an existing one; one that was not begun gets none.
     ///
     /// # Errors
     /// The system's; the existing file is as it was then.
@@ -102,7 +102,7 @@ impl Target {
     }
 }
 
-/// A file under a temporary name beside a path.
+/// A file under a temporary name next to a path.
 fn hidden(path: &Path, permissions: Option<Permissions>) -> io::Result<NamedTempFile> {
     let name = path.file_name().ok_or(io::ErrorKind::IsADirectory)?.to_string_lossy();
     let prefix = format!(".{name}.");

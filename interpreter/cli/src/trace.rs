@@ -29,7 +29,7 @@ pub(crate) struct Trace {
 /// How the records get to their file.
 #[derive(Debug)]
 enum Way {
-    /// By a thread of its own.
+    /// By a separate thread.
     Thread(Background),
     /// Not any more: the thread has ended with an error.
     Ended(Writer),

@@ -51,7 +51,7 @@ pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
     Ok(answer(args, console)?.exit)
 }
 
-/// As [`tune`], with the numbers behind what is printed.
+/// Like [`tune`], with the numbers that are printed.
 ///
 /// # Errors
 /// As [`tune`].

@@ -15,7 +15,7 @@
 //! assert!(request.open().is_err(), "there is no such word in line 8");
 //! ```
 
-/// A number of the program in place of the one that is there.
+/// A number of the program instead of the one that is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
     /// The line that contains it; without one the word must occur exactly once.

@@ -60,7 +60,7 @@ pub(super) struct Contour {
     pub(super) akima: Akima,
     driven: Vec<Driven>,
     blocks: u64,
-    /// Where the tool is at the contour has to be told (`#OTC`), and what was told last.
+    /// The position of the tool at the contour has to be reported (`#OTC`), and the one reported last.
     tells_engagement: bool,
     engaged: Option<([usize; 2], bool)>,
 }

@@ -224,7 +224,7 @@ fn with_axis(axis: &Axis, text: &str) -> String {
 }
 
 /// Axes of one group whose kernels and standard filters together delay them differently run asynchronously; gantry slaves
-/// have the kernel of their master and filters of their own.
+/// have the kernel of their master and their own filters.
 fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic> {
     let slaves =
         machine.gantry_slaves.iter().filter_map(|slave| Some((machine.master_of(slave)?, slave)));

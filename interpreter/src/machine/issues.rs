@@ -87,7 +87,7 @@ const fn guard_condition(error: &VibGuardError) -> Condition {
 /// A condition of a filter's settings, with its values; `keys` of the list, `None` for the words of a program.
 pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue) -> Diagnostic {
     let condition = match filter_condition(issue) {
-        // spindles have a number of their own for the same
+        // spindles have a separate number for the same
         Condition::FilterTime if axis.kind() == AxisKind::Spindle => Condition::SpindleFilterTime,
         condition => condition,
     };

@@ -215,7 +215,7 @@ impl Reader<'_> {
         self.list.insert((row.key, indices), (self.order, entry));
     }
 
-    /// 1001119: a key that resembles a known one is reported by itself, the others together.
+    /// 1001119: a key that resembles a known one is reported separately, the others together.
     fn report_unknown(&mut self) {
         let mut plain: Vec<(String, u32, Location)> = Vec::new();
         for (shape, (count, at)) in std::mem::take(&mut self.unknown) {

@@ -334,7 +334,7 @@ impl<'a> Project<'a> {
         named
     }
 
-    /// Enters the cycle into `kontur.lis`, unless the file beside the project has one; what became of it.
+    /// Enters the cycle into `kontur.lis`, unless the file next to the project has one; returns the result.
     fn cycle(&mut self, us: u32) -> &'static str {
         let path = self.path(OWN_LIST);
         let real = match self.files.read(&path) {

@@ -4,7 +4,7 @@
 //!
 //! Assumptions, where the pages are silent: the way counts from `#OTC ON` on, with RADIUS only what is driven along the
 //! contour of G41 or G42; a change of the wear, or of the direction at a corner, is followed with the acceleration
-//! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, behind the filters.
+//! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, after the filters.
 
 use crate::exec::{WearSetting, WornPart};
 use kontur_motion::axis::AxisVec;
@@ -63,7 +63,7 @@ impl Wear {
         self.followers.resize(axes, Follower::default());
     }
 
-    /// The tool has come to the contour, changes its side, or leaves it.
+    /// The tool has reached the contour, changes sides, or leaves it.
     pub(super) fn engage(&mut self, engaged: Option<([usize; 2], bool)>) {
         self.engaged = engaged;
     }

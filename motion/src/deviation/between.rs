@@ -234,7 +234,7 @@ mod tests {
             }
         }
 
-        /// Lines that are short beside the blocks, as they are between two cycles: every component, too.
+        /// Lines that are short compared with the blocks, as they are between two cycles: every component, too.
         #[test]
         fn of_a_short_line_every_component_is_found(
             points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 2..9),

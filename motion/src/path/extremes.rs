@@ -3,7 +3,7 @@
 //! With `N = |P'|^2` over the measured axes every derivative of an axis by path length is a quotient `F / N^e`:
 //! `q' = p' / N^(1/2)`, and from one to the next `F_next = F' N - e F N'` with `e_next = e + 3/2`. The same `F_next` is, up to a
 //! positive factor, the derivative of the quotient by the parameter: the extremes of `q'`, `q''` and `q'''` lie at the ends
-//! of the piece and at the zeros of polynomials. The coefficients of these in Bernstein form tell how many zeros there are
+//! of the piece and at the zeros of polynomials. Their coefficients in Bernstein form show how many zeros there are
 //! (Descartes' rule of signs: none without a change of sign, exactly one with one change) and how far the quotient may
 //! leave its values at the ends (half the largest slope). Pieces for which neither is enough are halved.
 

@@ -29,7 +29,7 @@ impl<'a> Companion<'a> {
         Self { marks, walk: contour.walk(), before: None, passed: 0, point }
     }
 
-    /// The next cycle is not the one behind the last.
+    /// The next cycle is not the one after the last.
     pub(super) fn jump(&mut self) {
         self.before = None;
     }

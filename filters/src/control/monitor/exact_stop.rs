@@ -226,7 +226,7 @@ mod tests {
         let mut m = monitor(Some(0.01));
         m.expect(0.0);
         assert!((0..100).all(|_| m.step(0.0, 1.0).is_none()));
-        // and after a stop of its own it stays quiet while others move
+        // and after its own stop it stays quiet while others move
         assert!(fault_after(&mut m, |_| 1.0).is_none());
         m.expect(1.0);
         assert!((0..100).all(|_| m.step(1.0, 5.0).is_none()));

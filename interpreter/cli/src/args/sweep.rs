@@ -44,7 +44,7 @@ pub struct SweepArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
-    /// Results to show beside the parameters, separated by commas [default: all]
+    /// Results to show next to the parameters, separated by commas [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub columns: Vec<String>,
 

@@ -271,7 +271,7 @@ impl Recording {
         Point { k, line, pass, target, error, ipo, set, act }
     }
 
-    /// Too many passes to tell apart: from here on they are one.
+    /// Too many passes to distinguish: from here on they are one.
     fn one_pass(&mut self) {
         let first = self.passes.first().copied().unwrap_or_default();
         let last = self.passes.last().copied().unwrap_or_default();

@@ -11,7 +11,7 @@ use kontur_interpreter::summary::State;
 
 /// Shown if no results are named.
 const USUAL: [&str; 2] = ["duration_s", "contour_err_mm"];
-/// Curves beyond these cannot be told apart.
+/// Curves beyond these cannot be distinguished.
 const MOST_CURVES: usize = 18;
 
 /// A combination of all parameters but the first.

@@ -4,7 +4,7 @@
 //! compress, lines and block numbers as differences; a dictionary of 64 K different values would cost time and save nothing.
 //! Snappy is the codec because it is plain Rust and every reader knows it.
 //!
-//! A Parquet file is readable only once its footer is written. So each group of rows goes to a file of its own in the folder
+//! A Parquet file is readable only once its footer is written. So each group of rows goes to a separate file in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
@@ -84,7 +84,7 @@ impl ParquetWriter {
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY)
-            // whole pages: the memory of a page is asked for once, it does not grow
+            // whole pages: the memory of a page is allocated once and does not grow
             .set_write_batch_size(ROWS_PER_GROUP);
         let mut fields = Vec::with_capacity(columns.len());
         for column in &columns {
@@ -155,7 +155,7 @@ impl ParquetWriter {
         Ok(())
     }
 
-    /// Takes the values of records, column by column: what a column is, is asked once for all of them.
+    /// Takes the values of records, column by column: the kind of a column is determined once for all records.
     fn gather(&mut self, records: &[CycleRecord]) {
         let Self { cycle_us, files, limits, .. } = self;
         for (column, values) in &mut self.columns {
@@ -183,7 +183,7 @@ impl ParquetWriter {
         self.rows += records.len();
     }
 
-    /// Writes the rows that wait to a file of their own.
+    /// Writes the waiting rows to a separate file.
     fn write_group(&mut self) -> io::Result<()> {
         let folder = match self.folder.take() {
             Some(folder) => folder,

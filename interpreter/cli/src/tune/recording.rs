@@ -102,7 +102,7 @@ fn interval(e: Estimate, decimals: usize) -> String {
     format!("{} +- {}", number(e.value, decimals), number(e.half_width, decimals))
 }
 
-/// What is to be said about one recording beside its vibrations.
+/// Remarks on one recording in addition to its vibrations.
 fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
     let Recording { name, missing, found, rate_hz, .. } = recording;
     let mut notes = Vec::new();

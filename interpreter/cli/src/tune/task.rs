@@ -17,7 +17,7 @@ pub(super) struct Task {
     /// Weaker vibrations of the recordings.
     pub(super) others: Vec<Mode>,
     pub(super) band: VibrationBand,
-    /// A set frequency in Hz that is judged beside the best one.
+    /// A set frequency in Hz that is evaluated in addition to the best one.
     pub(super) at_hz: f64,
     pub(super) limit_ratio: f64,
     pub(super) feed_mm_min: f64,

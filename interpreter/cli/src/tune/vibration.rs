@@ -112,7 +112,7 @@ pub struct Analysis {
 }
 
 /// Looks for vibrations in a record. Samples in `missing` were not recorded: what stands there (values between their
-/// neighbours) tells where decays begin and end, and is not fitted.
+/// neighbours) shows where decays begin and end, and is not fitted.
 pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));

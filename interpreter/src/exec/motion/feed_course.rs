@@ -73,7 +73,8 @@ impl Decoder {
         span: Span,
     ) -> Outcome<Option<FeedCourse>> {
         let Some(from) = self.motion.feed_before.filter(|word| word.value > 0.0) else {
-            let text = format!("{name}: no F word stands before, from which the feed could change");
+            let text =
+                format!("{name}: there is no earlier F word from which the feed could change");
             return Err(Fault::new(Condition::FeedZero, text, span));
         };
         let unit_mm = if from.inch { 25.4 } else { 1.0 };

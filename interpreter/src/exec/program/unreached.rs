@@ -114,7 +114,7 @@ impl Executor {
             return;
         }
         if let Some(place) = &index.further {
-            let text = "a further program behind the end of the main program never runs";
+            let text = "a second program after the end of the main program never runs";
             self.report(Diagnostic::new(Condition::TextBehindEnd, text).at(place.clone()));
         }
         let gaps = self.reached.gaps(0, section.start, section.end);

@@ -48,7 +48,7 @@ fn the_feed_falls_in_front_of_a_corner() {
     let exact = 10.0 / (0.5 * v) * std::f64::consts::LN_2;
     let whole = time(&all[1..]);
     assert!(whole >= exact && whole < 1.01 * exact, "{whole} {exact}");
-    // the motions before G13 and behind G12 are whole
+    // the motions before G13 and after G12 are whole
     let run = clean(CORNER);
     assert_eq!(run.blocks().len(), all.len() + 2);
     assert_eq!(run.end[..2], [50.0, 10.0]);

@@ -120,7 +120,7 @@ impl std::fmt::Display for Bound {
     }
 }
 
-/// What is put in place of a value out of range.
+/// What replaces a value out of range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Correction {
     /// The default.
@@ -176,7 +176,7 @@ pub struct Row {
     pub low: Bound,
     /// Upper end of the plausible range.
     pub high: Bound,
-    /// A value with a meaning of its own outside the range, usually 0 = "as ...".
+    /// A value with a special meaning outside the range, usually 0 = "as ...".
     pub special: Option<f64>,
     /// Value if no list names it.
     pub default: Default,
@@ -293,7 +293,7 @@ impl Row {
         self
     }
 
-    /// Value with a meaning of its own outside the range.
+    /// Value with a special meaning outside the range.
     pub(super) const fn special(mut self, value: f64) -> Self {
         self.special = Some(value);
         self

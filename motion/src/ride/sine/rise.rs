@@ -105,7 +105,7 @@ impl Rise<'_> {
     }
 
     /// True if a step, and the ramp to zero after it, stay below the limits ahead of speed `v`. A limit below `v` cuts
-    /// the rise and is none of its business.
+    /// the rise and does not concern it.
     fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
         crate::closed_forms::add();
