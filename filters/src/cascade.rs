@@ -199,7 +199,7 @@ fn permitted(
 impl FilterEntry {
     /// The filter of the additional interface of an axis, `None` if it is off.
     ///
-    /// For PT1 and PT2 the order is a switch only: the default 2 is no mistake in a list that names a type only.
+    /// For PT1 and PT2 the order is a switch only: the default 2 is not a mistake in a list that names a type only.
     /// Source: P-AXIS-00735 to P-AXIS-00742.
     pub fn additional(&self, cycle: CycleTime) -> (Option<AxisFilter>, Vec<FilterIssue>) {
         if !self.enable {

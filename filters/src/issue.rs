@@ -31,7 +31,7 @@ pub enum Effect {
 /// A condition found while a filter was designed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FilterIssue {
-    /// 110239: the number is no filter type (7 and 9 are reserved). Source: P-AXIS-00204.
+    /// 110239: the number is not a filter type (7 and 9 are reserved). Source: P-AXIS-00204.
     #[error("filter type {number}, 1 to 12 without 7 and 9 exist")]
     TypeNotPermitted {
         /// The number.

@@ -93,7 +93,7 @@ impl VibGuardSettings {
 
     /// The kernel of these settings in the cycle time `cycle`.
     ///
-    /// The impulse times of a zero-vibration shaper are no multiples of the cycle; rounding them would leave 5 % of the
+    /// The impulse times of a zero-vibration shaper are not multiples of the cycle; rounding them would leave 5 % of the
     /// vibration from 40 Hz on at 1 ms. Instead the second impulse is split over the two cycles around its time such
     /// that the zeros stay exactly on the poles of the vibration.
     ///

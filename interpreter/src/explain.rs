@@ -13,6 +13,7 @@ mod commands;
 mod explanation;
 mod language;
 mod notes;
+mod row;
 mod words;
 
 pub use explanation::{Explanation, Kind};

@@ -79,7 +79,7 @@ impl Machine {
     }
 
     /// Index of the path axis that is the master of a gantry slave; none for other axes.
-    pub fn master_of(&self, axis: &Axis) -> Option<usize> {
+    pub(crate) fn master_of(&self, axis: &Axis) -> Option<usize> {
         let number = axis.gantry_master()?;
         self.axes.iter().position(|a| a.number() == number)
     }

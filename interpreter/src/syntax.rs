@@ -240,7 +240,7 @@ impl Parser {
                 if mode == Mode::Declaration && found.condition == Condition::Syntax {
                     found.condition = Condition::DeclarationCharacter;
                 }
-                // what follows a function without its bracket is no word
+                // what follows a function without its bracket is not a word
                 let lost = found.condition == Condition::FunctionBracket;
                 builder.report_error(found);
                 let rule = match (context, mode) {

@@ -45,7 +45,7 @@
 //! Bounded instead of measured: where the set point is certainly closer than the tolerance to the point of the contour that
 //! goes with it ([`bound`]); stretches of constant speed on one line, where one set point stands for all.
 //!
-//! Neither: the choice of who slows down. It keeps the tolerance, but is no optimum; `motion/tests/promise.rs` compares it
+//! Neither: the choice of who slows down. It keeps the tolerance, but is not an optimum; `motion/tests/promise.rs` compares it
 //! with the best even speed (`EVEN=1`).
 //!
 //! Set at the planner at rest; what could not be kept is returned by [`crate::planner::Planner::take_unkept`].

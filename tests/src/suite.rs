@@ -19,7 +19,7 @@ pub struct Head {
     pub exit: u8,
     /// What is said, in order.
     pub messages: Vec<Said>,
-    /// The lines that are no message.
+    /// The lines that are not messages.
     pub other: Vec<String>,
 }
 

@@ -6,7 +6,7 @@
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::record::CycleRecord;
-use kontur_kit::{Random, count};
+use kontur_kit::{Random, count, near};
 use kontur_tests::{Run, machine, run_with_inputs};
 
 /// The built-in machine with a linear slope of 1000 mm/s2, M97 at the signal, 5 mm after it.
@@ -26,10 +26,6 @@ fn errors(run: &Run) -> Vec<String> {
 
 fn at(record: &CycleRecord) -> [f64; 2] {
     [record.axes[0].ipo, record.axes[1].ipo]
-}
-
-fn near(a: f64, b: f64, tolerance: f64) {
-    assert!((a - b).abs() <= tolerance, "{a} instead of {b}");
 }
 
 /// Records of a line of the program in which the path rests, without those at its end.

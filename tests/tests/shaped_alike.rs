@@ -1,4 +1,4 @@
-//! Vibration Guard and FIR filter on what is no path axis: gantry slaves go with their master, spindles with their lists.
+//! Vibration Guard and FIR filter on what is not a path axis: gantry slaves go with their master, spindles with their lists.
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;

@@ -168,7 +168,7 @@ impl Measured {
         }
     }
 
-    /// Takes the place of what was measured before, unless a value is no number; false then.
+    /// Takes the place of what was measured before, unless a value is not a number; false then.
     #[inline] // where it is made, its values are still in registers: as a whole it would be read back before it is written
     fn replace(self, before: &mut Self) -> bool {
         let finite = self.is_finite();
@@ -272,7 +272,7 @@ impl Plant {
     }
 
     /// The model separates the load from the motor.
-    pub fn is_elastic(&self) -> bool {
+    pub(crate) fn is_elastic(&self) -> bool {
         match &self.dynamics {
             Dynamics::Follow { .. } => false,
             Dynamics::Two(linear) => linear.is_elastic(),

@@ -81,7 +81,7 @@ impl Console {
         self.error_text(&text);
     }
 
-    /// Says something that is no diagnostic of a program or a list, in the same form as those.
+    /// Prints a message that is not a diagnostic of a program or a list, in the same form.
     pub fn say(&mut self, severity: Severity, text: &str) {
         let text = printable(&shortened(text.to_owned()));
         let line = match self.form {
@@ -199,7 +199,7 @@ impl Progress {
     }
 }
 
-/// Time for what is left in words, from the time that so much was done in.
+/// Remaining time in words, from the share done and the time it took.
 fn rest(elapsed: Duration, done: usize, left: usize) -> String {
     let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
     let whole = libm::ceil(seconds) as u64;

@@ -153,7 +153,7 @@ fn is_pipe(path: &Path) -> bool {
     is_standard(path) || path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
-/// Opens a file that is no pipe, which would let a reader wait, and no device.
+/// Opens a file that is not a pipe, which would let a reader wait, and no device.
 ///
 /// # Errors
 /// The system's, and anything else than a file.

@@ -392,7 +392,7 @@ mod tests {
         assert!((ticks[0].times_s[3] - 0.003).abs() < 1e-9, "{:?}", ticks[0].times_s);
     }
 
-    /// A record of a second in units of all kinds begins at 0 and ends at 1 s; what is no unit of time is named.
+    /// A record of a second in units of all kinds begins at 0 and ends at 1 s; what is not a unit of time is named.
     #[test]
     fn units_of_time() {
         for (title, last) in [

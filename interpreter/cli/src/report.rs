@@ -75,7 +75,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             }
             Ok(())
         })?;
-        // with what the run came to on its way
+        // including the subroutines that the run reached
         keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;
         recording.finish();
         let totals = run.totals();

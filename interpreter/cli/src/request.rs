@@ -18,6 +18,7 @@
 //! assert!(!run.totals().aborted);
 //! ```
 
+use crate::args::SimulationArgs;
 pub use crate::error::OpenError;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::project::{self, Place};
@@ -71,6 +72,32 @@ pub struct Request {
     pub guard: Option<ForcedGuard>,
     /// Ends it from another thread.
     pub stop: Stop,
+}
+
+impl SimulationArgs {
+    /// The request for one program.
+    pub fn request(&self, program: impl Into<PathBuf>) -> Request {
+        Request {
+            program: program.into(),
+            machine: self.machine.clone(),
+            settings: self.set.clone(),
+            path: self.path.clone(),
+            allow_outside: self.allow_outside,
+            inputs: self.input.clone(),
+            cycle_us: self.cycle_us,
+            start: self.start.clone(),
+            skip: self.skip.clone(),
+            max_time_s: self.max_time,
+            max_blocks: self.max_blocks,
+            strict: self.strict,
+            identity_trafo: self.identity_trafo,
+            techno_times: self.techno_times,
+            external: self.external.clone(),
+            words: Vec::new(),
+            guard: None,
+            stop: self.stop.clone(),
+        }
+    }
 }
 
 /// A run before its first cycle.

@@ -1,6 +1,6 @@
 //! `kontur sweep`: one program under every combination of parameters, one row per run.
 //!
-//! The runs share nothing and go over all cores; rows are in the order of the combinations whatever finishes first. A
+//! The runs share nothing and use all cores; rows are in the order of the combinations, whichever run finishes first. A
 //! run that an error ends has its row, with the ID of the error.
 //!
 //! On the command line [`sweep()`]; where somebody else distributes the runs, a [`Plan`] and its rows in any order.
@@ -206,7 +206,7 @@ fn write(
     target.show().map_err(to_error)
 }
 
-/// Runs what the journal does not have, with a count of what is done on the terminal: all rows, and the files that were
+/// Runs what the journal does not contain, with progress on the terminal; returns all rows, and the files that were
 /// read for them.
 fn run_all(
     args: &SweepArgs,

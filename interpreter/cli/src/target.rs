@@ -1,7 +1,7 @@
 //! Files that commands write.
 //!
-//! A file is written under a temporary name next to its target (`.NAME.*.part`) and gets its name when it is complete enough:
-//! until then, and if the command fails, an existing file stays as it was. The temporary file comes with the first byte, so
+//! A file is written under a temporary name next to its target (`.NAME.*.part`) and renamed when it is complete enough:
+//! until then, and if the command fails, an existing file stays as it was. The temporary file is created with the first byte, so
 //! that a killed run leaves none that is empty.
 
 use crate::Error;
@@ -226,7 +226,7 @@ mod tests {
         let mut target = Target::create(&path).unwrap();
         target.file().unwrap().write_all(b"new").unwrap();
         assert_eq!(names().len(), 2);
-        // a file that is no trace stays until the end
+        // a file that is not a trace stays until the end
         target.show_over(b"t_s,").unwrap();
         assert_eq!((names().len(), fs::read(&path).unwrap()), (2, b"old".to_vec()));
         drop(target);

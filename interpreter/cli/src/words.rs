@@ -20,7 +20,7 @@
 pub struct Word {
     /// The line that contains it; without one the word must occur exactly once.
     pub line: Option<u32>,
-    /// What is in front of `=`, in capital letters or not.
+    /// The key before `=`, in any case.
     pub name: String,
     /// The number in its place.
     pub value: String,
@@ -29,7 +29,7 @@ pub struct Word {
 /// The text with the values of the words.
 ///
 /// # Errors
-/// What is wrong, if there is no such word, several of them, or one that is no number.
+/// The mistake, if there is no such word, several of them, or one that is not a number.
 pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
     let mut text = text.to_vec();
     for word in words {

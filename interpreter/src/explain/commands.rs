@@ -2,33 +2,8 @@
 
 use super::explanation::{Explanation, Kind};
 use super::language::LANGUAGE;
+use super::row::{Command, row};
 use crate::exec::commands;
-
-/// One command.
-pub(super) struct Command {
-    /// Names by which it is found, the first one is printed.
-    names: &'static [&'static str],
-    syntax: &'static str,
-    meaning: &'static str,
-    /// Keys with range and default.
-    keys: &'static str,
-    note: &'static str,
-    example: &'static str,
-    related: &'static [&'static str],
-}
-
-/// Reads a row as a table line.
-pub(super) const fn row(
-    names: &'static [&'static str],
-    syntax: &'static str,
-    meaning: &'static str,
-    keys: &'static str,
-    note: &'static str,
-    example: &'static str,
-    related: &'static [&'static str],
-) -> Command {
-    Command { names, syntax, meaning, keys, note, example, related }
-}
 
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]

@@ -1,6 +1,6 @@
 //! Words, control statements and the G functions of offsets, frames and insertions.
 
-use super::commands::{Command, row};
+use super::row::{Command, row};
 
 /// Source: TF5200 programming manual.
 #[rustfmt::skip]

@@ -113,7 +113,7 @@ impl Chain<'_> {
         None
     }
 
-    /// Reads the list that a text entry of the start-up list names; an absent entry is no error.
+    /// Reads the list that a text entry of the start-up list names; an absent entry is not an error.
     fn read_named(
         &mut self,
         start_up: &Parameters,

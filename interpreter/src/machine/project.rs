@@ -74,7 +74,7 @@ impl<'a> Project<'a> {
     /// `kontur.lis`.
     ///
     /// # Errors
-    /// K-0141 for a part that is no XML, for a project without axes or channel of a CNC or without a name of an axis, and for
+    /// K-0141 for a part that is not XML, for a project without axes or channel of a CNC or without a name of an axis, and for
     /// axis lists of which some but not all have the same number.
     pub fn read(
         files: &'a dyn ListFiles,

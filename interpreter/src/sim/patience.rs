@@ -9,7 +9,7 @@ use kontur_filters::time::CycleTime;
 
 /// Shortest and longest period in s for standing still.
 const PERIOD_S: (f64, f64) = (0.2, 1.0);
-/// Period in s over which vibrations are compared: slower ones than 1 Hz are no vibrations of a machine.
+/// Period in s over which vibrations are compared: slower ones than 1 Hz are not vibrations of a machine.
 const SWING_S: f64 = 1.0;
 /// Relative change in a period below which nothing changes any more.
 const CHANGE: f64 = 1e-3;

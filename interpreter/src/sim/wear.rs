@@ -127,21 +127,18 @@ impl Wear {
 #[cfg(test)]
 mod tests {
     use super::Follower;
+    use kontur_kit::Random;
 
     #[test]
     fn a_follower_arrives_within_its_acceleration_and_stays() {
         let (t, a) = (0.001, 800.0);
-        let mut state = 1_u64;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
-        };
+        let mut random = Random::new(1);
         for _ in 0..200 {
             let mut f = Follower::default();
             let mut target = 0.0;
             for k in 0..600 {
                 if k % 97 == 0 && k < 300 {
-                    target = random();
+                    target = random.between(-0.5, 0.5);
                 }
                 let before = f;
                 f.step(target, a, t);

@@ -368,7 +368,7 @@ const TRAILING: [(&str, Condition); 16] = [
     ("$CONTINUE", Condition::ContinueNotAlone),
 ];
 
-/// Hint for a word after `$` that is no control statement.
+/// Hint for a word after `$` that is not a control statement.
 const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
                             $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
 

@@ -14,7 +14,7 @@ use std::borrow::Cow;
 const POWERS: std::ops::RangeInclusive<i32> = -12..=12;
 /// Maximum number of labels of a scale.
 const MOST_TICKS: usize = 200;
-/// Steps narrower than this part of the wanted one are taken as well: rounding decides nothing.
+/// Steps narrower than this share of the wanted one are accepted, so that rounding makes no difference.
 const ALMOST: f64 = 1.0 - 1e-6;
 
 /// Distance of two round numbers.
@@ -85,7 +85,7 @@ pub(crate) struct Scale {
     pub(crate) label: Cow<'static, str>,
     pub(crate) range: (f64, f64),
     pub(crate) logarithmic: bool,
-    /// Names of the places 0, 1, 2, ... of a direction that is no quantity: nothing lies between them.
+    /// Names of the places 0, 1, 2, ... of a direction that is not a quantity: nothing lies between them.
     pub(crate) categories: Vec<String>,
 }
 
@@ -207,7 +207,7 @@ mod tests {
             |range, wanted| ticks(range, wanted).into_iter().map(|t| t.1).collect::<Vec<_>>();
         assert_eq!(texts((0.0, 1.0), 5.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(texts((-0.013, 0.021), 4.0), ["\u{2212}0.01", "0", "0.01", "0.02"]);
-        // one number is no scale
+        // one number is not a scale
         assert_eq!(texts((0.1, 0.9), 2.0), ["0.2", "0.4", "0.6", "0.8"]);
         assert!(ticks((1.0, 1.0), 4.0).is_empty());
         assert!(ticks((0.0, f64::NAN), 4.0).is_empty());

@@ -412,7 +412,7 @@ mod tests {
         // without another line nothing is left
         let o = outcome(header, &a, header, &trace(35, 4, "corner"));
         assert_eq!((o.shift_cycles, o.shift_leaves_texts), (Some(25), false));
-        // a line alone is no delay
+        // a line alone is not a delay
         let o = outcome(header, &a, header, &trace(10, 5, "corner"));
         assert_eq!((o.shift_cycles, o.columns.len()), (None, 1));
     }

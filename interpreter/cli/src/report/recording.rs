@@ -310,7 +310,7 @@ impl Bucket {
     }
 }
 
-/// The programmed path in a plane: a straight block goes to its end, whatever is made of its corner; what is no straight line is the
+/// The programmed path in a plane: a straight block goes to its end, whatever is made of its corner; what is not a straight line is the
 /// interpolated points. The last block ends where the run does.
 pub(crate) fn programmed(points: &[Point], [x, y]: [usize; 2]) -> Vec<[f64; 2]> {
     let flat = |p: [f64; 3]| [p[x], p[y]];

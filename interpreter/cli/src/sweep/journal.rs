@@ -1,7 +1,7 @@
 //! The finished rows of a sweep that is under way, so that one that was stopped continues where it stopped.
 //!
 //! A file of JSON lines, `NAME.rows` next to the output NAME: the first line states what is swept, every other line is a row,
-//! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
+//! written when its run has ended. A journal of another sweep, or of files that have changed since, is started again.
 
 use super::rows::Row;
 use crate::Error;

@@ -62,7 +62,7 @@ pub(super) fn answer(
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let mut summary = Collector::new(run.facts());
         drive(&mut run, shown, console, Some(&mut summary), |_| Ok(()))?;
-        // with what the run came to on its way
+        // including the subroutines that the run reached
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let summary = summary.finish(&run.totals());
         let axes = summary.axes.iter().zip(&run.facts().axes);
@@ -115,7 +115,7 @@ fn choices(task: &Task) -> Vec<Choice> {
 }
 
 /// The delay of an axis is that of the kernel plus what else filters it, the same in every run. If it is not, another
-/// kernel ran than the one asked for.
+/// kernel ran than the one requested.
 fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
     for (i, axis) in machine.axes.iter().enumerate() {
         let finished = outcomes.iter().filter(|o| o.summary.state == State::Finished);

@@ -154,7 +154,7 @@ fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> Stri
     }
 }
 
-/// A file, the part of it that was asked for, what it shows, and the time in s after which it first lost samples.
+/// A file, the requested part of it, what it shows, and the time in s after which it first lost samples.
 fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));

@@ -1,7 +1,7 @@
 //! What vibrates in a recorded signal: frequency and damping with their 95 % intervals, hum, blows, noise.
 //!
 //! A record is cut into its free decays. In each of them vibrations are found one by one ([`detect`]) and fitted
-//! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is no vibration of the
+//! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is not a vibration of the
 //! machine's structure: mains hum and motors are named and left out.
 //!
 //! Order of calls: a record with its rate and what to look for, [`analyse`], then the vibrations by their strength.
@@ -35,7 +35,7 @@ const MOST_SAMPLES: usize = 16_384;
 const LEAST_PEAK_RATIO: f64 = 0.15;
 /// A vibration that loses less over the whole piece lasts.
 const LASTING: f64 = 0.3;
-/// More than this is no vibration to be shaped away but a transient.
+/// More than this is not a vibration to be shaped away but a transient.
 const MOST_DAMPING: f64 = 0.3;
 /// A fit that leaves this many times the white noise of the piece is not its whole truth.
 const MISFIT: f64 = 1.25;

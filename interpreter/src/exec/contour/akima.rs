@@ -274,7 +274,7 @@ fn falls_below(f: impl Fn(f64) -> f64, limit: f64, slope: f64) -> bool {
 fn cubic_extent(c: &Coefficients, start: f64, end: f64) -> (f64, f64) {
     let (square, linear, constant) = (3.0 * c[3], 2.0 * c[2], c[1]);
     let root = (linear * linear - 4.0 * square * constant).sqrt();
-    // free of cancellation; what is no root here is not finite
+    // free of cancellation; what is not a root here is not finite
     let sum = -0.5 * (linear + root.copysign(linear));
     [sum / square, constant / sum]
         .into_iter()

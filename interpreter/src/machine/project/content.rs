@@ -141,7 +141,7 @@ impl Content {
     /// Adds what a file holds.
     ///
     /// # Errors
-    /// K-0141 if it is no XML, or has more axes or channels than a control.
+    /// K-0141 if it is not XML, or has more axes or channels than a control.
     pub(super) fn add(&mut self, part: &Part) -> Result<(), Box<Diagnostic>> {
         let text = part.text.trim_start_matches('\u{feff}');
         let options = ParsingOptions { nodes_limit: NODES_MAX, ..ParsingOptions::default() };

@@ -180,7 +180,7 @@ pub struct Row {
     pub special: Option<f64>,
     /// Value if no list names it.
     pub default: Default,
-    /// Unit for linear axes (and everything that is no axis), `-` if none.
+    /// Unit for linear axes (and everything that is not an axis), `-` if none.
     pub unit: &'static str,
     /// Unit for rotary axes and spindles.
     pub unit_rotary: &'static str,

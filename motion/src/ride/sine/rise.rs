@@ -3,7 +3,7 @@
 use super::super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
 
-/// Steps per stretch beyond which it is refused, plus as many per block: a crawl is no ride.
+/// Steps per stretch beyond which it is refused, plus as many per block: the path would crawl.
 const MOST_STEPS: usize = 20_000;
 /// Rounds of bisection of the acceleration in a step.
 const ROUNDS: u32 = 10;

@@ -313,7 +313,7 @@ fn what_stays() {
     let end_speed = |i: usize, b: &mut Block| b.end_velocity_mm_s = (i == 99).then_some(10.0);
     let out = ends(&through(blocks(&points, 2, within(0.1), end_speed)));
     assert_eq!(points[100], out[100]);
-    // a new feed is no condition
+    // a new feed is not a condition
     let given =
         blocks(&points, 2, within(0.1), |i, b| b.feed = Feed::PathVelocity(50.0 + i as f64));
     assert_eq!(ends(&through(given)), faired(&points, 2, within(0.1)));
