@@ -1,4 +1,4 @@
-//! What `kontur explain THING` prints, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
+//! The answers of `kontur explain THING`, from the tables of conditions, parameters and commands: an ID, a parameter, a command, an object or word of the documents.
 //!
 //! Order of calls: none, questions are independent.
 //!

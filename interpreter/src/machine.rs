@@ -1,4 +1,4 @@
-//! The machine: parameter lists in the vendor's format, their ranges, and what the simulation makes of them.
+//! The machine: parameter lists in the vendor's format, their ranges, and the simulation's values derived from them.
 //!
 //! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
 //!

@@ -1,4 +1,4 @@
-//! What the planner is fed with: one programmed motion with everything that limits it.
+//! Input of the planner: one programmed motion with all its limits.
 //!
 //! Made from limits ([`crate::axis`]) and geometry ([`crate::path`]), for [`crate::planner::Planner::push`].
 //!

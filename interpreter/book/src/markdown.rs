@@ -1,4 +1,4 @@
-//! What has to be known about Markdown: escaping, links, the anchors of headings.
+//! The parts of Markdown that are needed: escaping, links, anchors of headings.
 
 /// Text that Markdown shows as it is.
 pub(crate) fn escaped(text: &str) -> String {

@@ -1,4 +1,4 @@
-//! Documents of the repository that are pages of the book as well: they have one source, and their links are turned round.
+//! Documents of the repository that are pages of the book as well: they have one source, and their links are adapted.
 
 use std::io;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What the page asks for, and what it is answered.
+//! Requests of the page and their answers.
 
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::explain::explain;

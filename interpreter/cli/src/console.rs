@@ -1,4 +1,4 @@
-//! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
+//! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if it is a terminal.
 //!
 //! One console for a whole command, which ends with [`Console::finish`].
 //!

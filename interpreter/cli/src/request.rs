@@ -1,4 +1,4 @@
-//! What a user asks for on the command line, and the library's job that does it: files, lists, options.
+//! A request of the command line, and the library's job that carries it out: files, lists, options.
 //!
 //! The order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], which read everything anew.
 //!

@@ -1,4 +1,4 @@
-//! Numbers in a program, and other numbers in their place: what a program sets itself can vary without another program.
+//! Numbers in a program and their replacements: values set by the program itself can vary without another program.
 //!
 //! A word is a name, `=` and a number: `P1=10`, `V.P.R=2.5`, `FREQ=40` of a guard command. Remarks and texts have none.
 //!

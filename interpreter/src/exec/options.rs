@@ -1,4 +1,4 @@
-//! What a user may say about the execution of a program.
+//! Options for the execution of a program.
 
 use crate::diag::Location;
 use kontur_filters::vib_guard::VibGuardSettings;

@@ -1,4 +1,4 @@
-//! What the program and the axis lists together make of the Vibration Guard, FIR and HSC filters.
+//! Vibration Guard, FIR and HSC filters that result from program and axis lists together.
 //!
 //! One rule for all keys: written now, else written last in this program, else the axis list. `AX_DEV` is the exception:
 //! not written means off. A change of a kernel needs the path at rest; a change of tolerances does not.

@@ -1,4 +1,4 @@
-//! G functions and words in brackets, one row each; what `#` commands say of themselves is in their own rows.
+//! G functions and words in brackets, one row each; the texts of `#` commands are in their own rows.
 
 use super::explanation::{Explanation, Kind};
 use super::language::LANGUAGE;

@@ -1,4 +1,4 @@
-//! From lists and what is put over them to a machine that can run.
+//! From lists and their overrides to a machine that can run.
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::{ListFiles, Machine, Override, leaves_out};

@@ -1,4 +1,4 @@
-//! A program under way, and the one loop over its cycles.
+//! A running program, and the one loop over its cycles.
 
 use super::apart::{Apart, Work};
 use super::{Changes, Facts, Stop, Totals};

@@ -1,4 +1,4 @@
-//! One axis of the machine: its parameters and what the planner makes of them.
+//! One axis of the machine: its parameters, and the planner's values derived from them.
 
 use super::key::Key;
 use super::parameters::Kind;

@@ -1,4 +1,4 @@
-//! What the filters and the controller say about their configuration, as diagnostics with axis, parameter and place.
+//! Issues of the configuration of filters and controller, as diagnostics with axis, parameter and place.
 //!
 //! The text has the order quantity, value, limit, axis, parameter; then what becomes of it.
 

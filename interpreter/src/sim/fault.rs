@@ -1,4 +1,4 @@
-//! What goes wrong while the machine runs: messages and reactions.
+//! Faults of the running machine: messages and reactions.
 //!
 //! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
 //! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with

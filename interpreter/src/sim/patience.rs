@@ -1,4 +1,4 @@
-//! When a wait for axes to arrive has become hopeless: the loop is at rest, or swings on undiminished.
+//! Detects waits for axes that cannot end: the loop is at rest, or oscillates without decaying.
 //!
 //! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
 //! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change

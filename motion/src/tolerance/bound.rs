@@ -1,4 +1,4 @@
-//! What the set path and the contour are apart at most, from one cycle to the next.
+//! Upper bound of the distance between set path and contour, from one cycle to the next.
 //!
 //! With the weights of a kernel the path lengths that it holds have a mean `m`, and the contour has a point `q(m)` there.
 //! However the speed changes, `m` goes along the contour without a gap, and the set point `y` goes with it: so `|y - q(m)|`

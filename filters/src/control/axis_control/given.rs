@@ -1,4 +1,4 @@
-//! What a cycle of an axis is given: while it stays the same, an axis that rests is left alone.
+//! Inputs of an axis in one cycle: while they stay the same, an axis at rest is skipped.
 
 use super::AxisInputs;
 

@@ -1,4 +1,4 @@
-//! What a picture needs of a run, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
+//! The data of a run that a picture needs, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
 //! value of every curve, and the contour as a [`Track`]. Short runs have one bucket per cycle.
 
 use super::stops::Stops;

@@ -1,4 +1,4 @@
-//! The finished rows of a sweep that is under way, so that one that was stopped continues where it stopped.
+//! The finished rows of a running sweep, so that a stopped one continues where it stopped.
 //!
 //! A file of JSON lines, `NAME.rows` next to the output NAME: the first line states what is swept, every other line is a row,
 //! written when its run has ended. A journal of another sweep, or of files that have changed since, is started again.

@@ -1,4 +1,4 @@
-//! The choices judged on the user's own program: residual vibration, deviation from the contour, machining time.
+//! The choices evaluated on the user's program: residual vibration, deviation from the contour, machining time.
 //!
 //! Each choice is forced on the run ([`ForcedGuard`]) instead of what the lists say and of MODE, FREQ and DAMPING in the
 //! program's own commands; ON, OFF and `AX_DEV` of the program stay. A program that switches the guard off or filters by

@@ -1,4 +1,4 @@
-//! The modes that a vibration leaves to choose from, each with what remains of it, and the command to paste.
+//! The modes to choose from for a vibration, each with its residual vibration, and the command to paste.
 
 use super::vibration::Mode;
 use crate::Exit;

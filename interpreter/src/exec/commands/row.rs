@@ -1,4 +1,4 @@
-//! What a row of the table of commands says, and the call of a command as its function gets it.
+//! A row of the table of commands, and the call that its function receives.
 
 use super::keys::Key;
 use crate::diag::Condition;

@@ -1,4 +1,4 @@
-//! Which feeds change along a motion (G13, G193, G293), and what does not go with it.
+//! Which feeds change along a motion (G13, G193, G293), and what cannot be combined with that.
 
 use crate::diag::Condition;
 use crate::exec::block::groups::Act;

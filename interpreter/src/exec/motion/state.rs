@@ -1,4 +1,4 @@
-//! What the room of motions keeps from block to block.
+//! State of motions from block to block.
 
 pub(in crate::exec) mod coupling;
 mod cutting;

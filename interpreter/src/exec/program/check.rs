@@ -1,4 +1,4 @@
-//! Decoding without moving: everything there is to say about a program.
+//! Decoding without moving: all diagnostics of a program.
 
 use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};

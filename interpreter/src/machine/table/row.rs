@@ -1,4 +1,4 @@
-//! What one row of the parameter table holds, and the words it is written with.
+//! One row of the parameter table, and the words in which it is written.
 
 use crate::diag::Condition;
 
