@@ -17,7 +17,7 @@
 //! assert_eq!(kernel.unwrap().length(), 200);
 //! ```
 
-/// What a condition does to the filter.
+/// The effect of a condition on the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// The filter runs as configured; something is worth knowing.
@@ -132,7 +132,7 @@ pub enum FilterIssue {
 }
 
 impl FilterIssue {
-    /// What becomes of the filter.
+    /// The consequence for the filter.
     pub const fn effect(&self) -> Effect {
         match self {
             Self::AllPassNotBessel | Self::RemovesConstantPart => Effect::Note,

@@ -25,7 +25,7 @@ use crate::response::Impulse;
 use crate::time::CycleTime;
 use std::f64::consts::PI;
 
-/// What `vib_guard.*` of an axis list or `#VIB GUARD` sets for one axis.
+/// Settings of `vib_guard.*` in an axis list or of `#VIB GUARD` for one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VibGuardSettings {
     /// Shaper, 1 to 4, default 1. Modes 1 to 3: once, twice, three times the two-impulse shaper, each less sensitive

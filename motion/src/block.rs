@@ -57,7 +57,7 @@ pub enum Feed {
     PathVelocity(f64),
     /// G93: time for the block in s.
     Duration(f64),
-    /// G194: share (0..1) of the greatest path velocity the axes allow.
+    /// G194: share (0..1) of the largest path velocity that the axes allow.
     ShareOfMaximum(f64),
 }
 

@@ -60,7 +60,7 @@ pub struct IndependentState {
 /// Way in mm (deg) before the target from which on nothing acts on a motion any more.
 const ARRIVED_MM: f64 = 1e-9;
 
-/// What acts on a motion from outside.
+/// External influences on a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Steering {
     /// Override.

@@ -59,7 +59,7 @@ fn swept(arc: &ArcPath) -> (f64, f64) {
     if sweep > 0.0 { (start, start + sweep) } else { (start + sweep, start) }
 }
 
-/// Largest derivatives of an arc askew to the axes. Those of its three axes are bounds: what comes from the circle and
+/// Largest derivatives of an arc tilted to the axes. Those of its three axes are bounds: what comes from the circle and
 /// what comes from the height of a helix are added.
 fn tilted_extremes(tilted: &TiltedArc) -> PathExtremes {
     let arc = tilted.arc();

@@ -119,7 +119,7 @@ pub struct Planner {
     wanted: Realtime,
 }
 
-/// What acts on the path from outside.
+/// External influences on the path.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 struct Realtime {
     ratios: Override,

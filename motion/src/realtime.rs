@@ -1,4 +1,4 @@
-//! What acts on a running path from outside: override and feedhold.
+//! External influences on a running path: override and feedhold.
 //!
 //! They are applied at the next cycle; see [`crate::planner`] for how the path gets there.
 //!

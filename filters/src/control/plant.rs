@@ -126,7 +126,7 @@ pub enum PlantError {
     TooStiff,
 }
 
-/// What a cycle puts into the plant.
+/// Inputs of the plant in a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlantInput {
     /// Speed command in mm/s, additive velocity included.

@@ -54,7 +54,7 @@ pub struct Second {
     output: SecondOutput,
 }
 
-/// What leaves a first-order section.
+/// Output of a first-order section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FirstOutput {
     /// `1 / (1 + P')`.
@@ -65,7 +65,7 @@ pub enum FirstOutput {
     All,
 }
 
-/// What leaves a second-order section.
+/// Output of a second-order section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SecondOutput {
     /// `1 / D`, `D = 1 + k P' + P'^2`.

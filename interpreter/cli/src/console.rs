@@ -161,7 +161,7 @@ impl Write for Output {
     }
 }
 
-/// What a long run shows on a terminal.
+/// The progress of a long run on a terminal.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,

@@ -13,7 +13,7 @@ use std::time::SystemTime;
 
 /// The name that stands for standard input or output instead of a file.
 pub(crate) const STANDARD: &str = "-";
-/// What messages call a program from standard input.
+/// The name in messages of a program from standard input.
 pub(crate) const STANDARD_INPUT: &str = "<stdin>";
 
 /// Bytes of a program at most that comes through a pipe, 256 MiB (about ten million blocks): it is copied to a temporary
@@ -38,7 +38,7 @@ pub(crate) struct ProgramFiles {
     folders: Vec<PathBuf>,
     /// Subroutines may lie anywhere.
     anywhere: bool,
-    /// What is read instead of the main program's own text.
+    /// Text that replaces that of the main program.
     text: Option<Arc<[u8]>>,
     opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }

@@ -22,7 +22,7 @@ pub(crate) enum Place {
     StartUp(PathBuf),
     /// A project, and the files that hold it.
     Project {
-        /// What messages call it.
+        /// Its name in messages.
         name: PathBuf,
         /// Its files.
         paths: Vec<PathBuf>,

@@ -112,7 +112,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }
 
-/// What a report is written as.
+/// The form of a report.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Picture,

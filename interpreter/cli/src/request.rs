@@ -32,7 +32,7 @@ use kontur_interpreter::machine::project::Project;
 use kontur_interpreter::machine::{Axis, ListFiles, Machine};
 use std::path::{Path, PathBuf};
 
-/// What a user may say about a run, apart from what becomes of its results.
+/// Everything a user can specify about a run, except the use of its results.
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {

@@ -54,7 +54,7 @@ impl Target {
         Ok(Self { path, place: Place::Planned(existing) })
     }
 
-    /// What the bytes go to.
+    /// The destination of the bytes.
     ///
     /// # Errors
     /// The system's, at the first call.
@@ -182,7 +182,7 @@ pub(crate) fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Er
     Ok(())
 }
 
-/// What makes two names one file.
+/// The identity of a file with several names.
 #[derive(PartialEq)]
 enum Identity {
     /// An existing file, by whatever link.

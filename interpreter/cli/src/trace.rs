@@ -26,7 +26,7 @@ pub(crate) struct Trace {
     shows_deviation: bool,
 }
 
-/// How the records get to their file.
+/// The route of the records to their file.
 #[derive(Debug)]
 enum Way {
     /// By a separate thread.
@@ -37,7 +37,7 @@ enum Way {
     Closed,
 }
 
-/// What writes a file.
+/// The writer of a file.
 #[derive(Debug)]
 enum Writer {
     Csv(csv::CsvWriter),

@@ -285,7 +285,7 @@ impl Axis {
         self.get(axis_general::LIMIT_BEHAVIOUR).as_deref() == Some("WARNING")
     }
 
-    /// The additional interface takes positions from outside (`lr_param.add_interface.enable`).
+    /// The additional interface accepts external positions (`lr_param.add_interface.enable`).
     pub(crate) fn has_additional_interface(&self) -> bool {
         self.get(axis_filters::ADDITIONAL_INTERFACE)
     }

@@ -72,7 +72,7 @@ struct Lane {
     coupling: Option<Coupling>,
     /// Its way is not at rest yet after its filters.
     settles: bool,
-    /// What acts on it from outside.
+    /// External influences on it.
     steering: Steering,
     underway: Option<Underway>,
     oscillation: Option<Box<Oscillation>>,
@@ -115,7 +115,7 @@ impl IndependentAxes {
         Ok(())
     }
 
-    /// Starts an oscillation in cycle `k`: to the first reversal position, and then to and fro.
+    /// Starts an oscillation in cycle `k`: to the first reversal position, and then back and forth.
     pub(super) fn oscillate(
         &mut self,
         axis: usize,
@@ -144,7 +144,7 @@ impl IndependentAxes {
         Ok(())
     }
 
-    /// What acts on an axis from outside, from the next call of [`Self::take_over`] on.
+    /// External influences on an axis, from the next call of [`Self::take_over`] on.
     pub(super) fn steer(&mut self, axis: usize, steering: Steering) {
         if let Some(lane) = self.lanes.get_mut(axis) {
             lane.steering = steering;

@@ -47,7 +47,7 @@ pub(super) struct Wear {
     along: Option<[f64; 2]>,
     /// Way that has counted.
     way_mm: f64,
-    /// Wear from outside.
+    /// External wear.
     outside_mm: f64,
     followers: SmallVec<[Follower; 4]>,
 }

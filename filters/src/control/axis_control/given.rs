@@ -2,7 +2,7 @@
 
 use super::AxisInputs;
 
-/// What a cycle is given, as bits.
+/// The inputs of a cycle, as bits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Given {
     set: u64,

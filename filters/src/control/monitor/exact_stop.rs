@@ -98,7 +98,7 @@ impl ExactStopMonitor {
         (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
-    /// What another monitor awaits, in its own window and time.
+    /// The stop awaited by another monitor, with its own window and time.
     pub(crate) fn take_over(&mut self, before: &Self) {
         let (config, cycle) = (self.config, self.cycle);
         *self = Self { config, cycle, ..before.clone() };

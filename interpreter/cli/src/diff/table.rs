@@ -84,7 +84,7 @@ fn first_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     Ok(start)
 }
 
-/// What is wrong with a table.
+/// Mistakes of a table.
 fn unreadable(name: &str, e: csv::Error) -> Error {
     let text = match e.kind() {
         ErrorKind::UnequalLengths { pos: Some(at), expected_len, len } => {

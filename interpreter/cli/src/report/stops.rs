@@ -28,7 +28,7 @@ pub(crate) struct Stop {
     pub(crate) t3: Option<u64>,
 }
 
-/// What is known of one axis.
+/// The data of one axis.
 #[derive(Clone, Copy, Debug, Default)]
 struct Watch {
     set: Option<f64>,

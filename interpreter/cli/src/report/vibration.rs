@@ -179,7 +179,7 @@ fn spring(runs: &[Drawn], run: usize, axis: usize) -> Option<SpringMass> {
     SpringMass::new(freq_hz, damping, CycleTime::from_us(runs[run].recording.facts.cycle_us)?)
 }
 
-/// What of the runs is looked at, if that is not all.
+/// The part of the runs that is shown, if not all.
 fn part(runs: &[Drawn]) -> String {
     let kept = runs.iter().map(|r| (r.recording.most_samples, r.recording.cycles()));
     let cut = kept.filter(|(most, cycles)| *cycles > *most as u64).map(|(most, _)| most);

@@ -59,7 +59,7 @@ pub(crate) struct ParquetWriter {
     target: Target,
     /// Path of the trace.
     path: PathBuf,
-    /// Where the groups before are, if there are any.
+    /// Location of the earlier groups, if there are any.
     folder: Option<TempDir>,
     parts: Vec<PathBuf>,
 }
@@ -322,7 +322,7 @@ mod tests {
     use kontur_interpreter::record::{AxisRecord, PathRecord};
     use std::slice;
 
-    /// What was written before an error stays where the error says, whenever it comes.
+    /// Rows written before an error stay at the location that the error names.
     #[test]
     fn parts_outlive_an_error() {
         let facts = Facts { cycle_us: 1000, ..Facts::default() };

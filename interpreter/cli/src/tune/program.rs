@@ -27,7 +27,7 @@ const SLACK_MM: f64 = 1e-9;
 /// Delays that differ by less are the same, in cycles.
 const SAME_DELAY: f64 = 1e-6;
 
-/// What a run with one choice was like; no choice: the Vibration Guard off.
+/// The figures of a run with one choice; no choice: the Vibration Guard off.
 struct Outcome {
     choice: Option<Choice>,
     /// `AX_DEV` as the program or the run has it.

@@ -31,7 +31,7 @@ pub(super) struct Recording {
     pub(super) found: Analysis,
 }
 
-/// What the recordings show together.
+/// The common result of the recordings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Measured {
     /// The strongest vibration of each recording in Hz.

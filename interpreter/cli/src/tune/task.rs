@@ -34,7 +34,7 @@ pub(super) struct Row {
     pub(super) given: bool,
 }
 
-/// What is known about each choice, and the one to take.
+/// The figures of each choice, and the one to take.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// One row per choice: settings, residual vibration, contour error, delay; with a program what a run was like.

@@ -66,7 +66,7 @@ pub struct Lasting {
     pub hum: bool,
 }
 
-/// What to look at.
+/// The part to examine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
     /// Frequencies in Hz.
@@ -92,7 +92,7 @@ pub struct Decay {
     pub stride: usize,
 }
 
-/// What a record shows.
+/// The result for a record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Analysis {
     /// Decaying vibrations, strongest first; empty: there is none.

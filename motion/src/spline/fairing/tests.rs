@@ -1,33 +1,20 @@
 //! What moves, how far, and what stays.
 
+#[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
+mod doc {
+    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
+}
+
 use super::*;
-use crate::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
-use crate::block::{ChannelDynamics, Feed};
+use doc::{ChannelDynamics, Feed};
 use std::f64::consts::{PI, TAU};
 
 type Points = Vec<Vec<f64>>;
 
 /// Axes of which the first ones are in the feed group.
 fn dynamics(axes: usize, feed_axes: usize) -> Arc<ChannelDynamics> {
-    let step = StepSlope { acc_mm_s2: [1e3; 2], dec_mm_s2: [1e3; 2], change_mm_s: 100.0 };
-    let axis = AxisDynamics {
-        v_max_mm_s: 1e3,
-        v_rapid_mm_s: 1e3,
-        a_max_mm_s2: 1e3,
-        a_emergency_mm_s2: 1e3,
-        tr_geom_s: 0.01,
-        feed: FeedSlope { acc_mm_s2: 1e3, dec_mm_s2: 1e3, ramps_s: [0.05; 4] },
-        rapid: RapidSlope { acc_mm_s2: 1e3, ramp_s: 0.01 },
-        feedhold: FeedholdSlope { step_dec_mm_s2: 2e3, dec_mm_s2: 2e3, ramp_s: 0.02 },
-        step_feed: step,
-        step_rapid: step,
-        a_trans_ratio: 1.0,
-        r_trans_ratio: 1.0,
-        j_trans_kink_mm_s3: 0.0,
-        j_trans_tangential_mm_s3: 0.0,
-    };
     let feed_axes = (0..axes).map(|i| i < feed_axes).collect();
-    Arc::new(ChannelDynamics { feed_axes, ..ChannelDynamics::new(vec![axis; axes]) })
+    Arc::new(ChannelDynamics { feed_axes, ..ChannelDynamics::new(vec![doc::axis(); axes]) })
 }
 
 /// The blocks of a polygon in all axes, with what `change` makes of each of them.
