@@ -287,6 +287,7 @@ mod tests {
         assert!((sent(heavy) - 0.5 * sent(example())).abs() < 1e-9);
         for none in [
             TorqueFormat { load: 0.0, ..example() },
+            TorqueFormat { real_load: Some(0.0), ..example() },
             TorqueFormat { scale_denom: 0.0, ..example() },
             TorqueFormat { load: 1e-8, ..example() },
         ] {
