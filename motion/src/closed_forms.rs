@@ -17,15 +17,10 @@ fn take() -> u64 {
 }
 
 mod tests {
-    #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
-    mod doc {
-        include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
-    }
-
     use super::take;
     use crate::block::{Slope, SlopeKind};
+    use crate::example::{Arc, AxisVec, Block, ChannelDynamics, Feed, LinePath, Path};
     use crate::planner::{Next, Planner};
-    use doc::{Arc, AxisVec, Block, ChannelDynamics, Feed, LinePath, Path};
     use kontur_filters::time::CycleTime;
 
     /// Rows of 50 mm over a wavy surface in steps of 0.2 mm.
@@ -44,7 +39,7 @@ mod tests {
 
     /// Evaluations per block.
     fn cost(count: usize, kind: SlopeKind, point: fn(usize) -> AxisVec) -> f64 {
-        let dynamics = Arc::new(ChannelDynamics::new(vec![doc::axis(); 3]));
+        let dynamics = Arc::new(ChannelDynamics::new(vec![crate::example::axis(); 3]));
         let mut planner = Planner::new(CycleTime::DEFAULT, 120, &point(0));
         let mut i = 0;
         take();

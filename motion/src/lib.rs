@@ -37,6 +37,11 @@ mod contour;
 pub mod contouring;
 pub mod deviation;
 mod emergency;
+#[cfg(test)]
+#[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
+mod example {
+    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
+}
 pub mod independent;
 pub mod junction;
 pub mod limits;

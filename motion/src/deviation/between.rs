@@ -157,15 +157,10 @@ fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
 
 #[cfg(test)]
 mod tests {
-    #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
-    mod doc {
-        include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
-    }
-
     use super::*;
     use crate::contour::Contour;
+    use crate::example::{Arc, block};
     use crate::queue::Queued;
-    use doc::{Arc, block};
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 

@@ -94,17 +94,12 @@ impl Draft {
 
 #[cfg(test)]
 mod tests {
-    #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
-    mod doc {
-        include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
-    }
-
     use super::Draft;
     use crate::block::{Slope, SlopeKind};
     use crate::cap::{Cap, SpeedLimit};
+    use crate::example::{Arc, block};
     use crate::lookahead::plan_again;
     use crate::queue::Queued;
-    use doc::{Arc, block};
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 

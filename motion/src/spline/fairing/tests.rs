@@ -1,12 +1,7 @@
 //! What moves, how far, and what stays.
 
-#[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
-mod doc {
-    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
-}
-
 use super::*;
-use doc::{ChannelDynamics, Feed};
+use crate::example::{ChannelDynamics, Feed};
 use std::f64::consts::{PI, TAU};
 
 type Points = Vec<Vec<f64>>;
@@ -14,7 +9,10 @@ type Points = Vec<Vec<f64>>;
 /// Axes of which the first ones are in the feed group.
 fn dynamics(axes: usize, feed_axes: usize) -> Arc<ChannelDynamics> {
     let feed_axes = (0..axes).map(|i| i < feed_axes).collect();
-    Arc::new(ChannelDynamics { feed_axes, ..ChannelDynamics::new(vec![doc::axis(); axes]) })
+    Arc::new(ChannelDynamics {
+        feed_axes,
+        ..ChannelDynamics::new(vec![crate::example::axis(); axes])
+    })
 }
 
 /// The blocks of a polygon in all axes, with what `change` makes of each of them.
