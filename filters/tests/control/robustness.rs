@@ -243,5 +243,14 @@ fn what_shows_the_load_twice() {
     let rigid = PlantModel::FirstOrder { time_constant_s: 0.005 };
     assert_eq!(twice(rigid.clone(), 0.0), (true, true));
     assert_eq!(twice(rigid, 1e-4), (false, true));
-    assert_eq!(twice(PlantModel::Modal(ModalConfig::rack_and_pinion()), 0.0), (false, true));
+    let speed_loop = SpeedLoop { gain_per_s: 20.0, integral_time_s: None, current_time_s: 0.0005 };
+    let spring = TwoMassConfig {
+        load_to_motor_ratio: 3.0,
+        resonance_hz: 40.0,
+        damping_ratio: 0.05,
+        speed_loop,
+    };
+    assert_eq!(twice(PlantModel::TwoMass(spring), 0.0), (false, true));
+    // the modes of this one move motor and load alike: only its tool point is elsewhere
+    assert_eq!(twice(PlantModel::Modal(ModalConfig::rack_and_pinion()), 0.0), (true, true));
 }
