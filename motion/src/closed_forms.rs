@@ -18,10 +18,33 @@ fn take() -> u64 {
 
 mod tests {
     use super::take;
-    use crate::block::{Slope, SlopeKind};
-    use crate::example::{Arc, AxisVec, Block, ChannelDynamics, Feed, LinePath, Path};
+    use crate::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
+    use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
+    use crate::path::{LinePath, Path};
     use crate::planner::{Next, Planner};
     use kontur_filters::time::CycleTime;
+    use std::sync::Arc;
+
+    fn dynamics() -> Arc<ChannelDynamics> {
+        let step = StepSlope { acc_mm_s2: [4000.0; 2], dec_mm_s2: [4000.0; 2], change_mm_s: 100.0 };
+        let axis = AxisDynamics {
+            v_max_mm_s: 1000.0,
+            v_rapid_mm_s: 1000.0,
+            a_max_mm_s2: 6000.0,
+            a_emergency_mm_s2: 6000.0,
+            tr_geom_s: 0.01,
+            feed: FeedSlope { acc_mm_s2: 4000.0, dec_mm_s2: 4000.0, ramps_s: [0.02; 4] },
+            rapid: RapidSlope { acc_mm_s2: 5000.0, ramp_s: 0.02 },
+            feedhold: FeedholdSlope { step_dec_mm_s2: 5000.0, dec_mm_s2: 5000.0, ramp_s: 0.02 },
+            step_feed: step,
+            step_rapid: step,
+            a_trans_ratio: 1.0,
+            r_trans_ratio: 1.0,
+            j_trans_kink_mm_s3: 0.0,
+            j_trans_tangential_mm_s3: 0.0,
+        };
+        Arc::new(ChannelDynamics::new(vec![axis; 3]))
+    }
 
     /// Rows of 50 mm over a wavy surface in steps of 0.2 mm.
     fn point(i: usize) -> AxisVec {
@@ -39,7 +62,7 @@ mod tests {
 
     /// Evaluations per block.
     fn cost(count: usize, kind: SlopeKind, point: fn(usize) -> AxisVec) -> f64 {
-        let dynamics = Arc::new(ChannelDynamics::new(vec![crate::example::axis(); 3]));
+        let dynamics = dynamics();
         let mut planner = Planner::new(CycleTime::DEFAULT, 120, &point(0));
         let mut i = 0;
         take();
