@@ -1,8 +1,8 @@
-; A corner of 90 degrees in X4.5 Y0, seven times at F3000; each pass stops exactly in X4.5 Y2 and at the start.
+; A corner of 90 degrees in X4.5 Y0, seven times at F3000; each pass stops exactly at X4.5 Y2 and at the start.
 ;   lines 11 to 13  G60: exact stop in the corner
 ;   lines 14 to 16  the sharp corner without a stop, as fast as the axes allow
 ;   lines 18 to 20  contouring DEV, 0.15 mm from the corner: the curve begins 0.566 mm before it
-;   lines 22 to 24  contouring DIST, from 1 mm before to 1 mm behind the corner: 0.265 mm from it
+;   lines 22 to 24  contouring DIST, from 1 mm before to 1 mm after the corner: 0.265 mm from it
 ;   lines 26 to 28  contouring POS, through the point X4.35 Y0.15: 0.212 mm from the corner
 ;   lines 30 to 32  contouring PTP, at most 0.15 mm from the corner and from 0.4 mm before it: 0.106 mm
 ;   lines 35 to 37  B-spline, 0.08 mm from the corner: it begins 0.339 mm before it

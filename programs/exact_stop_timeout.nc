@@ -1,7 +1,7 @@
-; How long an axis may take into its exact-stop window. A soft controller (Kv 10/s, no feedforward) falls 10 mm behind
+; How long an axis may take to reach its exact-stop window. A soft controller (Kv 10/s, no feedforward) falls 10 mm behind
 ; at 100 mm/s and needs about half a second for the last millimetres: 10 mm exp(-Kv t) = 0.05 mm at t = 0.53 s.
-;   N60  0.6 s are allowed: the axis arrives, and N70 begins when it has
-;   N90  0.2 s are allowed: error 70082 200 ms behind the stop; the axis stops at once, the program is aborted (exit
+;   N60  0.6 s are allowed: the axis arrives, then N70 begins
+;   N90  0.2 s are allowed: error 70082 200 ms after the stop; the axis stops at once, the program is aborted (exit
 ;        code 1), N100 never begins
 %EXACT_STOP_TIMEOUT
 N10 G71 G90

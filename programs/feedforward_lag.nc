@@ -1,7 +1,7 @@
 ; One axis, the same move four times: what feedforward does to the following error (trace column X_lag_mm).
-;   N30   without: v / Kv = 100 mm/s / (50/s) = 2 mm
-;   N50   G135: none at constant speed
-;   N70   G136 X80: one fifth is left, 0.4 mm
+;   N30   off: v / Kv = 100 mm/s / (50/s) = 2 mm
+;   N50   G135: no lag at constant speed
+;   N70   G136 X80: one fifth remains, 0.4 mm
 ;   N90   G137, the weight stays stored: 2 mm again
 %FEEDFORWARD_LAG
 N10 G71 G90 G00 X0

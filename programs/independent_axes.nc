@@ -1,4 +1,4 @@
-; Z lifts alone while the path goes on (N30), then the path waits for it (N60); N70 moves X alone and the next block
+; Z lifts alone while the path continues (N30), then the path waits for it (N60); N70 moves X alone and the next block
 ; begins when it has arrived.
 %INDEPENDENT_AXES
 N10 G90 G00 X0 Y0 Z0

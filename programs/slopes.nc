@@ -3,8 +3,8 @@
 ; v = 150 mm/s, a = 3500 mm/s2, ramps t = 30 ms.
 ;   N20        one block of 20 mm from rest to rest: L/v + v/a = 0.1762 s with STEP, L/v + v/a + t = 0.2062 s with the
 ;              others; the jerk is a/t = 117 m/s3 with TRAPEZ and HSC, pi/2 times as much at the peaks of SIN2
-;   N40, N50   the same way back in two blocks, the first of 1 mm at a lower feed: too short to reach it, so the path
-;              accelerates across the border of the blocks and is as fast as over one block
+;   N40, N50   the same distance back in two blocks, the first of 1 mm at a lower feed: too short to reach it, so the path
+;              accelerates across the block boundary and takes as long as one block
 %SLOPES
 N10 G71 G90 G00 X0
 N20 G01 X20 F9000

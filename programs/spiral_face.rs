@@ -3,7 +3,7 @@
 //! `cargo run --release --example spiral_face > programs/spiral_face.nc` writes the program of this folder.
 //!
 //! The radius grows by 1.2 mm per turn from 3 mm to 25 mm; chords deviate from the spiral by 1 um, so they grow with the
-//! radius from 0.15 mm to 0.45 mm. Inside, the kinks between them tell how fast the path may be, outside the feed. The
+//! radius from 0.15 mm to 0.45 mm. Inside, the kinks between them limit the speed of the path, outside the feed. The
 //! first point is the origin, so that the run is the path alone. Positions have four decimals, the control's increment
 //! of 0.1 um.
 

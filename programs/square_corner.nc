@@ -1,4 +1,4 @@
-; A square of 1 mm at F4000, three times: how the Vibration Guard cuts corners, and how AX_DEV stops it.
+; A square of 1 mm at F4000, three times: how the Vibration Guard cuts corners, and how AX_DEV limits it.
 ;   lines 8 to 11   guard with a tolerance of 0.01 mm per axis
 ;   lines 13 to 16  guard alone: the corners are cut by much more than 0.01 mm
 ;   lines 18 to 21  no guard: the set position is the interpolated one

@@ -1,5 +1,5 @@
 ; The square of square_corner.nc through the HSC mean filter (order 20: a delay of 10 ms), then without it.
-; The machine must carry the filter: kontur run square_corner_hsc.nc -m machines/xyz_hsc
+; The machine must have the filter: kontur run square_corner_hsc.nc -m machines/xyz_hsc
 %SQUARE_CORNER_HSC
 N10 G71 G90 G17 G00 X0 Y0
 N20 #FILTER ON [HSC]

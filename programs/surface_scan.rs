@@ -5,7 +5,7 @@
 //!
 //! The surface is `z = 1.5 sin(2 pi x / 30) cos(2 pi y / 40)` mm; rows along X are 60 mm long and 0.5 mm apart, points
 //! 0.25 mm apart, joined by half circles of small chords outside the surface, so that the path never has a corner: its
-//! curvature alone tells how fast it may be. Positions have four decimals, the control's increment of 0.1 um.
+//! curvature alone limits its speed. Positions have four decimals, the control's increment of 0.1 um.
 
 use std::io::{BufWriter, Write};
 

@@ -1,4 +1,4 @@
-//! Analysis beside the cycle: what a filter or shaper does to a corner, which one fits a machine.
+//! Analysis outside the cycle: what a filter or shaper does to a corner, which one suits a machine.
 //!
 //! Nothing here runs in a cycle; commands, pictures and tests use it.
 //!

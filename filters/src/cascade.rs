@@ -93,7 +93,7 @@ impl ListedPrototype {
 /// One entry `filter[i]` of an axis list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterEntry {
-    /// Whether a standard filter is on, default not; without meaning for HSC (P-AXIS-00319).
+    /// Whether a standard filter is on, default off; no meaning for HSC (P-AXIS-00319).
     pub enable: bool,
     /// Type; by default low-pass, resp. mean with the prototype HSC (P-AXIS-00204).
     pub listed_type: Option<ListedType>,
@@ -128,14 +128,14 @@ impl Default for FilterEntry {
     }
 }
 
-/// What the entries of an axis give.
+/// The result of the entries of an axis.
 #[derive(Clone, Debug)]
 pub struct Cascade {
     /// The standard filters that are on, in their order.
     pub filters: Vec<AxisFilter>,
     /// The HSC filter that `#FILTER ON [HSC]` makes effective.
     pub hsc: Option<HscConfig>,
-    /// What there is to say, with the index of the entry.
+    /// The issues, each with the index of its entry.
     pub issues: Vec<(usize, FilterIssue)>,
 }
 
@@ -199,7 +199,7 @@ fn permitted(
 impl FilterEntry {
     /// The filter of the additional interface of an axis, `None` if it is off.
     ///
-    /// For PT1 and PT2 the order is a switch only: the default 2 is no mistake in a list that names a type only.
+    /// For PT1 and PT2 the order is a switch only: the default 2 is not a mistake in a list that names a type only.
     /// Source: P-AXIS-00735 to P-AXIS-00742.
     pub fn additional(&self, cycle: CycleTime) -> (Option<AxisFilter>, Vec<FilterIssue>) {
         if !self.enable {

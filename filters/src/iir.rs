@@ -145,7 +145,7 @@ enum Network {
 
 /// `q` of `y = x + q (F(x) - x)`, the ends apart so that they are bit exact.
 ///
-/// Assumption: the formula; the vendor says "part of the signal led through the filter".
+/// Assumption: the formula; the vendor says "share of the signal that passes the filter".
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Share {
     None,

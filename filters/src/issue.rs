@@ -3,7 +3,7 @@
 //! A filter knows neither its axis nor its place in a list, nor how a control numbers the condition; who configured it
 //! adds all three. The numbers in the texts below are those of the vendor's documents.
 //!
-//! Order of calls: a design returns the issues beside the filter; then each is asked for its [`Effect`] and its text.
+//! Order of calls: a design returns the filter and its issues; each issue has an [`Effect`] and a text.
 //!
 //! ```
 //! use kontur_filters::fir::{FirConfig, FirKind};
@@ -17,7 +17,7 @@
 //! assert_eq!(kernel.unwrap().length(), 200);
 //! ```
 
-/// What a condition does to the filter.
+/// The effect of a condition on the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// The filter runs as configured; something is worth knowing.
@@ -31,7 +31,7 @@ pub enum Effect {
 /// A condition found while a filter was designed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FilterIssue {
-    /// 110239: the number is no filter type (7 and 9 are reserved). Source: P-AXIS-00204.
+    /// 110239: the number is not a filter type (7 and 9 are reserved). Source: P-AXIS-00204.
     #[error("filter type {number}, 1 to 12 without 7 and 9 exist")]
     TypeNotPermitted {
         /// The number.
@@ -132,7 +132,7 @@ pub enum FilterIssue {
 }
 
 impl FilterIssue {
-    /// What becomes of the filter.
+    /// The consequence for the filter.
     pub const fn effect(&self) -> Effect {
         match self {
             Self::AllPassNotBessel | Self::RemovesConstantPart => Effect::Note,

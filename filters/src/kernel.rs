@@ -1,4 +1,4 @@
-//! Finite impulse responses on the cycle grid, and what runs one.
+//! Finite impulse responses on the cycle grid, and the filter that applies one.
 //!
 //! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels and differ in nothing
 //! else. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.

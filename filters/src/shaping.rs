@@ -82,7 +82,7 @@ impl Shaping {
         self.flushed() && (y - target).abs() < window_mm
     }
 
-    /// Whether the kernel holds nothing but the last input.
+    /// Whether the kernel contains only the last input.
     pub fn flushed(&self) -> bool {
         self.kernel.settled()
     }

@@ -1,4 +1,4 @@
-//! What every causal stage of an axis can do.
+//! The interface of every causal stage of an axis.
 //!
 //! Order of calls: [`Stage::settle`] at the position of the axis, then [`Stage::step`] once per cycle.
 //!

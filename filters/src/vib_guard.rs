@@ -25,7 +25,7 @@ use crate::response::Impulse;
 use crate::time::CycleTime;
 use std::f64::consts::PI;
 
-/// What `vib_guard.*` of an axis list or `#VIB GUARD` sets for one axis.
+/// Settings of `vib_guard.*` in an axis list or of `#VIB GUARD` for one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VibGuardSettings {
     /// Shaper, 1 to 4, default 1. Modes 1 to 3: once, twice, three times the two-impulse shaper, each less sensitive
@@ -93,7 +93,7 @@ impl VibGuardSettings {
 
     /// The kernel of these settings in the cycle time `cycle`.
     ///
-    /// The impulse times of a zero-vibration shaper are no multiples of the cycle; rounding them would leave 5 % of the
+    /// The impulse times of a zero-vibration shaper are not multiples of the cycle; rounding them would leave 5 % of the
     /// vibration from 40 Hz on at 1 ms. Instead the second impulse is split over the two cycles around its time such
     /// that the zeros stay exactly on the poles of the vibration.
     ///

@@ -1,4 +1,4 @@
-//! Diagnostics: what a user is told, with ID, place, values and a hint.
+//! Diagnostics: messages to the user, with ID, place, values and a hint.
 //!
 //! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
 //! vendor's space. Everything that is always true of a condition is in one table, [`condition`].

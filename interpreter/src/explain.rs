@@ -1,6 +1,6 @@
-//! What `kontur explain THING` prints, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
+//! The answers of `kontur explain THING`, from the tables of conditions, parameters and commands: an ID, a parameter, a command, an object or word of the documents.
 //!
-//! Order of calls: none, every question is answered by itself.
+//! Order of calls: none, questions are independent.
 //!
 //! ```
 //! use kontur_interpreter::explain::explain;
@@ -13,6 +13,7 @@ mod commands;
 mod explanation;
 mod language;
 mod notes;
+mod row;
 mod words;
 
 pub use explanation::{Explanation, Kind};

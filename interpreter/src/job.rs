@@ -144,7 +144,7 @@ impl Job {
 }
 
 /// What stays the same during a run; `several_files`: the check ahead has opened more than the program, or has seen
-/// calls that a run may come to.
+/// calls that a run may reach.
 fn facts(program: &str, machine: &Machine, simulation: &Simulation, several_files: bool) -> Facts {
     let (chains, _) = machine.chains();
     let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();

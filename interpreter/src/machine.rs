@@ -1,4 +1,4 @@
-//! The machine: parameter lists in the vendor's format, their ranges, and what the simulation makes of them.
+//! The machine: parameter lists in the vendor's format, their ranges, and the simulation's values derived from them.
 //!
 //! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
 //!
@@ -79,7 +79,7 @@ impl Machine {
     }
 
     /// Index of the path axis that is the master of a gantry slave; none for other axes.
-    pub fn master_of(&self, axis: &Axis) -> Option<usize> {
+    pub(crate) fn master_of(&self, axis: &Axis) -> Option<usize> {
         let number = axis.gantry_master()?;
         self.axes.iter().position(|a| a.number() == number)
     }

@@ -202,7 +202,7 @@ pub struct CycleRecord {
 }
 
 impl CycleRecord {
-    /// Not a number in place of a deviation from the contour that is not measured, for the path axes.
+    /// Not a number instead of a deviation from the contour that is not measured, for the path axes.
     pub(crate) fn omit_deviation(&mut self, path_axes: usize) {
         self.contour_err_mm = f64::NAN;
         for axis in self.axes.iter_mut().take(path_axes) {

@@ -134,7 +134,7 @@ pub(crate) struct Simulation {
     thread: Option<Thread>,
     /// A measuring run is on its way.
     probing: Option<Probing>,
-    /// The cycle that the program was told of last.
+    /// The cycle last reported to the program.
     told: Option<u64>,
     /// A motion of edge banding is on its way.
     banding: Option<Banding>,

@@ -127,7 +127,7 @@ impl Parser {
         raw.characters <= BLOCK_LENGTH && plain.recognize(raw.text.as_bytes()).is_some()
     }
 
-    /// The same for a line that is not known yet to be a block of its own, word by word: one that ends in it, is continued,
+    /// The same for a line that is not yet known to be a complete block, word by word: one that ends in it, is continued,
     /// or has other characters than those of ASCII in a remark, is not plain here. `None` also if `take` wants no more of
     /// it; what was handed out until then is void.
     #[inline]
@@ -240,7 +240,7 @@ impl Parser {
                 if mode == Mode::Declaration && found.condition == Condition::Syntax {
                     found.condition = Condition::DeclarationCharacter;
                 }
-                // what follows a function without its bracket is no word
+                // what follows a function without its bracket is not a word
                 let lost = found.condition == Condition::FunctionBracket;
                 builder.report_error(found);
                 let rule = match (context, mode) {

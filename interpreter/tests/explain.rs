@@ -152,7 +152,7 @@ fn remarks_on_feedforward() {
     says("S-0-0348", &["SERCOS", "feed forward themselves"]);
     says("P-AXIS-00223", &["S-0-0296, S-0-0348"]);
     says("V_SATZ_ANZ", &["number of blocks buffered", "5 cycles"]);
-    says("P-AXIS-00086", &["to be raised for measuring moves"]);
+    says("P-AXIS-00086", &["raise it for measuring moves"]);
 }
 
 /// Feedforward control, 5.2.

@@ -2,7 +2,6 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use kontur_filters::control::plant::PlantModel;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::{self, Default, ListKind};
 use kontur_interpreter::machine::value::Value;
@@ -112,22 +111,4 @@ fn shared_lists_are_the_same_in_every_folder() {
             );
         }
     }
-}
-
-#[test]
-fn the_rack_and_pinion_has_its_two_modes() {
-    let (machine, _) = load("rack_and_pinion");
-    let control = &machine.chains().0[0].control;
-    let PlantModel::Modal(modal) = &control.plant.model else { panic!("{:?}", control.plant) };
-    let close = |x: f64, value: f64| assert!((x - value).abs() < 1e-12, "{x} {value}");
-    close(modal.speed_loop.gain_per_s, 200.0);
-    close(modal.speed_loop.integral_time_s.unwrap(), 0.03);
-    close(modal.speed_loop.current_time_s, 0.0005);
-    assert_eq!(modal.modes.len(), 2);
-    close(modal.modes[0].frequency_hz, 53.0);
-    close(modal.modes[1].tool, 2.44);
-    close(control.plant.disturbance.unwrap().amplitude_mm_s2, 56.9);
-    assert_eq!(control.ipc.delay_cycles, 1);
-    let x = machine.axis("X").unwrap();
-    assert!((x.kv_1_s() - 30.0).abs() < 1e-12);
 }

@@ -1,18 +1,14 @@
 //! Inner loop of the look-ahead: reachable velocities and plans of one span.
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use kontur_kit::Random;
 use kontur_motion::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 use std::hint::black_box;
 
 /// Lengths and velocities of a program of short blocks, in a fixed pseudo-random order.
 fn spans() -> Vec<[f64; 4]> {
-    let mut state = 1u64;
-    let mut unit = || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
-    (0..1000).map(|_| [0.05 + 5.0 * unit(), 60.0 * unit(), 60.0 * unit(), 100.0]).collect()
+    let mut r = Random::from_state(1);
+    (0..1000).map(|_| [0.05 + 5.0 * r.ratio(), 60.0 * r.ratio(), 60.0 * r.ratio(), 100.0]).collect()
 }
 
 fn benches(c: &mut Criterion) {

@@ -1,6 +1,7 @@
-//! The general third-order profile beside `rsruckig`, a port of Ruckig, on the same random problems.
+//! The general third-order profile compared with `rsruckig`, a port of Ruckig, on the same random problems.
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use kontur_kit::Random;
 use kontur_motion::profile::{MotionState, ThirdOrderLimits};
 use rsruckig::prelude::*;
 use std::hint::black_box;
@@ -14,12 +15,7 @@ struct Problem {
 
 /// Problems with symmetric limits; `at_rest` ends (and starts) without acceleration, the target at rest.
 fn problems(at_rest: bool) -> Vec<Problem> {
-    let mut state = 7u64;
-    let mut between = |lo: f64, hi: f64| {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        lo + (hi - lo) * ((state >> 11) as f64 / (1u64 << 53) as f64)
-    };
+    let mut r = Random::from_state(7);
     let mut all = Vec::new();
     while all.len() < 1000 {
         let limits = ThirdOrderLimits {
@@ -30,9 +26,9 @@ fn problems(at_rest: bool) -> Vec<Problem> {
             jerk_mm_s3: 20_000.0,
         };
         let mut state = |moving: bool, accelerated: bool| MotionState {
-            p_mm: between(-30.0, 30.0),
-            v_mm_s: if moving { between(-70.0, 70.0) } else { 0.0 },
-            a_mm_s2: if accelerated { between(-900.0, 900.0) } else { 0.0 },
+            p_mm: r.between(-30.0, 30.0),
+            v_mm_s: if moving { r.between(-70.0, 70.0) } else { 0.0 },
+            a_mm_s2: if accelerated { r.between(-900.0, 900.0) } else { 0.0 },
         };
         let start = state(true, !at_rest);
         let target = state(!at_rest, !at_rest);

@@ -1,4 +1,4 @@
-//! What the tolerance (`AX_DEV`) asks of a block, as it stays with the block when it is planned once more.
+//! Demands of the tolerance (`AX_DEV`) on a block, kept with the block when it is planned again.
 
 /// What is asked of one block and of the boundary in front of it.
 #[derive(Clone, Copy, Debug)]

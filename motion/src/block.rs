@@ -1,4 +1,4 @@
-//! What the planner is fed with: one programmed motion with everything that limits it.
+//! Input of the planner: one programmed motion with all its limits.
 //!
 //! Made from limits ([`crate::axis`]) and geometry ([`crate::path`]), for [`crate::planner::Planner::push`].
 //!
@@ -65,7 +65,7 @@ pub enum Feed {
     PathVelocity(f64),
     /// G93: time for the block in s.
     Duration(f64),
-    /// G194: share (0..1) of the greatest path velocity the axes allow.
+    /// G194: share (0..1) of the largest path velocity that the axes allow.
     ShareOfMaximum(f64),
 }
 

@@ -119,7 +119,7 @@ impl Contour {
         self.blocks.len()
     }
 
-    /// The first `count` blocks, and others behind them.
+    /// The first `count` blocks, and others after them.
     pub(crate) fn restore(&mut self, count: usize, mut others: VecDeque<Passed>) {
         self.blocks.truncate(count);
         self.blocks.append(&mut others);
@@ -169,7 +169,7 @@ impl Contour {
     ) -> Around<'_> {
         let Range { start, end } = self.entries(from, to);
         let among = start..self.whole(end);
-        // a search of its own would end a step or two further
+        // a separate search would end a step or two further
         let mut all = start..end;
         while all.start > 0 && self.blocks[all.start].cycles > from - slack.0 {
             all.start -= 1;

@@ -45,7 +45,7 @@ pub use notice::{NoContour, Notice};
 
 /// Blocks in a row that may be too short to be relevant before one of them counts all the same.
 const SKIPPED: usize = 100;
-/// Pieces per half of the curve, each with a speed of its own (without `CONST_VEL`).
+/// Pieces per half of the curve, each with its own speed (without `CONST_VEL`).
 const PARTS: u32 = 4;
 /// What is left of a block between two curves and shorter than this part of it is rounding.
 const ROUNDING: f64 = 1e-12;

@@ -132,7 +132,7 @@ impl SetPath {
         self.values.extend_from_slice(point);
     }
 
-    /// The cycle behind the last one.
+    /// The cycle after the last one.
     pub(crate) fn end(&self) -> u64 {
         self.first + self.ways.len() as u64
     }
@@ -245,7 +245,7 @@ impl SetPath {
         Some((k + 1, nearest))
     }
 
-    /// The vector from a point of the contour to the set path between two cycles whose largest component is the least.
+    /// The vector from a point of the contour to the set path between two cycles whose largest component is smallest.
     fn reaches(&self, point: &[f64], (first, last): (u64, u64)) -> Option<AxisVec> {
         let mut vector = AxisVec::zeros(self.axes);
         let mut best: Option<(f64, AxisVec)> = None;

@@ -60,7 +60,7 @@ pub struct IndependentState {
 /// Way in mm (deg) before the target from which on nothing acts on a motion any more.
 const ARRIVED_MM: f64 = 1e-9;
 
-/// What acts on a motion from outside.
+/// External influences on a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Steering {
     /// Override.
@@ -86,7 +86,7 @@ pub struct IndependentMove {
     /// Distance at which the axis rests without a course.
     rest_mm: f64,
     steering: Steering,
-    /// The course ends at rest in front of the target, and goes on from there.
+    /// The course ends at rest in front of the target, and continues from there.
     pauses: bool,
     stopped: bool,
 }

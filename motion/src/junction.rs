@@ -1,4 +1,4 @@
-//! How fast the path may pass from one block to the next. Every limit is a function of its own; all are per axis.
+//! How fast the path may pass from one block to the next. Every limit is a separate function; all are per axis.
 //!
 //! At a kink the axis velocity jumps by `v |du_i|`. Sampled with the cycle `T` that is an acceleration of `v |du_i| / T`
 //! for one cycle, which P-AXIS-00013 weights (source: TF5200 axis parameters; formula derived).

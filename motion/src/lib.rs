@@ -6,7 +6,7 @@
 //! Order of calls: limits of axes and modes of the channel become [`block::ChannelDynamics`], a programmed motion with its
 //! [`path::Path`] a [`block::Block`]. Blocks pass the stages that change the path ([`contouring`], [`spline`]) where the program asks
 //! for them, and go into a [`planner::Planner`], which gives a setpoint for every cycle. The other modules are what it consists of,
-//! and serve whoever looks at a part alone.
+//! and can be used separately.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -37,6 +37,11 @@ mod contour;
 pub mod contouring;
 pub mod deviation;
 mod emergency;
+#[cfg(test)]
+#[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
+mod example {
+    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
+}
 pub mod independent;
 pub mod junction;
 pub mod limits;

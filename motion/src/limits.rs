@@ -59,7 +59,7 @@ fn swept(arc: &ArcPath) -> (f64, f64) {
     if sweep > 0.0 { (start, start + sweep) } else { (start + sweep, start) }
 }
 
-/// Largest derivatives of an arc askew to the axes. Those of its three axes are bounds: what comes from the circle and
+/// Largest derivatives of an arc tilted to the axes. Those of its three axes are bounds: what comes from the circle and
 /// what comes from the height of a helix are added.
 fn tilted_extremes(tilted: &TiltedArc) -> PathExtremes {
     let arc = tilted.arc();
@@ -270,7 +270,7 @@ impl PathSpeeds {
         self.axis_mm_s.min(self.curve_mm_s).min(self.vector_mm_s)
     }
 
-    /// Velocity in mm/s with `commanded` in place of the programmed one, and what it comes from.
+    /// Velocity in mm/s with `commanded` instead of the programmed one, and what it comes from.
     pub fn limited(&self, commanded: f64) -> Cap {
         let mut best = Cap::new(commanded.min(self.vector_mm_s), SpeedLimit::Feed);
         if self.axis_mm_s < best.v_mm_s || self.rapid && self.axis_mm_s <= best.v_mm_s {

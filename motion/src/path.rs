@@ -42,7 +42,7 @@ pub enum Path {
     Line(LinePath),
     /// Arc in a plane of two axes, the others linear in the angle (helix); several turns are possible.
     Arc(ArcPath),
-    /// Arc in a plane that lies askew to the axes.
+    /// Arc in a plane that is tilted to the axes.
     Tilted(Box<TiltedArc>),
     /// Polynomials in all axes: contouring and splines.
     Curve(Box<PolyPath>),

@@ -79,7 +79,7 @@ impl Plan {
         }
     }
 
-    /// Adds a segment behind the others, and lowers the caps of those that lie in one cycle with it.
+    /// Adds a segment after the others, and lowers the caps of those that lie in one cycle with it.
     pub(crate) fn push(&mut self, segment: Segment, cycle: CycleTime, kernel_active: bool) {
         let seq = segment.queued.block.seq;
         if self.segments.back().is_none_or(|last| last.queued.block.seq != seq) {
@@ -147,7 +147,7 @@ impl Plan {
         let limits = (&feeds[..], &caps[..]);
         let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.as_ref())?;
         let spans = &self.draft.insert(planned).spans;
-        // behind a rest the start may have to wait until the filters have left the corner in front of it
+        // after a rest the start may have to wait until the filters have left the corner in front of it
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
             None => start,

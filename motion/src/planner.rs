@@ -2,15 +2,15 @@
 //!
 //! Up to two windows of blocks are collected (P-STUP-00071 gives the size of one); then [`crate::lookahead`] plans all
 //! of them with a stop at the end of what is known, and all but the last window becomes final. So every block that is
-//! executed had at least one window of look-ahead behind it, and planning costs a constant number of closed forms per
+//! executed had at least one window of look-ahead after it, and planning costs a constant number of closed forms per
 //! block. A plan of constant jerk is left inside, at the end of a block, with the acceleration that it has there; where no
-//! new plan starts from such a state the old one goes on for a few blocks. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
+//! new plan starts from such a state the old one continues for a few blocks. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
 //!
 //! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
 //! rest planned again, see `replan`. What is ahead is one plan, see `plan`.
 //!
 //! Order of calls: kernels and modes at rest, [`Planner::push`] until [`Planner::advance`] no longer asks for input,
-//! [`Planner::finish`] behind the last block, then [`Planner::advance`] to [`Next::Rest`].
+//! [`Planner::finish`] after the last block, then [`Planner::advance`] to [`Next::Rest`].
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -112,14 +112,14 @@ pub struct Planner {
     /// Cycle in which the kernels were set.
     kernels_since: Option<u64>,
     brake: Option<EmergencyBraking>,
-    /// What lies behind the place where the path halts, if it is to halt.
+    /// What lies after the place where the path halts, if it is to halt.
     halted: Option<Vec<Segment>>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
     wanted: Realtime,
 }
 
-/// What acts on the path from outside.
+/// External influences on the path.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 struct Realtime {
     ratios: Override,
@@ -196,8 +196,8 @@ impl Planner {
 
     /// Feedhold on or off, from the next cycle on.
     ///
-    /// On: the path brakes on its contour to a standstill and stays there; time goes on, [`Self::advance`] produces
-    /// setpoints at rest. Off: it goes on, also out of the braking. `braking` is P-CHAN-00097. Dwells and waits of the
+    /// On: the path brakes on its contour to a standstill and stays there; time continues, [`Self::advance`] produces
+    /// setpoints at rest. Off: it continues, also out of the braking. `braking` is P-CHAN-00097. Dwells and waits of the
     /// program are the caller's.
     pub fn feedhold(&mut self, on: bool, braking: FeedholdBraking) {
         self.wanted.hold = on.then_some(braking);
@@ -217,7 +217,7 @@ impl Planner {
         }
     }
 
-    /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
+    /// Adds a block after the ones pushed so far. Its path starts where the one before ends.
     pub fn push(&mut self, block: impl Into<Box<Block>>) {
         let block = block.into();
         match sharp::parts(&block) {
@@ -255,12 +255,12 @@ impl Planner {
         self.last = Some(queued);
     }
 
-    /// The path comes to rest behind the last block pushed.
+    /// The path comes to rest after the last block pushed.
     pub fn finish(&mut self) {
         self.finishing = true;
     }
 
-    /// The path comes to rest behind what is planned.
+    /// The path comes to rest after what is planned.
     fn ends(&self) -> bool {
         self.finishing || self.halted.is_some()
     }
@@ -268,7 +268,7 @@ impl Planner {
     /// Produces the next setpoint if it can.
     ///
     /// # Errors
-    /// [`Infeasible`] is an internal error: the passes exclude it, and where they do not the last plan goes on.
+    /// [`Infeasible`] is an internal error: the passes exclude it, and where they do not the last plan continues.
     pub fn advance(&mut self) -> Result<Next, Infeasible> {
         if self.wanted != self.active {
             self.replan();
@@ -325,7 +325,7 @@ impl Planner {
         self.brake.as_ref().is_none_or(EmergencyBraking::is_over)
     }
 
-    /// One cycle of braking, or of standstill behind it.
+    /// One cycle of braking, or of standstill after it.
     pub fn advance_braking(&mut self) {
         let Some(brake) = self.brake.as_mut().filter(|b| !b.is_over()) else {
             self.hold(SpeedLimit::Stop);
@@ -342,7 +342,7 @@ impl Planner {
     }
 
     /// Reports what a [`Meter`](crate::deviation::Meter) has to know from here on, or does so from the first block with a
-    /// tolerance on: what is output is to be measured then, whoever wants to see it or not.
+    /// tolerance on: the output is measured then, even if no one reads it.
     pub fn report_changes(&mut self, always: bool) {
         if !always && self.least_tolerance_mm.is_infinite() {
             self.changes = None;

@@ -1,4 +1,4 @@
-//! What acts on a running path from outside: override and feedhold.
+//! External influences on a running path: override and feedhold.
 //!
 //! They are applied at the next cycle; see [`crate::planner`] for how the path gets there.
 //!
@@ -30,7 +30,7 @@ use crate::limits::PathSpeeds;
 pub struct OverrideRatios {
     /// Feed blocks.
     pub feed: f64,
-    /// Rapid blocks (G00). Whether they have an override of their own is for the caller (P-CHAN-00181).
+    /// Rapid blocks (G00). Whether they have a separate override is up to the caller (P-CHAN-00181).
     pub rapid: f64,
 }
 

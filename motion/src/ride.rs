@@ -196,7 +196,7 @@ fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
     (jerk * time * time / 16.0).min(acc * time / 4.0) >= HILL * v
 }
 
-/// True if a limit is below the present speed: the fall towards it is none of the rise's business.
+/// True if a limit is below the present speed: the fall towards it does not belong to the rise.
 fn is_drop(limit: f64, v: f64) -> bool {
     limit < v * (1.0 - 10.0 * SLACK)
 }
@@ -232,24 +232,19 @@ pub(crate) fn has_hill(length: f64, v: f64, rates: &Rates) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kontur_kit::Random;
     use std::f64::consts::FRAC_PI_2;
-
-    fn random(seed: &mut u64) -> f64 {
-        *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (*seed >> 11) as f64 / (1_u64 << 53) as f64
-    }
 
     /// Blocks with limits that vary slowly, with noise, dips and blocks of other lengths.
     fn cells(seed: u64, ramp: f64, shape: RampShape) -> Vec<Cell> {
-        let mut seed = seed;
-        let r = &mut seed;
-        let (waves, depth, noise) = (0.1 + random(r), 60.0 * random(r), 0.2 * random(r));
+        let mut r = Random::from_state(seed);
+        let (waves, depth, noise) = (0.1 + r.ratio(), 60.0 * r.ratio(), 0.2 * r.ratio());
         let mut end = 0.0;
         (0..150)
             .map(|i| {
-                end += if random(r) < 0.05 { 5.0 * random(r) + 0.01 } else { 0.2 };
+                end += if r.ratio() < 0.05 { 5.0 * r.ratio() + 0.01 } else { 0.2 };
                 let smooth = 80.0 + depth * libm::sin(waves * end);
-                let cap = smooth * (1.0 - noise * random(r));
+                let cap = smooth * (1.0 - noise * r.ratio());
                 let ramps = [ramp, ramp, ramp, ramp];
                 let acc = 3000.0 + 1000.0 * libm::sin(0.3 * end);
                 let cap = if i == 149 { f64::INFINITY } else { cap };

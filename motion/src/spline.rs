@@ -10,7 +10,7 @@
 //! along a radius. A corner that would deviate more is drawn back. With a little too small a tolerance, knots in the
 //! middles of its edges leave only the corner itself to move back to the programmed point, by as much as is needed; the
 //! full way halves the deviation, and the next knots continue from there. So the tolerance is used, and a larger one makes
-//! the spline neither sharper nor different at once. A corner whose tolerance is small beside its edges, or whose edges
+//! the spline neither sharper nor abruptly different. A corner whose tolerance is small compared with its edges, or whose edges
 //! are uneven and whose deviation could exceed the tolerance for any other edges, gets two more control points on either side, at distances `e` and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline
 //! touches the polygon before and after it (P-CHAN-00129 = 0). Or the spline ends there (`AUTO_OFF_PATH`; this goes by the
 //! bound for any other edges, at even ones a quarter of an edge). At its ends the spline meets the polygon with its
@@ -111,7 +111,7 @@ impl Splining {
         Self::default()
     }
 
-    /// The block is none of a spline, and none waits: pushed, it would come back at once and alone.
+    /// The block does not belong to a spline, and none is waiting: pushed, it would be returned at once and unchanged.
     pub fn passes(&self, block: &Block) -> bool {
         block.spline.is_none() && self.run.is_empty() && self.fairing.is_empty()
     }
@@ -214,7 +214,7 @@ impl Splining {
         }
     }
 
-    /// The spline over the next edge: one curve, or one for each part with a speed of its own.
+    /// The spline over the next edge: one curve, or one for each part with its own speed.
     fn curves(&self, to_end: bool) -> Vec<PolyPath> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
         let pieces = polygon.pieces();

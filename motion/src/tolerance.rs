@@ -45,10 +45,10 @@
 //! Bounded instead of measured: where the set point is certainly closer than the tolerance to the point of the contour that
 //! goes with it ([`bound`]); stretches of constant speed on one line, where one set point stands for all.
 //!
-//! Neither: the choice of who slows down. It keeps the tolerance, but is no optimum; `motion/tests/promise.rs` compares it
+//! Neither: the choice of who slows down. It keeps the tolerance, but is not an optimum; `motion/tests/promise.rs` compares it
 //! with the best even speed (`EVEN=1`).
 //!
-//! Set at the planner at rest; what could not be kept is told by [`crate::planner::Planner::take_unkept`].
+//! Set at the planner at rest; what could not be kept is returned by [`crate::planner::Planner::take_unkept`].
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -111,7 +111,7 @@ use view::View;
 
 /// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
 const MARGIN_MM: f64 = 2e-7;
-/// How far behind the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
+/// How far beyond the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
 /// from a trace on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
 /// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
@@ -152,7 +152,7 @@ pub(crate) struct Monitor {
 pub(crate) struct Trial<'a> {
     /// What is final.
     pub(crate) timeline: &'a Timeline,
-    /// The plan behind it.
+    /// The plan after it.
     pub(crate) plan: &'a [Entry],
     pub(crate) past: &'a Contour,
     pub(crate) kernels: &'a Kernels,

@@ -27,7 +27,7 @@ struct Driven {
     halt: Option<usize>,
 }
 
-/// Drives blocks; behind cycle `k` the path is told to halt `distance_mm` further on in the block where it is.
+/// Drives blocks; after cycle `k` the path is told to halt `distance_mm` further on in the block where it is.
 fn drive(job: &Job, start: &[f64], blocks: &[Block], k: u64, distance_mm: f64) -> Driven {
     let mut planner = Planner::new(CycleTime::from_us(job.cycle_us).unwrap(), job.window, start);
     let mut blocks = blocks.iter().cloned();
@@ -59,7 +59,7 @@ fn drive(job: &Job, start: &[f64], blocks: &[Block], k: u64, distance_mm: f64) -
     }
 }
 
-/// Cycles of a ride from rest to rest with constant acceleration: to the first one at or behind its end.
+/// Cycles of a ride from rest to rest with constant acceleration: to the first one at or after its end.
 fn cycles(length_mm: f64, v_mm_s: f64, a_mm_s2: f64) -> usize {
     ((length_mm / v_mm_s + v_mm_s / a_mm_s2) * 1000.0 - 1e-9).ceil() as usize
 }
@@ -81,7 +81,7 @@ fn place_and_time_of_a_halt_on_a_line() {
     assert!(out[halt..=halt + RESTS].iter().all(|p| p.s_mm == out[halt].s_mm));
     assert_eq!(out.len() - 1, halt + RESTS + cycles(70.0, 50.0, 1000.0));
     assert_eq!(out.last().unwrap().position[0], 100.0);
-    // the last place at which it can stop, and what lies behind the block
+    // the last place at which it can stop, and what lies after the block
     assert!(drive(&job, &[0.0, 0.0], &blocks, 425, 1.25 + 1e-6).taken);
     for distance in [0.0, 1.0, 1.25 - 1e-6, 80.1] {
         let driven = drive(&job, &[0.0, 0.0], &blocks, 425, distance);
@@ -90,7 +90,7 @@ fn place_and_time_of_a_halt_on_a_line() {
     }
 }
 
-/// The path asks for the blocks behind a halt once it has left it, and passes the end of the block without a stop.
+/// The path asks for the blocks after a halt once it has left it, and passes the end of the block without a stop.
 #[test]
 fn a_halt_behind_what_was_pushed() {
     let job = Job::new(1.0, SlopeKind::Step);

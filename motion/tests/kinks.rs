@@ -46,7 +46,7 @@ fn the_lowest_speed_lies_on_the_quicker_side() {
         let out = drive(kind, &POINTS.each_ref().map(|p| &p[..]), &[200.0]);
         let kink = out.iter().position(|p| p.seq == 1).unwrap();
         let Setpoint { v_mm_s: v, a_mm_s2: a, s_mm: s, .. } = out[kink];
-        // the setpoint lies up to a cycle behind the kink
+        // the setpoint lies up to a cycle after the kink
         let behind_s = 2.0 * (s - 8.0) / (v + at_kink());
         assert!((0.0..=CYCLE_S).contains(&behind_s), "{kind:?}: {behind_s}");
         assert!((v - a * behind_s - at_kink()).abs() < 2e-4, "{kind:?}: {v}");

@@ -1,4 +1,4 @@
-//! G901: braking to a lower feed behind the end of the faster block, against closed forms and over random programs.
+//! G901: braking to a lower feed after the end of the faster block, against closed forms and over random programs.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -177,7 +177,7 @@ fn the_curvature_of_the_slower_block_is_kept() {
     }
 }
 
-/// A slower block of 3 mm is shorter than the braking from 100 to 20 mm/s: under G901 the braking goes on in the next
+/// A slower block of 3 mm is shorter than the braking from 100 to 20 mm/s: under G901 the braking continues in the next
 /// one, as a single leg; with G09 in the short block it ends at its end.
 #[test]
 fn braking_goes_on_in_the_next_block() {
@@ -270,7 +270,7 @@ fn without_effect() {
     }
 }
 
-/// The E word is a limit of the boundary: 60 mm/s there, braking on to 20 behind it.
+/// The E word is a limit of the boundary: 60 mm/s there, braking on to 20 after it.
 #[test]
 fn an_end_velocity_is_kept() {
     for kind in KINDS {

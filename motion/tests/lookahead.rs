@@ -51,7 +51,7 @@ fn slow_block_between_fast_ones() {
     let (lengths, feeds) = ([10.0, 0.5, 0.5, 2.0, 10.0], [100.0, 100.0, 20.0, 100.0, 100.0]);
     assert_eq!(cycles(&Job::new(0.0, Step), &lengths, &feeds), 414);
     let job = Job { cycle_us: 100, ..Job::new(0.0, Trapez) };
-    // blocks of equal feed are joined: 10 + 0.5 mm before, 2 + 10 mm behind the slow block, so it is not slower than
+    // blocks of equal feed are joined: 10 + 0.5 mm before, 2 + 10 mm after the slow block, so it is not slower than
     // the 0.556692341 s of separate blocks
     assert!(cycles(&job, &lengths, &feeds) <= 5567);
 }
@@ -74,7 +74,7 @@ fn samples_of_a_short_block() {
     }
 }
 
-/// Polygons of a circle: whatever the window ends at, the path goes on behind it without a rest.
+/// Polygons of a circle: whatever the window ends at, the path continues after it without a rest.
 #[test]
 fn a_smooth_contour_never_rests() {
     let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
@@ -103,7 +103,7 @@ fn a_smooth_contour_never_rests() {
     }
 }
 
-/// A corner between lines of short blocks: the rise behind the corner is planned in one window and goes on in the next.
+/// A corner between lines of short blocks: the rise after the corner is planned in one window and continues in the next.
 /// A hundred times the look-ahead is not faster, so the look-ahead holds nothing down, and no setpoint of a rise says so.
 #[test]
 fn a_rise_that_goes_on_in_the_next_window_keeps_its_reason() {

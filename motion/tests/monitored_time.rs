@@ -83,7 +83,7 @@ fn rises(case: &Case, harder: impl Fn(f64) -> Case) -> f64 {
     most
 }
 
-/// The bound is wider than what is wanted: the search for who has to slow down is no optimum. With other seeds a higher feed
+/// The bound is wider than what is wanted: the search for who has to slow down is not an optimum. With other seeds a higher feed
 /// costs up to 1.4 %, and a larger tolerance 2.1 % (`SEED=5`). `COUNT=200 SEED=7` takes more contours; what is found is
 /// printed.
 #[test]
@@ -133,7 +133,7 @@ fn chords_at_rising_feeds() {
     }
 }
 
-/// A long line, a block of 0.07 mm and a sharp corner behind it: the corner between them was missed because the rest there
+/// A long line, a block of 0.07 mm and a sharp corner after it: the corner between them was missed because the rest there
 /// was too short, and the line was driven at 3 mm/s for it.
 #[test]
 fn a_rest_that_is_too_short_slows_no_line_down() {

@@ -476,7 +476,7 @@ fn events_on_a_circle() {
     }
 }
 
-/// An emergency stop in the middle of a feedhold goes on from the same point of the path.
+/// An emergency stop in the middle of a feedhold continues from the same point of the path.
 #[test]
 fn emergency_stop_during_a_feedhold() {
     let job = Job::new(0.0, Trapez);

@@ -1,4 +1,4 @@
-//! Override and feedhold under `AX_DEV`: what is planned behind a change keeps the tolerance.
+//! Override and feedhold under `AX_DEV`: what is planned after a change keeps the tolerance.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -18,7 +18,7 @@ use kontur_motion::realtime::FeedholdBraking::{Active, Own};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
-/// `AX_DEV` on a square with events at every time: what is planned behind a change keeps the tolerance.
+/// `AX_DEV` on a square with events at every time: what is planned after a change keeps the tolerance.
 #[test]
 fn tolerance_with_events() {
     const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[8.0, 0.0], &[8.0, 8.0], &[0.0, 8.0], &[0.0, 0.0]];

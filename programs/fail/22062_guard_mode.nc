@@ -1,4 +1,4 @@
-; MODE knows 1 to 4: error 22062.
+; MODE can be 1 to 4: error 22062.
 %FAIL_22062
 N10 G71 G90 G01 F1000
 N20 #VIB GUARD ON [MODE=5 FREQ=40]

@@ -1,4 +1,4 @@
-; A damping of 1 has no oscillation to suppress, no kernel exists: error 50820.
+; With a damping of 1 there is no oscillation to suppress and no kernel: error 50820.
 %FAIL_50820
 N10 G71 G90 G01 F1000
 N20 #VIB GUARD ON [FREQ=40 DAMPING=1]

@@ -6,7 +6,7 @@ N30 F2000
 N40 G777                     ; no such G function: 20131
 N50 #CONTUR MODE ON          ; no such command: 20509
 N60 X1 Y2 X3                 ; one axis twice: 20203
-N70 X[2*[P1+3]               ; a bracket is open: K-0002
+N70 X[2*[P1+3]               ; a bracket is not closed: K-0002
 N80 Y P9                     ; never assigned: 20925
 N90 G02 X9 I5 R5             ; centre and radius: 21024
 N100 LL CORNER               ; no such subroutine: K-0014

@@ -1,5 +1,5 @@
 %chords
-(lesson 5: a circle of radius 10 mm out of chords of V.E.STEP degrees)
+(lesson 5: a circle of radius 10 mm made of chords of V.E.STEP degrees)
 N10 #SLOPE [TYPE=HSC]
 N20 G00 X10
 N30 P1=0

@@ -1,5 +1,5 @@
 %lag
-(lesson 6: there without, back with feedforward)
+(lesson 6: out without, back with feedforward)
 N10 G01 X100 F6000
 N20 G04 0.3
 N30 G135

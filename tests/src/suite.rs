@@ -13,13 +13,13 @@ pub type Said = (String, String, String);
 pub struct Head {
     /// `run` or `check`, or the name of a list.
     pub what: String,
-    /// Words of the command line behind the program.
+    /// Words of the command line after the program.
     pub options: Vec<String>,
     /// Exit code.
     pub exit: u8,
     /// What is said, in order.
     pub messages: Vec<Said>,
-    /// The lines that are no message.
+    /// The lines that are not messages.
     pub other: Vec<String>,
 }
 
@@ -165,7 +165,7 @@ pub fn compare(own: &str, head: &Head, exit: u8, said: &[Said]) -> Result<(), St
     Ok(())
 }
 
-/// Puts a table behind the marker of a folder's README, with `KONTUR_WRITE_LEDGER` set, or compares.
+/// Puts a table after the marker of a folder's README, with `KONTUR_WRITE_LEDGER` set, or compares.
 ///
 /// # Errors
 /// The README is out of date or not readable.

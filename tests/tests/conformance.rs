@@ -186,7 +186,7 @@ fn page(ledger: &[(Document, Vec<Row>)], tests: &Tests) -> String {
          Every testable statement of the vendor's documents, and the test that proves it. *Reproduced*: the test asserts \
          what the\ndocument states. *Chosen*: the document is silent or contradicts itself; the test asserts what kontur \
          does. *Open*: not\nproven, with what is missing.\n\n\
-         This page is made from the CSV files beside it; a test compares. Write it anew with\n\
+         This page is made from the CSV files next to it; a test compares them. Regenerate it with\n\
          `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test conformance`.\n\n\
          | document | rows | reproduced | chosen | open |\n|---|---|---|---|---|\n",
     );

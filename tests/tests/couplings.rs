@@ -161,7 +161,7 @@ fn a_position_that_is_set_leaves_the_lag() {
     }
 }
 
-/// `#CHANNEL INIT [ACTPOS]` directly behind a motion waits until the axes are in their windows and moves nothing: between
+/// `#CHANNEL INIT [ACTPOS]` directly after a motion waits until the axes are in their windows and moves nothing: between
 /// two cycles the actual positions do not jump, the set positions by a window at most, and incremental motions count on
 /// from where the axes are.
 #[test]

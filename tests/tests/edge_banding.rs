@@ -1,15 +1,15 @@
 //! Edge banding (G108): the path stops where the probe signals and a way further, calls the M function, and continues.
 //!
 //! Programs after the examples of the TF5200 programming manual (206219787, 206230027) and of the M and H functions
-//! (285989771). The places are known beforehand: where a line or an arc meets the surface, and a way behind it.
+//! (285989771). The places are known beforehand: where a line or an arc meets the surface, and a way after it.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::record::CycleRecord;
-use kontur_kit::{Random, count};
+use kontur_kit::{Random, count, near};
 use kontur_tests::{Run, machine, run_with_inputs};
 
-/// The built-in machine with a linear slope of 1000 mm/s2, M97 at the signal, 5 mm behind it.
+/// The built-in machine with a linear slope of 1000 mm/s2, M97 at the signal, 5 mm after it.
 fn banding(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
     let stages = ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"];
     let mut settings: Vec<String> =
@@ -26,10 +26,6 @@ fn errors(run: &Run) -> Vec<String> {
 
 fn at(record: &CycleRecord) -> [f64; 2] {
     [record.axes[0].ipo, record.axes[1].ipo]
-}
-
-fn near(a: f64, b: f64, tolerance: f64) {
-    assert!((a - b).abs() <= tolerance, "{a} instead of {b}");
 }
 
 /// Records of a line of the program in which the path rests, without those at its end.
@@ -147,7 +143,7 @@ fn what_fails() {
     assert_eq!(errors(&run_with_inputs(banding(&over_blocks), ONE_BLOCK, &probe)), ["K-0019"]);
     let nowhere = ONE_BLOCK.replace("X150 Y150 F1200\nN50", "X90 Y90 F1200\nN50");
     assert_eq!(errors(&run_with_inputs(banding(&[]), &nowhere, &probe)), ["K-0135"]);
-    // without G108, or behind G107, M97 is an M function like others
+    // without G108, or after G107, M97 is an M function like others
     for off in [ONE_BLOCK.replace("G108", "G04 0.1"), ONE_BLOCK.replace("G108", "G108\nG107")] {
         let run = run_with_inputs(banding(&[]), &off, &probe);
         assert!(

@@ -4,7 +4,7 @@
 //! order and nothing else:
 //!
 //! ```text
-//! ; run --set X.getriebe[0].kv=1000: exit 1      `check` in place of `run`: the syntax check already finds all of it
+//! ; run --set X.getriebe[0].kv=1000: exit 1      `check` instead of `run`: the syntax check already finds all of it
 //! ; error 70082 at 6:1                           severity, ID, line and column of the caret; `at file.nc 6:1` elsewhere
 //! ```
 //!

@@ -21,7 +21,7 @@ fn lags(run: &Run, line: u32, want: &[f64]) {
     }
 }
 
-/// A move forth and back, each long enough to reach constant speed.
+/// A move back and forth, each long enough to reach constant speed.
 const FORTH: &str = "G90 G01 X100 Y100 Z100 F6000";
 const BACK: &str = "G90 G01 X0 Y0 Z0 F6000";
 
@@ -269,7 +269,7 @@ fn weights_return_with_an_exchange() {
     }
 }
 
-/// The path rests, the axis does not yet behind its filter, or moves alone: switching steps its command by the share times its
+/// The path rests, the axis does not yet after its filter, or moves alone: switching steps its command by the share times its
 /// speed, and K-0022 names that jump. Behind a standstill of both nothing is said.
 #[test]
 fn a_switch_behind_filters_is_told() {

@@ -2,6 +2,7 @@
 
 use kontur::console::Console;
 use kontur::{Exit, run_with};
+use kontur_kit::near;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -64,10 +65,6 @@ fn at(curve: &Curve, x: &str, at: f64, y: &str) -> f64 {
 /// The step response from time 0 on, sample by sample.
 fn step(curve: &Curve) -> Vec<f64> {
     curve.iter().filter(|row| row["t_s"] >= 0.0).map(|row| row["output"]).collect()
-}
-
-fn near(is: f64, want: f64, tolerance: f64) {
-    assert!((is - want).abs() <= tolerance, "{is} is not {want} +- {tolerance}");
 }
 
 /// Conformance: A030.

@@ -1,4 +1,4 @@
-//! Independent axes in runs of programs: own timelines beside the path, joins, errors.
+//! Independent axes in runs of programs: timelines independent of the path, joins, errors.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;

@@ -5,6 +5,7 @@
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
+use kontur_kit::near;
 use kontur_tests::{Run, machine, run_with_inputs};
 
 /// The built-in machine with a linear slope of 1000 mm/s2 in X and Y.
@@ -28,10 +29,6 @@ fn errors(run: &Run) -> Vec<String> {
 
 fn end(run: &Run, axis: usize) -> f64 {
     run.records.last().unwrap().axes[axis].ipo
-}
-
-fn near(a: f64, b: f64, tolerance: f64) {
-    assert!((a - b).abs() <= tolerance, "{a} instead of {b}");
 }
 
 /// From X5 Y0 to X10 Y10: a surface at X8 is met at Y6.

@@ -1,4 +1,4 @@
-//! Vibration Guard and FIR filter on what is no path axis: gantry slaves go with their master, spindles with their lists.
+//! Vibration Guard and FIR filter on what is not a path axis: gantry slaves go with their master, spindles with their lists.
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
@@ -9,7 +9,7 @@ use kontur_tests::{Run, run, run_on, sample_machine};
 
 /// Axes of the records: X, Y, Z, then the slave of X; the machine has no spindle.
 const SLAVE: usize = 3;
-/// The spindle of the machine `xyz` behind X, Y, Z.
+/// The spindle of the machine `xyz` after X, Y, Z.
 const SPINDLE: usize = 3;
 
 fn on_gantry(settings: &[String], lines: &str) -> Run {

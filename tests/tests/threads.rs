@@ -360,7 +360,7 @@ fn tapping_behind_filters_and_lags() {
     let path = ["X", "Y", "Z"];
     let all = ["X", "Y", "Z", "S"];
     let half = ["getriebe[0].kv=2500"];
-    // S600 and 1.5 mm: 15 mm/s; kv 25/s in place of 50/s are 20 ms more
+    // S600 and 1.5 mm: 15 mm/s; kv 25/s instead of 50/s are 20 ms more
     for (settings, before, told, actual_mm) in [
         (of(&path, &low_pass), "", true, None),
         (of(&all, &low_pass), "", false, Some(0.0)),

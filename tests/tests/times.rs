@@ -188,7 +188,7 @@ fn a_timer_does_not_stop_the_path() {
 }
 
 /// A program runs from top to bottom, and so does the column `line`, whatever waits for what: the waits of a motion belong to
-/// it, and those behind another block's no longer.
+/// it, and those after another block's no longer.
 #[test]
 fn lines_never_go_back() {
     for n in 0..count(40) as u64 {
@@ -224,7 +224,7 @@ fn lines_never_go_back() {
     }
 }
 
-/// A single axis that moves on its own, behind a dwell: its cycles are those of its own line.
+/// A single axis that moves on its own, after a dwell: its cycles are those of its own line.
 #[test]
 fn an_independent_motion_has_its_line() {
     let run =

@@ -158,7 +158,7 @@ fn a_fixed_stop_ends_the_run() {
     let run = run_with_inputs(stopping(&STOP), text, &force);
     let at = run.records.iter().position(|r| r.axes[0].lag.abs() > 2.0).unwrap();
     assert!(run.records[at - 1].axes[0].lag.abs() <= 2.0);
-    // before it the path is driven as programmed, behind it there is only the way of braking
+    // before it the path is driven as programmed, after it there is only the way of braking
     let (here, rest) = (&run.records[at], run.records.last().unwrap());
     assert!((here.path.v_mm_s - 20.0).abs() < 1e-9);
     assert!(rest.axes[0].ipo > here.axes[0].ipo && rest.axes[0].ipo < here.axes[0].ipo + 2.0);

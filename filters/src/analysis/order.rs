@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 axis filters (contour error over filter order at a 90 degree corner), FCT-C37.
 //!
-//! Order of calls: none, each function answers by itself; the order it returns goes into the configuration of
+//! Order of calls: none, the functions are independent; the order it returns goes into the configuration of
 //! [`crate::fir`] or [`crate::hsc`].
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! A mass on a spring and a damper whose foot follows a set position: what a machine that gives way makes of it.
+//! A mass on a spring and a damper whose foot follows a set position: a model of an elastic machine.
 //!
 //! First the spring, then one step per cycle of a motion, then what is left of it:
 //!

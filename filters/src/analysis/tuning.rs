@@ -81,7 +81,7 @@ impl VibrationBand {
         inside.fold(at(self.high_hz), f64::max)
     }
 
-    /// What settings do to the band; `None` if they give no kernel in this cycle time.
+    /// The effect of settings on the band; `None` if they give no kernel at this cycle time.
     pub fn judge(&self, settings: VibGuardSettings, cycle: CycleTime) -> Option<Choice> {
         let kernel: Kernel = settings.kernel(cycle).ok()?;
         Some(Choice {
@@ -92,7 +92,7 @@ impl VibrationBand {
         })
     }
 
-    /// The frequency of a mode that leaves the least at the worst place of the band, in steps of
+    /// The frequency of a mode with the smallest residual at the worst place of the band, in steps of
     /// [`RESOLUTION_HZ`]; `None` if the mode has no kernel there. The guard is set to the damping of the band.
     pub fn best(&self, mode: u8, cycle: CycleTime) -> Option<Choice> {
         let judge = |freq_hz: f64| {
@@ -103,7 +103,7 @@ impl VibrationBand {
             .map(|i| self.low_hz + width * f64::from(i) / f64::from(SET_STEPS))
             .filter_map(|f| judge(rounded(f, f64::round)));
         let coarse = scan.reduce(better)?;
-        // the least residual lies between the neighbours of the best of the scan
+        // the smallest residual lies between the neighbours of the best one of the scan
         let reach_hz = width / f64::from(SET_STEPS);
         let near = (1..=MOST_FINE_STEPS)
             .map(|i| f64::from(i) * RESOLUTION_HZ)
@@ -114,7 +114,7 @@ impl VibrationBand {
     }
 
     /// The highest frequency of a mode that keeps the residual vibration of the whole band within `limit_ratio`, in
-    /// steps of [`RESOLUTION_HZ`]: the shortest kernel that does, hence the least contour error and delay. `None` if
+    /// steps of [`RESOLUTION_HZ`]: the shortest kernel that does, hence the smallest contour error and delay. `None` if
     /// no frequency does.
     pub fn fastest(&self, mode: u8, limit_ratio: f64, cycle: CycleTime) -> Option<Choice> {
         let judge = |freq_hz: f64| {

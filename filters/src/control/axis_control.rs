@@ -45,7 +45,7 @@ use crate::time::CycleTime;
 pub use config::{AxisControlConfig, Encoder};
 use given::Given;
 
-/// What acts on an axis from outside; nothing by default.
+/// External influences on an axis; none by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisInputs {
     /// Position of the additional interface after its filter in mm, added to the set position.
@@ -74,10 +74,10 @@ pub struct DriveValues {
     pub torque_n_m: f64,
 }
 
-/// What one cycle shows.
+/// The observable state after a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ControlOutput {
-    /// What the position controller got, mm.
+    /// Input of the position controller, mm.
     pub reference_mm: f64,
     /// Actual position of the motor encoder at the start of the cycle, mm.
     pub act_mm: f64,
@@ -130,9 +130,9 @@ pub struct AxisControl {
     diverged: bool,
     moving: bool,
     open: bool,
-    /// Where a reaction keeps the axis.
+    /// Position at which a reaction holds the axis.
     held_mm: Option<f64>,
-    /// What the last cycle was given, and for how many cycles that has been the same and nothing has changed by it.
+    /// Inputs of the last cycle, and for how many cycles they have been the same without changing anything.
     given: Given,
     still_cycles: u32,
 }
@@ -277,7 +277,7 @@ impl AxisControl {
         self.diverged || self.plant.measured().motor_mm_s.abs() <= speed_mm_s
     }
 
-    /// What acts from outside, from now on.
+    /// Sets the external influences from now on.
     pub fn set_inputs(&mut self, inputs: AxisInputs) {
         self.inputs = inputs;
     }

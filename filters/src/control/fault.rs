@@ -135,7 +135,7 @@ impl Faults {
     }
 }
 
-/// What was found (and corrected) in a configuration before the first cycle.
+/// An issue found (and corrected) in a configuration before the first cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Issue {
     /// 70349: delay of the velocity feedforward (P-AXIS-00389) of 6 cycles or more; set to 0.

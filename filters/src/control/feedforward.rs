@@ -242,7 +242,7 @@ impl FeedforwardConfig {
     }
 }
 
-/// What feedforward gives in one cycle.
+/// Output of feedforward in one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FeedforwardOutput {
     /// Speed to add at the controller output in mm/s (conventional variant).

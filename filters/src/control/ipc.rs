@@ -54,7 +54,7 @@ use super::fault::{Fault, IpcParameter, Issue};
 use crate::time::CycleTime;
 use filter::{Cascade, all_pass, band_pass, oscillator};
 
-/// What a stage damps by (P-AXIS-00753).
+/// The signal by which a stage damps (P-AXIS-00753).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IpcMode {
     /// 0: the stage is off (default).
@@ -122,7 +122,7 @@ pub struct IpcConfig {
     pub delay_cycles: usize,
     /// Up to three stages.
     pub stages: Vec<IpcStageConfig>,
-    /// The axis is a gantry slave: it may not enable the function by itself (70600).
+    /// The axis is a gantry slave: it may not enable the function itself (70600).
     pub gantry_slave: bool,
 }
 
@@ -205,7 +205,7 @@ impl IpcConfig {
     /// Largest configurable delay.
     pub(crate) const MAX_DELAY: usize = 5;
 
-    /// What is wrong with the configuration; empty while it is off.
+    /// Issues of the configuration; empty while it is off.
     ///
     /// 70600, 70603, 70604, K-0025 switch the function off for the axis ([`IpcConfig::active`]); K-0026, K-0027,
     /// K-0063 warn.

@@ -126,14 +126,14 @@ pub enum PlantError {
     TooStiff,
 }
 
-/// What a cycle puts into the plant.
+/// Inputs of the plant in a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlantInput {
     /// Speed command in mm/s, additive velocity included.
     pub speed_mm_s: f64,
     /// Additive torque as acceleration in mm/s2.
     pub acc_mm_s2: f64,
-    /// External force as acceleration of the whole mass in mm/s2, beside the configured disturbance.
+    /// External force as acceleration of the whole mass in mm/s2, in addition to the configured disturbance.
     pub force_mm_s2: f64,
     /// Reference position in mm, for the model without dynamics.
     pub reference_mm: f64,
@@ -168,7 +168,7 @@ impl Measured {
         }
     }
 
-    /// Takes the place of what was measured before, unless a value is no number; false then.
+    /// Takes the place of what was measured before, unless a value is not a number; false then.
     #[inline] // where it is made, its values are still in registers: as a whole it would be read back before it is written
     fn replace(self, before: &mut Self) -> bool {
         let finite = self.is_finite();
@@ -272,7 +272,7 @@ impl Plant {
     }
 
     /// The model separates the load from the motor.
-    pub fn is_elastic(&self) -> bool {
+    pub(crate) fn is_elastic(&self) -> bool {
         match &self.dynamics {
             Dynamics::Follow { .. } => false,
             Dynamics::Two(linear) => linear.is_elastic(),

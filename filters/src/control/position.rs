@@ -52,7 +52,7 @@ pub enum PositionLoop {
 pub struct PositionConfig {
     /// Gain in 1/s (P-AXIS-00099 x 0.01), default 10.
     pub kv_per_s: f64,
-    /// Speed-dependent gain in place of the constant one.
+    /// Speed-dependent gain instead of the constant one.
     pub dynamic_kv: Option<DynamicKv>,
     /// Largest speed of the axis in mm/s (P-AXIS-00212), default 200.
     pub v_max_mm_s: f64,

@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 feedforward control 4 and 5; Improved Position Control 4.2.
 //!
-//! Order of calls: formats are made from the list once; afterwards each value is converted by itself.
+//! Order of calls: formats are made from the list once; afterwards each value is converted separately.
 //!
 //! ```
 //! use kontur_filters::control::scaling::{Motor, SpeedFormat, TorqueFormat, encoder_resolution};
@@ -287,6 +287,7 @@ mod tests {
         assert!((sent(heavy) - 0.5 * sent(example())).abs() < 1e-9);
         for none in [
             TorqueFormat { load: 0.0, ..example() },
+            TorqueFormat { real_load: Some(0.0), ..example() },
             TorqueFormat { scale_denom: 0.0, ..example() },
             TorqueFormat { load: 1e-8, ..example() },
         ] {

@@ -4,7 +4,7 @@
 //! These sections keep the low-passed position itself as state: at rest all their differences are exactly zero, so
 //! output = input bit for bit, and the gain for constants is 1 by construction, not by the digits of coefficients.
 //!
-//! A section is coefficients only; each axis has a state of its own:
+//! A section is coefficients only; each axis has its own state:
 //!
 //! ```
 //! use kontur_filters::iir::section::{FirstOutput, Section, SectionState};
@@ -54,7 +54,7 @@ pub struct Second {
     output: SecondOutput,
 }
 
-/// What leaves a first-order section.
+/// Output of a first-order section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FirstOutput {
     /// `1 / (1 + P')`.
@@ -65,7 +65,7 @@ pub enum FirstOutput {
     All,
 }
 
-/// What leaves a second-order section.
+/// Output of a second-order section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SecondOutput {
     /// `1 / D`, `D = 1 + k P' + P'^2`.

@@ -12,6 +12,7 @@ use kontur_filters::control::{
     AxisControl, AxisControlConfig, ControlOutput, Fault, FeedforwardConfig, FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
+use kontur_kit::near;
 use std::f64::consts::TAU;
 
 /// Printed to three digits; windowing details move the last one.
@@ -154,10 +155,6 @@ fn run(ipc: IpcConfig) -> Shown {
 }
 
 #[track_caller]
-fn near(got: f64, want: f64, digit: f64) {
-    assert!((got - want).abs() <= digit, "got {got:.4}, expected {want}");
-}
-
 /// The manual's result: both vibrations reduced at least as far, without influence on each other.
 /// Conformance: I006, I013, I029, I030, I031.
 #[test]

@@ -228,3 +228,29 @@ fn encoder_of_the_position_loop() {
         assert!((out.load_mm - load_mm).abs() < 1e-6, "{encoder:?} {} {load_mm}", out.load_mm);
     }
 }
+
+/// The load is where the measured position says it is unless mechanics or the steps of an encoder lie between.
+#[test]
+fn what_shows_the_load_twice() {
+    let twice = |model: PlantModel, increment_mm: f64| {
+        let mut config =
+            AxisControlConfig { increment_mm, ..AxisControlConfig::new(500.0, 1e4, 1e6) };
+        config.plant.model = model;
+        let axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+        let at_rest = axis.stands(0.0);
+        (axis.shows_load_twice(), at_rest)
+    };
+    let rigid = PlantModel::FirstOrder { time_constant_s: 0.005 };
+    assert_eq!(twice(rigid.clone(), 0.0), (true, true));
+    assert_eq!(twice(rigid, 1e-4), (false, true));
+    let speed_loop = SpeedLoop { gain_per_s: 20.0, integral_time_s: None, current_time_s: 0.0005 };
+    let spring = TwoMassConfig {
+        load_to_motor_ratio: 3.0,
+        resonance_hz: 40.0,
+        damping_ratio: 0.05,
+        speed_loop,
+    };
+    assert_eq!(twice(PlantModel::TwoMass(spring), 0.0), (false, true));
+    // the modes of this one move motor and load alike: only its tool point is elsewhere
+    assert_eq!(twice(PlantModel::Modal(ModalConfig::rack_and_pinion()), 0.0), (true, true));
+}

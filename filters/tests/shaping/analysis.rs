@@ -69,7 +69,7 @@ fn corners_of_fir_filters_with_and_without_negative_taps() {
 
 #[test]
 fn corners_of_lags_and_low_passes() {
-    // v tau / e and 4 e^-2 v tau for continuous time; the cycle is small beside the time constant
+    // v tau / e and 4 e^-2 v tau for continuous time; the cycle is small compared with the time constant
     let tau_s = 0.1;
     for (kind, order, want) in [
         (FilterKind::Pt1, 1, F1000 * tau_s / E),

@@ -105,6 +105,15 @@ fn settings_without_a_kernel() {
     assert_eq!(longer.kernel(fine), Err(refused));
     // Half a period of exactly one cycle is the shortest.
     assert_eq!(of(1, 500.0, 0.0).unwrap().length(), 1);
+    // without a cycle only the settings themselves count
+    let ideal =
+        |mode, freq_hz, damping| VibGuardSettings { mode, freq_hz, damping }.ideal_impulses();
+    assert!(ideal(4, 1.0, 0.99).is_some());
+    for (mode, freq_hz, damping) in
+        [(0, 30.0, 0.1), (5, 30.0, 0.1), (1, 0.999, 0.1), (1, f64::INFINITY, 0.1), (1, 30.0, 0.995)]
+    {
+        assert!(ideal(mode, freq_hz, damping).is_none(), "{mode} {freq_hz} {damping}");
+    }
 }
 
 fn ideal(mode: u8, freq_hz: f64, damping: f64) -> Vec<Impulse> {

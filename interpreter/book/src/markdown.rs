@@ -1,4 +1,4 @@
-//! What has to be known about Markdown: escaping, links, the anchors of headings.
+//! The parts of Markdown that are needed: escaping, links, anchors of headings.
 
 /// Text that Markdown shows as it is.
 pub(crate) fn escaped(text: &str) -> String {
@@ -42,7 +42,7 @@ pub(crate) fn links(text: &str) -> Vec<String> {
         if line.starts_with("```") {
             fenced = !fenced;
         }
-        // what stands between backticks is no link
+        // what stands between backticks is not a link
         let plain: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
         if !fenced {
             let targets = plain.split("](").skip(1).filter_map(|rest| rest.split(')').next());

@@ -108,7 +108,7 @@ fn written(page: &Page) -> String {
     out
 }
 
-/// `P-AXIS-00099  getriebe[i].kv`: the anchor of the heading is made from what is asked for, so it holds no brackets.
+/// `P-AXIS-00099  getriebe[i].kv`: the anchor of the heading is made from the name, so it contains no brackets.
 fn heading(title: &str) -> String {
     escaped(&title.split_whitespace().collect::<Vec<_>>().join(" "))
 }

@@ -1,4 +1,4 @@
-//! Documents of the repository that are pages of the book as well: they have one source, and their links are turned round.
+//! Documents of the repository that are pages of the book as well: they have one source, and their links are adapted.
 
 use std::io;
 use std::path::Path;
@@ -33,7 +33,7 @@ pub(crate) fn copy(root: &Path, src: &Path) -> io::Result<()> {
 }
 
 /// A document with its links as the book needs them: to the page of another document, to the copy of a picture, and the
-/// path in the repository in place of anything else.
+/// path in the repository instead of anything else.
 fn linked(
     text: &str,
     folder: &str,
@@ -82,7 +82,7 @@ fn from_root(folder: &str, file: &str) -> String {
     parts.join("/")
 }
 
-/// A page with the files in place of the lines that name them: `{{#include PATH}}`, from the root of the repository.
+/// A page with the files instead of the lines that name them: `{{#include PATH}}`, from the root of the repository.
 pub(crate) fn with_files(root: &Path, page: &str) -> io::Result<String> {
     let mut out = String::new();
     for line in page.lines() {

@@ -27,7 +27,7 @@ export class Client {
     private readonly listener: Listener,
   ) {}
 
-  /** Runs a program in place of the one that runs. */
+  /** Runs a program instead of the running one. */
   run(request: Request): void {
     this.running = this.nextId++;
     this.watch();

@@ -320,7 +320,7 @@ function keep(next: Trace | undefined): void {
   plots.forEach((plot) => plot.keep(next));
   const button = $("keep");
   button.setAttribute("aria-pressed", String(next !== undefined));
-  button.textContent = next ? "Kept: drop it" : "Keep for comparison";
+  button.textContent = next ? "Discard the kept run" : "Keep for comparison";
 }
 
 function theme(dark: boolean): void {
@@ -353,7 +353,7 @@ function prepareHeader(): void {
     try {
       await navigator.clipboard.writeText(location.href);
     } catch {
-      said = "It is in the address";
+      said = "It is in the address bar";
     }
     $("share").textContent = said;
     setTimeout(() => ($("share").textContent = "Copy link"), 2000);
@@ -404,7 +404,7 @@ async function main(): Promise<void> {
   });
   load(first);
   if (location.hash.length > 1 && !linked) {
-    remark = "The link holds no program of this page.";
+    remark = "The link contains no program of this page.";
     notice(remark);
   }
 }

@@ -67,14 +67,14 @@ export const SAMPLES: readonly Sample[] = [
   {
     id: "square",
     title: "Square, 10 mm",
-    text: "Switch the Vibration Guard on and lower its frequency: the corners get rounder. Then bound them with AX_DEV, and see what it costs in time.",
+    text: "Switch the Vibration Guard on and lower its frequency: the corners get rounder. Then limit the error with AX_DEV, and see how much time that costs.",
     program: SQUARE,
     controls: { guard: true },
   },
   {
     id: "square_corner",
     title: "Square, 1 mm, three passes",
-    text: "The program itself switches the guard: with a tolerance, without one, and off. Commands of a program win over the controls.",
+    text: "The program itself switches the guard: with a tolerance, without one, and off. Commands of a program take precedence over the controls.",
     program: squareCorner,
   },
 ];
@@ -83,7 +83,7 @@ export const EXERCISES: readonly Sample[] = [
   {
     id: "one_move",
     title: "1 Half a second",
-    text: "Which F does the path of 100 mm need to take 0.500 s, the arrival of the axes not counted? The axes accelerate with a = 3500 mm/s² and need tr = 30 ms to build that up: a speed v costs v/a + tr.",
+    text: "Which F does the path of 100 mm need to take 0.500 s, not counting the arrival of the axes? The axes accelerate with a = 3500 mm/s² and need tr = 30 ms to build that up: a speed v costs v/a + tr.",
     program: oneMove,
     goal: (trace) => {
       const t = pathTime(trace);
@@ -93,7 +93,7 @@ export const EXERCISES: readonly Sample[] = [
   {
     id: "corner",
     title: "2 Through a corner",
-    text: "At the sharp corner the axes allow a jump of 3.5 mm/s. Change the second line so that the path turns by an angle that may be passed at 20 mm/s, not at more than 21 mm/s. Both lines stay 20 mm long: X[20+20*COS[P1]] Y[20*SIN[P1]].",
+    text: "At the sharp corner the axes allow a jump of 3.5 mm/s. Change the second line so that the path turns by an angle that can be passed at 20 mm/s, but not faster than 21 mm/s. Both lines stay 20 mm long: X[20+20*COS[P1]] Y[20*SIN[P1]].",
     program: corner,
     goal: (trace) => {
       const v = lowest(trace);
@@ -113,11 +113,11 @@ export const EXERCISES: readonly Sample[] = [
   {
     id: "lag",
     title: "4 Following error",
-    text: "A position controller needs an error to move: lag = v / Kv. Find the Kv with which the axis lags by 0.5 mm on its way there, at 100 mm/s.",
+    text: "A position controller needs an error to move: lag = v / Kv. Find the Kv with which the axis lags by 0.5 mm on the way out, at 100 mm/s.",
     program: lag,
     goal: (trace) => {
       const lag = onTheWay(trace);
-      return { reached: between(lag, 0.49, 0.51) && between(most(trace.of("v_mm_s")), 99.9, 100.1), now: `lag on the way there ${mm(lag)}` };
+      return { reached: between(lag, 0.49, 0.51) && between(most(trace.of("v_mm_s")), 99.9, 100.1), now: `lag on the way out ${mm(lag)}` };
     },
   },
   {
@@ -133,7 +133,7 @@ export const EXERCISES: readonly Sample[] = [
   {
     id: "times",
     title: "6 Where the time goes",
-    text: "This program is at its feed for a fifth of its time. Take out what only waits, without changing the path, until it takes less than 4.1 s.",
+    text: "This program is at its feed for a fifth of its time. Remove what only waits, without changing the path, until it takes less than 4.1 s.",
     program: times,
     goal: (trace) => ({
       reached: trace.summary.duration_s < 4.1 && between(trace.summary.path_length_mm, TIMES_MM - 0.1, TIMES_MM + 0.1) && trace.summary.state === "finished",

@@ -1,4 +1,4 @@
-// The state of the page as the part of a link behind `#`: JSON, deflated, base64url.
+// The state of the page as the part of a link after `#`: JSON, deflated, base64url.
 
 import { type Controls, controlsOf } from "./settings";
 

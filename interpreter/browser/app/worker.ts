@@ -1,4 +1,4 @@
-// Runs programs beside the page, in stretches, so that a newer request ends an older one.
+// Runs programs in the background, in stretches, so that a newer request ends an older one.
 
 import { Engine, Refused, Trap } from "./engine";
 import type { FromWorker, RunResult, ToWorker } from "./protocol";

@@ -1,4 +1,4 @@
-//! What the page asks for, and what it is answered.
+//! Requests of the page and their answers.
 
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::explain::explain;
@@ -208,7 +208,7 @@ impl Session {
         json(&explained)
     }
 
-    /// Starts a run in place of the one before.
+    /// Starts a run instead of the one before.
     pub fn start(&mut self, request: &str) -> String {
         self.under_way = None;
         let request: Request = match serde_json::from_str(request) {

@@ -134,7 +134,7 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
-    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table. Also
+    /// Account for the time by line and by what limited the speed: in the summary, or every line in a table. Also
     /// tries out what would help, with one run for each proposal
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
     pub times: Option<Option<PathBuf>>,
@@ -155,7 +155,7 @@ pub struct CheckArgs {
     #[arg(long, value_enum, default_value_t = CheckForm::Text)]
     pub format: CheckForm,
 
-    /// Exit code 1 for these as well as for errors
+    /// Exit code 1 not only for errors but also for these
     #[arg(long, value_enum)]
     pub deny: Option<Deny>,
 
@@ -181,11 +181,11 @@ pub struct ReportArgs {
     #[arg(long, value_name = "KEY=VALUES")]
     pub vary: Vec<Vary>,
 
-    /// Draw these columns of the trace over time in place of contour and speed: names or groups, separated by commas
+    /// Draw these columns of the trace over time instead of contour and speed: names or groups, separated by commas
     #[arg(long, value_name = "GROUPS|NAMES")]
     pub signals: Option<String>,
 
-    /// Draw the amplitude of each of them over these frequencies in Hz as well, e.g. `2..80`
+    /// Also draw the amplitude of each of them over these frequencies in Hz, e.g. `2..80`
     #[arg(long, value_name = "HZ..HZ", requires = "signals", value_parser = span)]
     pub spectrum: Option<(f64, f64)>,
 

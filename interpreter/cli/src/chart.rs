@@ -1,7 +1,7 @@
 //! The drawing language of `report`, `response`, `sweep` and `tune`: what a view shows, its scales, colours and dashes.
 //!
 //! A [`view::View`] describes: axes with name, unit and range, lines with their styles, levels, marks. Pictures draw it as SVG. The page of `report`
-//! gets the same description as JSON, with the steps of the ticks and the colours, and draws it anew when it is zoomed.
+//! gets the same description as JSON, with the steps of the ticks and the colours, and redraws it when it is zoomed.
 //!
 //! Other crates use the scales only: [`scale`] has the order of calls.
 //!

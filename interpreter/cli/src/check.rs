@@ -12,7 +12,7 @@ use kontur_interpreter::diag::{Diagnostic, Severity};
 use serde::Serialize;
 use std::collections::HashSet;
 
-/// What was found in all programs.
+/// The findings in all programs.
 #[derive(Debug, Default, Serialize)]
 struct Findings {
     programs: usize,

@@ -54,7 +54,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     Ok(all)
 }
 
-/// External variables (`V.E.NAME`) vary beside list parameters: a program reads them.
+/// External variables (`V.E.NAME`) vary like list parameters: a program reads them.
 const EXTERNAL: &str = "V.E.";
 
 /// The value of each parameter in one combination; what takes that of a name has the name's.
@@ -92,7 +92,7 @@ pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
 }
 
 /// Parameters whose values make no difference to any result: `rows` holds those of the combinations, which may be a part of all. A
-/// parameter of which no two rows tell anything is none of them.
+/// parameter that no two rows can be compared for is not among them.
 pub(crate) fn without_effect<'v, R: PartialEq>(
     vary: &'v [Vary],
     combinations: &[Vec<usize>],

@@ -1,4 +1,4 @@
-//! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
+//! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if it is a terminal.
 //!
 //! One console for a whole command, which ends with [`Console::finish`].
 //!
@@ -81,7 +81,7 @@ impl Console {
         self.error_text(&text);
     }
 
-    /// Says something that is no diagnostic of a program or a list, in the same form as those.
+    /// Prints a message that is not a diagnostic of a program or a list, in the same form.
     pub fn say(&mut self, severity: Severity, text: &str) {
         let text = printable(&shortened(text.to_owned()));
         let line = match self.form {
@@ -135,7 +135,7 @@ impl Console {
     }
 }
 
-/// A handle on stdout; a trace is written by a thread of its own.
+/// A handle on stdout; a trace is written by a separate thread.
 #[derive(Clone)]
 pub struct Output(Arc<Mutex<dyn Write + Send>>);
 
@@ -161,7 +161,7 @@ impl Write for Output {
     }
 }
 
-/// What a long run shows on a terminal.
+/// The progress of a long run on a terminal.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
@@ -199,7 +199,7 @@ impl Progress {
     }
 }
 
-/// Time for what is left in words, from the time that so much was done in.
+/// Remaining time in words, from the share done and the time it took.
 fn rest(elapsed: Duration, done: usize, left: usize) -> String {
     let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
     let whole = libm::ceil(seconds) as u64;

@@ -45,7 +45,7 @@ pub enum Error {
     Io {
         /// The file, and whether it was read or written.
         what: String,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
 }

@@ -1,6 +1,6 @@
 //! `kontur explain`: an error ID, a parameter, a command.
 //!
-//! Order of calls: none, every question is answered by itself.
+//! Order of calls: none, questions are independent.
 //!
 //! ```
 //! let text = kontur::explain::text("P-AXIS-00099")?;

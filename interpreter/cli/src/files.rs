@@ -11,9 +11,9 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// The name that stands for standard input or output in place of a file.
+/// The name that stands for standard input or output instead of a file.
 pub(crate) const STANDARD: &str = "-";
-/// What messages call a program from standard input.
+/// The name in messages of a program from standard input.
 pub(crate) const STANDARD_INPUT: &str = "<stdin>";
 
 /// Bytes of a program at most that comes through a pipe, 256 MiB (about ten million blocks): it is copied to a temporary
@@ -38,7 +38,7 @@ pub(crate) struct ProgramFiles {
     folders: Vec<PathBuf>,
     /// Subroutines may lie anywhere.
     anywhere: bool,
-    /// What is read in place of the main program's own text.
+    /// Text that replaces that of the main program.
     text: Option<Arc<[u8]>>,
     opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }
@@ -153,7 +153,7 @@ fn is_pipe(path: &Path) -> bool {
     is_standard(path) || path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
-/// Opens a file that is no pipe, which would let a reader wait, and no device.
+/// Opens a file that is not a pipe, which would let a reader wait, and no device.
 ///
 /// # Errors
 /// The system's, and anything else than a file.

@@ -11,7 +11,7 @@ use walkdir::WalkDir;
 
 /// Name of the start-up list of a folder of lists.
 const START_UP: &str = "hochlauf.lis";
-/// Folder beside a project with the parts that are in files of their own.
+/// Folder next to a project with the parts that are in separate files.
 const CONFIGURATION: &str = "_Config";
 /// Levels from the folder of a solution to its projects.
 const SOLUTION_LEVELS: usize = 3;
@@ -22,7 +22,7 @@ pub(crate) enum Place {
     StartUp(PathBuf),
     /// A project, and the files that hold it.
     Project {
-        /// What messages call it.
+        /// Its name in messages.
         name: PathBuf,
         /// Its files.
         paths: Vec<PathBuf>,
@@ -48,7 +48,7 @@ impl Place {
         }
         let mut projects = files(named, 1, "tsproj")?;
         if projects.is_empty() {
-            // the folder of a solution, whose projects have folders of their own
+            // the folder of a solution, whose projects are in subfolders
             projects = files(named, SOLUTION_LEVELS, "tsproj")?;
         }
         if projects.len() > 1 {

@@ -75,7 +75,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             }
             Ok(())
         })?;
-        // with what the run came to on its way
+        // including the subroutines that the run reached
         keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;
         recording.finish();
         let totals = run.totals();
@@ -92,7 +92,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             files.iter().map(|f| read_texts.insert(f.clone()).then(|| lines_of(f)).flatten());
         let texts = texts.collect();
         beside.push(Beside { times: times.finish(), texts, window: args.window });
-        // runs of one program are told apart by what they vary
+        // runs of one program are distinguished by what they vary
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
         runs.push(Drawn {
             recording,
@@ -112,7 +112,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }
 
-/// What a report is written as.
+/// The form of a report.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Picture,

@@ -1,4 +1,4 @@
-//! What a user asks for on the command line, and the library's job that does it: files, lists, options.
+//! A request of the command line, and the library's job that carries it out: files, lists, options.
 //!
 //! The order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], which read everything anew.
 //!
@@ -18,6 +18,7 @@
 //! assert!(!run.totals().aborted);
 //! ```
 
+use crate::args::SimulationArgs;
 pub use crate::error::OpenError;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::project::{self, Place};
@@ -31,7 +32,7 @@ use kontur_interpreter::machine::project::Project;
 use kontur_interpreter::machine::{Axis, ListFiles, Machine};
 use std::path::{Path, PathBuf};
 
-/// What a user may say about a run, apart from what becomes of its results.
+/// Everything a user can specify about a run, except the use of its results.
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
@@ -47,7 +48,7 @@ pub struct Request {
     pub allow_outside: bool,
     /// Files of real-time inputs.
     pub inputs: Vec<PathBuf>,
-    /// Cycle time in microseconds in place of the machine's.
+    /// Cycle time in microseconds instead of the machine's.
     pub cycle_us: Option<u32>,
     /// Start positions in mm (deg) by axis name.
     pub start: Vec<(String, f64)>,
@@ -65,12 +66,38 @@ pub struct Request {
     pub techno_times: bool,
     /// External variables by their name after `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
-    /// Numbers of the program in place of those that are there.
+    /// Numbers of the program instead of those that are there.
     pub words: Vec<Word>,
-    /// Vibration Guard in place of that of lists and program.
+    /// Vibration Guard instead of that of lists and program.
     pub guard: Option<ForcedGuard>,
     /// Ends it from another thread.
     pub stop: Stop,
+}
+
+impl SimulationArgs {
+    /// The request for one program.
+    pub fn request(&self, program: impl Into<PathBuf>) -> Request {
+        Request {
+            program: program.into(),
+            machine: self.machine.clone(),
+            settings: self.set.clone(),
+            path: self.path.clone(),
+            allow_outside: self.allow_outside,
+            inputs: self.input.clone(),
+            cycle_us: self.cycle_us,
+            start: self.start.clone(),
+            skip: self.skip.clone(),
+            max_time_s: self.max_time,
+            max_blocks: self.max_blocks,
+            strict: self.strict,
+            identity_trafo: self.identity_trafo,
+            techno_times: self.techno_times,
+            external: self.external.clone(),
+            words: Vec::new(),
+            guard: None,
+            stop: self.stop.clone(),
+        }
+    }
 }
 
 /// A run before its first cycle.

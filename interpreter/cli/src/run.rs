@@ -97,7 +97,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     })
 }
 
-/// How a run is shown on the terminal while it continues.
+/// The progress of a run on the terminal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     /// What distinguishes it from others, before its progress.

@@ -66,7 +66,7 @@ mod tests {
         assert!((f - 53.1).abs() < 0.1 && (a - 0.81).abs() < 1e-3, "{f} {a}");
         let [f, a] = spectrum.peak((9.5, 12.5)).unwrap();
         assert!((f - 11.0).abs() < 0.1 && (a - 0.02).abs() < 1e-3, "{f} {a}");
-        // the mean is no vibration, and nothing is found where nothing is
+        // the mean is not a vibration, and an empty spectrum has no peaks
         assert!(spectrum.peak((0.0, 5.0)).unwrap()[1] < 1e-3);
         assert!(spectrum.peak((200.0, 300.0)).unwrap()[1] < 1e-4);
         assert_eq!(spectrum.peak((600.0, 700.0)), None);

@@ -1,6 +1,6 @@
 //! `kontur sweep`: one program under every combination of parameters, one row per run.
 //!
-//! The runs share nothing and go over all cores; rows are in the order of the combinations whatever finishes first. A
+//! The runs share nothing and use all cores; rows are in the order of the combinations, whichever run finishes first. A
 //! run that an error ends has its row, with the ID of the error.
 //!
 //! On the command line [`sweep()`]; where somebody else distributes the runs, a [`Plan`] and its rows in any order.
@@ -68,7 +68,7 @@ impl Failure {
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
 ///
-/// A sweep that was stopped continues where it stopped: finished rows wait in a journal beside the first `-o`.
+/// A sweep that was stopped continues where it stopped: finished rows are kept in a journal next to the first `-o`.
 ///
 /// Without any run that came to its end the exit is [`Exit::Aborted`], but for a shard: its job has been done.
 ///
@@ -95,7 +95,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let targets = create_all(files.iter().map(|path| path.as_path()))?;
     let mut journal = journal.map(|path| Journal::open(&path, args, &reads)).transpose()?;
     let (rows, reads) = run_all(args, &combinations, journal.as_mut(), console)?;
-    // one of the runs may have come to another subroutine
+    // one of the runs may have reached another subroutine
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
     let without = idle(&args.vary, &combinations, &rows.cells);
@@ -206,7 +206,7 @@ fn write(
     target.show().map_err(to_error)
 }
 
-/// Runs what the journal does not have, with a count of what is done on the terminal: all rows, and the files that were
+/// Runs what the journal does not contain, with progress on the terminal; returns all rows, and the files that were
 /// read for them.
 fn run_all(
     args: &SweepArgs,

@@ -1,7 +1,7 @@
 //! Files that commands write.
 //!
-//! A file is written under a temporary name beside its target (`.NAME.*.part`) and gets its name when it is worth it:
-//! until then, and if the command fails, an existing file stays as it was. The temporary file comes with the first byte, so
+//! A file is written under a temporary name next to its target (`.NAME.*.part`) and renamed when it is complete enough:
+//! until then, and if the command fails, an existing file stays as it was. The temporary file is created with the first byte, so
 //! that a killed run leaves none that is empty.
 
 use crate::Error;
@@ -54,7 +54,7 @@ impl Target {
         Ok(Self { path, place: Place::Planned(existing) })
     }
 
-    /// What the bytes go to.
+    /// The destination of the bytes.
     ///
     /// # Errors
     /// The system's, at the first call.
@@ -87,7 +87,7 @@ impl Target {
         if begins == start { self.show() } else { Ok(()) }
     }
 
-    /// Gives the file its name, in place of an existing one; one that was not begun gets none.
+    /// Gives the file its name, replacing an existing one; one that was not begun gets none.
     ///
     /// # Errors
     /// The system's; the existing file is as it was then.
@@ -102,7 +102,7 @@ impl Target {
     }
 }
 
-/// A file under a temporary name beside a path.
+/// A file under a temporary name next to a path.
 fn hidden(path: &Path, permissions: Option<Permissions>) -> io::Result<NamedTempFile> {
     let name = path.file_name().ok_or(io::ErrorKind::IsADirectory)?.to_string_lossy();
     let prefix = format!(".{name}.");
@@ -182,7 +182,7 @@ pub(crate) fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Er
     Ok(())
 }
 
-/// What makes two names one file.
+/// The identity of a file with several names.
 #[derive(PartialEq)]
 enum Identity {
     /// An existing file, by whatever link.
@@ -226,7 +226,7 @@ mod tests {
         let mut target = Target::create(&path).unwrap();
         target.file().unwrap().write_all(b"new").unwrap();
         assert_eq!(names().len(), 2);
-        // a file that is no trace stays until the end
+        // a file that is not a trace stays until the end
         target.show_over(b"t_s,").unwrap();
         assert_eq!((names().len(), fs::read(&path).unwrap()), (2, b"old".to_vec()));
         drop(target);

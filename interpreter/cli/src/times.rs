@@ -140,7 +140,7 @@ fn widen(range: &mut Range, value: f64) {
     *range = (range.0.min(value), range.1.max(value));
 }
 
-/// What one axis reached.
+/// The peaks of one axis.
 #[derive(Clone, Copy, Debug)]
 struct Reached {
     position: Range,
@@ -395,7 +395,7 @@ pub(crate) struct Times {
     pub reasons: Vec<TimeByReason>,
     /// By line, the longest first.
     pub lines: Vec<TimeOfLine>,
-    /// What the axes reached.
+    /// The peaks of the axes.
     pub axes: Vec<AxisRange>,
     /// What would help, if it was tried out; the largest saving first.
     pub proposals: Vec<Proposal>,

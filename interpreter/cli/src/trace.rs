@@ -26,10 +26,10 @@ pub(crate) struct Trace {
     shows_deviation: bool,
 }
 
-/// How the records get to their file.
+/// The route of the records to their file.
 #[derive(Debug)]
 enum Way {
-    /// By a thread of its own.
+    /// By a separate thread.
     Thread(Background),
     /// Not any more: the thread has ended with an error.
     Ended(Writer),
@@ -37,7 +37,7 @@ enum Way {
     Closed,
 }
 
-/// What writes a file.
+/// The writer of a file.
 #[derive(Debug)]
 enum Writer {
     Csv(csv::CsvWriter),

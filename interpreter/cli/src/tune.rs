@@ -1,4 +1,4 @@
-//! `kontur tune`: from what was measured at a machine to the settings that leave its vibration alone.
+//! `kontur tune`: from measurements at a machine to the settings that do not excite its vibration.
 //!
 //! Residual vibration is computed for the kernels of the cycle time, never looked up: the vendor's table of permitted
 //! deviations normalises the set frequency by the real one, its worked example the other way round. Every
@@ -51,7 +51,7 @@ pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
     Ok(answer(args, console)?.exit)
 }
 
-/// As [`tune`], with the numbers behind what is printed.
+/// Like [`tune`], with the numbers that are printed.
 ///
 /// # Errors
 /// As [`tune`].
@@ -71,7 +71,7 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
         } else {
             recording::measured(args, console)?
         };
-    // what is judged is what is in the command to paste
+    // the evaluated settings are those of the command to paste
     let damping = args.damping.or(measured_damping.map(rounded));
     let damping = damping.unwrap_or(VibGuardSettings::default().damping);
     let bands_hz: Vec<(f64, f64)> =

@@ -1,4 +1,4 @@
-//! Numbers in a program, and other numbers in their place: what a program sets itself can vary without another program.
+//! Numbers in a program and their replacements: values set by the program itself can vary without another program.
 //!
 //! A word is a name, `=` and a number: `P1=10`, `V.P.R=2.5`, `FREQ=40` of a guard command. Remarks and texts have none.
 //!
@@ -15,12 +15,12 @@
 //! assert!(request.open().is_err(), "there is no such word in line 8");
 //! ```
 
-/// A number of the program in place of the one that is there.
+/// A number of the program instead of the one that is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
     /// The line that contains it; without one the word must occur exactly once.
     pub line: Option<u32>,
-    /// What is in front of `=`, in capital letters or not.
+    /// The key before `=`, in any case.
     pub name: String,
     /// The number in its place.
     pub value: String,
@@ -29,7 +29,7 @@ pub struct Word {
 /// The text with the values of the words.
 ///
 /// # Errors
-/// What is wrong, if there is no such word, several of them, or one that is no number.
+/// The mistake, if there is no such word, several of them, or one that is not a number.
 pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
     let mut text = text.to_vec();
     for word in words {

@@ -40,7 +40,7 @@ fn a_folder_stands_for_its_programs() {
         (&place["line"], &place["column"], &place["end_column"]),
         (&2.into(), &5.into(), &9.into())
     );
-    // text counts at the end, and an empty folder is no success
+    // text counts at the end, and an empty folder is not a success
     let (exit, out, err) = f.call(&["check", "@parts"]);
     assert!(exit == Exit::Aborted && out.starts_with("3 programs: 1 error, "), "{out}");
     assert!(err.contains("error[20131]"), "{err}");

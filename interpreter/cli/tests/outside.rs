@@ -105,7 +105,7 @@ fn parquet_and_csv_side_by_side() {
     assert_eq!(f.call(&["diff", "@corner.nc", "@whole.parquet"]).0, Exit::Finished);
     let (exit, out, _) = f.call(&["diff", "@whole.parquet", "@slow.nc"]);
     assert!(exit == Exit::Aborted && out.contains(" s, line 7 N70: "), "{out}");
-    // a table that is no trace, and what is cut off
+    // a table that is not a trace, and what is cut off
     std::fs::write(f.path("cut.parquet"), &bytes[..bytes.len() / 2]).unwrap();
     assert_eq!(f.call(&["diff", "@cut.parquet", "@a.csv"]).0, Exit::Io);
     std::fs::write(f.path("no.parquet"), "t_s,line\n0,1\n").unwrap();
@@ -193,7 +193,7 @@ fn diff_runs_a_program_with_the_columns_of_the_trace() {
 fn report_is_one_self_contained_file() {
     let f = Folder::new();
     assert_eq!(f.call(&["report", "@corner.nc", "@slow.nc", "-o", "@two.html"]).0, Exit::Finished);
-    // the name of a name space is no address to go to
+    // the name of a name space is not an address to go to
     let page = f.read("two.html").replace("http://www.w3.org/2000/svg", "");
     assert!(!page.contains("http://") && !page.contains("https://"), "works offline");
     assert!(!page.contains("/*"), "every place of the template is filled");

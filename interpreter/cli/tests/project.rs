@@ -263,7 +263,7 @@ fn the_first_channel_is_that_with_the_smallest_number() {
     let of =
         |id: u32, list: &str| channel(list).replace("<Channel>", &format!("<Channel Id=\"{id}\">"));
     let first = list("channel.lis");
-    // steps of acceleration in place of ramps: another trace
+    // steps of acceleration instead of ramps: another trace
     let second =
         first.replace("prog_start.slope.profile           1", "prog_start.slope.profile 0");
     assert_ne!(first, second);
@@ -283,7 +283,7 @@ fn the_first_channel_is_that_with_the_smallest_number() {
     assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
 }
 
-/// Files that the project does not name and items that are switched off are no axes; they are named.
+/// Files that the project does not name and items that are switched off are not axes; they are named.
 #[test]
 fn what_does_not_belong_to_the_project_is_left_out() {
     let folder = folder();

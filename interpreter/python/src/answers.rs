@@ -1,4 +1,4 @@
-//! What is answered at once: check, explain, response, tune; and the runs of a sweep.
+//! Requests with an immediate answer: check, explain, response, tune; and the runs of a sweep.
 
 use crate::errors::{self, Said, said};
 use crate::{arguments, interruptible};

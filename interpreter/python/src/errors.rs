@@ -1,4 +1,4 @@
-//! What goes wrong, as an exception of the module's own classes (`kontur._errors`).
+//! Errors as exceptions of the module's classes (`kontur._errors`).
 
 use kontur::Error;
 use kontur::request::OpenError;

@@ -7,7 +7,7 @@
 //! Source: TF5200 diagnosis manual and the function manuals; the texts are kontur's own. Rows are ordered by number;
 //! K numbers are appended and never reused.
 //!
-//! Order of calls: none; whoever raises a condition names it, and [`row`] gives what the table says of it.
+//! Order of calls: none; code that raises a condition names it, and [`row`] returns its row of the table.
 //!
 //! ```
 //! use kontur_interpreter::diag::condition::{Condition, row, rows};

@@ -1,4 +1,4 @@
-//! What a condition is called and how serious it is.
+//! ID and severity of a condition.
 
 use serde::Serialize;
 

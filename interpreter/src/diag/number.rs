@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers formatted for readers.
 
 /// A number with at most five significant digits, without trailing zeros: `92.222`, `0.00005`, `12000`, `1.2346e-9`.
 ///

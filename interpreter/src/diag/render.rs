@@ -1,7 +1,7 @@
 //! Diagnostics as text and as JSON.
 //!
 //! The text form is a compiler's: severity, ID and message, the source line with carets, then values, reaction and
-//! hint. A diagnostic of the running machine has a time in place of a source line.
+//! hint. A diagnostic of the running machine has a time instead of a source line.
 //!
 //! Order of calls: the last step of a diagnostic; nothing is kept between two of them.
 //!

@@ -1,6 +1,6 @@
 //! Words of one block: what letters, G functions and brackets of a block mean together.
 //!
-//! Owns the modal state ([`modal`]) and the words of the block in work; reads values, and tells motion, contour, shaping
+//! Owns the modal state ([`modal`]) and the words of the current block; reads values, and directs motion, contour, shaping
 //! and geometry what to do. It knows no files and no other block.
 
 mod addresses;

@@ -63,7 +63,7 @@ pub(super) struct Contour {
     interim: Interim,
     driven: Vec<Driven>,
     blocks: u64,
-    /// Where the tool is at the contour has to be told (`#OTC`), and what was told last.
+    /// The position of the tool at the contour has to be reported (`#OTC`), and the one reported last.
     tells_engagement: bool,
     engaged: Option<([usize; 2], bool)>,
 }

@@ -126,7 +126,7 @@ impl Decoder {
                 (22, 239) => self.modal.selection = Selection::WithoutBlock,
                 (23, 161) => self.modal.centre_absolute = true,
                 (25, 164) => self.modal.centre_correction = false,
-                // start values of the language; feedforward has a warning of its own
+                // start values of the language; feedforward has a separate warning
                 (0, 1)
                 | (4, 17)
                 | (8, 52)

@@ -1,4 +1,4 @@
-//! What a user may say about the execution of a program.
+//! Options for the execution of a program.
 
 use crate::diag::Location;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -61,7 +61,7 @@ pub struct External {
     pub access: Access,
 }
 
-/// A Vibration Guard in place of the one that lists and program describe: what a program would be like with it.
+/// A Vibration Guard instead of the one that lists and program describe: what a program would be like with it.
 ///
 /// `OFF`, `ACC_FACT` and an `AX_DEV` of the program still act; its MODE, FREQ and DAMPING do not.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,7 +138,7 @@ pub struct Options {
     pub techno_times: bool,
     /// External variables by their name after `V.E.`.
     pub external: BTreeMap<String, External>,
-    /// Vibration Guard in place of that of lists and program.
+    /// Vibration Guard instead of that of lists and program.
     pub guard: Option<ForcedGuard>,
     /// Ends it from outside.
     pub stop: Stop,

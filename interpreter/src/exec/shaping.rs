@@ -1,4 +1,4 @@
-//! What the program and the axis lists together make of the Vibration Guard, FIR and HSC filters.
+//! Vibration Guard, FIR and HSC filters that result from program and axis lists together.
 //!
 //! One rule for all keys: written now, else written last in this program, else the axis list. `AX_DEV` is the exception:
 //! not written means off. A change of a kernel needs the path at rest; a change of tolerances does not.
@@ -224,7 +224,7 @@ fn with_axis(axis: &Axis, text: &str) -> String {
 }
 
 /// Axes of one group whose kernels and standard filters together delay them differently run asynchronously; gantry slaves
-/// have the kernel of their master and filters of their own.
+/// have the kernel of their master and their own filters.
 fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic> {
     let slaves =
         machine.gantry_slaves.iter().filter_map(|slave| Some((machine.master_of(slave)?, slave)));

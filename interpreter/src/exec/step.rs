@@ -94,7 +94,7 @@ pub(crate) enum Sync {
     Measured {
         /// The signal does not stop the path (G106).
         through: bool,
-        /// Path axes whose lag is the signal in place of the probe (measuring type 7).
+        /// Path axes whose lag is the signal instead of the probe (measuring type 7).
         stops: Vec<usize>,
     },
     /// The end of G33.
@@ -212,14 +212,14 @@ pub(crate) enum Event {
         /// What it does.
         motion: SpindleMotion,
     },
-    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`: an axis starts a motion of its own, beside the path.
+    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`: an axis starts a separate motion, independently of the path.
     Independent {
         /// Path axis.
         axis: usize,
         /// What it does.
         motion: IndependentMotion,
     },
-    /// `X[OSC ON ..]`: an axis goes to and fro beside the path until the program waits for it.
+    /// `X[OSC ON ..]`: an axis oscillates independently of the path until the program waits for it.
     Oscillation {
         /// Path axis.
         axis: usize,
@@ -248,7 +248,7 @@ pub(crate) enum Event {
         /// Path axis.
         slave: usize,
     },
-    /// An M function without meaning of its own here.
+    /// An M function without a meaning here.
     MFunction {
         /// Number, 0 to 65535.
         number: u32,
@@ -392,9 +392,9 @@ pub(crate) enum SpindleMotion {
 pub(crate) enum Approach {
     /// The shorter way from rest, the direction of rotation of a spindle that turns.
     Free,
-    /// M3 beside M19.
+    /// M3 with M19.
     Clockwise,
-    /// M4 beside M19.
+    /// M4 with M19.
     CounterClockwise,
 }
 
@@ -420,7 +420,7 @@ pub(crate) struct Probed {
     pub rest_mm: AxisVec,
 }
 
-/// Edge banding in one motion: the path stops once behind the signal of the probe and continues after the function.
+/// Edge banding in one motion: the path stops once after the signal of the probe and continues after the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BandingRun {
     /// Way from the place of the signal to the stop in mm, not negative.

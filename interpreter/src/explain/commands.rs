@@ -1,34 +1,9 @@
-//! G functions and words in brackets, one row each; what `#` commands say of themselves is in their own rows.
+//! G functions and words in brackets, one row each; the texts of `#` commands are in their own rows.
 
 use super::explanation::{Explanation, Kind};
 use super::language::LANGUAGE;
+use super::row::{Command, row};
 use crate::exec::commands;
-
-/// One command.
-pub(super) struct Command {
-    /// Names it is asked for by, the first one is printed.
-    names: &'static [&'static str],
-    syntax: &'static str,
-    meaning: &'static str,
-    /// Keys with range and default.
-    keys: &'static str,
-    note: &'static str,
-    example: &'static str,
-    related: &'static [&'static str],
-}
-
-/// Reads a row as a table line.
-pub(super) const fn row(
-    names: &'static [&'static str],
-    syntax: &'static str,
-    meaning: &'static str,
-    keys: &'static str,
-    note: &'static str,
-    example: &'static str,
-    related: &'static [&'static str],
-) -> Command {
-    Command { names, syntax, meaning, keys, note, example, related }
-}
 
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]
@@ -38,37 +13,37 @@ const COMMANDS: &[Command] = &[
         "FEED in the unit of F; TIME in s from rest to rest; FEED_MAX_WEIGHT above 0 to 100 % of P-AXIS-00212; SLOPE_TYPE STEP, TRAPEZ, SIN2, default P-CHAN-00071",
         "no offsets, no weights of G130 to G133, no programmed override; override and feedhold of --input act. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-AXIS-00491", "P-AXIS-00540", "P-CHAN-00071"]),
     row(&["OSC"], "X[OSC ON 1ST_POS=.. 2ND_POS=.. FEED=..|FREQ=..|TIME=..]   X[OSC OFF]",
-        "an axis goes to and fro beside the path and ends at its second position, at the latest where the program waits for it",
+        "an axis oscillates independently of the path and ends at its second position, at the latest where the program waits for it",
         "1ST_DELT, 2ND_DELT rests in s; FREQ in 1/s, TIME in s of an oscillation without its rests; NBR_OSC number of oscillations", "no offsets, no programmed override; override and feedhold of --input act", "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]", &["INDP_SYN", "50593", "120470", "#WAIT"]),
     row(&["G00", "G0"], "G00 X.. Y..", "straight line at rapid: at least one axis at its rapid speed", "", "", "G00 X10 Y20", &["P-AXIS-00209", "P-AXIS-00004", "P-AXIS-00200", "G129"]),
-    row(&["G01", "G1"], "G01 X.. F..", "straight line at feed F", "", "without any F: 20008", "G01 X10 F2000", &["20008", "P-CHAN-00099", "P-CHAN-00108"]),
+    row(&["G01", "G1"], "G01 X.. F..", "straight line at feed F", "", "without F: 20008", "G01 X10 F2000", &["20008", "P-CHAN-00099", "P-CHAN-00108"]),
     row(&["G02", "G03", "G2", "G3"], "G02 X.. Y.. I.. J..   G02 X.. Y.. R..", "arc in the plane, clockwise (G02) or counter-clockwise (G03)", "", "full circles need the centre, not R (20034)", "G02 X10 Y0 I5 J0 F1000", &["20034", "20036", "21024", "21758", "G161", "G164", "P-CHAN-00059", "P-CHAN-00171"]),
-    row(&["G303"], "G303 X.. Y.. Z.. I.. J.. K..", "arc in space over an interim point", "I, J, K: the interim point in X, Y, Z, absolute under G90, from the start under G91", "the three points lie off a line", "G303 I30 J75 K15 X60 Y0 Z0", &["K-0126", "G02"]),
+    row(&["G303"], "G303 X.. Y.. Z.. I.. J.. K..", "arc in space over an interim point", "I, J, K: the interim point in X, Y, Z, absolute under G90, from the start under G91", "the three points must not lie on a line", "G303 I30 J75 K15 X60 Y0 Z0", &["K-0126", "G02"]),
     row(&["#ANG"], "#ANG=.. X..|Y..   #ANG=.. then #ANG=.. X.. Y..", "straight line by its angle and one coordinate; two lines by two angles and their end", "angle in deg from the first main axis of the plane", "for its block only", "G01 #ANG=60 X20", &["21892", "21895", "21904", "21910", "K-0127"]),
     row(&["G04", "G4"], "G04 t   G04 P.. X..   G04 S..", "dwell in seconds, or in revolutions of the main spindle", "", "", "G04 2.5", &["20752", "20013", "#TIME"]),
     row(&["G17", "G18", "G19"], "G17", "plane of arcs: first and second, third and first, second and third main axis", "", "", "G17", &[]),
-    row(&["G33"], "G33 Z.. K.. [S.OFFSET=..]", "thread with a turning spindle: the path goes with its mark", "I, J, K: pitch in mm/rev for X, Y, Z, without a sign, holds; S.OFFSET: angle in deg at which the thread begins", "waits until the spindle has its speed; an override changes the pitch and a feedhold cuts the thread through (K-0132) unless #TURN or G166 keeps the override out; the ramps at begin and end have another pitch", "G33 Z-40 K1.5", &["#TURN", "K-0122", "K-0124", "K-0132", "21540"]),
-    row(&["G63"], "G63 Z.. F.. S..", "tapping: the spindle turns with the path, S / F turns for a mm", "S negative: left-hand thread, or the way back", "the spindle must be stopped before (M05, M19); its limits slow the path down", "G63 Z-20 F300 S200", &["G331", "20007", "21000", "K-0123"]),
-    row(&["G331", "G332"], "G331 Z.. K.. S..   G332 Z..", "tapping, and the way back with the spindle reversed", "I, J, K: pitch in mm/rev, negative for a left-hand thread; S in rev/min; both hold for G332", "the spindle must be stopped before (M05, M19); its limits slow the path down", "G331 Z-20 K1.5 S200", &["G63", "20007", "K-0123"]),
+    row(&["G33"], "G33 Z.. K.. [S.OFFSET=..]", "thread with a turning spindle: the path follows its mark", "I, J, K: pitch in mm/rev for X, Y, Z, without a sign, holds; S.OFFSET: angle in deg at which the thread begins", "waits until the spindle has its speed; an override changes the pitch and a feedhold cuts the thread through (K-0132) unless #TURN or G166 keeps the override out; the ramps at begin and end have another pitch", "G33 Z-40 K1.5", &["#TURN", "K-0122", "K-0124", "K-0132", "21540"]),
+    row(&["G63"], "G63 Z.. F.. S..", "tapping: the spindle turns with the path, S / F turns per mm", "S negative: left-hand thread, or retraction", "the spindle must be stopped before (M05, M19); its limits slow the path down", "G63 Z-20 F300 S200", &["G331", "20007", "21000", "K-0123"]),
+    row(&["G331", "G332"], "G331 Z.. K.. S..   G332 Z..", "tapping, and retraction with the spindle reversed", "I, J, K: pitch in mm/rev, negative for a left-hand thread; S in rev/min; both hold for G332", "the spindle must be stopped before (M05, M19); its limits slow the path down", "G331 Z-20 K1.5 S200", &["G63", "20007", "K-0123"]),
     row(&["G96", "G97", "G196"], "G96 S..   G97   G196 S..", "constant cutting speed on, off; its highest spindle speed", "S under G96 in m/min, with G196 and G97 in rev/min", "from the distance of the face turning axis (P-AXIS-00015) to 0; rapid blocks keep the speed", "G96 S100", &["20633", "K-0125", "P-AXIS-00015"]),
     row(&["G40", "G41", "G42"], "G41 X.. Y..", "tool radius compensation off, left of the contour, right of it", "", "the first line leads to the parallel; outer corners by G25 or G26; the radius comes from D or V.G.WZ_AKT.R", "G41 X10 Y0 D1", &["G05", "G25", "G237", "90008", "90031", "K-0115"]),
-    row(&["G05"], "G05 G41 X.. Y..   G05 G40 X.. Y..", "the line that begins or ends tool radius compensation becomes an arc that touches the parallel of the contour", "", "beside G40, G41 or G42, for this once; from the place of the start follows the sense of the arc", "G05 G41 X10 Y0 D1", &["G41", "G138", "21316", "K-0115"]),
-    row(&["G10", "G11"], "G11", "with tool radius compensation F is the speed of the tool's centre (G10), or on arcs that of its engagement with the contour (G11)", "", "arcs that the compensation inserts keep F (K-0111)", "G11", &["G41", "#TANGFEED"]),
-    row(&["G12", "G13"], "G13", "corner deceleration off, on: on the last way of every motion the feed falls linearly along the path", "way and feed by #CORNER PARAM", "with the slope STEP alone; every end of a motion in feed is a corner", "G12", &["#CORNER PARAM", "20794", "20795"]),
-    row(&["G193", "G293"], "G193 X.. F..", "from the F word before to that of the block the feed changes linearly along the path (G193) or over the time (G293)", "", "with the slope STEP alone", "G193 X100 F400", &["20109", "#SLOPE"]),
+    row(&["G05"], "G05 G41 X.. Y..   G05 G40 X.. Y..", "the line that begins or ends tool radius compensation becomes an arc that touches the parallel of the contour", "", "with G40, G41 or G42, for this block only; the start position determines the direction of the arc", "G05 G41 X10 Y0 D1", &["G41", "G138", "21316", "K-0115"]),
+    row(&["G10", "G11"], "G11", "with tool radius compensation F is the speed of the tool's centre (G10), or on arcs that of its point of contact with the contour (G11)", "", "arcs that the compensation inserts keep F (K-0111)", "G11", &["G41", "#TANGFEED"]),
+    row(&["G12", "G13"], "G13", "corner deceleration off, on: over the last distance of every motion the feed falls linearly along the path", "distance and feed: #CORNER PARAM", "only with the slope STEP; every end of a motion at feed is a corner", "G12", &["#CORNER PARAM", "20794", "20795"]),
+    row(&["G193", "G293"], "G193 X.. F..", "the feed changes from the previous F word to that of the block, linearly along the path (G193) or over time (G293)", "", "only with the slope STEP", "G193 X100 F400", &["20109", "#SLOPE"]),
     row(&["G25", "G26"], "G26", "outer corners of tool radius compensation: by lines, by arcs", "", "a program starts with G25", "G25", &["G41"]),
     row(&["G138", "G139", "G237", "G238", "G239"], "G237", "how tool radius compensation is selected and deselected: by a line to the parallel (G138, G139), perpendicular to the contour (G237), at the inside corner of a closed contour (G238), by a line and left where the tool is (G239)", "", "with G237 a contour may begin and end with arcs; with G238 it has at most 10,000 blocks", "G237", &["G41", "#TRC", "21317", "21318", "90127"]),
-    row(&["G51", "G52"], "G51", "words of the face turning axis are diameters, radii", "", "the axis has the bit 0x40 of P-AXIS-00015; centres and radii of arcs are no diameters", "G52", &["20042", "P-AXIS-00058", "P-AXIS-00059"]),
+    row(&["G51", "G52"], "G51", "words of the face turning axis are diameters, radii", "", "the axis has the bit 0x40 of P-AXIS-00015; centres and radii of arcs are not diameters", "G52", &["20042", "P-AXIS-00058", "P-AXIS-00059"]),
     row(&["G150", "G151"], "G151", "Akima spline through the points of the following lines off, on", "", "it begins at the last point before it; no stop, G00 or tool radius compensation in it", "G150", &["#SPLINE", "#AKIMA TRANS"]),
     row(&["G74"], "G74 X1 Y2", "homing: the axes count as homed where they are", "the numbers are the order", "", "G74 X1 Y2", &["K-0111"]),
     row(&["G100", "G106"], "G100 X.. Y.. F.. [G106]", "measuring run: a straight line that ends where the probe signals; with G106 it continues to its target",
         "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis; V.A.MESS.X, V.A.MERF.X, V.A.MOFFS.X hold what was measured", "G100 X10 F500", &["#MEAS", "G101", "G310", "K-0133", "50052", "50059", "P-CHAN-00057", "P-AXIS-00118", "P-AXIS-00215"]),
-    row(&["G107", "G108"], "G108   M97 G01 X.. Y.. F..   G107", "edge banding: in the next motion with an M function that is MNE_SNS in P-CHAN-00041 the path stops a way (V.G.RW) behind the signal of the probe, calls the function and continues; G107 ends it",
+    row(&["G107", "G108"], "G108   M97 G01 X.. Y.. F..   G107", "edge banding: in the next motion with an M function that is MNE_SNS in P-CHAN-00041 the path stops a distance (V.G.RW) after the signal of the probe, calls the function and continues; G107 ends it",
         "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis", "G108", &["G100", "K-0133", "20156", "50263", "50398", "50655", "P-AXIS-00098", "P-CHAN-00030", "P-CHAN-00041"]),
     row(&["G310"], "G310 G01 X.. F.. $GOTO[LABEL]", "measuring run of types 5 and 6: after a signal the program continues at the label, from the position of the axes", "", "", "G310 G01 X10 F500", &["G100", "#MEAS", "20956"]),
-    row(&["G101", "G102"], "G101 X1 Y1   G102 X1", "takes measuring offsets (measured less target) times a factor into the offsets, and out again", "", "acts with the next absolute word of the axis", "G102 X1", &["G100", "K-0134"]),
+    row(&["G101", "G102"], "G101 X1 Y1   G102 X1", "adds measuring offsets (measured minus target) times a factor to the offsets, removes them", "", "acts with the next absolute word of the axis", "G102 X1", &["G100", "K-0134"]),
     row(&["G98", "G99"], "G98 X..   G99 X..", "negative, positive software limit of an axis until the end of the program", "", "", "G99 X500", &["21897", "P-AXIS-00177", "P-AXIS-00178"]),
-    row(&["M06", "M6"], "M06", "tool change: the subroutine that is configured, else a function for the log", "", "#FILE NAME [M6=\"file\"] names another subroutine", "T5 M06", &["P-CHAN-00118"]),
+    row(&["M06", "M6"], "M06", "tool change: the configured subroutine, otherwise an M function", "", "#FILE NAME [M6=\"file\"] names another subroutine", "T5 M06", &["P-CHAN-00118"]),
     row(&["G60"], "G60", "exact stop at the end of this block", "", "the next block starts when every axis is in its window", "N10 G01 G60 X10 F1000", &["P-AXIS-00236", "P-AXIS-00532", "70082", "G360"]),
     row(&["G360", "G359"], "G360   G359", "exact stop at every block end on, off; modal", "", "", "G360", &["P-AXIS-00236", "70082"]),
     row(&["G61", "G261", "G260"], "G61   G261   G260", "contouring at this block's end, on, off", "", "", "G261", &["#CONTOUR MODE", "120206"]),
@@ -78,7 +53,7 @@ const COMMANDS: &[Command] = &[
     row(&["G115", "G116", "G117"], "G116", "look-ahead off, every transition is a stop, complete look-ahead", "", "", "G117", &["20151", "P-STUP-00070"]),
     row(&["G127", "G128"], "G127 X..   G128=..", "weight of the maximum speed in percent, per axis or for all", "", "", "G128=50", &["P-AXIS-00212"]),
     row(&["G129"], "G129=..", "percent of the rapid speed", "", "", "G129=50", &["P-AXIS-00209"]),
-    row(&["G130", "G131"], "G130 X..   G131=..", "percent of the feed accelerations, per axis or for all", "", "of the list value, not of the weight before; above P-AXIS-00292: 50130", "G131=80", &["50130", "P-AXIS-00292", "P-CHAN-00001"]),
+    row(&["G130", "G131"], "G130 X..   G131=..", "percent of the feed accelerations, per axis or for all", "", "relative to the list value, not to the previous weight; above P-AXIS-00292: 50130", "G131=80", &["50130", "P-AXIS-00292", "P-CHAN-00001"]),
     row(&["G132", "G133"], "G132 X..   G133=..", "percent of the feed ramp times, per axis or for all", "", "not below P-AXIS-00293", "G133=150", &["P-AXIS-00293", "P-CHAN-00073"]),
     row(&["G134"], "G134=..", "percent of the geometric ramp time", "", "", "G134=200", &["P-AXIS-00199"]),
     row(&["G230", "G231"], "G230 X..   G231=..", "percent of the rapid acceleration, per axis or for all", "", "", "G231=80", &["50130", "P-AXIS-00004"]),
@@ -88,11 +63,11 @@ const COMMANDS: &[Command] = &[
     row(&["G161", "G162"], "G161   G162", "I, J, K absolute, relative to the start point", "", "", "G162", &["G02"]),
     row(&["G164", "G165"], "G164   G165", "centre correction of arcs off, on", "", "", "G165", &["21758", "P-CHAN-00059", "P-CHAN-00060", "P-CHAN-00171", "P-CHAN-00172"]),
     row(&["G166"], "G166", "override 100 % for this block, of the program and of the real-time inputs", "", "", "G01 G166 X10", &["#OVERRIDE"]),
-    row(&["M02", "M30", "M2"], "M30", "end of the program: it has ended when every axis is in its exact-stop window", "", "the trace continues until then, or until 70082", "M30", &["K-0003", "70082", "K-0130"]),
+    row(&["M02", "M30", "M2"], "M30", "end of the program, reached when every axis is in its exact-stop window", "", "the trace continues until then, or until 70082", "M30", &["K-0003", "70082", "K-0130"]),
     row(&["M00", "M01", "M0", "M1"], "M00", "programmed stop, optional stop: the path stops; here the program continues at once", "", "", "M00", &[]),
     row(&["M03", "M04", "M05", "M3", "M4", "M5"], "M03 S..   S[M3 REV..]", "spindle clockwise, counter-clockwise, stop", "S, REV in rev/min, limited to P-AXIS-00212 (K-0131)", "the main spindle is that of P-CHAN-00051, addressed by P-CHAN-00053", "S1000 M3", &["M19", "K-0131", "P-CHAN-00051", "P-CHAN-00053"]),
-    row(&["M19"], "M19 S.POS=..   S[M19 POS=.. REV=..]", "spindle to an angle: in the direction of M3 or M4 beside it, of a spindle that turns in its direction, from rest the shorter way", "POS in deg, holds, default 0; REV in rev/min, default the S word, without one the limit of the spindle", "monitored like an exact stop, in degrees", "S[M19 POS=90 REV=100]", &["M03", "70082", "P-AXIS-00236", "P-AXIS-00532"]),
-    row(&["M17", "M29"], "M17   M17 [MAIN|JUMPS=.. [LABEL]|N..]", "end of a subroutine; in brackets the level to return to and the label or block there", "JUMPS: whole levels from 1 to that of the main program, beyond it K-0109", "JUMPS=1, behind the call", "M17 [MAIN [END]]", &["K-0003", "K-0015"]),
+    row(&["M19"], "M19 S.POS=..   S[M19 POS=.. REV=..]", "spindle to an angle: in the direction of M3 or M4 in the same block, otherwise in that of the turning spindle, from rest the shorter way", "POS in deg, holds, default 0; REV in rev/min, default the S word, without one the limit of the spindle", "monitored like an exact stop, in degrees", "S[M19 POS=90 REV=100]", &["M03", "70082", "P-AXIS-00236", "P-AXIS-00532"]),
+    row(&["M17", "M29"], "M17   M17 [MAIN|JUMPS=.. [LABEL]|N..]", "end of a subroutine; in brackets the level to return to and the label or block there", "JUMPS: whole levels from 1 to that of the main program, beyond it K-0109", "JUMPS=1, after the call", "M17 [MAIN [END]]", &["K-0003", "K-0015"]),
 ];
 
 /// G functions, words and statements.

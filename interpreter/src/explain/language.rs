@@ -1,15 +1,15 @@
 //! Words, control statements and the G functions of offsets, frames and insertions.
 
-use super::commands::{Command, row};
+use super::row::{Command, row};
 
 /// Source: TF5200 programming manual.
 #[rustfmt::skip]
 pub(super) const LANGUAGE: &[Command] = &[
     row(&["F"], "F..", "feed: its unit is that of G93, G94, G95 or G194", "G94: mm/min (G70: inch/min), times P-CHAN-00108", "holds until the next one; each feed type keeps its own", "G01 X10 F2000", &["G94", "20008", "P-CHAN-00099", "P-CHAN-00108"]),
-    row(&["E"], "E..", "feed at the end of the block", "in the unit of F, with G94 alone, not above F", "", "G01 X10 F2000 E500", &["F", "G94"]),
+    row(&["E"], "E..", "feed at the end of the block", "in the unit of F, only with G94, not above F", "", "G01 X10 F2000 E500", &["F", "G94"]),
     row(&["S"], "S..   S[..]", "speed of the main spindle in rev/min; in brackets several words of a spindle", "", "", "M03 S1200", &["M03", "M19", "G96"]),
     row(&["T"], "T..", "tool for the next change", "", "", "T5 M06", &["M06", "D"]),
-    row(&["D"], "D..", "tool data: length, radius and offsets of axes; D0 takes them away", "", "the length acts with the next absolute word of its axis", "D1", &["G41", "K-0114", "V.G"]),
+    row(&["D"], "D..", "tool data: length, radius and offsets of axes; D0 deselects them", "", "the length acts with the next absolute word of its axis", "D1", &["G41", "K-0114", "V.G"]),
     row(&["R"], "G02 X.. Y.. R..", "radius of an arc: above 0 the shorter one, below 0 the longer one", "mm (G70: inch)", "", "G02 X10 Y10 R10", &["G02", "20034"]),
     row(&["I", "J", "K"], "G02 X.. Y.. I.. J..", "centre of an arc in X, Y, Z, from its start (G162) or absolute (G161); pitch of threads", "mm (G70: inch)", "", "G02 X20 I10", &["G02", "G161", "G33"]),
     row(&["N"], "N10 ..", "number of a block; N10: is a label for $GOTO", "", "", "N10 G01 X10", &["$GOTO"]),
@@ -24,21 +24,21 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["G68", "G69"], "G68 R.. X.. Y..   G69", "rotation of the contour in the plane on, off", "R: angle in deg; X, Y: centre", "", "G68 R30 X0 Y0", &["#ROTATION", "#CS ADD", "22156"]),
     row(&["G80", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"], "G81", "calls the subroutine that the channel list names", "", "the words of the block are its parameters", "G81", &["P-CHAN-00160"]),
     row(&["G92"], "G92 X.. Y..", "reference point offset: moves the origin of the axes named", "", "acts with the next absolute word of an axis", "G92 X10 Y20", &["#PSET", "G54"]),
-    row(&["G163"], "G163=..", "radius of the arcs that follow, in place of R", "", "", "G163=10", &["G02"]),
+    row(&["G163"], "G163=..", "radius of the arcs that follow, instead of R", "", "", "G163=10", &["G02"]),
     row(&["G66"], "G66", "ends of the blocks within a cycle", "", "runs without its effect (K-0111)", "G66", &["K-0111"]),
     row(&["G333", "G334", "G338", "G339"], "G333   G334=..", "weights of the acceleration and the ramp times of a feedhold", "", "run without their effect (K-0111)", "G334=50", &["K-0111", "P-CHAN-00097"]),
     row(&["G140"], "G140", "contour masking off", "", "G141 is refused", "G140", &["K-0019"]),
-    row(&["G200", "G201", "G202"], "G201 #ACHSE [X]", "manual mode beside the program", "", "refused here", "G202", &["K-0019"]),
+    row(&["G200", "G201", "G202"], "G201 #ACHSE [X]", "manual mode in parallel with the program", "", "refused here", "G202", &["K-0019"]),
     row(&["G301", "G302", "#CHR", "#CHF", "#RND", "#FRC"], "G301 I..   G302 I..   #CHR..  #CHF..  #RND..  [#FRC..]", "chamfer or rounding between this motion and the next one in the plane", "I, #CHR: distance of the ends from the corner; #CHF: length of the chamfer; #RND: radius; #FRC: feed within it, in the unit of F", "", "G302 I5 #FRC=300", &["F"]),
     row(&["G900", "G901"], "G900   G901", "braking to a lower feed ends at the end of the faster block, or begins there", "", "no effect with HSC (K-0100)", "G901", &["G09"]),
     row(&["#CANG"], "G02 I.. J.. #CANG=..", "arc by its centre and its angle", "angle in deg, above 0 to 360, in the direction of G02 or G03", "with an end point: 22253", "G02 I5 #CANG=90", &["G02", "22253"]),
-    row(&["#PSET", "#PRESET"], "#PSET X.. Y..   #PRESET X.. Y..   #PRESET", "sets coordinates to these values where the axes are, without a motion; without axes takes it away", "", "", "#PSET X0 Y0", &["G92"]),
+    row(&["#PSET", "#PRESET"], "#PSET X.. Y..   #PRESET X.. Y..   #PRESET", "sets the coordinates of the current position to these values, without a motion; without axes it is cancelled", "", "", "#PSET X0 Y0", &["G92"]),
     row(&["#SUPPRESS OFFSETS"], "X.. Y.. #SUPPRESS OFFSETS [ZERO ADD_ZERO PSET CLAMP TOOL MEASURE MANUAL]", "the targets of this block count without offsets, or without these kinds of them", "", "", "G00 X0 #SUPPRESS OFFSETS", &["G53", "G92"]),
     row(&["#ROTATION"], "#ROTATION ON [..]   #ROTATION OFF", "rotation of the contour in the plane", "", "", "#ROTATION OFF", &["G68", "#CS ADD"]),
     row(&["#CS DEF", "#CS ON", "#CS OFF"], "#CS DEF [n] [x, y, z, a, b, c]   #CS ON [n]   #CS ON [x, y, z, a, b, c]   #CS OFF [ALL]", "defines a coordinate system, works in it, and leaves it", "three shifts in mm (G70: inch) and three angles in deg", "up to five systems are stored", "#CS ON [50, 50, 0]", &["#CS ADD", "#MCS", "G54"]),
     row(&["#FGROUP"], "#FGROUP [X, Y, Z]", "axes over which F counts", "", "", "#FGROUP [X, Y]", &["F", "P-CHAN-00011"]),
-    row(&["#VAR", "#ENDVAR", "#DELETE"], "#VAR .. V.P.NAME = 0 .. #ENDVAR   #DELETE V.P.NAME", "declares variables, and gives them up", "", "the same name twice: 20909", "#DELETE V.P.NAME", &["V.P", "20909"]),
-    row(&["#COMMENT"], "#COMMENT BEGIN .. #COMMENT END", "lines in between are a remark", "", "", "#COMMENT BEGIN", &["K-0101"]),
+    row(&["#VAR", "#ENDVAR", "#DELETE"], "#VAR .. V.P.NAME = 0 .. #ENDVAR   #DELETE V.P.NAME", "declares variables, deletes them", "", "the same name twice: 20909", "#DELETE V.P.NAME", &["V.P", "20909"]),
+    row(&["#COMMENT"], "#COMMENT BEGIN .. #COMMENT END", "the lines in between are a remark", "", "", "#COMMENT BEGIN", &["K-0101"]),
     row(&["#FILE NAME"], "#FILE NAME [M6=\"file\"]", "names the subroutine that M06 or a G8x calls", "", "", "#FILE NAME [M6=\"CHANGE\"]", &["M06", "G80"]),
     row(&["$IF", "$ELSEIF", "$ELSE", "$ENDIF"], "$IF condition .. $ELSEIF condition .. $ELSE .. $ENDIF", "branches", "", "", "$IF V.L.N == 1", &["$SWITCH"]),
     row(&["$SWITCH", "$CASE", "$DEFAULT", "$ENDSWITCH"], "$SWITCH value .. $CASE value .. $BREAK .. $DEFAULT .. $ENDSWITCH", "branches by a value", "", "", "$SWITCH P1", &["$IF"]),

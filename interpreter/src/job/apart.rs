@@ -28,7 +28,7 @@ pub(super) struct Apart {
     /// Cycles of the first stretch that were taken.
     taken: usize,
     over: bool,
-    /// Raised behind the last cycle.
+    /// Raised after the last cycle.
     closing: Option<Messages>,
 }
 

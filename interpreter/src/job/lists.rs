@@ -1,4 +1,4 @@
-//! From lists and what is put over them to a machine that can run.
+//! From lists and their overrides to a machine that can run.
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::{ListFiles, Machine, Override, leaves_out};
@@ -20,7 +20,7 @@ pub struct MachineLists<'a> {
     pub files: Option<(&'a dyn ListFiles, &'a str)>,
     /// `AXIS.key=value` or `channel.key=value`, in the order given.
     pub settings: &'a [String],
-    /// Cycle time in microseconds in place of the machine's.
+    /// Cycle time in microseconds instead of the machine's.
     pub cycle_us: Option<u32>,
     /// Keys that are not modelled and parts that cannot be built are refused.
     pub strict: bool,

@@ -1,4 +1,4 @@
-//! A program under way, and the one loop over its cycles.
+//! A running program, and the one loop over its cycles.
 
 use super::apart::{Apart, Work};
 use super::{Changes, Facts, Stop, Totals};
@@ -109,7 +109,7 @@ impl Run {
         self
     }
 
-    /// For records of which nobody reads the deviation from the contour ([`AxisRecord::dev`], [`AxisRecord::dev_both_ways`],
+    /// For records whose deviation from the contour is not read ([`AxisRecord::dev`], [`AxisRecord::dev_both_ways`],
     /// [`CycleRecord::contour_err_mm`]): they hold not a number (NaN) in its place, until a block demands `AX_DEV`. Measuring
     /// it is a third of the work of a run.
     ///

@@ -157,7 +157,7 @@ fn columns_that_repeat_others_do_so_in_every_cycle() {
     }
 }
 
-/// What is left out is no number, everything else stays; where a block demands a tolerance nothing is left out.
+/// What is left out is not a number, everything else stays; where a block demands a tolerance nothing is left out.
 #[test]
 fn the_deviation_is_left_out_until_a_block_demands_a_tolerance() {
     let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nG01 X5 F3000\nY5\nX0 Y0\n#VIB GUARD OFF\n\

@@ -1,4 +1,4 @@
-//! One axis of the machine: its parameters and what the planner makes of them.
+//! One axis of the machine: its parameters, and the planner's values derived from them.
 
 use super::key::Key;
 use super::parameters::Kind;
@@ -117,7 +117,7 @@ impl Axis {
 
     /// Lag in mm (deg) beyond which a measuring run of type 7 takes the axis to be at a fixed stop (P-AXIS-00330, and the
     /// first of P-AXIS-00774, 00769 and 00331 that is not negative); `None`: it never is.
-    pub fn fixed_stop_lag_mm(&self) -> Option<f64> {
+    pub(crate) fn fixed_stop_lag_mm(&self) -> Option<f64> {
         let limits = [axis_general::STOP_LAG_OF_RUN, axis_general::STOP_LAG_OF_DRIVE];
         let limits = limits.into_iter().chain([axis_general::STOP_LAG]);
         let limit = limits.map(|param| self.get(param)).find(|limit| *limit >= 0.0)?;
@@ -129,7 +129,7 @@ impl Axis {
         self.get(axis_general::MEASURING_SPEED)
     }
 
-    /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is no slave.
+    /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is not a slave.
     pub fn gantry_master(&self) -> Option<u32> {
         Some(self.get(axis_general::GANTRY_MASTER)).filter(|n| *n != 0)
     }
@@ -285,7 +285,7 @@ impl Axis {
         self.get(axis_general::LIMIT_BEHAVIOUR).as_deref() == Some("WARNING")
     }
 
-    /// The additional interface takes positions from outside (`lr_param.add_interface.enable`).
+    /// The additional interface accepts external positions (`lr_param.add_interface.enable`).
     pub(crate) fn has_additional_interface(&self) -> bool {
         self.get(axis_filters::ADDITIONAL_INTERFACE)
     }

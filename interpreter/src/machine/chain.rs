@@ -14,7 +14,7 @@ use kontur_filters::time::CycleTime;
 
 /// What separates the folders of a path, on either system.
 pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
-/// Name of kontur's own list, beside the start-up list.
+/// Name of kontur's list, next to the start-up list.
 pub(super) const OWN_LIST: &str = "kontur.lis";
 
 impl Machine {
@@ -113,7 +113,7 @@ impl Chain<'_> {
         None
     }
 
-    /// Reads the list that a text entry of the start-up list names; an absent entry is no error.
+    /// Reads the list that a text entry of the start-up list names; an absent entry is not an error.
     fn read_named(
         &mut self,
         start_up: &Parameters,

@@ -120,7 +120,7 @@ pub struct Channel {
     pub override_mode: OverrideMode,
     /// Override in G00 (P-CHAN-00181).
     pub rapid_override: RapidOverride,
-    /// Largest ratio of the override from outside (P-CHAN-00056), where the list gives it.
+    /// Largest ratio of the external override (P-CHAN-00056), where the list gives it.
     ///
     /// Assumption: without an entry nothing is limited, although the vendor's default is 1: an override above 100 % is
     /// asked for in the inputs of a run, and a message names the default.

@@ -52,7 +52,7 @@ fn low_passes(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// 0 is a weight of its own: no feedforward. Source: TF5200 feedforward control.
+/// 0 is a legal weight: no feedforward. Source: TF5200 feedforward control.
 fn weight(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let weight = [axis_drive::FF_WEIGHT_NUM, axis_drive::FF_WEIGHT_DENOM];
     let ratio = axis.listed(weight[0]) / axis.listed(weight[1]);

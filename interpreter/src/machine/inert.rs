@@ -1,5 +1,5 @@
 //! Parameters that change what a control does and are not simulated: a list that sets one to something else than its default gets
-//! a message, so that nobody takes the trace for that of the control.
+//! a message, so that the trace is not mistaken for that of the control.
 
 use super::parameters::Parameters;
 use super::plausible::finish;
@@ -14,9 +14,9 @@ const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
     (
         "P-AXIS-00520",
-        "set positions are checked against the software limits in the preparation alone",
+        "set positions are checked against the software limits only during preparation",
     ),
-    ("P-AXIS-00833", "the drive weights no velocity feedforward of its own"),
+    ("P-AXIS-00833", "the drive applies no weight to the velocity feedforward"),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
     ("P-CHAN-00259", "contouring rounds arcs as with 0"),
 ];

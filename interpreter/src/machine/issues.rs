@@ -1,4 +1,4 @@
-//! What the filters and the controller say about their configuration, as diagnostics with axis, parameter and place.
+//! Issues of the configuration of filters and controller, as diagnostics with axis, parameter and place.
 //!
 //! The text has the order quantity, value, limit, axis, parameter; then what becomes of it.
 
@@ -87,7 +87,7 @@ const fn guard_condition(error: &VibGuardError) -> Condition {
 /// A condition of a filter's settings, with its values; `keys` of the list, `None` for the words of a program.
 pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue) -> Diagnostic {
     let condition = match filter_condition(issue) {
-        // spindles have a number of their own for the same
+        // spindles have a separate number for the same
         Condition::FilterTime if axis.kind() == AxisKind::Spindle => Condition::SpindleFilterTime,
         condition => condition,
     };

@@ -73,7 +73,7 @@ const SAID_MAX: u32 = 20;
 const NAMED_UNKNOWN: usize = 12;
 
 /// Reads a list. Diagnostics: 1001119 unknown element, 1001138 bad number, K-0028 key twice, K-0029 empty index,
-/// K-0030 second word after a text, K-0071 line that is no entry, K-0072 end mark.
+/// K-0030 second word after a text, K-0071 line that is not an entry, K-0072 end mark.
 pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diagnostic>) -> List {
     let mut reader = Reader {
         kind,
@@ -215,7 +215,7 @@ impl Reader<'_> {
         self.list.insert((row.key, indices), (self.order, entry));
     }
 
-    /// 1001119: a key that resembles a known one is reported by itself, the others together.
+    /// 1001119: a key that resembles a known one is reported separately, the others together.
     fn report_unknown(&mut self) {
         let mut plain: Vec<(String, u32, Location)> = Vec::new();
         for (shape, (count, at)) in std::mem::take(&mut self.unknown) {

@@ -1,4 +1,4 @@
-//! Values that the command line puts over the lists (`--set X.getriebe[0].kv=5000`).
+//! Values with which the command line overrides the lists (`--set X.getriebe[0].kv=5000`).
 
 use super::key::Key;
 use super::lists::parameter;

@@ -74,7 +74,7 @@ impl<'a> Project<'a> {
     /// `kontur.lis`.
     ///
     /// # Errors
-    /// K-0141 for a part that is no XML, for a project without axes or channel of a CNC or without a name of an axis, and for
+    /// K-0141 for a part that is not XML, for a project without axes or channel of a CNC or without a name of an axis, and for
     /// axis lists of which some but not all have the same number.
     pub fn read(
         files: &'a dyn ListFiles,
@@ -334,7 +334,7 @@ impl<'a> Project<'a> {
         named
     }
 
-    /// Enters the cycle into `kontur.lis`, unless the file beside the project has one; what became of it.
+    /// Enters the cycle into `kontur.lis`, unless the file next to the project has one; returns the result.
     fn cycle(&mut self, us: u32) -> &'static str {
         let path = self.path(OWN_LIST);
         let real = match self.files.read(&path) {

@@ -1,4 +1,4 @@
-//! From the parameters of a machine to the configuration of what happens to each axis after the planner.
+//! From the parameters of a machine to the configuration of each axis after the planner.
 //!
 //! Ranges are checked while the lists are loaded; what only shows when several values meet (a filter that cannot be
 //! designed, feedforward to an input that the drive does not have) is found here.

@@ -205,7 +205,7 @@ fn an_override_gives_the_bits_of_a_list_value() {
     }
 }
 
-/// An index that is no logical number, and what another model of the drive reads, are said to have no effect; the message names the
+/// An index that is not a logical number, and what another model of the drive reads, are said to have no effect; the message names the
 /// place. What the model of the axis reads gets none.
 #[test]
 fn entries_of_kontur_lis_that_nothing_reads() {
@@ -296,7 +296,7 @@ fn tool_lists() {
     let (machine, messages) = files.load(&[]).unwrap();
     assert!(messages.is_empty(), "{messages:?}");
     let numbers: Vec<u32> = machine.tools.keys().copied().collect();
-    // D0 is no tool
+    // D0 is not a tool
     assert_eq!(numbers, [5, 8, 9]);
     let five = &machine.tools[&5];
     assert_eq!((five.length_mm, five.radius_mm, five.is_valid), (60.0, 20.0, true));

@@ -83,7 +83,7 @@ pub struct ZeroOffsets {
     pub start_group: u32,
 }
 
-/// Tools of a list by the number of the D word. D0 is no tool: what a list says of it does not count.
+/// Tools of a list by the number of the D word. D0 is not a tool: what a list says of it does not count.
 pub(super) fn tools(list: &Parameters) -> BTreeMap<u32, Tool> {
     let mut tools = BTreeMap::new();
     for (indices, setting) in list.settings() {

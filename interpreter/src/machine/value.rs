@@ -8,7 +8,7 @@
 //!
 //! assert_eq!(read(Raw::Uns32, "5000"), Ok(Value::Number(5000.0)));
 //! assert_eq!(write(Raw::Uns32, &Value::Number(5000.0)), "5000");
-//! // what is no number says what is taken in its place
+//! // what is not a number says what is taken in its place
 //! assert_eq!(read(Raw::Uns32, "fast").unwrap_err().instead, Some(Value::Number(0.0)));
 //! ```
 
@@ -44,7 +44,7 @@ impl Value {
 /// A value that could not be read as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BadValue {
-    /// What is taken instead: 0 if it is no number, the nearest limit of the data type, the default (`None`) for a
+    /// What is taken instead: 0 if it is not a number, the nearest limit of the data type, the default (`None`) for a
     /// word that does not exist.
     pub instead: Option<Value>,
     /// What is wrong.
@@ -54,7 +54,7 @@ pub struct BadValue {
 /// Reads a value.
 ///
 /// # Errors
-/// [`BadValue`] (1001138) for text that is no number, a number outside the data type, or an unknown name.
+/// [`BadValue`] (1001138) for text that is not a number, a number outside the data type, or an unknown name.
 pub fn read(raw: Raw, text: &str) -> Result<Value, BadValue> {
     match raw {
         Raw::Text | Raw::Code => Ok(Value::Text(text.trim_end().to_owned())),

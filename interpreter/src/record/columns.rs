@@ -309,7 +309,7 @@ mod tests {
         );
     }
 
-    /// What repeats another column is there where it does not, and where it is asked for.
+    /// A column that repeats another one is present where it differs, and where it is requested.
     #[test]
     fn repeating_columns_are_there_when_asked_for() {
         let of = |signals: &str, load, additional| {

@@ -48,7 +48,7 @@ pub struct AxisFacts {
 /// Which positions of an axis are not those of the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Apart {
-    /// The plant model has a tool point of its own (`X_tcp_mm`).
+    /// The plant model has a tool point (`X_tcp_mm`).
     pub tool_point: bool,
     /// The load can be elsewhere than the actual position says (`X_load_mm`): an elastic plant, an encoder with steps, or
     /// inputs that may disturb it.

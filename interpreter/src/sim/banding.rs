@@ -1,6 +1,6 @@
-//! Edge banding: a motion stops once behind the signal of the probe, and continues.
+//! Edge banding: a motion stops once after the signal of the probe, and continues.
 //!
-//! The planner asks for nothing beyond the motion until that has happened, so the path would rest at its end; behind the stop
+//! The planner asks for nothing beyond the motion until that has happened, so the path would rest at its end; after the stop
 //! it passes the end like any other.
 
 use super::inputs::Inputs;
@@ -60,7 +60,7 @@ impl Simulation {
         }
         if !self.planner.halt_in(seq, &place, way_mm) {
             let text =
-                "the block is too short, or the path too fast, for the way behind the signal";
+                "the block is too short, or the path too fast, for the distance after the signal";
             self.banding_fails(Condition::BandingPath, text);
         }
     }

@@ -40,7 +40,7 @@ pub(crate) struct AxisChain {
     control: AxisControl,
     additional: Option<AdditionalInterface>,
     inputs: AxisInputs,
-    /// What online tool compensation adds behind the filters.
+    /// What online tool compensation adds after the filters.
     wear_mm: f64,
     filter_window_mm: f64,
     delay_cycles: f64,

@@ -1,4 +1,4 @@
-//! What goes wrong while the machine runs: messages and reactions.
+//! Faults of the running machine: messages and reactions.
 //!
 //! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
 //! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
@@ -19,7 +19,7 @@ use kontur_motion::tolerance::Unkept;
 
 /// Cycles of standstill shown after the stop of a fault.
 pub(super) const CYCLES_AT_REST: u32 = 5;
-/// Longest time after the stop of the set positions that is waited for axes that do not come to rest.
+/// Longest time to wait, after the stop of the set positions, for axes that do not come to rest.
 const LONGEST_COASTING_S: f64 = 2.0;
 
 /// How far the stop of a fault has come.
@@ -261,7 +261,7 @@ fn per_s(unit: &str, order: usize) -> &'static str {
     if unit == "deg" { ROTARY[order] } else { LINEAR[order] }
 }
 
-/// The condition of a fault; spindles have numbers of their own for their speed.
+/// The condition of a fault; spindles have separate numbers for their speed.
 const fn condition(fault: &Fault, spindle: bool) -> Condition {
     match fault {
         Fault::FollowingError { .. } => Condition::FollowingError,

@@ -1,4 +1,4 @@
-//! Independent axes: motions of single axes beside the path, each on its own timeline.
+//! Independent axes: motions of single axes independently of the path, each on its own timeline.
 //!
 //! The path does not contain them (see [`IndependentMotion`]): the setpoint of an axis is that of the path plus its way.
 //! The override of feed (P-AXIS-00491) and the feedhold (P-AXIS-00540) of the channel act on them, unless the list gives these to the
@@ -20,7 +20,7 @@ struct Underway {
     k: u64,
 }
 
-/// An axis that goes to and fro.
+/// An axis that oscillates.
 #[derive(Clone, Debug)]
 struct Oscillation {
     /// From the first to the second reversal position, and back.
@@ -70,9 +70,9 @@ struct Lane {
     done_mm: f64,
     /// The axis that it follows.
     coupling: Option<Coupling>,
-    /// Its way is not at rest yet behind its filters.
+    /// Its way is not at rest yet after its filters.
     settles: bool,
-    /// What acts on it from outside.
+    /// External influences on it.
     steering: Steering,
     underway: Option<Underway>,
     oscillation: Option<Box<Oscillation>>,
@@ -91,7 +91,7 @@ impl IndependentAxes {
         Self { lanes: vec![Lane::default(); axes], used: false }
     }
 
-    /// No axis has ever moved beside the path: all ways are 0.
+    /// No axis has ever moved independently of the path: all ways are 0.
     pub(super) fn is_unused(&self) -> bool {
         !self.used
     }
@@ -115,7 +115,7 @@ impl IndependentAxes {
         Ok(())
     }
 
-    /// Starts an oscillation in cycle `k`: to the first reversal position, and then to and fro.
+    /// Starts an oscillation in cycle `k`: to the first reversal position, and then back and forth.
     pub(super) fn oscillate(
         &mut self,
         axis: usize,
@@ -144,7 +144,7 @@ impl IndependentAxes {
         Ok(())
     }
 
-    /// What acts on an axis from outside, from the next call of [`Self::take_over`] on.
+    /// External influences on an axis, from the next call of [`Self::take_over`] on.
     pub(super) fn steer(&mut self, axis: usize, steering: Steering) {
         if let Some(lane) = self.lanes.get_mut(axis) {
             lane.steering = steering;
@@ -215,7 +215,7 @@ impl IndependentAxes {
         }
     }
 
-    /// An axis stays where it has come to.
+    /// An axis stays at the position it has reached.
     pub(super) fn uncouple(&mut self, slave: usize) {
         if let Some(lane) = self.lanes.get_mut(slave)
             && let Some(coupling) = lane.coupling.take()
@@ -235,7 +235,7 @@ impl IndependentAxes {
         }
     }
 
-    /// The set position of an axis contains a way that is still changing, behind its filters too; `settled`: its set
+    /// The set position of an axis contains a way that is still changing, after its filters too; `settled`: its set
     /// position has arrived.
     pub(super) fn is_on_its_way(&mut self, axis: usize, settled: bool) -> bool {
         let Some(lane) = self.lanes.get_mut(axis) else { return false };

@@ -1,4 +1,4 @@
-//! Real-time inputs of a run: override, feedhold, and what acts on single axes from outside.
+//! Real-time inputs of a run: override, feedhold, and external influences on single axes.
 //!
 //! A value holds until the next one of its signal. It acts on an axis from the first cycle on that is not earlier than
 //! its time; the path follows its contour unchanged up to that cycle and bends from there.
@@ -146,7 +146,7 @@ impl Change {
     }
 }
 
-/// What changes the speed of the path from outside.
+/// External influences on the speed of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum SpeedChange {
     Feedhold,
@@ -166,7 +166,7 @@ pub(super) struct Inputs {
     pub(super) feedhold: bool,
     /// The probe signals.
     pub(super) probe: bool,
-    /// Wear of a grinding wheel from outside.
+    /// External wear of a grinding wheel.
     pub(super) wear_mm: f64,
     /// What is said once.
     told: BTreeSet<Condition>,
@@ -292,7 +292,7 @@ impl Inputs {
         self.feedhold || (self.feed_ratio <= 0.0 && !full_override)
     }
 
-    /// What lets the path go at another speed than a thread needs.
+    /// Reasons why the path does not have the speed that a thread needs.
     pub(super) fn changes_speed(&self, full_override: bool) -> Option<SpeedChange> {
         if self.feedhold {
             return Some(SpeedChange::Feedhold);

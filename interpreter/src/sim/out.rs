@@ -1,4 +1,4 @@
-//! What leaves the simulation beside its records: points to be measured against the contour, and messages.
+//! What leaves the simulation in addition to its records: points to be measured against the contour, and messages.
 //!
 //! The simulation never looks at the deviation of its output, so measuring may lag behind it, on another thread.
 
@@ -144,7 +144,7 @@ impl Measuring {
     }
 }
 
-/// Messages of a run that nobody has taken yet.
+/// Messages of a run that have not been taken yet.
 #[derive(Debug, Default)]
 pub(crate) struct Messages {
     /// Of the simulation, in the order of raising.

@@ -1,4 +1,4 @@
-//! When a wait for axes to arrive has become hopeless: the loop is at rest, or swings on undiminished.
+//! Detects waits for axes that cannot end: the loop is at rest, or oscillates without decaying.
 //!
 //! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
 //! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
@@ -9,7 +9,7 @@ use kontur_filters::time::CycleTime;
 
 /// Shortest and longest period in s for standing still.
 const PERIOD_S: (f64, f64) = (0.2, 1.0);
-/// Period in s over which vibrations are compared: slower ones than 1 Hz are no vibrations of a machine.
+/// Period in s over which vibrations are compared: slower ones than 1 Hz are not vibrations of a machine.
 const SWING_S: f64 = 1.0;
 /// Relative change in a period below which nothing changes any more.
 const CHANGE: f64 = 1e-3;

@@ -81,14 +81,14 @@ impl Simulation {
         }
     }
 
-    /// What the program has to know of the machine, unless it was told of this cycle: it is asked for many steps in a row.
+    /// What the program has to know about the machine, unless it has been given this cycle: many steps in a row ask for it.
     pub(super) fn feedback(&mut self) -> Option<Feedback> {
         let k = self.planner.setpoint().k;
         let measured = self.end_probing();
         if measured.is_none() && self.told == Some(k) {
             return None;
         }
-        // what was measured is told once
+        // a measurement is reported once
         self.told = measured.is_none().then_some(k);
         let (actual_mm, lag_mm) = (self.actual_mm(), self.lag_mm());
         Some(Feedback { actual_mm, lag_mm, time_s: self.cycle.time_of(k), measured })

@@ -1,4 +1,4 @@
-//! What the inputs of a run do to the path and to what moves beside it: override, feedhold, and a hold without end.
+//! What the inputs of a run do to the path and to everything that moves independently of it: override, feedhold, and a hold without end.
 
 use super::{Phase, Probing, Simulation, fault};
 use crate::diag::Diagnostic;
@@ -78,7 +78,7 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    /// Gives override and feedhold to the axes that move, or will move, beside the path.
+    /// Gives override and feedhold to the axes that move, or will move, independently of the path.
     fn steer_independent(&mut self) {
         let channel = &self.machine.channel;
         let ratios = self.inputs.ratios(channel.rapid_override);

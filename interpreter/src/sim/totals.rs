@@ -1,4 +1,4 @@
-//! What a run adds up beside its records.
+//! What a run adds up in addition to its records.
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{Event, ShapingSettings, ShapingSetup, SourceRef};

@@ -22,7 +22,7 @@ pub(super) enum Action {
     },
     /// The axes are in their windows where the path has halted.
     Halted,
-    /// The path continues behind its halt.
+    /// The path continues after its halt.
     Resume,
     /// The axes do not go with a spindle any more.
     ThreadEnd,
@@ -178,7 +178,7 @@ impl Wait {
         chains.filter(move |(_, (_, driver))| concerns(**driver)).map(|(i, (chain, _))| (i, chain))
     }
 
-    /// Something that the wait looks at is on its way by itself.
+    /// Something that the wait depends on is still moving.
     fn under_way(&self, parts: Parts<'_>) -> bool {
         match &self.until {
             Until::Now | Until::Cycles(..) | Until::InPosition { alone: false } => false,

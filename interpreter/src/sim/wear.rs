@@ -4,7 +4,7 @@
 //!
 //! Assumptions, where the pages are silent: the way counts from `#OTC ON` on, with RADIUS only what is driven along the
 //! contour of G41 or G42; a change of the wear, or of the direction at a corner, is followed with the acceleration
-//! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, behind the filters.
+//! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, after the filters.
 
 use crate::exec::{WearSetting, WornPart};
 use kontur_motion::axis::AxisVec;
@@ -47,7 +47,7 @@ pub(super) struct Wear {
     along: Option<[f64; 2]>,
     /// Way that has counted.
     way_mm: f64,
-    /// Wear from outside.
+    /// External wear.
     outside_mm: f64,
     followers: SmallVec<[Follower; 4]>,
 }
@@ -63,7 +63,7 @@ impl Wear {
         self.followers.resize(axes, Follower::default());
     }
 
-    /// The tool has come to the contour, changes its side, or leaves it.
+    /// The tool has reached the contour, changes sides, or leaves it.
     pub(super) fn engage(&mut self, engaged: Option<([usize; 2], bool)>) {
         self.engaged = engaged;
     }
@@ -127,21 +127,18 @@ impl Wear {
 #[cfg(test)]
 mod tests {
     use super::Follower;
+    use kontur_kit::Random;
 
     #[test]
     fn a_follower_arrives_within_its_acceleration_and_stays() {
         let (t, a) = (0.001, 800.0);
-        let mut state = 1_u64;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
-        };
+        let mut random = Random::new(1);
         for _ in 0..200 {
             let mut f = Follower::default();
             let mut target = 0.0;
             for k in 0..600 {
                 if k % 97 == 0 && k < 300 {
-                    target = random();
+                    target = random.between(-0.5, 0.5);
                 }
                 let before = f;
                 f.step(target, a, t);

@@ -126,7 +126,7 @@ impl BlockReader {
     }
 
     /// Goes over lines for as long as `skip` accepts them, the window holds them as a whole, and none of the `rare` bytes is
-    /// in them. They have to be blocks of their own.
+    /// in them. Each of them has to be a complete block.
     pub(crate) fn skip_lines(&mut self, rare: [u8; 3], skip: impl Fn(&[u8]) -> bool) {
         while self.skip_stretch(rare, &skip) {}
     }
@@ -146,7 +146,7 @@ impl BlockReader {
             let end = at + length;
             let mut line = &stretch[at..end];
             if next_cr < end {
-                // a CR of its own ends a block, too
+                // a single CR ends a block, too
                 if next_cr + 1 < end {
                     return false;
                 }
@@ -164,11 +164,11 @@ impl BlockReader {
         until == stretch.len() && at > 0
     }
 
-    /// Offers the next line if the window holds it with its LF, and goes behind it if something is made of it. `take` has to
-    /// refuse what is no block of its own: a line with CR, NUL or ETX in it, or one that the next line continues.
+    /// Offers the next line if the window holds it with its LF, and moves past it if something is made of it. `take` has to
+    /// refuse what is not a complete block: a line with CR, NUL or ETX in it, or one that the next line continues.
     #[inline]
     pub(crate) fn take_line<T>(&mut self, take: impl FnOnce(&[u8]) -> Option<T>) -> Option<T> {
-        // a byte order mark is none of the business of `take`
+        // `take` does not handle a byte order mark
         if self.base + self.at as u64 == 0 {
             return None;
         }

@@ -18,7 +18,7 @@ pub(crate) enum Region {
 pub(crate) struct Regions<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// A quote was never closed: no later one is, and none of them is looked for.
+    /// A quote was never closed: no later one is either, and the search is skipped.
     unclosed: bool,
 }
 

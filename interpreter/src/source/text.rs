@@ -22,7 +22,7 @@
 use crate::diag::QUOTED_MAX;
 use std::io::{self, BufRead, BufReader, Read};
 
-/// Bytes of a line; a longer one is no line of a table or a list.
+/// Bytes of a line; a longer one is not a line of a table or a list.
 pub(crate) const LINE_MAX: usize = 65_536;
 
 /// Bytes of a text file as they are.

@@ -29,7 +29,7 @@ const NO_STEP_MM: f64 = 1e-9;
 pub struct SpeedRipple {
     /// `(v_max - v_min) / v_max`, 0 to 1.
     pub ratio: f64,
-    /// Lower one of the local maxima of the path velocity beside the dip in mm/s.
+    /// Lower one of the local maxima of the path velocity next to the dip in mm/s.
     pub v_max_mm_s: f64,
     /// Lowest path velocity in the dip in mm/s.
     pub v_min_mm_s: f64,

@@ -7,7 +7,7 @@
 //! compares exactly (variables, macros, files, strings) and identifier values (`TYPE=HSC`, `NAME=a.nc`) are stored as
 //! written; [`Ident::is`] compares them without case.
 //!
-//! Order of calls: made by [`Parser::block`](super::Parser::block), read by whoever decodes or prints the block.
+//! Order of calls: made by [`Parser::block`](super::Parser::block), read when the block is decoded or printed.
 //!
 //! ```
 //! use kontur_interpreter::source::RawBlock;
@@ -66,7 +66,7 @@ pub enum BlockNumber {
 /// Where `$GOTO` leads.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jump {
-    /// Label, or what tells it.
+    /// Label, or the expression that gives it.
     pub kind: JumpKind,
     /// Place.
     pub span: Span,

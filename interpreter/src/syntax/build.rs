@@ -47,7 +47,7 @@ impl<'a> Builder<'a> {
         self.report(problem);
     }
 
-    /// Reports a problem in place of all others of the block.
+    /// Reports a problem instead of all others of the block.
     pub(super) fn report_only(&mut self, problem: Problem) {
         self.problems.clear();
         self.problems.push(problem);

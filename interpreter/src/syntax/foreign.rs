@@ -1,5 +1,5 @@
 //! Programs of other controls, recognised by words that this dialect cannot have: one message names the word and the
-//! control, in place of one for every character that does not fit.
+//! control, instead of one for every character that does not fit.
 //!
 //! Sources: the programming manuals of LinuxCNC (O words, named and numbered parameters, G5.2), of Fanuc controls (custom
 //! macro B), of Heidenhain controls (Klartext) and of Sinumerik controls.

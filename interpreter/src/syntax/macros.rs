@@ -1,4 +1,4 @@
-//! Macros: their text is put in place of `"NAME"` before a block is parsed.
+//! Macros: their text replaces `"NAME"` before a block is parsed.
 //!
 //! A string that is the name of a macro is a use of it wherever it appears, but for the two strings of a definition
 //! `"NAME" = "text"`. Places in the expanded text map to the use in the program.
@@ -100,7 +100,7 @@ pub(crate) fn expand<'m>(
     Ok(Some(out))
 }
 
-/// Why a macro cannot be put in place of its name.
+/// Why a macro cannot replace its name.
 enum Wrong<'m> {
     /// Macros nested too deeply.
     TooDeep,

@@ -25,7 +25,7 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     Some((mantissa as f64 / POWERS[decimals], length))
 }
 
-/// How many digits there are at the beginning of `bytes`, and the number that they make behind the digits of `number`; from 20
+/// How many digits there are at the beginning of `bytes`, and the number that they make after the digits of `number`; from 20
 /// digits on the number is not theirs.
 #[inline]
 fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {

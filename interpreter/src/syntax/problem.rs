@@ -260,7 +260,7 @@ fn refine(
             let problem = raised(problem, condition);
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
-        // its axis comes behind the bracket
+        // its axis comes after the bracket
         Context::Command
             if before.trim_end().ends_with(']') && has_name(content, &["#SET", "TIP"]) =>
         {
@@ -293,7 +293,7 @@ fn refine(
             problem.hint("`\\` continues a block only as the last character of its line")
         }
         Context::Words if expected.contains(&LEVEL) => {
-            problem.hint("M17 [MAIN [LABEL]], M17 [JUMPS=2 N100]: a label has brackets of its own")
+            problem.hint("M17 [MAIN [LABEL]], M17 [JUMPS=2 N100]: a label has separate brackets")
         }
         Context::Words if depth == 0 && is_label(rest) && !before.trim_ascii().is_empty() => {
             raised(problem, Condition::LabelBehindWords)
@@ -317,7 +317,7 @@ fn refine(
     }
 }
 
-/// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, which have a number of their own for their bracket.
+/// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, which have a separate number for their bracket.
 fn asks_for_positions(content: &str) -> bool {
     let names = [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]];
     names.iter().any(|name| has_name(content, name))
@@ -368,7 +368,7 @@ const TRAILING: [(&str, Condition); 16] = [
     ("$CONTINUE", Condition::ContinueNotAlone),
 ];
 
-/// Hint for a word after `$` that is no control statement.
+/// Hint for a word after `$` that is not a control statement.
 const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
                             $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
 

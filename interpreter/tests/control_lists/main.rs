@@ -11,6 +11,7 @@ use kontur_filters::time::CycleTime;
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::machine::table::ListKind;
 use kontur_interpreter::machine::{Machine, Override, lists};
+use kontur_kit::near;
 
 const MS: CycleTime = CycleTime::DEFAULT;
 const IPC: &str = "X.lr_param.improved_position_control";
@@ -51,10 +52,6 @@ fn drive(settings: &str, gain: f64) -> Vec<ControlOutput> {
 
 fn last(settings: &str, gain: f64) -> ControlOutput {
     *drive(settings, gain).last().unwrap()
-}
-
-fn near(is: f64, want: f64, tolerance: f64) {
-    assert!((is - want).abs() <= tolerance, "{is} is not {want} +- {tolerance}");
 }
 
 /// A stage of X that works, and more settings.

@@ -1,4 +1,4 @@
-//! A ball around a path: what is further away than it need not be looked at.
+//! A ball around a path: a point far outside it need not be examined.
 
 use crate::axis::AxisVec;
 use crate::path::Path;

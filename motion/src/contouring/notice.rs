@@ -1,4 +1,4 @@
-//! Why a corner was not contoured as asked for.
+//! Why a corner was not contoured as requested.
 
 /// Why a corner was not contoured as asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]

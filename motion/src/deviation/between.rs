@@ -157,15 +157,10 @@ fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
 
 #[cfg(test)]
 mod tests {
-    #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
-    mod doc {
-        include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
-    }
-
     use super::*;
     use crate::contour::Contour;
+    use crate::example::{Arc, block};
     use crate::queue::Queued;
-    use doc::{Arc, block};
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 
@@ -234,7 +229,7 @@ mod tests {
             }
         }
 
-        /// Lines that are short beside the blocks, as they are between two cycles: every component, too.
+        /// Lines that are short compared with the blocks, as they are between two cycles: every component, too.
         #[test]
         fn of_a_short_line_every_component_is_found(
             points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 2..9),

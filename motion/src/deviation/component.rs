@@ -1,4 +1,4 @@
-//! The vector from a point to a line whose largest component is the least.
+//! The vector from a point to a line whose largest component is smallest.
 //!
 //! The shortest vector to a set path jumps where two of its lines are equally near, and with it the largest component: which of
 //! them counts depends on the last cycle that belongs to the path. The least of the largest components does not jump.

@@ -96,7 +96,7 @@ impl Gauge {
     }
 
     /// Takes the vector from a point of the contour to the set path between two cycles: the shortest one, or, if that exceeds
-    /// the tolerance of the blocks that the filters held, the one whose largest component is the least. Up to `least_mm`, the
+    /// the tolerance of the blocks that the filters held, the one whose largest component is smallest. Up to `least_mm`, the
     /// least tolerance of the run, none is exceeded.
     fn miss(&mut self, contour: &Contour, k: u64, point: &[f64], among: (u64, u64), least_mm: f64) {
         let mut shortest = Excursion::none(point.len());

@@ -13,7 +13,7 @@ pub struct Change(pub(crate) What);
 pub(crate) enum What {
     /// The contour is another one.
     Contour(Contour),
-    /// A block is put behind the others.
+    /// A block is put after the others.
     Enters(Passed),
     /// So many blocks lie out of reach.
     Leave(usize),
@@ -21,7 +21,7 @@ pub(crate) enum What {
     Kernels { reach_cycles: u32, differ: bool, at: Option<(u64, AxisVec)> },
     /// Least tolerance of any block so far in mm.
     Tolerance(f64),
-    /// It was told that a plan does not keep the tolerance.
+    /// It has been reported that a plan does not keep the tolerance.
     Told,
 }
 
@@ -68,13 +68,13 @@ enum Excess {
     /// No cycle exceeded the tolerance of its blocks.
     #[default]
     None,
-    /// One did, and nobody has asked yet.
+    /// One did, and this has not been taken yet.
     Found(Unkept),
-    /// It was told, or that a plan does not keep the tolerance was; later ones are not looked for.
+    /// It has been reported, or that a plan does not keep the tolerance; later ones are not looked for.
     Told,
 }
 
-/// Share and mm by which the output may exceed a tolerance before it is told: what a trace rounds away.
+/// Share and mm by which the output may exceed a tolerance before it is reported: what a trace rounds away.
 const ALLOWANCE: f64 = 1.001;
 const ALLOWANCE_MM: f64 = 1e-6;
 

@@ -52,7 +52,7 @@ impl SlopeTable {
                 } else {
                     axis.feed.ramps_s[k]
                 };
-                // a ramp below the cycle time is no ramp
+                // a ramp below the cycle time is not a ramp
                 if t < cycle.seconds() { f64::INFINITY } else { plateau(k / 2, axis) / t }
             };
             table.plateaus = [0, 1].map(|k| table.row(|axis| plateau(k, axis)));

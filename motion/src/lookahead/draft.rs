@@ -1,4 +1,4 @@
-//! A plan that is made again and again, under limits of which few change or with more blocks behind it: what it was made for
+//! A plan that is made again and again, under limits of which few change or with more blocks after it: what it was made for
 //! stays with it.
 //!
 //! The profile of a span depends on its blocks, their feeds, the caps of the boundaries inside, and the speeds at its ends; that of
@@ -94,17 +94,12 @@ impl Draft {
 
 #[cfg(test)]
 mod tests {
-    #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
-    mod doc {
-        include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
-    }
-
     use super::Draft;
     use crate::block::{Slope, SlopeKind};
     use crate::cap::{Cap, SpeedLimit};
+    use crate::example::{Arc, block};
     use crate::lookahead::plan_again;
     use crate::queue::Queued;
-    use doc::{Arc, block};
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 
@@ -128,7 +123,7 @@ mod tests {
         )
     }
 
-    /// The caps in front of blocks, with a stop behind the last one.
+    /// The caps in front of blocks, with a stop after the last one.
     fn closed(caps: &[f64]) -> Vec<Cap> {
         let corner = |v: &f64| Cap::new(*v, SpeedLimit::Corner);
         caps.iter().map(corner).chain([Cap::STOP]).collect()

@@ -3,7 +3,7 @@
 use super::line::feed_length;
 use crate::axis::AxisVec;
 
-/// What defines an arc beside its end points.
+/// What defines an arc in addition to its end points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcShape {
     /// Channel indices of the two plane axes, first and second (G17: X Y, G18: Z X, G19: Y Z).

@@ -3,7 +3,7 @@
 //! With `N = |P'|^2` over the measured axes every derivative of an axis by path length is a quotient `F / N^e`:
 //! `q' = p' / N^(1/2)`, and from one to the next `F_next = F' N - e F N'` with `e_next = e + 3/2`. The same `F_next` is, up to a
 //! positive factor, the derivative of the quotient by the parameter: the extremes of `q'`, `q''` and `q'''` lie at the ends
-//! of the piece and at the zeros of polynomials. The coefficients of these in Bernstein form tell how many zeros there are
+//! of the piece and at the zeros of polynomials. Their coefficients in Bernstein form show how many zeros there are
 //! (Descartes' rule of signs: none without a change of sign, exactly one with one change) and how far the quotient may
 //! leave its values at the ends (half the largest slope). Pieces for which neither is enough are halved.
 
@@ -213,16 +213,7 @@ fn settle(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers between -1 and 1.
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-    }
+    use kontur_kit::Random;
 
     /// `q'`, `q''`, `q'''` of an axis by the chain rule, written out.
     fn by_chain_rule(piece: &PolyPiece, measured: &[bool], i: usize, x: f64) -> [f64; 3] {
@@ -255,17 +246,17 @@ mod tests {
     /// Cubics as of splines, quartics as of rounded corners, quintics; with a slaved axis or without.
     #[test]
     fn no_dense_sample_exceeds_them_and_they_are_reached() {
-        let mut random = Random(7);
+        let mut random = Random::from_state(7);
         for case in 0..300 {
             let degree = 2 + case % 4;
             let wild = [0.05, 0.4, 1.5][case % 3];
             let piece: PolyPiece = (0..3)
                 .map(|i| {
                     let mut c = [0.0; 6];
-                    c[0] = 100.0 * random.next();
-                    c[1] = if i == 0 { 1.0 } else { random.next() };
+                    c[0] = 100.0 * random.between(-1.0, 1.0);
+                    c[1] = if i == 0 { 1.0 } else { random.between(-1.0, 1.0) };
                     for c in &mut c[2..=degree] {
-                        *c = wild * random.next();
+                        *c = wild * random.between(-1.0, 1.0);
                     }
                     c
                 })

@@ -78,20 +78,20 @@ impl Planner {
             };
             self.commit(entries, count);
             if given_up {
-                // what was of no help is asked no longer
+                // what did not help is not tried again
                 self.plan.demands = Demands::default();
             }
             return Ok(());
         }
     }
 
-    /// A tolerance is not kept, and that is told; what is output will show it, too.
+    /// A tolerance is not kept, and this is reported; the output will show it, too.
     fn give_up(&mut self, unkept: Unkept) {
         self.unkept.push(unkept);
         self.report(|_| What::Told);
     }
 
-    /// Examines a plan of the window behind everything that is final, see [`Monitor::examine`].
+    /// Examines a plan of the window after everything that is final, see [`Monitor::examine`].
     ///
     /// [`Monitor::examine`]: crate::tolerance::Monitor::examine
     fn verdict(&mut self, entries: &mut [Entry], round: usize) -> Verdict {
@@ -225,13 +225,13 @@ impl Planner {
         self.timeline.extend(entries);
     }
 
-    /// Puts an entry behind the others on the timeline; what follows a stop starts after `dwell` cycles.
+    /// Puts an entry after the others on the timeline; what follows a stop starts after `dwell` cycles.
     pub(super) fn append(&mut self, entry: Entry, dwell: u32) {
         self.enter(&entry, dwell);
         self.timeline.push(entry);
     }
 
-    /// Goes on behind an entry that becomes final.
+    /// Continues after an entry that becomes final.
     fn enter(&mut self, entry: &Entry, dwell: u32) {
         for (cycles, s, queued) in entry.entries(self.cycle) {
             self.contour.enter(cycles, s, Arc::clone(queued));
@@ -240,7 +240,7 @@ impl Planner {
             }
         }
         let end = entry.profile.end();
-        // a rise that is left on its way goes on for the reason it began with
+        // a rise that is left on its way continues for the reason it began with
         let why = if end.a_mm_s2 > 0.0 { entry.why_up } else { entry.why_down };
         let mut start = Start {
             moment: entry.end,
@@ -263,7 +263,7 @@ pub(super) fn held_to(
     segments.into_iter().map(|s| (s.cap, s.asked)).collect()
 }
 
-/// How many entries end in front of block `limit` of the window or there; `None` if the first one goes on.
+/// How many entries end in front of block `limit` of the window or there; `None` if the first one continues.
 fn entries_before(entries: &[Entry], limit: usize) -> Option<usize> {
     let mut blocks = 0;
     let before = entries.iter().take_while(|e| {

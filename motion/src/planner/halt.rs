@@ -1,6 +1,6 @@
 //! A halt at a place that becomes known only while the path is on its way there.
 //!
-//! What lies behind the place is set aside, so that the path ends there: exactly there, with the limits of its blocks, and
+//! What lies after the place is set aside, so that the path ends there: exactly there, with the limits of its blocks, and
 //! without a stop at their end. [`Planner::resume`] puts it back, and the look-ahead continues as if there had been a rest
 //! of the program.
 
@@ -17,7 +17,7 @@ impl Planner {
         self.halted.get_or_insert_default();
     }
 
-    /// The path halts `distance_mm` behind the place of block `seq` that is nearest to `point`; nothing is pushed until
+    /// The path halts `distance_mm` after the place of block `seq` that is nearest to `point`; nothing is pushed until
     /// [`Self::resume`].
     ///
     /// False if the block ends before, or if the path is too near or too fast to come to rest there: then it follows its
@@ -71,7 +71,7 @@ fn place_in(ahead: &[(f64, Segment)], seq: u64, point: &[f64]) -> Option<f64> {
     places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
 }
 
-/// What lies in front of path length `s` of the program, and what lies behind it.
+/// What lies in front of path length `s` of the program, and what lies after it.
 fn divided(ahead: &[(f64, Segment)], s: f64) -> (Vec<(f64, Segment)>, Vec<Segment>) {
     let (mut front, mut behind) = (Vec::new(), Vec::new());
     for (start, segment) in ahead {

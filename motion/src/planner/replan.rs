@@ -7,20 +7,20 @@
 //!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
 //!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
 //!    look-ahead finds a plan behind;
-//! 3. what lies behind the leg goes back into the queue, the block in which it ends as its remainder.
+//! 3. what lies after the leg goes back into the queue, the block in which it ends as its remainder.
 //!
 //! So every state that is output still has a stop in front of it. Until its leg begins the path follows the old plan:
-//! close in front of a slower place, where the path is braking already, a change takes effect behind that place.
+//! close in front of a slower place, where the path is braking already, a change takes effect after that place.
 //!
-//! Each of these is a transaction on the plan: the kept part, the leg and a new plan behind it take the place of what is there,
+//! Each of these is a transaction on the plan: the kept part, the leg and a new plan after it take the place of what is there,
 //! and what was there comes back where that does not keep the tolerance.
 //!
-//! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned behind it before it is taken; where the tolerance
-//! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest waits for such
+//! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned after it before it is taken; where the tolerance
+//! cannot be kept that way the old plan, which keeps it, continues to the next place. A leg that ends at rest waits for such
 //! a place no longer than the kernel is; then it brakes more gently ([`GENTLER`]), because where filters of different
 //! delays pull the axes apart even an acceleration leaves a straight line. Where the gentlest exceeds, too, the change waits for
 //! the first place of the old plan where it does not, at the latest the rest at its end: a late stop is better than a lost contour.
-//! The search behind a leg begins with what the tolerance has asked of the blocks in their first plan ([`Asked`]): a search
+//! The search after a leg begins with what the tolerance has asked of the blocks in their first plan ([`Asked`]): a search
 //! from nothing takes as many rounds as the first one, and may end in less, so that a feedhold made a run faster. What a leg
 //! adds to that is not kept beyond the next change.
 
@@ -54,7 +54,7 @@ enum Outcome {
     Taken,
     /// It ends at rest and does not keep the tolerance.
     Exceeds,
-    /// No plan behind it keeps the tolerance.
+    /// No plan after it keeps the tolerance.
     NoWay,
 }
 
@@ -99,12 +99,12 @@ impl Planner {
                 return;
             }
         }
-        // the old plan itself exceeds, and that was told: it goes on to its rest
+        // the old plan itself exceeds, which has been reported: it continues to its rest
         self.timeline.put(old);
     }
 
     /// Changes the speed at the first place where a leg with a part of the acceleration fits; false if that is not to be waited
-    /// for any longer. `ahead` may end in front of the old plan, then nothing is driven behind it.
+    /// for any longer. `ahead` may end in front of the old plan, then nothing is driven after it.
     pub(super) fn change_speed(
         &mut self,
         old: &[Entry],
@@ -206,7 +206,7 @@ impl Planner {
         }
     }
 
-    /// The leg from a spot with everything behind the spot; `None` if the old plan has to go on.
+    /// The leg from a spot with everything after the spot; `None` if the old plan has to continue.
     fn leg_from(
         &self,
         spot: &Spot,
@@ -228,7 +228,7 @@ impl Planner {
         if gentle < 1.0 { slope.scaled(gentle) } else { slope }
     }
 
-    /// The leg from a spot that moves; `None` if the old plan has to go on.
+    /// The leg from a spot that moves; `None` if the old plan has to continue.
     fn leg(&self, spot: &Spot, rest: &[Segment], old: &[Entry], gentle: f64) -> Option<Leg> {
         let first = &rest.first()?.queued;
         let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.v_mm_s };
@@ -318,7 +318,7 @@ impl Planner {
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts what is kept and a leg on the timeline and what lies behind it into the plan. If the path would be too fast there
+    /// Puts what is kept and a leg on the timeline and what lies after it into the plan. If the path would be too fast there
     /// for the tolerance, nothing is changed but the timeline.
     fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, rest: Vec<Segment>) -> Outcome {
         let speed = Cap::new(spot.v, spot.why);
@@ -336,7 +336,7 @@ impl Planner {
         outcome
     }
 
-    /// Appends a leg and finds the way to rest behind it.
+    /// Appends a leg and finds the way to rest after it.
     fn follow(&mut self, leg: Leg, mut rest: Vec<Segment>) -> Outcome {
         let moves = !leg.is_empty();
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };

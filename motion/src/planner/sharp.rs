@@ -2,7 +2,7 @@
 //!
 //! A block has one path velocity, that of its sharpest place. The curve of an Akima spline that goes there and back turns
 //! within micrometres: with one velocity the whole of it would be driven as slowly as its tip. Such a curve becomes
-//! several blocks of the same number, each with the velocity of its own part. There is no limit where they meet: direction
+//! several blocks of the same number, each with the velocity of its part. There is no limit where they meet: direction
 //! and curvature go on.
 //!
 //! Curves whose parts would not save half of the time stay whole, so that a spline of ordinary bends has the one profile

@@ -137,7 +137,7 @@ impl Phase {
             crate::closed_forms::add();
             (way - want, v)
         };
-        // the kind of ramp is asked for once, not in every step
+        // the kind of ramp is determined once, not in every step
         match self.sine {
             None => {
                 increasing_root(0.0, most, guess, ROOT, |t| short(self.way_at_constant_jerk(t)))

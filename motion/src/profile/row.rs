@@ -1,4 +1,4 @@
-//! The speed over a path length: a row of phases, whoever has planned it.
+//! The speed over a path length: a row of phases, from whichever planner.
 
 use super::phase::Phase;
 use smallvec::SmallVec;

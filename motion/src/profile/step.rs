@@ -39,7 +39,7 @@ impl StepLimits {
         }
     }
 
-    /// One deceleration at every velocity in place of the levels.
+    /// One deceleration at every velocity instead of the levels.
     pub(super) fn with_braking(limits: &Self, dec_mm_s2: f64) -> Self {
         let down = Levels(SmallVec::from_elem(Level { from: 0.0, a: dec_mm_s2 }, 1));
         Self { up: limits.up.clone(), down }

@@ -26,7 +26,7 @@ enum Touch {
     End(usize),
 }
 
-/// A rise under way.
+/// A rise being built.
 pub(super) struct Climb<'a> {
     cells: &'a [Block],
     out: Vec<Phase>,

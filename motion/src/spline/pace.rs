@@ -10,7 +10,7 @@ use crate::path::{Path, PolyPath, PolyPiece};
 /// Divisions of a piece by three at most: a sharp bend, wherever it lies, leaves one of the thirds free.
 const DEEPEST: u32 = 5;
 /// Part of its time that a piece has to gain to be cut, and the time in s from which on it is cut in any case: a tenth
-/// of a long edge is no trifle, and a larger tolerance would cost it.
+/// of a long edge matters, and a larger tolerance would cost it.
 const GAIN: f64 = 0.1;
 const GAIN_S: f64 = 1e-3;
 

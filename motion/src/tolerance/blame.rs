@@ -1,9 +1,9 @@
-//! What causes a violation, and what is asked of the next plan.
+//! What causes a violation, and what it demands of the next plan.
 //!
 //! Around the middle `s*` of what the filter of an axis holds, the path is a straight line plus its kinks and bends. A kink
 //! at `s_b` with the change of direction `du` moves the set point aside by `du E[(s - s_b)+]` (or `(s_b - s)+` before the
 //! middle), with the mean `E` over the kernel: its *part* in the deviation (derived; exact for polygons). A bend is many
-//! small kinks. A short filter holds one set point in front of a corner and the next one behind it, and the line between them cuts
+//! small kinks. A short filter holds one set point in front of a corner and the next one after it, and the line between them cuts
 //! the corner off: where a set point has no parts, those of the middle of its line count.
 //!
 //! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
@@ -11,7 +11,7 @@
 //! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
 //! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
 //! filter holds them are isolated again: between them it is faster to speed up and to brake. Where a stretch exceeds however slowly
-//! it is run, the starts and stops beside it are the cause (`du a M2 / 2`, whatever the speed): then the path rests at its ends.
+//! it is run, the starts and stops next to it are the cause (`du a M2 / 2`, whatever the speed): then the path rests at its ends.
 
 use super::Demands;
 use super::even::{ALIKE, Evenly, aim, fastest};
@@ -100,7 +100,7 @@ impl View<'_> {
         // a point of the line between two set points: the filters held one cycle more for the first of them
         let oldest = v.cycle.saturating_sub(length + 1);
         let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
-        // the set path turns off behind the point of it that comes nearest to what is missed
+        // the set path turns off after the point of it that comes nearest to what is missed
         let newest = v.cycle + u64::from(v.missed.is_some());
         let until = |k: u64| marks.partition_point(|m| m.cycles <= k as f64);
         let mut last = until(newest);
@@ -115,7 +115,7 @@ impl View<'_> {
             return;
         }
         let excess = v.excess();
-        // a slow run over the same blocks would be told the same again and again
+        // a slow run over the same blocks would repeat the same demand again and again
         // where a straight line is divided does not matter
         let mut causes = (first..last)
             .filter(|m| *m > first && marks[*m].is_kink() || marks[*m].queued.bend > 0.0);

@@ -1,4 +1,4 @@
-//! What the set path and the contour are apart at most, from one cycle to the next.
+//! Upper bound of the distance between set path and contour, from one cycle to the next.
 //!
 //! With the weights of a kernel the path lengths that it holds have a mean `m`, and the contour has a point `q(m)` there.
 //! However the speed changes, `m` goes along the contour without a gap, and the set point `y` goes with it: so `|y - q(m)|`
@@ -29,7 +29,7 @@ impl<'a> Companion<'a> {
         Self { marks, walk: contour.walk(), before: None, passed: 0, point }
     }
 
-    /// The next cycle is not the one behind the last.
+    /// The next cycle is not the one after the last.
     pub(super) fn jump(&mut self) {
         self.before = None;
     }

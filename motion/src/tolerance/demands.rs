@@ -51,7 +51,7 @@ impl Demands {
     pub(crate) fn again(blocks: impl Iterator<Item = Asked>) -> Self {
         let mut demands = Self::default();
         for Asked { cap, stop, feed, acceleration } in blocks {
-            // the boundary in front of the block; a new one behind it
+            // the boundary in front of the block; a new one after it
             if let (Some(last), Some(rest), false) =
                 (demands.cap.last_mut(), demands.stop.last_mut(), demands.feed.is_empty())
             {
@@ -79,7 +79,7 @@ impl Demands {
     }
 
     /// Adds what is known of blocks before they are planned: axes whose filters have different delays leave a straight line
-    /// by the speed times the difference, so a line long enough to be run through evenly has a speed of its own.
+    /// by the speed times the difference, so a line long enough to be traversed at constant speed has its own speed.
     pub(crate) fn reach_over(
         &mut self,
         window: &[Arc<Queued>],

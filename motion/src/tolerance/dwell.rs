@@ -19,7 +19,7 @@ pub(super) struct Rest<'a> {
     dwell: u32,
     /// Cycle in which the path comes to rest.
     cycle: u64,
-    /// Positions and path length in the cycles of one kernel up to the rest, and behind it.
+    /// Positions and path length in the cycles of one kernel up to the rest, and after it.
     before: Vec<AxisVec>,
     behind: Vec<AxisVec>,
 }

@@ -233,7 +233,7 @@ fn kinks(window: &[Arc<Queued>], start: f64) -> Vec<Kink> {
         let (out_of, into) = (&from.ends.tangent_out, &to.ends.tangent_in);
         let turns = out_of.iter().zip(into.iter()).map(|(a, b)| (b - a) * (b - a));
         let turn = turns.sum::<f64>().sqrt();
-        // the rest of a block goes on without a kink
+        // the rest of a block continues without a kink
         if turn <= STRAIGHT || to.offset > 0.0 || tolerance_mm.is_infinite() {
             continue;
         }

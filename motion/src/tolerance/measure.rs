@@ -92,7 +92,7 @@ struct Foot {
     s: f64,
     /// The point of the contour.
     of: AxisVec,
-    /// Cycle behind the set point.
+    /// Cycle after the set point.
     cycle: u64,
     /// Distance in mm.
     length: f64,

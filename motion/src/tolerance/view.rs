@@ -37,7 +37,7 @@ impl Mark {
         self.jump > STRAIGHT
     }
 
-    /// True if the path goes on without a corner: it is the rest of the block before.
+    /// True if the path continues without a corner: it is the rest of the block before.
     pub(super) fn goes_on_from(&self, before: &Self) -> bool {
         let start = |m: &Self| m.s_mm - m.queued.offset;
         (start(before) - start(self)).abs() < SAME_START_MM
@@ -122,7 +122,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let mut out: Vec<Mark> = Vec::new();
     let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64| {
         let (mut jump, mut axis) = (0.0, 0);
-        // the rest of a block goes on without a corner
+        // the rest of a block continues without a corner
         let start = s - queued.offset;
         let goes_on = |m: &Mark| (m.s_mm - m.queued.offset - start).abs() < SAME_START_MM;
         if let Some(before) = out.last().filter(|m| !goes_on(m)) {
@@ -177,7 +177,7 @@ pub(super) struct Buffer<'a> {
     state: PathState,
     /// Filtered as the rows are: the set point, then the mean path length.
     filtered: AxisVec,
-    /// The cycle behind the last one taken.
+    /// The cycle after the last one taken.
     next: Option<u64>,
 }
 

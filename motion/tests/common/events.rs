@@ -19,7 +19,7 @@ pub(crate) enum Event {
     Release,
 }
 
-/// Drives blocks; every event takes effect behind the cycle of its number.
+/// Drives blocks; every event takes effect after the cycle of its number.
 pub(crate) fn drive(
     job: &Job,
     start: &[f64],

@@ -78,7 +78,7 @@ impl Job {
         self.run(points[0], blocks)
     }
 
-    /// Setpoints from the start to rest, the kernel's length of standstill behind them.
+    /// Setpoints from the start to rest, the kernel's length of standstill after them.
     pub(crate) fn run(&self, start: &[f64], blocks: impl Iterator<Item = Block>) -> Vec<Setpoint> {
         let cycle = CycleTime::from_us(self.cycle_us).unwrap();
         let mut planner = Planner::new(cycle, self.window, start);

@@ -1,7 +1,17 @@
-//! The kit of all tests: random numbers, and a mass on a spring by small steps. It depends on none of the crates that it tests.
+//! The kit of all tests: random numbers, a comparison, and a mass on a spring by small steps. It depends on none of the crates
+//! that it tests.
 
 mod oscillator;
 mod random;
 
 pub use oscillator::Oscillator;
 pub use random::{Random, count, environment, seed};
+
+/// Two numbers differ by `tolerance` at most.
+///
+/// # Panics
+/// They do not.
+#[track_caller]
+pub fn near(is: f64, want: f64, tolerance: f64) {
+    assert!((is - want).abs() <= tolerance, "{is} is not {want} +- {tolerance}");
+}

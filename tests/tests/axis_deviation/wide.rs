@@ -240,7 +240,7 @@ fn programs_of_every_kind() {
 ///   tolerance is kept (two programs).
 /// - Rests that were made longer by a cycle a round, while two neighbours moved the error back and forth.
 /// - A feedhold between reversals, where even the gentlest braking exceeds within the length of the filters: it waits for a later
-///   place now, in place of K-0080.
+///   place now, instead of K-0080.
 /// - A start under a windowed sinc that was made gentler and gentler, while the swing of the stop before it only had to run out.
 #[test]
 fn wide_programs_that_were_wrong() {

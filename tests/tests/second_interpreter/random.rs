@@ -1,6 +1,6 @@
 //! Random programs that have exactly one meaning by the manual.
 //!
-//! Where the manual says nothing, nothing is written: behind every change of offsets or frames all axes are programmed absolutely
+//! Where the manual says nothing, nothing is written: after every change of offsets or frames all axes are programmed absolutely
 //! (before it only increments) where a rotation or a system may couple them, arcs have ends that fit to their centres, loops end.
 
 use crate::expressions::{PARAMETERS, PASSED, TABLE, both, decimal, name, of};

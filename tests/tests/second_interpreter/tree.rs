@@ -85,7 +85,7 @@ pub enum Insert {
 pub struct Contour {
     /// G41.
     pub left: bool,
-    /// G26 in place of G25.
+    /// G26 instead of G25.
     pub by_arcs: bool,
     pub radius: f64,
     /// G41 or G42, and G40, stand in the blocks of the motions.

@@ -1,8 +1,8 @@
-//! What a cycle of an axis is given: while it stays the same, an axis that rests is left alone.
+//! Inputs of an axis in one cycle: while they stay the same, an axis at rest is skipped.
 
 use super::AxisInputs;
 
-/// What a cycle is given, as bits.
+/// The inputs of a cycle, as bits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Given {
     set: u64,

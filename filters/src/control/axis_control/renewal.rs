@@ -1,4 +1,4 @@
-//! An axis under way gets other parameters, or its place another position.
+//! Changes of a running axis: new parameters, or a new position for the place where it is.
 
 use super::AxisControl;
 

@@ -98,7 +98,7 @@ impl ExactStopMonitor {
         (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
-    /// What another monitor awaits, in its own window and time.
+    /// The stop awaited by another monitor, with its own window and time.
     pub(crate) fn take_over(&mut self, before: &Self) {
         let (config, cycle) = (self.config, self.cycle);
         *self = Self { config, cycle, ..before.clone() };
@@ -241,7 +241,7 @@ mod tests {
         let mut m = monitor(Some(0.01));
         m.expect(0.0);
         assert!((0..100).all(|_| m.step(0.0, 1.0).is_none()));
-        // and after a stop of its own it stays quiet while others move
+        // and after its own stop it stays quiet while others move
         assert!(fault_after(&mut m, |_| 1.0).is_none());
         m.expect(1.0);
         assert!((0..100).all(|_| m.step(1.0, 5.0).is_none()));

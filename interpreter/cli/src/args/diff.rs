@@ -28,7 +28,7 @@ pub struct DiffArgs {
     #[arg(long, value_enum, default_value_t = OutputForm::Text)]
     pub format: OutputForm,
 
-    /// How a program among the two is run
+    /// Options for running a program among the two
     #[command(flatten)]
     pub simulation: SimulationArgs,
 }

@@ -74,11 +74,11 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "US", default_value = "10000", requires = "filter")]
     pub time: Numbers,
 
-    /// Shares of the signal led through --filter in percent (P-AXIS-00164)
+    /// Shares of the signal that pass --filter in percent (P-AXIS-00164)
     #[arg(long, value_name = "PERCENT", default_value = "100", requires = "filter")]
     pub share: Numbers,
 
-    /// Vibration Guard: `MODE=2,FREQ=40,DAMPING=0.1`; what is missing has the default 1, 30, 0.1
+    /// Vibration Guard: `MODE=2,FREQ=40,DAMPING=0.1`; missing keys have the defaults 1, 30, 0.1
     #[arg(long, value_name = "KEY=VALUE,..")]
     pub guard: Vec<String>,
 

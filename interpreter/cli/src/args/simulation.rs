@@ -1,7 +1,6 @@
 //! Options that every command with a simulation has.
 
 use super::values::setting;
-use crate::request::Request;
 use clap::ValueEnum;
 use kontur_interpreter::job::Stop;
 use std::path::PathBuf;
@@ -86,32 +85,6 @@ pub struct SimulationArgs {
     /// Ends check and run from another thread; nothing on the command line
     #[arg(skip)]
     pub stop: Stop,
-}
-
-impl SimulationArgs {
-    /// The request for one program.
-    pub fn request(&self, program: impl Into<PathBuf>) -> Request {
-        Request {
-            program: program.into(),
-            machine: self.machine.clone(),
-            settings: self.set.clone(),
-            path: self.path.clone(),
-            allow_outside: self.allow_outside,
-            inputs: self.input.clone(),
-            cycle_us: self.cycle_us,
-            start: self.start.clone(),
-            skip: self.skip.clone(),
-            max_time_s: self.max_time,
-            max_blocks: self.max_blocks,
-            strict: self.strict,
-            identity_trafo: self.identity_trafo,
-            techno_times: self.techno_times,
-            external: self.external.clone(),
-            words: Vec::new(),
-            guard: None,
-            stop: self.stop.clone(),
-        }
-    }
 }
 
 /// `NAME=VALUE`.

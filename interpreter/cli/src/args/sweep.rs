@@ -44,7 +44,7 @@ pub struct SweepArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
-    /// Results to show beside the parameters, separated by commas [default: all]
+    /// Results to show next to the parameters, separated by commas [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub columns: Vec<String>,
 
@@ -53,8 +53,8 @@ pub struct SweepArgs {
     #[arg(long, value_name = "COLUMN@HZ..HZ[@S..S]")]
     pub amplitude: Vec<Amplitude>,
 
-    /// Run the I-th of N equal parts of all combinations only, e.g. `3/20`: a job of a batch system. The parts in their order,
-    /// one after the other, are the whole table, with `without_effect` of each part; the exit code is 0 also if every run has ended with
+    /// Run only the I-th of N equal parts of all combinations, e.g. `3/20`: a job of a batch system. The parts, concatenated in
+    /// order, are the whole table, with `without_effect` of each part; the exit code is 0 even if every run has ended with
     /// an error
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -165,7 +165,7 @@ fn is_number(column: &Column) -> bool {
 mod tests {
     use super::*;
 
-    /// Whatever the numbers: every combination is in exactly one part, parts are in order and of equal size up to one.
+    /// For all numbers: every combination is in exactly one part, parts are in order and of equal size up to one.
     #[test]
     fn shards_are_a_partition() {
         for count in [1, 2, 7, 100, 99_999] {

@@ -48,23 +48,23 @@ pub struct TuneArgs {
     #[arg(long, value_name = "S..S", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = span)]
     pub window: Option<(f64, f64)>,
 
-    /// Draw the recordings, their spectra and what was seen in them (.svg)
+    /// Draw the recordings, their spectra and what was found in them (.svg)
     #[arg(short, long, value_name = "FILE", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = picture)]
     pub output: Option<PathBuf>,
 
-    /// Damping ratio of the vibration [default: that of the recordings, else 0.1]
+    /// Damping ratio of the vibration [default: that of the recordings, otherwise 0.1]
     #[arg(long, value_name = "RATIO", value_parser = damping)]
     pub damping: Option<f64>,
 
-    /// Also judge the modes at this frequency [default: the median of the measured ones]
+    /// Also evaluate the modes at this frequency [default: the median of the measured ones]
     #[arg(long, value_name = "HZ", value_parser = above_zero)]
     pub at: Option<f64>,
 
-    /// Largest residual vibration that is good enough, in percent
+    /// Largest acceptable residual vibration in percent
     #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = above_zero)]
     pub max_residual: f64,
 
-    /// Feed in mm/min at which a 90 degree corner is judged
+    /// Feed in mm/min at which a 90 degree corner is evaluated
     #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = feed)]
     pub feed: f64,
 

@@ -5,7 +5,7 @@ use kontur_interpreter::machine::Override;
 use kontur_interpreter::machine::table::{Bound, Raw};
 use std::str::FromStr;
 
-/// A whole parameter with fewer values than this chooses one of several ways.
+/// An integer parameter with fewer values than this selects one of several modes.
 const MOST_CHOICES: f64 = 8.0;
 
 /// Front of the key of a word in the program.
@@ -52,7 +52,7 @@ impl FromStr for Vary {
     }
 }
 
-/// A number without the digits that steps leave behind: 0.3, not 0.30000000000000004.
+/// A number without the rounding of its steps: 0.3, not 0.30000000000000004.
 fn plain(value: f64) -> String {
     let text = format!("{value:.9}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -86,7 +86,7 @@ impl Vary {
         self.key.rsplit('.').next().unwrap_or(&self.key)
     }
 
-    /// True if its numbers only name one of a few ways, as a mode does: nothing lies between two of them.
+    /// True if its numbers only name modes: there is nothing between two of them.
     pub(crate) fn is_choice(&self) -> bool {
         let row =
             self.values.first().and_then(|v| Override::parse(&format!("{}={v}", self.key)).ok());

@@ -94,7 +94,7 @@ mod tests {
         assert!(!svg.contains("NaN"));
     }
 
-    /// Between two modes there is nothing: points with names, beside each other where several series have one.
+    /// There is nothing between two modes: points with names, side by side where several series have one.
     #[test]
     fn categories_are_points() {
         let line = |series, y| Line::series(series, vec![[0.0, y], [1.0, 2.0 * y]]);

@@ -12,9 +12,9 @@ use std::borrow::Cow;
 
 /// Powers of ten that a step of a scale has.
 const POWERS: std::ops::RangeInclusive<i32> = -12..=12;
-/// Numbers beside a scale at most.
+/// Maximum number of labels of a scale.
 const MOST_TICKS: usize = 200;
-/// Steps narrower than this part of the wanted one are taken as well: rounding decides nothing.
+/// Steps narrower than this share of the wanted one are accepted, so that rounding makes no difference.
 const ALMOST: f64 = 1.0 - 1e-6;
 
 /// Distance of two round numbers.
@@ -42,7 +42,7 @@ pub fn steps() -> Vec<Step> {
     POWERS.flat_map(of).collect()
 }
 
-/// Round numbers inside a range as they are written beside a scale, about `wanted` of them: at least two, since fewer make no scale.
+/// Round numbers inside a range as they label a scale, about `wanted` of them: at least two, since fewer make no scale.
 pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
@@ -68,7 +68,7 @@ pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
     }
 }
 
-/// A number beside a scale.
+/// A number at a scale.
 fn text(v: f64, decimals: usize) -> String {
     let text = format!("{v:.decimals$}");
     if text.trim_start_matches(['-', '0', '.']).is_empty() {
@@ -85,7 +85,7 @@ pub(crate) struct Scale {
     pub(crate) label: Cow<'static, str>,
     pub(crate) range: (f64, f64),
     pub(crate) logarithmic: bool,
-    /// Names of the places 0, 1, 2, ... of a direction that is no quantity: nothing lies between them.
+    /// Names of the places 0, 1, 2, ... of a direction that is not a quantity: nothing lies between them.
     pub(crate) categories: Vec<String>,
 }
 
@@ -115,7 +115,7 @@ impl Scale {
         (self.drawn(self.range.0), self.drawn(self.range.1))
     }
 
-    /// Places of grid lines and the numbers or names beside them, about `wanted` of these; places are in what is drawn.
+    /// Places of grid lines with their numbers or names, about `wanted` of them; places are in what is drawn.
     pub(crate) fn places(&self, drawn: (f64, f64), wanted: f64) -> Vec<(f64, String)> {
         if !self.categories.is_empty() {
             return (0_u32..).map(f64::from).zip(self.categories.iter().cloned()).collect();
@@ -207,7 +207,7 @@ mod tests {
             |range, wanted| ticks(range, wanted).into_iter().map(|t| t.1).collect::<Vec<_>>();
         assert_eq!(texts((0.0, 1.0), 5.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(texts((-0.013, 0.021), 4.0), ["\u{2212}0.01", "0", "0.01", "0.02"]);
-        // one number is no scale
+        // one number is not a scale
         assert_eq!(texts((0.1, 0.9), 2.0), ["0.2", "0.4", "0.6", "0.8"]);
         assert!(ticks((1.0, 1.0), 4.0).is_empty());
         assert!(ticks((0.0, f64::NAN), 4.0).is_empty());

@@ -31,9 +31,9 @@ pub(crate) static FRAME: Tone = tone("frame", "#ced4da", "#495057");
 pub(crate) static SHADE: Tone = tone("shade", "#f6f8f9", "#24282c");
 /// The contour as it is programmed, below everything else.
 pub(crate) static PROGRAMMED: Tone = tone("programmed", "#c3cad1", "#4d555c");
-/// What pictures and cards lie on.
+/// Background of pictures and cards.
 pub(crate) static CARD: Tone = tone("card", "#ffffff", "#1e2124");
-/// What the cards of a page lie on.
+/// Background behind the cards of a page.
 static GROUND: Tone = tone("ground", "#f1f3f5", "#141618");
 /// Frames of cards.
 static LINE: Tone = tone("line", "#dee2e6", "#373c41");

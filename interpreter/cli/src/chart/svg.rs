@@ -30,7 +30,7 @@ impl Font {
     pub(crate) const TITLE: Self = Self::new(&INK, 13.0).bold();
     /// Names in a legend.
     pub(crate) const NAME: Self = Self::new(&INK, 12.0);
-    /// What stands below a headline.
+    /// The text below a headline.
     pub(crate) const FACTS: Self = Self::new(&FAINT, 13.0);
     /// Beside a scale.
     pub(crate) const SCALE: Self = Self::new(&FAINT, 11.0);

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 /// Part of the distance of two places that the points of the series at one of them take.
 const DODGE: f64 = 0.5;
-/// Stretches beyond these cannot be told apart.
+/// Stretches beyond these cannot be distinguished.
 pub(crate) const MOST_STRETCHES: usize = 60;
 
 /// A view; `S` says where the points of a line come from.

@@ -12,7 +12,7 @@ const EXTENSION: &str = "nc";
 /// A program that may have to be checked.
 pub(super) struct Program {
     pub(super) path: PathBuf,
-    /// Nobody has named it: it lies in a folder.
+    /// It was not named, but found in a folder.
     pub(super) of_folder: bool,
 }
 

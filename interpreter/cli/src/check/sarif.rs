@@ -38,7 +38,7 @@ fn rule(id: Id, row: &Row) -> Value {
         "id": id.to_string(),
         "defaultConfiguration": { "level": level(row.severity) },
     });
-    // what a program raises itself with #ERROR has no meaning of its own
+    // an error that a program raises with #ERROR has no entry in the table
     if !row.meaning.is_empty() {
         rule["shortDescription"] = json!({ "text": row.meaning });
     }

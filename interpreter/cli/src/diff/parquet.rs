@@ -61,7 +61,7 @@ impl Rows {
     /// Opens a trace; its columns come with it.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a table that is no trace.
+    /// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a table that is not a trace.
     pub(super) fn open(path: &Path) -> Result<(Vec<String>, Self), Error> {
         let name = path.display().to_string();
         guarded(&name, || Self::open_whole(path, name.clone()))

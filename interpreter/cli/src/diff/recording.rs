@@ -21,14 +21,14 @@ const MOST_NAMED: usize = 10;
 /// Finest difference of positions that a recording can show, in mm or deg: one increment of the control, 0.1 um.
 const FLOOR_MM: f64 = 1e-4;
 
-/// What one pair of signals shows.
+/// The comparison of one pair of signals.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct PairOutcome {
     /// Column of the trace.
     pub(super) column: String,
     /// Channel of the recording.
     pub(super) channel: String,
-    /// What the channel was multiplied by.
+    /// Factor of the channel.
     pub(super) factor: f64,
     /// Rows compared.
     pub(super) rows: usize,
@@ -111,7 +111,7 @@ pub(super) fn compare(
     Ok(Outcome { equal: pairs.iter().all(PairOutcome::agrees), shift_cycles, cycle_s, pairs })
 }
 
-/// What counts as equal: what the user asks for, but never finer than one increment and its differences.
+/// The tolerance: that of the user, but never finer than one increment and its differences.
 fn permitted(column: &str, asked: Tolerance, cycle_s: f64) -> f64 {
     let floor = Tolerance {
         mm: FLOOR_MM,
@@ -211,7 +211,7 @@ impl PairOutcome {
         self.rows > 0 && self.different == 0 && !self.trace_goes_on && !self.recording_goes_on
     }
 
-    /// Where one side moves while the other one is over.
+    /// Where one side moves after the end of the other.
     fn goes_on(&self) -> impl Iterator<Item = &'static str> {
         let trace = self.trace_goes_on.then_some("A moves where B has no samples");
         let recording = self.recording_goes_on.then_some("B moves where A has no rows");

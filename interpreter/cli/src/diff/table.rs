@@ -84,7 +84,7 @@ fn first_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     Ok(start)
 }
 
-/// What is wrong with a table.
+/// Mistakes of a table.
 fn unreadable(name: &str, e: csv::Error) -> Error {
     let text = match e.kind() {
         ErrorKind::UnequalLengths { pos: Some(at), expected_len, len } => {
@@ -100,7 +100,7 @@ impl Table {
     /// A CSV or Parquet trace.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be read, [`Error::Usage`] if it is no trace.
+    /// [`Error::Io`] if it cannot be read, [`Error::Usage`] if it is not a trace.
     pub(super) fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
         #[cfg(feature = "parquet")]
@@ -150,7 +150,7 @@ impl Table {
     /// The next row.
     ///
     /// # Errors
-    /// [`Error::Io`] if the file cannot be read or is no table.
+    /// [`Error::Io`] if the file cannot be read or is not a table.
     pub(super) fn next(&mut self) -> Result<Option<&ByteRecord>, Error> {
         let found = match &mut self.rows {
             Origin::File(reader) => reader.read_byte_record(&mut self.row),

@@ -8,7 +8,7 @@ use kontur_interpreter::diag::render::printable;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;
 
-/// What was found, signal by signal.
+/// The findings, signal by signal.
 #[derive(Debug, Default)]
 pub(super) struct Verdict {
     pub(super) signals: Vec<Signal>,
@@ -18,7 +18,7 @@ pub(super) struct Verdict {
 #[derive(Debug)]
 pub(super) struct Signal {
     pub(super) name: String,
-    /// What differs; nothing if it agrees.
+    /// The difference; none if it agrees.
     pub(super) failure: Option<Failure>,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Signal {
 pub(super) struct Failure {
     /// In one line.
     pub(super) message: String,
-    /// What else is known, in lines.
+    /// Further information, line by line.
     pub(super) details: Vec<String>,
     /// Where the first difference is: NC file and line.
     pub(super) place: Option<(String, u32)>,

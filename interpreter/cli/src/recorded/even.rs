@@ -10,7 +10,7 @@ const MOST_SAMPLES: f64 = 16_777_216.0;
 const SINGLE: f64 = 1.5;
 /// Where more than one of so many steps is a gap, the times are rounded too coarsely to say which samples are missing.
 const MOST_GAPS: usize = 3;
-/// Samples may lie beside equal steps by this share of the sampling time: times are printed with a few decimals.
+/// Samples may deviate from equal steps by this share of the sampling time: times are printed with a few decimals.
 pub(super) const JITTER_RATIO: f64 = 0.25;
 /// A stretch without samples. In JSON: after how many seconds, and how many are missing.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,7 +45,7 @@ impl Channel {
     /// The values in equal steps: the straight line through the times, more accurate than a printed step.
     ///
     /// # Errors
-    /// Why there are none: the times do not rise in equal steps (more than rounding beside them), or the gaps hold more than
+    /// Why there are none: the times do not rise in equal steps (beyond rounding), or the gaps hold more than
     /// [`MOST_SAMPLES`].
     pub(crate) fn even(&self) -> Result<Even, String> {
         let unequal = || "its times do not rise in equal steps".to_owned();

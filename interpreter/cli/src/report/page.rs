@@ -1,4 +1,4 @@
-//! The interactive page: one file, no network; data as JSON beside its own script.
+//! The interactive page: one file, no network; data as JSON next to its script.
 
 use super::drawn::Drawn;
 use super::recording::{Bucket, Curve, Recording, programmed};
@@ -32,7 +32,7 @@ const SCRIPT: &str = concat!(
 /// Lines whose times the page knows, the most expensive ones.
 const MOST_LINES: usize = 5000;
 
-/// What a page shows of a run beside its curves.
+/// What a page shows of a run in addition to its curves.
 #[derive(Debug)]
 pub(super) struct Beside {
     /// Where the time went.

@@ -93,7 +93,7 @@ pub(super) fn report(
             }
             Ok(())
         })?;
-        // with what the run came to on its way
+        // including the subroutines that the run reached
         keep_apart(&reads.so_far(), &[output.to_owned()])?;
         aborted |= run.totals().aborted;
         if recorded.times.is_empty() && summary.cycles() > 0 {
@@ -130,9 +130,9 @@ pub(super) fn report(
 impl Recorded {
     fn new(label: String, names: &str, facts: &Facts) -> Result<Self, Error> {
         let mut columns = select(names, facts)?;
-        // time, line, block and words are no curves
+        // time, line, block and words are not curves
         columns.retain(|c| c.group != "time" && c.decimals > 0);
-        // in the order in which they were asked for
+        // in the order of the request
         let words: Vec<&str> = names.split(',').map(str::trim).collect();
         columns.sort_by_key(|c| words.iter().position(|w| *w == c.name || *w == c.group));
         if columns.is_empty() || columns.len() > MOST_SIGNALS {

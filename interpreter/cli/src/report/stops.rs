@@ -22,13 +22,13 @@ pub(crate) struct Stop {
     pub(crate) target: f64,
     /// The set position has reached the target.
     pub(crate) t1: u64,
-    /// The actual position is inside the window; none if the axis went on before.
+    /// The actual position is inside the window; none if the axis continued before.
     pub(crate) t2: Option<u64>,
     /// The time limit ends; none without one.
     pub(crate) t3: Option<u64>,
 }
 
-/// What is known of one axis.
+/// The data of one axis.
 #[derive(Clone, Copy, Debug, Default)]
 struct Watch {
     set: Option<f64>,

@@ -1,4 +1,4 @@
-//! What a machine that gives way makes of the set positions: spectrum of the commanded acceleration, and the deflection of a mass on a spring.
+//! What an elastic machine makes of the set positions: spectrum of the commanded acceleration, and the deflection of a mass on a spring.
 
 use super::drawn::Drawn;
 use super::shown::{Shown, Source, name, span, style};
@@ -126,7 +126,7 @@ fn guard_marks(runs: &[Drawn]) -> Vec<Mark> {
         .collect()
 }
 
-/// What the model of a picture is, and what is left of its swinging when the axes are at rest.
+/// The model of a picture, and its residual vibration when the axes are at rest.
 fn residual_title(runs: &[Drawn], moving: impl Iterator<Item = (usize, usize)>) -> String {
     let mut said: Vec<String> = Vec::new();
     let mut model_said: Vec<String> = Vec::new();
@@ -179,7 +179,7 @@ fn spring(runs: &[Drawn], run: usize, axis: usize) -> Option<SpringMass> {
     SpringMass::new(freq_hz, damping, CycleTime::from_us(runs[run].recording.facts.cycle_us)?)
 }
 
-/// What of the runs is looked at, if that is not all.
+/// The part of the runs that is shown, if not all.
 fn part(runs: &[Drawn]) -> String {
     let kept = runs.iter().map(|r| (r.recording.most_samples, r.recording.cycles()));
     let cut = kept.filter(|(most, cycles)| *cycles > *most as u64).map(|(most, _)| most);

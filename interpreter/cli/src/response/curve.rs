@@ -12,7 +12,7 @@ pub(super) struct Curve {
     pub(super) shaping: Shaping,
     /// Settings of the Vibration Guard, if the kernel is one.
     pub(super) guard: Option<VibGuardSettings>,
-    /// The chain holds standard filters beside the kernel.
+    /// The chain contains standard filters in addition to the kernel.
     pub(super) has_filters: bool,
     /// Order of a mean or FIR filter: many of them draw the contour error over it.
     pub(super) order: Option<f64>,

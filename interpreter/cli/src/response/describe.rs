@@ -1,4 +1,4 @@
-//! What is wrong with a filter, in words.
+//! Mistakes of a filter, in words.
 
 use kontur_filters::issue::FilterIssue;
 use kontur_interpreter::diag::Id;

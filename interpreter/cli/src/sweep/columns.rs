@@ -6,7 +6,7 @@ use crate::combinations::values;
 use crate::table::Cell;
 use kontur_interpreter::summary::Summary;
 
-/// What every row has after its parameters.
+/// The columns of every row after its parameters.
 const STATE: [&str; 3] = ["state", "error", "warnings"];
 
 /// The row of a run under its header: parameters, state, ID of the first error, number of warnings, and the results that

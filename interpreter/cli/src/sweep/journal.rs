@@ -1,7 +1,7 @@
-//! The finished rows of a sweep that is under way, so that one that was stopped continues where it stopped.
+//! The finished rows of a running sweep, so that a stopped one continues where it stopped.
 //!
-//! A file of JSON lines, `NAME.rows` beside the output NAME: the first line says what is swept, every other line is a row,
-//! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
+//! A file of JSON lines, `NAME.rows` next to the output NAME: the first line states what is swept, every other line is a row,
+//! written when its run has ended. A journal of another sweep, or of files that have changed since, is started again.
 
 use super::rows::Row;
 use crate::Error;
@@ -11,7 +11,7 @@ use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-/// How every journal begins, and no program or table.
+/// The beginning of every journal, which no program or table shares.
 const HEAD: &[u8] = b"{\"files\":[";
 
 /// The journal of one sweep.
@@ -102,7 +102,7 @@ pub(super) fn beside(output: &Path) -> PathBuf {
     output.with_file_name(name)
 }
 
-/// What makes a sweep another one: the version, the options, and the files as they are.
+/// The identity of a sweep: the version, the options, and the contents of the files.
 fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
     let mut reads = reads.to_vec();
     reads.sort();

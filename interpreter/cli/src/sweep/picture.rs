@@ -11,7 +11,7 @@ use kontur_interpreter::summary::State;
 
 /// Shown if no results are named.
 const USUAL: [&str; 2] = ["duration_s", "contour_err_mm"];
-/// Curves beyond these cannot be told apart.
+/// Curves beyond these cannot be distinguished.
 const MOST_CURVES: usize = 18;
 
 /// A combination of all parameters but the first.
@@ -34,7 +34,7 @@ pub(super) fn draw(
         .vary
         .split_first()
         .ok_or_else(|| Error::Usage("--vary names what the picture goes over".to_owned()))?;
-    // a mode is no quantity, even if it has a number
+    // a mode is not a quantity, even if it has a number
     let numbers = first.numbers().filter(|_| !first.is_choice());
     let is_choice = numbers.is_none();
     let values =
@@ -88,7 +88,7 @@ pub(super) fn draw(
                 .map(|(number, s)| {
                     let value = |row: usize| {
                         let cell = rows.cells[row][column].number();
-                        // what an aborted run reached is no result
+                        // the figures of an aborted run are not results
                         cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
                     };
                     let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();

@@ -1,10 +1,10 @@
-//! What the runs of a sweep leave behind.
+//! Results of the runs of a sweep.
 
 use crate::table::{Cell, Table};
 use kontur_interpreter::summary::Summary;
 use std::path::PathBuf;
 
-/// What one run leaves behind.
+/// Results of one run.
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub(super) summary: Summary,

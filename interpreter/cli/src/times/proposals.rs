@@ -14,7 +14,7 @@ use std::collections::HashMap;
 /// A reason that takes less than this share of the duration is not worth a run.
 const WORTHWHILE: f64 = 0.01;
 
-/// What a tenth of a group of parameters is called, and the factor.
+/// Name of a change of a group of parameters by a tenth, and the factor.
 const fn tenth(lever: Lever) -> (&'static str, f64) {
     match lever {
         Lever::Speed => ("velocity +10 %", 1.1),

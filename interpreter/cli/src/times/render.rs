@@ -152,7 +152,7 @@ impl Times {
         table.into_inner().map_err(|e| e.into_error().into())
     }
 
-    /// What is in the most expensive lines; of files that can be read again.
+    /// Text of the most expensive lines, for files that can be read again.
     fn sources(&self) -> BTreeMap<(&str, u32), String> {
         let mut wanted: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
         for line in self.lines.iter().take(MOST_EXPENSIVE) {

@@ -1,4 +1,4 @@
-//! A trace file written by a thread of its own, so that a run does not wait for digits and disks.
+//! A trace file written by a separate thread, so that a run does not wait for formatting and disks.
 //!
 //! Records go to it in batches, and the empty batches come back: a few of them are all the memory that this takes, and
 //! a run that is faster than its file waits. The rows are the same, and in the same order, as without a thread.
@@ -44,7 +44,7 @@ impl Batch {
     }
 }
 
-/// A writer on a thread of its own.
+/// A writer on a separate thread.
 pub(super) struct Background {
     batch: Batch,
     sent: Instant,
@@ -127,7 +127,7 @@ fn work(
             Ok(mut batch) => {
                 let written = writer.write(&batch.records[..batch.filled]);
                 batch.filled = 0;
-                // whoever needs it no more does not take it
+                // if it is no longer needed, nobody receives it
                 drop(back.try_send(batch));
                 written
             }

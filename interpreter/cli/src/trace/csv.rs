@@ -79,7 +79,7 @@ fn quoted(cell: &str) -> String {
     }
 }
 
-/// How every trace begins.
+/// The beginning of every trace.
 const START: &[u8] = b"t_s,";
 
 /// Where the lines go.

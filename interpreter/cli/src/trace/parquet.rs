@@ -4,7 +4,7 @@
 //! compress, lines and block numbers as differences; a dictionary of 64 K different values would cost time and save nothing.
 //! Snappy is the codec because it is plain Rust and every reader knows it.
 //!
-//! A Parquet file is readable only once its footer is written. So each group of rows goes to a file of its own in the folder
+//! A Parquet file is readable only once its footer is written. So each group of rows goes to a separate file in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
@@ -59,7 +59,7 @@ pub(crate) struct ParquetWriter {
     target: Target,
     /// Path of the trace.
     path: PathBuf,
-    /// Where the groups before are, if there are any.
+    /// Location of the earlier groups, if there are any.
     folder: Option<TempDir>,
     parts: Vec<PathBuf>,
 }
@@ -84,7 +84,7 @@ impl ParquetWriter {
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY)
-            // whole pages: the memory of a page is asked for once, it does not grow
+            // whole pages: the memory of a page is allocated once and does not grow
             .set_write_batch_size(ROWS_PER_GROUP);
         let mut fields = Vec::with_capacity(columns.len());
         for column in &columns {
@@ -155,7 +155,7 @@ impl ParquetWriter {
         Ok(())
     }
 
-    /// Takes the values of records, column by column: what a column is, is asked once for all of them.
+    /// Takes the values of records, column by column: the kind of a column is determined once for all records.
     fn gather(&mut self, records: &[CycleRecord]) {
         let Self { cycle_us, files, limits, .. } = self;
         for (column, values) in &mut self.columns {
@@ -183,7 +183,7 @@ impl ParquetWriter {
         self.rows += records.len();
     }
 
-    /// Writes the rows that wait to a file of their own.
+    /// Writes the waiting rows to a separate file.
     fn write_group(&mut self) -> io::Result<()> {
         let folder = match self.folder.take() {
             Some(folder) => folder,
@@ -313,91 +313,4 @@ fn to_io(e: ParquetError) -> io::Error {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use ::parquet::file::reader::{FileReader, SerializedFileReader};
-    use ::parquet::record::RowAccessor;
-    use kontur_interpreter::job::AxisFacts;
-    use kontur_interpreter::record::columns;
-    use kontur_interpreter::record::{AxisRecord, PathRecord};
-    use std::slice;
-
-    /// What was written before an error stays where the error says, whenever it comes.
-    #[test]
-    fn parts_outlive_an_error() {
-        let facts = Facts { cycle_us: 1000, ..Facts::default() };
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.parquet");
-        let columns = columns::select("time", &facts).unwrap();
-        let target = Target::create(&path).unwrap();
-        let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
-        let record = CycleRecord::default();
-        for _ in 0..ROWS_PER_GROUP {
-            writer.write(slice::from_ref(&record)).unwrap();
-        }
-        let part = writer.parts[0].clone();
-        // no file can be created where a folder is
-        std::fs::create_dir(part.with_file_name(".000002.part")).unwrap();
-        let mut more = (0..ROWS_PER_GROUP).map(|_| writer.write(slice::from_ref(&record)));
-        let error = more.find_map(Result::err).unwrap();
-        drop(writer);
-        let said = error.to_string();
-        assert!(said.contains(&part.parent().unwrap().display().to_string()), "{said}");
-        let reader = SerializedFileReader::new(File::open(&part).unwrap()).unwrap();
-        let rows = reader.metadata().file_metadata().num_rows();
-        assert_eq!(usize::try_from(rows), Ok(ROWS_PER_GROUP));
-    }
-
-    #[test]
-    fn reads_back_bit_by_bit() {
-        let axis = AxisFacts { name: "X".to_owned(), ..AxisFacts::default() };
-        let facts = Facts {
-            program: "part.nc".to_owned(),
-            machine: "xyz".to_owned(),
-            cycle_us: 500,
-            axes: vec![axis],
-            files: FileNames::new(vec!["a.nc".to_owned(), "b.nc".to_owned()], true),
-        };
-        let position = |k: u64| 100.0 * libm::sin(k as f64 * 1e-4) / 3.0;
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.parquet");
-        let columns = columns::select("v_limit,ipo", &facts).unwrap();
-        let target = Target::create(&path).unwrap();
-        let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
-        let rows = 2 * ROWS_PER_GROUP as u64 + 5;
-        let record = |k: u64| CycleRecord {
-            k,
-            file: u32::from(k > 10),
-            line: 7 + (k / 4) as u32,
-            block: k.is_multiple_of(3).then_some(k),
-            path: PathRecord { limit: SpeedLimit::AxDev, ..PathRecord::default() },
-            axes: vec![AxisRecord { ipo: position(k), ..AxisRecord::default() }],
-            ..CycleRecord::default()
-        };
-        // batches that do not end where groups do
-        for first in (0..rows).step_by(700) {
-            let batch: Vec<_> = (first..rows.min(first + 700)).map(record).collect();
-            writer.write(&batch).unwrap();
-        }
-        let totals = Totals { filter_delay_cycles: vec![12.5], ..Totals::default() };
-        writer.finish(&facts, &totals).unwrap();
-
-        let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
-        let meta = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
-        let value = |key: &str| meta.iter().find(|m| m.key == key).unwrap().value.clone().unwrap();
-        assert_eq!(value("kontur.cycle_us"), "500");
-        assert_eq!(value("kontur.filter_delay_cycles.X"), "12.5");
-        let mut k = 0_u64;
-        for row in reader.get_row_iter(None).unwrap() {
-            let row = row.unwrap();
-            assert_eq!(row.get_double(0).unwrap().to_bits(), (k as f64 * 500.0 / 1e6).to_bits());
-            assert_eq!(row.get_long(1).unwrap(), 7 + (k / 4).cast_signed());
-            assert_eq!(row.get_long(2).ok(), k.is_multiple_of(3).then(|| k.cast_signed()));
-            assert_eq!(row.get_string(3).unwrap(), if k > 10 { "b.nc" } else { "a.nc" });
-            assert_eq!(row.get_string(4).unwrap(), "ax_dev");
-            assert_eq!(row.get_double(5).unwrap().to_bits(), position(k).to_bits());
-            k += 1;
-        }
-        assert_eq!(k, rows);
-    }
-}
+mod tests;

@@ -1,4 +1,4 @@
-//! `tune -o picture.svg`: the recording with what was seen in it.
+//! `tune -o picture.svg`: the recording with what was found in it.
 
 use super::recording::Recording;
 use crate::chart::plot::Plot;

@@ -1,6 +1,6 @@
-//! The choices judged on the user's own program: residual vibration, deviation from the contour, machining time.
+//! The choices evaluated on the user's program: residual vibration, deviation from the contour, machining time.
 //!
-//! Each choice is forced on the run ([`ForcedGuard`]) in place of what the lists say and of MODE, FREQ and DAMPING in the
+//! Each choice is forced on the run ([`ForcedGuard`]) instead of what the lists say and of MODE, FREQ and DAMPING in the
 //! program's own commands; ON, OFF and `AX_DEV` of the program stay. A program that switches the guard off or filters by
 //! other means can still keep it from acting, so the delays that really acted are compared with those of the kernels.
 //!
@@ -27,7 +27,7 @@ const SLACK_MM: f64 = 1e-9;
 /// Delays that differ by less are the same, in cycles.
 const SAME_DELAY: f64 = 1e-6;
 
-/// What a run with one choice was like; no choice: the Vibration Guard off.
+/// The figures of a run with one choice; no choice: the Vibration Guard off.
 struct Outcome {
     choice: Option<Choice>,
     /// `AX_DEV` as the program or the run has it.
@@ -62,7 +62,7 @@ pub(super) fn answer(
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let mut summary = Collector::new(run.facts());
         drive(&mut run, shown, console, Some(&mut summary), |_| Ok(()))?;
-        // with what the run came to on its way
+        // including the subroutines that the run reached
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let summary = summary.finish(&run.totals());
         let axes = summary.axes.iter().zip(&run.facts().axes);
@@ -115,7 +115,7 @@ fn choices(task: &Task) -> Vec<Choice> {
 }
 
 /// The delay of an axis is that of the kernel plus what else filters it, the same in every run. If it is not, another
-/// kernel ran than the one asked for.
+/// kernel ran than the one requested.
 fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
     for (i, axis) in machine.axes.iter().enumerate() {
         let finished = outcomes.iter().filter(|o| o.summary.state == State::Finished);
@@ -153,7 +153,7 @@ fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64)
         ));
     }
     lines.push(
-        "assumed   every choice on all path axes, in place of the lists (vib_guard.active, mode, freq, damping)"
+        "assumed   every choice on all path axes, instead of the lists (vib_guard.active, mode, freq, damping)"
             .to_owned(),
     );
     let line = |place: &Location| line_of(place, file);
@@ -174,7 +174,7 @@ fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64)
     }
     if let Some(line) = own.off.as_ref().map(line) {
         lines.push(format!(
-            "          {line} switches the guard off: from there on nothing is damped"
+            "          {line} switches the guard off: nothing is damped from there on"
         ));
     }
     lines.join("\n") + "\n\n"
@@ -272,7 +272,7 @@ fn verdict(
             let seconds = number(*duration_s, 3);
             let only = off.map(|line| {
                 format!(
-                    "          up to {line}: behind it nothing was damped, and this says nothing\n"
+                    "          up to {line}: after it nothing was damped, and these figures do not apply\n"
                 )
             });
             format!(

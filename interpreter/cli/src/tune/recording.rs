@@ -31,7 +31,7 @@ pub(super) struct Recording {
     pub(super) found: Analysis,
 }
 
-/// What the recordings show together.
+/// The common result of the recordings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Measured {
     /// The strongest vibration of each recording in Hz.
@@ -102,7 +102,7 @@ fn interval(e: Estimate, decimals: usize) -> String {
     format!("{} +- {}", number(e.value, decimals), number(e.half_width, decimals))
 }
 
-/// What is to be said about one recording beside its vibrations.
+/// Remarks on one recording in addition to its vibrations.
 fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
     let Recording { name, missing, found, rate_hz, .. } = recording;
     let mut notes = Vec::new();
@@ -154,7 +154,7 @@ fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> Stri
     }
 }
 
-/// A file, the part of it that was asked for, what it shows, and the time in s after which it first lost samples.
+/// A file, the requested part of it, what it shows, and the time in s after which it first lost samples.
 fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));

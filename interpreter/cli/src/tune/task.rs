@@ -1,4 +1,4 @@
-//! The modes that a vibration leaves to choose from, each with what remains of it, and the command to paste.
+//! The modes to choose from for a vibration, each with its residual vibration, and the command to paste.
 
 use super::vibration::Mode;
 use crate::Exit;
@@ -12,12 +12,12 @@ use kontur_filters::vib_guard::VibGuardSettings;
 pub(super) struct Task {
     /// Measured natural frequencies in Hz.
     pub(super) freqs_hz: Vec<f64>,
-    /// Where the real ones lie for sure: lower and upper end of the interval of each in Hz.
+    /// Where the real ones are: lower and upper end of the confidence interval of each in Hz.
     pub(super) bands_hz: Vec<(f64, f64)>,
     /// Weaker vibrations of the recordings.
     pub(super) others: Vec<Mode>,
     pub(super) band: VibrationBand,
-    /// A set frequency in Hz that is judged beside the best one.
+    /// A set frequency in Hz that is evaluated in addition to the best one.
     pub(super) at_hz: f64,
     pub(super) limit_ratio: f64,
     pub(super) feed_mm_min: f64,
@@ -34,12 +34,12 @@ pub(super) struct Row {
     pub(super) given: bool,
 }
 
-/// What is known about each choice, and the one to take.
+/// The figures of each choice, and the one to take.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// One row per choice: settings, residual vibration, contour error, delay; with a program what a run was like.
     pub choices: Table,
-    /// The command to paste; none if no choice keeps what was asked for.
+    /// The command to paste; none if no choice meets the request.
     pub command: Option<String>,
     /// How the command ends.
     pub exit: Exit,
@@ -87,7 +87,7 @@ impl Task {
         choice.corner_error_s * self.feed_mm_min / 60.0
     }
 
-    /// What was measured, what was assumed, and both tables.
+    /// Measurements, assumptions, and both tables.
     pub(super) fn text(&self, rows: &[Row]) -> String {
         let list = |values: &[f64]| {
             values

@@ -1,7 +1,7 @@
 //! What vibrates in a recorded signal: frequency and damping with their 95 % intervals, hum, blows, noise.
 //!
 //! A record is cut into its free decays. In each of them vibrations are found one by one ([`detect`]) and fitted
-//! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is no vibration of the
+//! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is not a vibration of the
 //! machine's structure: mains hum and motors are named and left out.
 //!
 //! Order of calls: a record with its rate and what to look for, [`analyse`], then the vibrations by their strength.
@@ -35,7 +35,7 @@ const MOST_SAMPLES: usize = 16_384;
 const LEAST_PEAK_RATIO: f64 = 0.15;
 /// A vibration that loses less over the whole piece lasts.
 const LASTING: f64 = 0.3;
-/// More than this is no vibration to be shaped away but a transient.
+/// More than this is not a vibration to be shaped away but a transient.
 const MOST_DAMPING: f64 = 0.3;
 /// A fit that leaves this many times the white noise of the piece is not its whole truth.
 const MISFIT: f64 = 1.25;
@@ -66,7 +66,7 @@ pub struct Lasting {
     pub hum: bool,
 }
 
-/// What to look at.
+/// The part to examine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
     /// Frequencies in Hz.
@@ -92,7 +92,7 @@ pub struct Decay {
     pub stride: usize,
 }
 
-/// What a record shows.
+/// The result for a record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Analysis {
     /// Decaying vibrations, strongest first; empty: there is none.
@@ -112,7 +112,7 @@ pub struct Analysis {
 }
 
 /// Looks for vibrations in a record. Samples in `missing` were not recorded: what stands there (values between their
-/// neighbours) tells where decays begin and end, and is not fitted.
+/// neighbours) shows where decays begin and end, and is not fitted.
 pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));

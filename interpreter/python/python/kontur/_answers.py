@@ -50,7 +50,7 @@ def check(
 def explain(thing: str) -> str:
     """What an error ID (``22060``), a parameter (``P-AXIS-00571`` or its key) or a command (``#VIB GUARD``) means.
 
-    Raises :class:`UsageError` for what nobody knows, with words that resemble it.
+    Raises :class:`UsageError` for an unknown name, with similar ones.
     """
     return _kontur.explain(thing)
 

@@ -55,7 +55,7 @@ class Simulation:
         for cycle in kontur.start("part.nc", signals="X_set_mm"):
             print(cycle["t_s"], cycle["X_set_mm"])
 
-    and goes on in stretches with :meth:`run_until`, whose rows come as columns.
+    and continues in stretches with :meth:`run_until`, whose rows come as columns.
     """
 
     def __init__(self, native: _kontur.Simulation) -> None:
@@ -159,7 +159,7 @@ def run(
     """Runs a program to its end.
 
     ``machine``: folder with parameter lists, or the start-up list; without it the built-in ``xyz``.
-    ``settings``: list parameters in place of the machine's, ``{"X.getriebe[0].kv": 5000}``.
+    ``settings``: list parameters instead of the machine's, ``{"X.getriebe[0].kv": 5000}``.
     ``signals``: groups or names of columns, separated by commas; ``default`` leaves out what only repeats others.
     ``decimate``: every so many cycles a row.
     Others: see :class:`kontur._words.Options`.

@@ -24,7 +24,7 @@ class Options(TypedDict, total=False):
     input: StrPath | Iterable[StrPath]
     """Files of real-time inputs."""
     cycle_us: int
-    """Cycle time in microseconds in place of the machine's."""
+    """Cycle time in microseconds instead of the machine's."""
     start: Mapping[str, float]
     """Start positions in mm (deg) by axis name."""
     skip: Iterable[int]
@@ -40,7 +40,7 @@ class Options(TypedDict, total=False):
     techno_times: bool
     """Wait for M, H and S functions as long as the channel list declares."""
     external: Mapping[str, float | str]
-    """Values of external variables by their name behind ``V.E.``."""
+    """Values of external variables by their name after ``V.E.``."""
 
 
 _SIMULATION = frozenset(Options.__annotations__)

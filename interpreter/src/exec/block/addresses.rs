@@ -1,4 +1,4 @@
-//! Addresses of a block: axes, spindles, centre, feed, radius, tools, and what is none of them.
+//! Addresses of a block: axes, spindles, centre, feed, radius, tools, and everything else.
 
 use super::words::Words;
 use crate::diag::{Condition, ValueKind};

@@ -242,7 +242,7 @@ impl Decoder {
             return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
         }
         if let (Some(_), Some((_, span))) = (some, other) {
-            let text = "feedforward needs a bracket of its own, without other commands";
+            let text = "feedforward needs a separate bracket, without other commands";
             return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
         }
         for (i, (item, span)) in items.iter().enumerate() {

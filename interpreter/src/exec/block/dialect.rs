@@ -73,7 +73,7 @@ pub(in crate::exec) fn g_function(number: u32) -> Option<&'static str> {
     })
 }
 
-/// Hint for a letter that is no word here.
+/// Hint for a letter that is not a word here.
 pub(in crate::exec) fn letter(letter: u8) -> &'static str {
     match letter {
         b'M' => "M needs a number",

@@ -23,7 +23,7 @@ pub(in crate::exec) enum After<'b> {
     Next,
     Call(&'b Call, Span),
     Cycle(CycleCall),
-    /// M06 with a program of its own.
+    /// M06 with its own program.
     ToolChange(Span),
     Goto(&'b Jump),
     /// M17, M29, with the place they name.

@@ -255,7 +255,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 }
 
 const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
-const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
+const FEED_HOLD: &str = "feedhold brakes without these weights";
 
 /// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
 #[rustfmt::skip]

@@ -51,11 +51,11 @@ impl Decoder {
             let percent = ratio * 100.0;
             let text = if zero {
                 format!(
-                    "axis {name}: nothing is left of the acceleration at {percent} %, it is limited to the least"
+                    "axis {name}: the acceleration is 0 at {percent} %, it is limited to the minimum"
                 )
             } else {
                 format!(
-                    "axis {name}: the weight of {percent} % {is} what the axis list allows, it is limited"
+                    "axis {name}: the weight of {percent} % {is} the limit of the axis list, it is limited"
                 )
             };
             let fault = Fault::new(condition, text, span)
@@ -218,7 +218,7 @@ impl Decoder {
         let Some(side) = words.group(Group::Compensation) else {
             let text = "G05 without G40, G41 or G42 in its block";
             return Err(Fault::new(Condition::Compensation, text, g.span)
-                .hint("write G05 beside the word that it belongs to"));
+                .hint("write G05 in the block of the word that it belongs to"));
         };
         let selection = match words.group(Group::CompensationSelection).map(|g| g.row.act) {
             Some(Act::Selection(selection)) => selection,

@@ -135,7 +135,7 @@ arguments! {
 /// Row of `#TANGFEED`.
 pub(super) const TANGFEED: Row = Row::run("TANGFEED", tangential_feed)
     .form("#TANGFEED [RMIN=..]")
-    .meaning("least radius of the arcs on which F acts at the tool's engagement (G11)")
+    .meaning("smallest radius of the arcs on which F acts at the tool's point of contact (G11)")
     .keys(TangfeedArguments::KEYS)
     .example("#TANGFEED [RMIN=3]")
     .related(&["G11"]);

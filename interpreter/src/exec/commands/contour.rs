@@ -83,7 +83,7 @@ pub(super) const CONTOUR_MODE: Row = Row::run("CONTOUR MODE", contour_mode)
     .form("#CONTOUR MODE [ON|OFF] [DEV|DIST|DIST_SOFT|DIST_MASTER|POS|PTP keys]")
     .meaning("how corners are rounded by polynomials; ON also switches contouring on (G261), OFF off (G260)")
     .keys(ContourArguments::KEYS)
-    .note("program start: DEV with PATH_DEV 1; a key that is not written keeps its value")
+    .note("program start: DEV with PATH_DEV 1; a key that is omitted keeps its value")
     .example("#CONTOUR MODE [DEV PATH_DEV=0.05]")
     .related(&["G261", "120129", "120206", "120216", "P-CHAN-00439"]);
 
@@ -112,7 +112,7 @@ fn at_least_an_increment(
     }
 }
 
-/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: a key that is not written keeps its value.
+/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: a key that is omitted keeps its value.
 fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let unit = decoder.tolerance_unit_mm();
@@ -443,7 +443,7 @@ fn vector_of_one(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 pub(super) const TRANSVELMIN: Row = Row::run("TRANSVELMIN", transition_velocity)
     .values()
     .form("#TRANSVELMIN ON|OFF")
-    .meaning("least speed at block transitions")
+    .meaning("lowest speed at block transitions")
     .example("#TRANSVELMIN ON")
     .related(&["P-AXIS-00013"]);
 

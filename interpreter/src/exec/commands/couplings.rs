@@ -28,7 +28,7 @@ pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
 pub(super) const ENABLE_AX_LINK: Row = Row::run("ENABLE AX LINK", enable)
     .form("#ENABLE AX LINK [group]")
     .meaning("the slaves of a group follow their masters from where they are; the path stops")
-    .note("slaves are no main axes (20467) and are not programmed meanwhile; the path keeps their limits")
+    .note("slaves must not be main axes (20467) and must not be programmed meanwhile; the path observes their limits")
     .example("#ENABLE AX LINK [1]")
     .related(&["#SET AX LINK", "#DISABLE AX LINK", "20457", "20467", "20468", "20169", "20545", "21481"]);
 
@@ -181,7 +181,7 @@ fn numbered_coupling(decoder: &Decoder, item: &Item) -> Outcome<Option<(usize, u
     Ok(Some((axis(slave, key.span)?, axis(decoder.number(master)?, master.span)?)))
 }
 
-/// `-1, 1` behind a pair: its factor from numerator and denominator, 1 or -1.
+/// `-1, 1` after a pair: its factor from numerator and denominator, 1 or -1.
 ///
 /// Assumption: of two pages that disagree, 21111 (253496203: factors other than 1 and -1 become 1) holds and not the
 /// description of scaled couplings (285670667), since it says what the control does. A denominator of 0 is such a factor.
@@ -192,7 +192,7 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
             (numerator, rest)
         }
         [other, ..] => {
-            let text = "behind a coupling stand numerator and denominator, or G";
+            let text = "a coupling may be followed by numerator and denominator, or by G";
             return Err(Fault::new(Condition::TokenUnknown, text, other.span));
         }
     };

@@ -296,7 +296,7 @@ fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// `#CYL`, `#FACE`, `#TLC`: refused, once what is wrong with them anyway has been told.
+/// `#CYL`, `#FACE`, `#TLC`: refused, after their other mistakes have been reported.
 pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.command.on == Some(false) {
         return Ok(());

@@ -47,7 +47,7 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         match &item.kind {
             ItemKind::Value(ItemValue::Expr(expr)) => items.push(expr),
             ItemKind::Missing => {
-                let text = "#MSG: a value is expected behind the comma";
+                let text = "#MSG: a value is expected after the comma";
                 return Err(Fault::new(Condition::MessageValue, text, item.span));
             }
             _ => {

@@ -33,7 +33,7 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Row of `#CHANNEL INIT`.
 pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
     .form("#CHANNEL INIT [CMDPOS|ACTPOS AX=.. AXNR=..]")
-    .meaning("the programmed position becomes the command or actual position, with ACTPOS behind a wait for every window")
+    .meaning("the programmed position becomes the command or actual position, with ACTPOS after waiting for every window")
     .example("#CHANNEL INIT [CMDPOS]");
 
 /// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AXNR=2]`; the axes also without `AX=`.

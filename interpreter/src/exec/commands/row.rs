@@ -1,4 +1,4 @@
-//! What a row of the table of commands says, and the call of a command as its function gets it.
+//! A row of the table of commands, and the call that its function receives.
 
 use super::keys::Key;
 use crate::diag::Condition;
@@ -35,7 +35,7 @@ pub(crate) struct Row {
     pub(crate) example: &'static str,
     /// Things to look up next.
     pub(crate) related: &'static [&'static str],
-    /// Most brackets behind the name; what its function does not look at must not be written.
+    /// Most brackets after the name; what its function does not look at must not be written.
     brackets: usize,
     /// Values may stand there without a bracket.
     values: bool,
@@ -86,7 +86,7 @@ impl Row {
         let (text, span) = if let Some(group) = command.groups.get(self.brackets) {
             let text = match self.brackets {
                 0 => format!("#{name} takes no bracket"),
-                _ => format!("#{name}: all that belongs to it stands in one bracket"),
+                _ => format!("#{name}: all its keys belong in one bracket"),
             };
             (text, group.span)
         } else if let (Some(value), false) = (command.arguments.first(), self.values) {

@@ -27,7 +27,7 @@ const PARAMETER_MAX: u32 = 11;
 /// Row of `#SIGNAL`.
 pub(super) const SIGNAL: Row = Row::run("SIGNAL", signal)
     .form("#SIGNAL [SYN] [ID=.. COUNT=.. P[i]=.. CH=..]   #SIGNAL REMOVE [ID=..]")
-    .meaning("sends a signal to a channel, or to all of them without CH; #WAIT consumes it")
+    .meaning("sends a signal to a channel, or to all channels without CH; #WAIT consumes it")
     .note("ID number; COUNT how many waits it ends; P[0] to P[11] values passed to the waiting channel; CH receiving channels")
     .example("#SIGNAL [ID=4711 P[0]=10.5]")
     .related(&["#WAIT", "K-0018"]);

@@ -14,7 +14,7 @@ use crate::syntax::ast::{Group, Ident, Item, ItemKind, Span};
 /// Longest name of a system.
 const NAME_MAX: usize = 8;
 
-/// Names that have a meaning of their own.
+/// Names that are reserved.
 const RESERVED: [&str; 3] = ["ACS", "IMCS", "MCS"];
 
 /// Row of `#CS ADD`.
@@ -22,14 +22,14 @@ pub(super) const ADD: Row = Row::run("CS ADD", add)
     .several()
     .form("#CS ADD [name][x,y,z,a,b,c]")
     .meaning("puts a coordinate system with a name on the stack; #CS SELECT makes it active")
-    .note("five systems at most; names of up to eight characters, with the capital letters as written, not ACS, IMCS and MCS")
+    .note("five systems at most; names have up to eight characters, are case-sensitive, and are not ACS, IMCS or MCS")
     .example("#CS ADD [WCS][15,20,0,0,0,0]")
     .related(&["#CS SELECT", "#CS SET", "#CS DEL"]);
 
 /// Row of `#CS SELECT`.
 pub(super) const SELECT: Row = Row::run("CS SELECT", select)
     .form("#CS SELECT [name]")
-    .meaning("words of the program are coordinates of this system, which stands on those below it in the stack")
+    .meaning("words of the program are coordinates of this system, which is based on those below it in the stack")
     .example("#CS SELECT [WCS]")
     .related(&["#CS ADD"]);
 
@@ -92,7 +92,7 @@ fn wrong_form(text: &str, span: Span) -> Box<Fault> {
     Fault::new(Condition::CoordinateSystemSyntax, text, span)
 }
 
-/// No words behind ON and OFF, and neither of them.
+/// No words after ON and OFF, and neither of them.
 fn plain(call: &Call<'_>) -> Outcome<()> {
     if call.command.on.is_some() {
         return Err(wrong_form("neither ON nor OFF belongs here", call.span()));

@@ -31,7 +31,7 @@ pub(super) const TURN: Row = Row::run("TURN", turn)
     .example("#TURN [THREAD_CHAIN=1]")
     .related(&["G33", "K-0132", "P-CHAN-00836", "P-CHAN-00837"]);
 
-/// `#TURN [..]`: a key that is not written keeps its value.
+/// `#TURN [..]`: a key that is omitted keeps its value.
 fn turn(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let group = call.command.groups.first();

@@ -35,7 +35,7 @@ pub(super) const OTC: Row = Row::run("OTC", wear)
     .form("#OTC ON|OFF [RADIUS|LENGTH DISC|CONT|AUTO WEAR_CONST=.. ACC_WEIGHT=..]")
     .meaning("online compensation of the wear of a grinding wheel; the bracket alone sets what ON begins with")
     .keys(WearArguments::KEYS)
-    .note("the wear stands in X_add_mm of the axes, beside the contour; --input gives wear_mm in place of the PLC")
+    .note("the wear appears in X_add_mm of the axes, not in the contour; wear_mm of --input replaces that of the PLC")
     .example("#OTC ON [RADIUS DISC]")
     .related(&["21391", "P-TOOL-00030", "P-TOOL-00031"]);
 

@@ -4,7 +4,7 @@
 //! so that the path is never faster than the printed line. What is divided is the path that is driven, with the tool radius.
 //!
 //! Source: TF5200 programming manual 206444555, 206449675 (G13: linear along the corrected path, slope STEP only, from the
-//! first motion behind G13 on), 15556679307 (G193: linear along the path; G293: linear over the time, slope STEP).
+//! first motion after G13 on), 15556679307 (G193: linear along the path; G293: linear over the time, slope STEP).
 //! Assumptions on G13, since the pages say nothing of it: every end of a motion in feed is a corner, whatever its angle;
 //! after it the path is as fast as it may be; elements that the compensation inserts end as the motion before them.
 

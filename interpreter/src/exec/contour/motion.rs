@@ -90,7 +90,7 @@ impl Motion {
     /// Feed of an element that is inserted beside the motion.
     ///
     /// Assumption: under G93, where F is the time of the programmed motion, its speed on the programmed way; an element with a time
-    /// of its own would nearly stop the path at every corner.
+    /// of its own would almost stop the path at every corner.
     pub(super) fn feed_beside(&self) -> Feed {
         match self.block.feed {
             Feed::Duration(time_s) => Feed::PathVelocity(self.block.path.length() / time_s),

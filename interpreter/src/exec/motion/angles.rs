@@ -22,7 +22,7 @@ const PARALLEL: f64 = 1e-9;
 /// What a block is for contour lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ContourLine {
-    /// No contour line, or one by itself.
+    /// No contour line, or a single one.
     Single,
     /// The first of two lines: it moves with the second one.
     Waits,

@@ -7,7 +7,7 @@
 //! Source: TF5200 programming manual, edge banding (206213899, 206219787, 206230027), M and H functions (285989771), channel
 //! parameters (148909195, 149011467), diagnosis (250932875, 257774219, 257878667, 258470539).
 //! Assumptions, where they are silent: the way counts from the place of the path that is nearest to the measured actual
-//! position; the path stops at the end of this way, not behind it.
+//! position; the path stops at the end of this way, not after it.
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::groups::{Act, Group};
@@ -55,7 +55,7 @@ impl Decoder {
         let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
         let Some(m) = functions.next() else { return Ok(None) };
         if let Some(second) = functions.next() {
-            let text = format!("M{} beside M{}: both wait for a signal", second.number, m.number);
+            let text = format!("M{} with M{}: both wait for a signal", second.number, m.number);
             return Err(Fault::new(Condition::TwoSignalFunctions, text, second.span)
                 .with(|d| d.value(ValueKind::Current, second.number, "-")));
         }
@@ -87,7 +87,7 @@ impl Decoder {
         } else if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
             "edge banding with contouring"
         } else if self.contour.inserts() || words.group(Group::Insertion).is_some() {
-            "edge banding beside chamfers and roundings"
+            "edge banding with chamfers and roundings"
         } else if self.path_mode(words).is_thread() {
             "edge banding in a thread"
         } else if self.modal.corner_deceleration

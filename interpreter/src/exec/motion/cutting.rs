@@ -37,7 +37,7 @@ impl Decoder {
         if let (Some(Act::CuttingSpeedMax), Some(m)) =
             (g.map(|g| g.row.act), words.m.iter().find(|m| m.number == 19))
         {
-            let text = "M19 beside G196";
+            let text = "M19 with G196";
             return Err(Fault::new(Condition::PositioningWithMaximum, text, m.span));
         }
         match g.map(|g| (g.row.act, g.span)) {

@@ -2,7 +2,7 @@
 //!
 //! Every weight refers to the list, never to the weight before; what exceeds the limits of the list is capped, 50130.
 //!
-//! An acceleration weighted down to 0 becomes the least one of the lists; the program goes on.
+//! An acceleration weighted down to 0 becomes the least one of the lists; the program continues.
 //!
 //! Source: TF5200 programming manual, G127 to G134, G230 to G233; P-AXIS-00292, 00293, 00008, 00201, 00212; 120028, 120030,
 //! 120032, 120034.

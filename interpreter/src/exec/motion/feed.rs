@@ -33,7 +33,7 @@ impl Decoder {
             && main.turning == Turning::Stopped
             && self.spindle_rpm() != 0.0
         {
-            let text = "feed per revolution while the main spindle stands: its S word counts";
+            let text = "feed per revolution while the main spindle is stopped: its S word counts";
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
             self.report.note_once("G95 at rest", fault);
         }

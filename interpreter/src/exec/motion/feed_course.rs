@@ -1,4 +1,4 @@
-//! Which feeds change along a motion (G13, G193, G293), and what does not go with it.
+//! Which feeds change along a motion (G13, G193, G293), and what cannot be combined with that.
 
 use crate::diag::Condition;
 use crate::exec::block::groups::Act;
@@ -73,7 +73,8 @@ impl Decoder {
         span: Span,
     ) -> Outcome<Option<FeedCourse>> {
         let Some(from) = self.motion.feed_before.filter(|word| word.value > 0.0) else {
-            let text = format!("{name}: no F word stands before, from which the feed could change");
+            let text =
+                format!("{name}: there is no earlier F word from which the feed could change");
             return Err(Fault::new(Condition::FeedZero, text, span));
         };
         let unit_mm = if from.inch { 25.4 } else { 1.0 };

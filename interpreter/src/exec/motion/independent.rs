@@ -1,6 +1,6 @@
 //! Independent axes: `X[INDP_SYN G90 G01 FEED=1000 POS=50]`, `X[INDP_ASYN ..]`, `#WAIT INDP [X, Y]`.
 //!
-//! An independent axis leaves the path and moves on a profile of its own, from rest to rest. The path is planned without
+//! An independent axis leaves the path and moves on its own profile, from rest to rest. The path is planned without
 //! that motion: its coordinates of the axis are shifted by the ways that the axis has gone alone ([`Independent::way`]),
 //! so that they stay continuous; the simulation adds the way to the path.
 //!

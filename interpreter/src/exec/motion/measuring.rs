@@ -100,12 +100,12 @@ impl Decoder {
         }
         match words.group(Group::Path).map(|g| g.row.act) {
             Some(Act::Path(PathMode::Clockwise | PathMode::CounterClockwise)) => {
-                let text = format!("G{} beside an arc", g.row.number);
+                let text = format!("G{} with an arc", g.row.number);
                 return Err(Fault::new(Condition::MeasuringArc, text, g.span));
             }
             Some(Act::Path(PathMode::Linear | PathMode::Rapid)) | None => {}
             Some(_) => {
-                let text = format!("G{} beside another kind of motion", g.row.number);
+                let text = format!("G{} with another kind of motion", g.row.number);
                 return Err(Fault::new(Condition::DuplicateGroup, text, g.span));
             }
         }
@@ -168,7 +168,7 @@ impl Decoder {
         if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
             let text = "a measuring run while contouring is on";
             return Err(Fault::new(Condition::MeasuringWithContouring, text, g.span)
-                .hint("write G260 before it and G261 behind it"));
+                .hint("write G260 before it and G261 after it"));
         }
         if self.contour.akima.selected {
             return Err(Fault::unsupported("measuring in a spline", g.span));
@@ -176,7 +176,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// The run has come to its end: takes over what was measured and where the axes are. The label of G310 comes back
+    /// The run has ended: takes over what was measured and where the axes are. The label of G310 comes back
     /// if the probe has signalled.
     pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Jump> {
         let pending = self.motion.measuring.pending.take()?;

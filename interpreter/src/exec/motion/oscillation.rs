@@ -1,6 +1,6 @@
 //! Oscillating axes: `X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]`, `X[OSC OFF]`.
 //!
-//! An axis goes to and fro beside the path. The program counts with it at its second position, where every oscillation ends:
+//! An axis oscillates independently of the path. The program counts with it at its second position, where every oscillation ends:
 //! by OSC OFF, and by whatever waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end.
 //!
 //! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.

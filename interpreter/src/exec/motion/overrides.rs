@@ -31,7 +31,7 @@ impl Overrides {
         *r = rapid.unwrap_or(*r);
     }
 
-    /// True if no axis has an override of its own: the ratio is the same whatever axes move.
+    /// True if no axis has its own override: the ratio is the same for all axes.
     pub(in crate::exec) fn are_alike(&self) -> bool {
         let mut axes = [&self.axis_feed, &self.axis_rapid].into_iter();
         axes.all(|axes| axes.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits()))

@@ -1,4 +1,4 @@
-//! What the program last told the spindles.
+//! The latest commands of the program to the spindles.
 
 use crate::exec::step::{Approach, Event, SpindleMotion};
 use crate::machine::Machine;
@@ -41,7 +41,7 @@ impl Turning {
         }
     }
 
-    /// M3 or M4 beside M19: the direction of the positioning.
+    /// M3 or M4 with M19: the direction of the positioning.
     pub(in crate::exec) fn with_direction(self, number: u32) -> Self {
         match (self, number) {
             (Self::Positioned(_), 3) => Self::Positioned(Approach::Clockwise),

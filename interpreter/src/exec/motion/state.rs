@@ -1,4 +1,4 @@
-//! What the room of motions keeps from block to block.
+//! State of motions from block to block.
 
 pub(in crate::exec) mod coupling;
 mod cutting;
@@ -187,7 +187,7 @@ pub(in crate::exec) struct Straight {
     pub(super) plane: [usize; 2],
 }
 
-/// A function that the machine carries out beside the motion.
+/// A function that the machine carries out during the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::exec) enum Function {
     M(u32),

@@ -1,4 +1,4 @@
-//! The short way of plain straight motions: `N10 G01 X1 Y2 F500` in a row, without a tree and without the words in between.
+//! The fast route for plain straight motions: `N10 G01 X1 Y2 F500` in a row, without a syntax tree and without collected words.
 //!
 //! It says and does what [`Decoder::execute_words`] does with the same words, which the tests compare. What the motions of
 //! a row have in common is worked out once and holds until another kind of block comes.

@@ -1,4 +1,4 @@
-//! Durations of M, H and S functions: waited for, or named as what the run does not contain.
+//! Durations of M, H and S functions: waited for, or reported as not contained in the run.
 //!
 //! The vendor's production time calculation takes them from the channel list (TF5200 M and H functions, production time
 //! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).

@@ -2,7 +2,7 @@
 //!
 //! Tapping begins and ends at rest, and the spindle turns with the way of the path: both are exact. G33 begins when the
 //! spindle turns with its speed and passes its mark, and then continues with pitch times speed; the ramp at its begin and
-//! end cuts another pitch, as on the machine. Each block of G33 is a thread of its own, unless P-CHAN-00837 or `#TURN` makes
+//! end cuts another pitch, as on the machine. Each block of G33 is a separate thread, unless P-CHAN-00837 or `#TURN` makes
 //! a chain of them. The override acts on G33 and so changes the pitch, unless P-CHAN-00836, `#TURN` or a chain forbids it;
 //! that and a feedhold are reported when they happen (K-0132).
 //!
@@ -333,7 +333,7 @@ impl Decoder {
             let lag_s = axis.lag_s(feedforward.on, feedforward.weight_ratios[i]);
             ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
                 format!(
-                    "tapping while {name} follows {:.3} ms behind its set position, spindle {other} {:.3} ms (gain kv, feedforward): they are not together in the thread",
+                    "tapping while {name} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",
                     1e3 * lag_s,
                     1e3 * spindle_lag_s
                 )

@@ -401,7 +401,7 @@ impl Executor {
         }
     }
 
-    /// M06 with a program of its own.
+    /// M06 with its own program.
     pub(in crate::exec) fn tool_change(&mut self, span: Span) {
         if let Some(file) = self.decoder.calls.tool_change_file.clone() {
             self.call_of_list(&file, "P-CHAN-00118", span);

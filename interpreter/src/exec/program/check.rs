@@ -1,4 +1,4 @@
-//! Decoding without moving: everything there is to say about a program.
+//! Decoding without moving: all diagnostics of a program.
 
 use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};
@@ -16,7 +16,7 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// Names of its files, the main program first; none if it cannot be opened.
     pub files: Vec<Arc<str>>,
-    /// A run may come to more files: a part of the program that the check did not reach calls them.
+    /// A run may reach more files, called from a part of the program that the check did not reach.
     pub calls_more: bool,
     /// What its commands say about the Vibration Guard.
     pub guard: GuardCommands,
@@ -30,7 +30,7 @@ impl Checked {
     }
 }
 
-/// Executes a program as if every axis were always where it is told to be, continues after errors where it can, and
+/// Executes a program as if every axis were always at its command position, continues after errors where it can, and
 /// returns all diagnostics; it stops after 20 errors, and where the limits of the options stop a run (K-0017). What did
 /// not run is looked at for its syntax (K-0118).
 pub(crate) fn check(

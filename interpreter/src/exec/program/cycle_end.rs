@@ -1,4 +1,4 @@
-//! What a cycle gives back at its end: G functions that stand alone, centre and radius of arcs, the feed.
+//! State that the end of a cycle restores: G functions without values, centre and radius of arcs, the feed.
 //!
 //! G functions with values or axis words (G92, G129, G159=2, G351) and what `#` commands set stay. `#RETAIN CYCLE CHANGES` and
 //! P-CHAN-00210 = 1 let all stay, as in subroutines; `V.G.CYCLE_CHANGES_MODAL` is P-CHAN-00210 for the cycle in work and those

@@ -141,7 +141,7 @@ fn is_vendor_cycle(name: &str) -> bool {
 /// Blocks of a called file by which it is judged.
 const JUDGED_MAX: u32 = 64;
 
-/// True if most blocks at the beginning of a file are no NC blocks: its text is not for messages.
+/// True if most blocks at the beginning of a file are not NC blocks: its text is not for messages.
 fn is_foreign(reader: &mut BlockReader, name: &Arc<str>, parser: &Parser) -> io::Result<bool> {
     reader.seek(Position::START);
     let (mut judged, mut wrong, mut comment) = (0, 0, false);

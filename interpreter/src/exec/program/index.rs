@@ -81,7 +81,7 @@ pub(in crate::exec) struct Index {
     locals: BTreeMap<Arc<str>, usize>,
     /// The same without regard to case: names in upper case.
     locals_upper: BTreeMap<String, usize>,
-    /// Head of a further program with blocks, behind the end of the main one.
+    /// Head of a further program with blocks, after the end of the main one.
     pub(super) further: Option<Location>,
 }
 

@@ -1,4 +1,4 @@
-//! What a program keeps from block to block: its levels with their control blocks, what it calls, the numbers it knows.
+//! State of a program from block to block: its levels with their control blocks, its calls, its known numbers.
 
 use super::cycle_end::BeforeCycle;
 use super::index::{EntryId, Index, Keyword, Labels};

@@ -1,4 +1,4 @@
-//! Syntax of what a check did not run through: branches not taken, blocks jumped over, subroutines not called.
+//! Syntax of the parts that a check did not execute: branches not taken, blocks jumped over, subroutines not called.
 //!
 //! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
 //! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
@@ -114,7 +114,7 @@ impl Executor {
             return;
         }
         if let Some(place) = &index.further {
-            let text = "a further program behind the end of the main program never runs";
+            let text = "a second program after the end of the main program never runs";
             self.report(Diagnostic::new(Condition::TextBehindEnd, text).at(place.clone()));
         }
         let gaps = self.reached.gaps(0, section.start, section.end);

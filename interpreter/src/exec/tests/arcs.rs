@@ -171,7 +171,6 @@ fn arcs_by_centre_and_angle() {
         assert!((found - wanted).abs() < 1e-9, "{helix:?}");
     }
     for (text, id) in [
-        ("G02 X1 I10 #CANG=90 F100", "22253"),
         ("G02 I10 #CANG=0 F100", "K-0009"),
         ("G02 I10 #CANG=400 F100", "K-0009"),
         ("G02 #CANG=90 R5 F100", "20036"),

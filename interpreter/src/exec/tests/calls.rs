@@ -114,7 +114,7 @@ fn a_program_of_the_list_runs_before_every_program() {
     assert_eq!((run.ids(), run.ends()), (vec!["K-0013".to_owned()], vec![vec![2.0, 0.0, 0.0]]));
     assert_eq!(run.diagnostics[0].parameter, Some("P-CHAN-00119"));
     assert!(!run.diagnostics[0].is_error() && run.diagnostics[0].hint.is_some());
-    // one that is there and is no program stays an error
+    // one that is there and is not a program stays an error
     let run = listed(&start, &[main, ("init.nc", "%L ONLY\nM17\n")]);
     assert_eq!((run.ids(), run.blocks().len()), (vec!["K-0014".to_owned()], 0));
 }

@@ -48,7 +48,7 @@ fn the_feed_falls_in_front_of_a_corner() {
     let exact = 10.0 / (0.5 * v) * std::f64::consts::LN_2;
     let whole = time(&all[1..]);
     assert!(whole >= exact && whole < 1.01 * exact, "{whole} {exact}");
-    // the motions before G13 and behind G12 are whole
+    // the motions before G13 and after G12 are whole
     let run = clean(CORNER);
     assert_eq!(run.blocks().len(), all.len() + 2);
     assert_eq!(run.end[..2], [50.0, 10.0]);
@@ -106,8 +106,7 @@ fn the_feed_is_interpolated_over_path_and_time() {
 #[test]
 fn what_does_not_go_with_it() {
     for (text, ids) in [
-        ("G13\n", &["20795"][..]),
-        ("#CORNER PARAM [DIST=0 UNIT=PERCENT FEED=50]\n", &["K-0009"]),
+        ("#CORNER PARAM [DIST=0 UNIT=PERCENT FEED=50]\n", &["K-0009"][..]),
         ("#CORNER PARAM [DIST=1 UNIT=PART FEED=50]\n", &["21220"]),
         ("#CORNER PARAM [DIST=1 FEED=50]\n", &["21220"]),
         ("#SET CORNER PARAM [10, 2, 50]\n", &["K-0009"]),

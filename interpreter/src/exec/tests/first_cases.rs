@@ -26,7 +26,7 @@ fn programs_without_heads_and_ends() {
     assert_eq!(run.end, [1.0, 0.0, 0.0]);
     assert_end("%L UP\nX1\n%MAIN\nX2 F100", [2.0, 0.0, 0.0]);
     assert_end("%\nX2 F100", [2.0, 0.0, 0.0]);
-    // what says nothing in front of a subroutine is no main program
+    // what says nothing in front of a subroutine is not a main program
     for front in ["#COMMENT BEGIN\n%L X\nX9\n#COMMENT END", "(text)\n; more\n\n", "N10\nN20 (text)"]
     {
         assert_end(&format!("{front}\n%L UP\nX1\n%MAIN\nX2 F100"), [2.0, 0.0, 0.0]);

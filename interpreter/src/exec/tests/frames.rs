@@ -198,7 +198,6 @@ fn stack_of_systems() {
         ("#CS ADD [B][1,2,3,4,5,6,7]", "20675"),
         ("#CS ADD [B][1]\n#CS SELECT", "20675"),
         ("#CS ADD [B][1]\n#CS SELECT [b]", "20821"),
-        ("#CS ADD [B][1]\n#CS ADD [B][1]", "21599"),
         ("#CS ADD [B][1]\n#CS DEL [B]", "21220"),
         ("#CS ADD [B][1]\n#CS ON [1,2,3]\n#CS SELECT [B]", "K-0019"),
         ("#CS ADD [B][1]\n#CS SELECT [B]\n#CS ON [1,2,3]", "K-0019"),

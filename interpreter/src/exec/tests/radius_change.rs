@@ -4,6 +4,7 @@
 //! Expected points by elementary geometry, and distances from the contour by brute force over random contours.
 
 use super::{Step, assert_near, clean, run};
+use kontur_kit::Random;
 use std::fmt::Write as _;
 
 const TRC: &str = "#TRC [PERPENDICULAR_RADIUS_CHANGE=1]\nG138 F100\n";
@@ -74,23 +75,18 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 
 #[test]
 fn random_contours_are_nowhere_cut() {
-    let mut state = 7_u64;
-    let mut random = |low: f64, high: f64| {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((state >> 33) as f64 / (1_u64 << 31) as f64)
-    };
+    let mut random = Random::new(7);
     let mut driven = 0;
     for k in 0..300 {
         let mut points = vec![[0.0, 0.0]];
-        let mut angle = random(0.0, 360.0);
+        let mut angle = random.between(0.0, 360.0);
         for _ in 0..4 {
-            angle += random(-130.0, 130.0);
-            let (length, last) = (random(25.0, 50.0), points[points.len() - 1]);
+            angle += random.between(-130.0, 130.0);
+            let (length, last) = (random.between(25.0, 50.0), points[points.len() - 1]);
             let (sin, cos) = libm::sincos(angle.to_radians());
             points.push([last[0] + length * cos, last[1] + length * sin]);
         }
-        let (first, second) = (random(1.0, 5.0), random(1.0, 5.0));
+        let (first, second) = (random.between(1.0, 5.0), random.between(1.0, 5.0));
         let (side, corner) = (["G41", "G42"][k % 2], ["G25", "G26"][k / 2 % 2]);
         let mut text = format!(
             "{TRC}{corner} V.G.WZ_AKT.R={first:.6}\nX{:.6} Y{:.6}\n{side} X0 Y0\n",

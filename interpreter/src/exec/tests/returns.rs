@@ -95,7 +95,7 @@ fn a_branch_of_if_may_be_entered_and_a_loop_not() {
     ] {
         assert_eq!(places(&run(&text(body)).diagnostics), [id], "{body}");
     }
-    // the block lies behind what is closed before it
+    // the block lies after what is closed before it
     assert_end(&text("$WHILE 0\nX1\n$ENDWHILE\nN30 X2"), [2.0, 0.0, 0.0]);
     assert_end(&text("#COMMENT BEGIN\n#COMMENT END\nN30 X2"), [2.0, 0.0, 0.0]);
 }

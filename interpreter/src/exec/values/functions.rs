@@ -212,7 +212,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
     let parsed = |i: usize, largest: f64| -> Outcome<f64> {
         let written: String = text(i)?.iter().collect();
-        // `inf` and `NaN` are no digits
+        // `inf` and `NaN` are not digits
         let digits = written.bytes().any(|b| b.is_ascii_digit());
         let number: Option<f64> = written.trim().parse().ok();
         let number = number.filter(|_| digits).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! What a number of a program counts as: truth, whole number, bit pattern.
+//! Conversions of a number of a program: truth value, integer, bit pattern.
 //!
 //! Source: TF5200 programming manual, arithmetic expressions. Assumption: a condition is true from 0.5 on (absolute).
 

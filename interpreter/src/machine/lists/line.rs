@@ -59,7 +59,7 @@ impl Line<'_> {
 pub(super) struct Parts<'a> {
     /// The value without quotes; `None` if there is none.
     pub(super) value: Option<&'a str>,
-    /// Text after a text value that is no comment.
+    /// Text after a text value that is not a comment.
     pub(super) dropped: Option<&'a str>,
 }
 

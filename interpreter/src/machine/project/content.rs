@@ -1,4 +1,4 @@
-//! What the XML of a project holds: texts of lists with their places, and the fields beside them.
+//! What the XML of a project holds: texts of lists with their places, and the fields next to them.
 
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::chain::SEPARATORS;
@@ -37,7 +37,7 @@ pub(super) struct ListText {
 }
 
 impl ListText {
-    /// A list in a file of its own.
+    /// A list in a separate file.
     pub(super) fn of(text: String) -> Self {
         Self { text, ..Self::default() }
     }
@@ -47,7 +47,7 @@ impl ListText {
         format!("{}{}", "\n".repeat(self.before), self.text)
     }
 
-    /// Puts an entry behind the last line that is read: in front of the end mark if there is one.
+    /// Puts an entry after the last line that is read: in front of the end mark if there is one.
     pub(super) fn enter(&mut self, entry: &str) {
         let lines: Vec<&str> = self.text.split('\n').collect();
         let end = lines.iter().position(|line| is_end(line)).unwrap_or(lines.len());
@@ -120,7 +120,7 @@ pub(super) struct Content {
     pub(super) start_up: Option<ListText>,
     /// Cycle of the GEO task in units of 100 ns.
     pub(super) cycle_100ns: Option<u32>,
-    /// Items that are in files of their own.
+    /// Items that are in separate files.
     references: Vec<Reference>,
 }
 
@@ -141,7 +141,7 @@ impl Content {
     /// Adds what a file holds.
     ///
     /// # Errors
-    /// K-0141 if it is no XML, or has more axes or channels than a control.
+    /// K-0141 if it is not XML, or has more axes or channels than a control.
     pub(super) fn add(&mut self, part: &Part) -> Result<(), Box<Diagnostic>> {
         let text = part.text.trim_start_matches('\u{feff}');
         let options = ParsingOptions { nodes_limit: NODES_MAX, ..ParsingOptions::default() };

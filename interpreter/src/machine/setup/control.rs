@@ -372,7 +372,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     for param in [axis_control::RESOLUTION_INCREMENTS, axis_control::RESOLUTION_PATH] {
         let resolution = axis.listed(param);
         if feed_given && !is_one(resolution) {
-            let what = format!("encoder resolution {resolution} beside a feed constant");
+            let what = format!("encoder resolution {resolution} in addition to a feed constant");
             diagnostics.push(
                 issues::about(axis, Condition::ResolutionWithoutEffect, param, &what, "the feed constant rules, it has no effect")
                     .hint("older builds took the gear ratio from it: write gear_fact_num, gear_fact_denom"),

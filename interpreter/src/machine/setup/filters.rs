@@ -56,7 +56,7 @@ pub struct KernelPreset {
 /// The standard filters of an axis, designed, and its HSC filter.
 pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) -> Cascade {
     let keys = [of::standard(0), of::standard(1), of::standard(2)];
-    // `filter[i]` without a type is no low-pass: with the prototype HSC it means the mean
+    // `filter[i]` without a type is not a low-pass: with the prototype HSC it means the mean
     let entries: Vec<FilterEntry> =
         keys.iter().map(|k| entry(axis, k, axis.set_by(k.kind).is_some(), diagnostics)).collect();
     let cascade = Cascade::design(&entries, axis.kind() == AxisKind::Spindle, cycle);

@@ -32,7 +32,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::Text("6 (LOWPASS, HIGHPASS, ALLPASS), 3 (BANDPASS, BANDSTOP), 1 (PT1), 2 (PT2), 200 (HSC); TIME_DELAY: any above 0 switches on")).default(0.0).at_setup().source("TF5200 axis filters"), as ORDER: Whole;
     axis("P-AXIS-00153", "filter[i].prototype", Raw::Names(PROTOTYPES), "CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5")
         .default(1.0).at_setup().source("TF5200 axis filters"), as PROTOTYPE: Whole;
-    axis("P-AXIS-00164", "filter[i].share_percent", Raw::Real64, "part of the signal led through the filter")
+    axis("P-AXIS-00164", "filter[i].share_percent", Raw::Real64, "share of the signal that passes the filter")
         .range(Bound::At(0.0), Bound::At(100.0)).default(100.0).unit("%", "%").at_setup().source("TF5200 axis filters"), as SHARE: Number;
     axis("P-AXIS-00204", "filter[i].type", Raw::Names(FILTER_TYPES), "1 LOWPASS 2 HIGHPASS 3 BANDPASS 4 BANDSTOP 5 ALLPASS 6 PT1 8 HSC mean 10 PT2 11 TIME_DELAY 12 HSC NoVib; 7, 9 reserved")
         .range(Bound::At(1.0), Bound::At(12.0)).default(1.0).at_setup().source("TF5200 axis filters"), as TYPE: Whole;

@@ -21,7 +21,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(32.0)).default(4.0), as DRIVE: Whole;
     axis("P-AXIS-00070", "kenngr.gantry_ax_nr", Raw::Uns16, "gantry slave: logical number of its master")
         .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"), as GANTRY_MASTER: Whole;
-    axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; to be raised for measuring moves, whose distance shrinks by what the feedforward buffer holds")
+    axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; raise it for measuring moves, whose distance is shortened by the content of the feedforward buffer")
         .axes("TR").source("TF5200 feedforward control");
     axis("P-AXIS-00058", "kenngr.durchm_prog_abs", Raw::Boolean, "with G51 and G90 words of a face turning axis are diameters")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_ABSOLUTE: Switch;
@@ -35,15 +35,15 @@ parameters! {
         .default(0.0), as STOPS: Switch;
     axis("P-AXIS-00331", "kenngr.fixed_stop_pos_lag_limit", Raw::Uns32, "measuring type 7: lag beyond which the axis is at its fixed stop; 0 never")
         .default(0.0).unit("0.1um", "0.0001deg"), as STOP_LAG: Number;
-    axis("P-AXIS-00769", "antr.fixed_stop.detect.pos_lag_limit", Raw::Sgn32, "in place of P-AXIS-00331 if it is not negative")
+    axis("P-AXIS-00769", "antr.fixed_stop.detect.pos_lag_limit", Raw::Sgn32, "replaces P-AXIS-00331 if it is not negative")
         .default(-1.0).unit("0.1um", "0.0001deg"), as STOP_LAG_OF_DRIVE: Number;
-    axis("P-AXIS-00774", "kenngr.measure.fixed_stop_detect.pos_lag_limit", Raw::Sgn32, "in place of P-AXIS-00769 if it is not negative")
+    axis("P-AXIS-00774", "kenngr.measure.fixed_stop_detect.pos_lag_limit", Raw::Sgn32, "replaces P-AXIS-00769 if it is not negative")
         .default(-1.0).unit("0.1um", "0.0001deg"), as STOP_LAG_OF_RUN: Number;
     axis("P-AXIS-00215", "kenngr.vb_messen", Raw::Uns32, "speed of measuring runs of type 2")
         .range(Bound::At(1.0), Bound::None).default(16666.0).unit("um/s", "0.001deg/s").axes("TR").source("TF5200 axis parameters"), as MEASURING_SPEED: Number;
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of independent axes; that of spindles is not simulated")
         .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit), as MOST_OVERRIDE: Number;
-    axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")
+    axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; the documents do not print the prefix of the key: kenngr., lr_param., getriebe[0]. and no prefix are accepted")
         .default(0.0).axes("TR"), as LAG_SUPPRESSED: Switch;
     axis("P-AXIS-00177", "kenngr.swe_neg", Raw::Sgn32, "negative software limit for setpoints; actuals may pass it by swe_toleranz")
         .default(-100000000.0).unit("0.1um", "0.0001deg").axes("TR"), as LOWER_LIMIT: Number;

@@ -60,7 +60,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(65535.0)), as SPINDLE_NUMBER: Whole;
     chan("P-CHAN-00054", "mass_einh", Raw::Uns08, "0 mm, 1 inch for all linear axes")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
-    chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: way after the signal of the probe")
+    chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: distance after the signal of the probe")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
@@ -104,7 +104,7 @@ parameters! {
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
     chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what the override multiplies")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as OVERRIDE_MODE: Whole;
-    chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters survive the start of a program")
+    chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start")
         .default(0.0), as KEEP_P_PARAMETERS: Switch;
     chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default), as SLOPE: Whole;
@@ -126,7 +126,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
-    chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one takes the place of those before it")
+    chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one replaces those before it")
         .default(0.0).source("TF5200 channel parameters"), as SEVERAL_WORDS: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
@@ -147,7 +147,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
     chan("P-CHAN-00208", "vector.deceleration", Raw::Real64, "path deceleration limit")
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_DEC: Number;
-    chan("P-CHAN-00210", "cycle_changes_modal", Raw::Boolean, "1: G functions, centres and feed of a cycle stay at its end")
+    chan("P-CHAN-00210", "cycle_changes_modal", Raw::Boolean, "1: G functions, centres and feed of a cycle remain active after its end")
         .default(0.0), as CYCLE_CHANGES_STAY: Switch;
     chan("P-CHAN-00235", "exact_stop_after_g00", Raw::Boolean, "implicit G60 after G00")
         .default(0.0), as EXACT_STOP_AFTER_G00: Switch;
@@ -194,11 +194,11 @@ parameters! {
         .default(0.0).unit("us", "us"), as SPINDLE_SPEED_DURATION: Optional;
     chan("P-CHAN-00082", "spdl_anzahl", Raw::Uns16, "number of spindles of the channel")
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
-    chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T takes the tool data of its number too, as T5 D5")
+    chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T also selects the tool data with its number, like T5 D5")
         .default(0.0).source("TF5200 tool data"), as TOOL_DATA_WITH_TOOL: Switch;
     chan("P-CHAN-00836", "thread_cutting.ignore_override", Raw::Boolean, "G33: 0 the override acts and changes the pitch, 1 it does not act")
         .default(0.0).source("TF5200 channel parameters"), as THREAD_IGNORES_OVERRIDE: Switch;
-    chan("P-CHAN-00837", "thread_cutting.thread_chain", Raw::Boolean, "consecutive blocks of G33: 0 each is a thread of its own, 1 one thread without a stop")
+    chan("P-CHAN-00837", "thread_cutting.thread_chain", Raw::Boolean, "consecutive blocks of G33: 0 each is a separate thread, 1 one thread without a stop")
         .default(0.0).source("TF5200 channel parameters"), as THREAD_CHAIN: Switch;
     chan("P-CHAN-00161", "g81_prog_file", Raw::Text, "global subroutine called by G81"), as G81_PROGRAM: Text;
     chan("P-CHAN-00162", "g82_prog_file", Raw::Text, "global subroutine called by G82"), as G82_PROGRAM: Text;

@@ -1,4 +1,4 @@
-//! `kontur.lis`: what vendor lists do not hold. The index of `kontur.axis[i]` is the logical axis number.
+//! `kontur.lis`: what vendor lists do not contain. The index of `kontur.axis[i]` is the logical axis number.
 
 use super::param::parameters;
 use super::row::{Bound, Correction, Default, Raw, own};
@@ -20,7 +20,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(30000.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse), as SPEED_INTEGRAL: Number;
     own("kontur.axis[i].plant.ti_us", Raw::Uns32, "TWO_MASS, MODAL: time constant of the current loop")
         .range(Bound::At(1.0), Bound::None).default(500.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse), as CURRENT_TIME: Number;
-    own("kontur.axis[i].plant.inertia", Raw::Real64, "inertia at the motor shaft, or moved mass of a linear motor, on which an additive torque really acts; 0: that of the axis list (P-AXIS-00391)")
+    own("kontur.axis[i].plant.inertia", Raw::Real64, "inertia at the motor shaft, or moved mass of a linear motor, on which an additive torque actually acts; 0: that of the axis list (P-AXIS-00391)")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("kg m2 or kg", "kg m2").outside(Condition::ListRange, Correction::Refuse), as INERTIA: Number;
     own("kontur.axis[i].plant.mass_motor", Raw::Real64, "TWO_MASS: inertia on the motor side, relative to the whole")
         .range(Bound::Beyond(0.0), Bound::None).default(0.5).outside(Condition::ListRange, Correction::Refuse), as MASS_MOTOR: Number;
@@ -48,7 +48,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FREQUENCY: Number;
     own("kontur.axis[i].plant.disturbance.full_speed", Raw::Real64, "load speed from which the disturbance has its full amplitude, in proportion below; 0: always")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/s", "deg/s").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FULL_SPEED: Number;
-    own("kontur.axis[i].load_encoder", Raw::Boolean, "the axis has a direct measuring system, the position loop closes over it")
+    own("kontur.axis[i].load_encoder", Raw::Boolean, "the axis has a direct measuring system, which closes the position loop")
         .default(0.0), as LOAD_ENCODER: Switch;
     own("kontur.axis[i].additive.velocity", Raw::Boolean, "simulated drive: it has an additive velocity input")
         .default(0.0), as ADDITIVE_VELOCITY: Switch;

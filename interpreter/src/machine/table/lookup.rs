@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn printed_variants_get_the_right_suggestion() {
-        // Variants printed in the manuals beside the right spelling.
+        // Variants printed in the manuals in addition to the right spelling.
         for (printed, meant) in [
             ("vorsteuer.jerk_fact_nom", "vorsteuer.jerk_fact_num"),
             (

@@ -1,4 +1,4 @@
-//! What one row of the parameter table holds, and the words it is written with.
+//! One row of the parameter table, and the words in which it is written.
 
 use crate::diag::Condition;
 
@@ -122,7 +122,7 @@ impl std::fmt::Display for Bound {
     }
 }
 
-/// What is put in place of a value out of range.
+/// What replaces a value out of range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Correction {
     /// The default.
@@ -178,11 +178,11 @@ pub struct Row {
     pub low: Bound,
     /// Upper end of the plausible range.
     pub high: Bound,
-    /// A value with a meaning of its own outside the range, usually 0 = "as ...".
+    /// A value with a special meaning outside the range, usually 0 = "as ...".
     pub special: Option<f64>,
     /// Value if no list names it.
     pub default: Default,
-    /// Unit for linear axes (and everything that is no axis), `-` if none.
+    /// Unit for linear axes (and everything that is not an axis), `-` if none.
     pub unit: &'static str,
     /// Unit for rotary axes and spindles.
     pub unit_rotary: &'static str,
@@ -295,7 +295,7 @@ impl Row {
         self
     }
 
-    /// Value with a meaning of its own outside the range.
+    /// Value with a special meaning outside the range.
     pub(super) const fn special(mut self, value: f64) -> Self {
         self.special = Some(value);
         self

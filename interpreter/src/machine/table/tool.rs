@@ -18,9 +18,9 @@ parameters! {
         .default(0.0), as PARAMETER: Number;
     tool("P-TOOL-00008", "wz[i].mass_einheit", Raw::Uns16, "unit of length, radius and offsets: 0 0.1 um, 1 0.0001 inch")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
-    tool("P-TOOL-00030", "wz[i].grinding_wear_const", Raw::Real64, "wear of a grinding wheel by its way, in 0.1 um for a metre (#OTC)")
+    tool("P-TOOL-00030", "wz[i].grinding_wear_const", Raw::Real64, "wear of a grinding wheel per distance, in 0.1 um per metre (#OTC)")
         .range(Bound::At(0.0), Bound::At(1e9)).default(0.0), as WEAR: Number;
-    tool("P-TOOL-00031", "wz[i].grinding_max_infeed", Raw::Real64, "most wear that #OTC takes from outside, on either side of 0")
+    tool("P-TOOL-00031", "wz[i].grinding_max_infeed", Raw::Real64, "largest external wear that #OTC accepts, positive or negative")
         .default(0.0).unit("0.1um", "0.1um"), as INFEED: Number;
     tool("P-TOOL-00138", "wz[i].grinding_disc_tilt_angle", Raw::Real64, "angle between the axis of a grinding wheel and the third main axis; others than 0 are refused with #OTC")
         .range(Bound::At(-450_000.0), Bound::At(450_000.0)).default(0.0).unit("0.0001deg", "0.0001deg"), as TILT: Number;

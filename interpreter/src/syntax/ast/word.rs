@@ -72,14 +72,14 @@ pub enum CodeNumber {
     Computed(Box<Expr>),
 }
 
-/// End of a subroutine that says where the program goes on.
+/// End of a subroutine that says where the program continues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Return {
     /// 17 or 29.
     pub number: u32,
     /// Level it returns to.
     pub level: ReturnLevel,
-    /// Place there; without one behind the call.
+    /// Place there; without one after the call.
     pub target: Option<Jump>,
 }
 
@@ -177,7 +177,7 @@ pub struct HashWord {
     pub name: Box<str>,
     /// Value, if one is written.
     pub value: Option<Expr>,
-    /// Bracket behind it, if one is written: `#SUPPRESS OFFSETS [ZERO]`.
+    /// Bracket after it, if one is written: `#SUPPRESS OFFSETS [ZERO]`.
     pub bracket: Option<Group>,
 }
 

@@ -1,4 +1,4 @@
-//! Rules of the grammar in the words of a user: what could have stood at a place.
+//! Rules of the grammar in the words of a user: what could have been written at a place.
 
 use crate::syntax::Rule;
 

@@ -163,7 +163,7 @@ proptest! {
     }
 }
 
-/// A cycle call with a mistake in its brackets is no word of an axis `LCYCLE`, with or without a blank, and says the same.
+/// A cycle call with a mistake in its brackets is not a word of an axis `LCYCLE`, with or without a blank, and says the same.
 #[test]
 fn a_damaged_cycle_call_stays_a_call() {
     for call in ["L CYCLE [", "L CYCLE[", "LCYCLE [", "LCYCLE[", "LLCYCLE [", "CYCLE ["] {

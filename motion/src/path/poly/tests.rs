@@ -1,4 +1,5 @@
 use super::*;
+use kontur_kit::Random;
 
 /// `x` runs as `3 u`, `y` as `u^2 - u^5`, slaved `z` as `7 u^3`.
 fn sample() -> PolyPath {
@@ -91,18 +92,13 @@ fn ends_are_exact_and_the_nearest_point_is_found() {
 /// point of a sub-interval lies within its radius, and what is near a path length is near its point.
 #[test]
 fn nothing_is_nearer_than_the_nearest_point() {
-    let mut state = 7_u64;
-    let mut random = || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
+    let mut random = Random::from_state(7);
     for _ in 0..30 {
         let mut at = [0.0; 2];
         let pieces: Vec<PolyPiece> = (0..4)
             .map(|_| {
                 let axes = at.map(|start| {
-                    let mut c = [0.0; 6].map(|_: f64| 4.0 * random());
+                    let mut c = [0.0; 6].map(|_: f64| 4.0 * random.between(-1.0, 1.0));
                     c[0] = start;
                     c
                 });
@@ -137,7 +133,7 @@ fn nothing_is_nearer_than_the_nearest_point() {
             }
         }
         for _ in 0..20 {
-            let from = [15.0 * random(), 15.0 * random()];
+            let from = [15.0 * random.between(-1.0, 1.0), 15.0 * random.between(-1.0, 1.0)];
             path.nearest_point(&from, &mut q);
             let found = libm::hypot(q[0] - from[0], q[1] - from[1]);
             let least = points

@@ -1,4 +1,4 @@
-//! What is asked of the solver, its answer and its errors.
+//! Request to the solver, its answer and its errors.
 
 use smallvec::SmallVec;
 

@@ -42,7 +42,7 @@ impl Hill<'_> {
         Some(best)
     }
 
-    /// The blocks between the ends, as a stretch of their own.
+    /// The blocks between the ends, as a separate stretch.
     fn part(&self) -> Option<Vec<Block>> {
         let (start, end) = (self.from.s, self.to.s);
         let first = self.cells.partition_point(|c| c.end <= start * (1.0 + 1e-12));

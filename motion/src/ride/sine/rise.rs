@@ -3,7 +3,7 @@
 use super::super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
 
-/// Steps per stretch beyond which it is refused, plus as many per block: a crawl is no ride.
+/// Steps per stretch beyond which it is refused, plus as many per block: the path would crawl.
 const MOST_STEPS: usize = 20_000;
 /// Rounds of bisection of the acceleration in a step.
 const ROUNDS: u32 = 10;
@@ -105,7 +105,7 @@ impl Rise<'_> {
     }
 
     /// True if a step, and the ramp to zero after it, stay below the limits ahead of speed `v`. A limit below `v` cuts
-    /// the rise and is none of its business.
+    /// the rise and does not concern it.
     fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
         crate::closed_forms::add();

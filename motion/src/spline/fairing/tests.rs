@@ -1,33 +1,18 @@
 //! What moves, how far, and what stays.
 
 use super::*;
-use crate::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
-use crate::block::{ChannelDynamics, Feed};
+use crate::example::{ChannelDynamics, Feed};
 use std::f64::consts::{PI, TAU};
 
 type Points = Vec<Vec<f64>>;
 
 /// Axes of which the first ones are in the feed group.
 fn dynamics(axes: usize, feed_axes: usize) -> Arc<ChannelDynamics> {
-    let step = StepSlope { acc_mm_s2: [1e3; 2], dec_mm_s2: [1e3; 2], change_mm_s: 100.0 };
-    let axis = AxisDynamics {
-        v_max_mm_s: 1e3,
-        v_rapid_mm_s: 1e3,
-        a_max_mm_s2: 1e3,
-        a_emergency_mm_s2: 1e3,
-        tr_geom_s: 0.01,
-        feed: FeedSlope { acc_mm_s2: 1e3, dec_mm_s2: 1e3, ramps_s: [0.05; 4] },
-        rapid: RapidSlope { acc_mm_s2: 1e3, ramp_s: 0.01 },
-        feedhold: FeedholdSlope { step_dec_mm_s2: 2e3, dec_mm_s2: 2e3, ramp_s: 0.02 },
-        step_feed: step,
-        step_rapid: step,
-        a_trans_ratio: 1.0,
-        r_trans_ratio: 1.0,
-        j_trans_kink_mm_s3: 0.0,
-        j_trans_tangential_mm_s3: 0.0,
-    };
     let feed_axes = (0..axes).map(|i| i < feed_axes).collect();
-    Arc::new(ChannelDynamics { feed_axes, ..ChannelDynamics::new(vec![axis; axes]) })
+    Arc::new(ChannelDynamics {
+        feed_axes,
+        ..ChannelDynamics::new(vec![crate::example::axis(); axes])
+    })
 }
 
 /// The blocks of a polygon in all axes, with what `change` makes of each of them.
@@ -313,7 +298,7 @@ fn what_stays() {
     let end_speed = |i: usize, b: &mut Block| b.end_velocity_mm_s = (i == 99).then_some(10.0);
     let out = ends(&through(blocks(&points, 2, within(0.1), end_speed)));
     assert_eq!(points[100], out[100]);
-    // a new feed is no condition
+    // a new feed is not a condition
     let given =
         blocks(&points, 2, within(0.1), |i, b| b.feed = Feed::PathVelocity(50.0 + i as f64));
     assert_eq!(ends(&through(given)), faired(&points, 2, within(0.1)));

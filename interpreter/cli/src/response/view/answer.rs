@@ -1,4 +1,4 @@
-//! What a view answers, and the words and frequencies that the views share.
+//! The answer of a view, and the words and frequencies that the views share.
 
 use super::super::curve::Curve;
 use crate::chart::plot::Plot;

@@ -11,7 +11,7 @@ use kontur_filters::analysis::corner::CornerPath;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 
-/// More paths than this cannot be told apart; the picture then draws the error over the order.
+/// More paths than this cannot be distinguished; the picture then draws the error over the order.
 const MOST_PATHS: usize = 12;
 
 pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Result<Answer, Error> {

@@ -1,4 +1,4 @@
-//! The answer to a step from 0 to 1.
+//! The response to a step from 0 to 1.
 
 use super::super::curve::Curve;
 use super::answer::{Answer, cycle_text, labels};

@@ -1,4 +1,4 @@
-//! The vibration that explains most of what a fit has left, and whether it is more than noise.
+//! The vibration that explains most of the residual of a fit, and whether it is more than noise.
 //!
 //! The residual is correlated with `e^(-s t - i w t)` for every line of the spectrum and several decays `s`; the share of
 //! its energy that such a vibration takes, over the noise, is the likelihood ratio. White noise alone exceeds a bound

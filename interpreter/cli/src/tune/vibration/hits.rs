@@ -1,7 +1,7 @@
-//! Where the free decays of a record are: drift and hum taken out for the purpose, then the blows by their energy.
+//! Where the free decays of a record are: drift and hum are removed first, then blows are found by their energy.
 //!
 //! A blow is where the energy of the time after rises against that of the time before. The windows are longer than the
-//! beats of neighbouring vibrations, so that a beat is no blow.
+//! beats of neighbouring vibrations, so that a beat is not a blow.
 
 use super::detect;
 use std::f64::consts::TAU;

@@ -42,7 +42,7 @@ impl Decoder {
         let motion = words.group(Group::Path).filter(|g| matches!(g.row.act, Act::Path(_)));
         if let (Some(g), Some(motion), false) = (found, motion, words.axes.is_empty()) {
             let text = format!(
-                "G{:02} beside G{}: the axis words are arguments of G{}, not targets",
+                "G{:02} with G{}: the axis words are arguments of G{}, not targets",
                 motion.row.number, g.row.number, g.row.number
             );
             self.report.note(Fault::new(Condition::Syntax, text, motion.span));

@@ -4,7 +4,7 @@
 //! Assumption: the figures are silent about the place. The corner between the two elements is taken with the larger of
 //! the two radii, so that the tool nowhere comes nearer to the contour than its smaller radius, and nowhere nearer than
 //! its new radius to what follows: a larger radius is taken up perpendicular to the element before the corner, a smaller one
-//! perpendicular to the element behind it.
+//! perpendicular to the element after it.
 
 use super::active::{Active, at_contour};
 use super::corner::{above, inner_corner, straight};
@@ -46,7 +46,7 @@ impl Active {
         }
     }
 
-    /// A smaller radius: the corner with the old one, then towards the element behind it.
+    /// A smaller radius: the corner with the old one, then towards the element after it.
     fn shrink(
         self,
         motion: Box<Motion>,

@@ -45,7 +45,7 @@ pub(super) fn way(
         }
         let text = "G05: no arc leads from a point straight ahead back to the contour";
         return Err(Fault::new(Condition::Compensation, text, motion.span)
-            .hint("begin and end beside the contour")
+            .hint("begin and end at a distance from the contour")
             .in_block(motion.source));
     }
     let (centre_mm, sweep_rad) = match touch {

@@ -1,4 +1,4 @@
-//! Coordinate systems one inside another, each with zero offsets, G92 and position presets of its own.
+//! Coordinate systems one inside another, each with its own zero offsets, G92 and position presets.
 //!
 //! Offsets that are programmed while a system is active lie in its axes, add to those below it, and go with it. A new system has
 //! none. Tool and measuring offsets belong to no system.

@@ -1,6 +1,6 @@
 //! Plain straight motions in a row: almost all of a long program.
 //!
-//! What the long way of a block looks for anew each time cannot have changed behind a plain motion: macros, names, loops
+//! What the long way of a block looks for anew each time cannot have changed after a plain motion: macros, names, loops
 //! and levels change in other blocks only. So the next line is taken as it stands in the text; if it is anything but one
 //! more plain motion, nothing has happened and it goes the long way.
 
@@ -18,7 +18,7 @@ struct Ahead {
 }
 
 impl Executor {
-    /// Executes the next block if it is one more plain motion behind one that has left `shared`; false, and nothing done,
+    /// Executes the next block if it is one more plain motion after one that has left `shared`; false, and nothing done,
     /// if not.
     pub(super) fn straight_on(&mut self, shared: Box<Straight>) -> bool {
         let mut words = StraightWords::default();

@@ -48,7 +48,7 @@ struct Builder<'a> {
     /// `%` blocks inside the main program, with the end of the program seen before each.
     remarks: Vec<(EntryId, bool)>,
     end_seen: bool,
-    /// `%` behind the end of the main program, until a block follows.
+    /// `%` after the end of the main program, until a block follows.
     behind_end: Option<Location>,
     diagnostics: Vec<Diagnostic>,
     /// Nothing more is read: it is nested too deep, or there is too much of it.

@@ -38,7 +38,7 @@ pub(super) struct Entries {
     bytes: Bytes,
     /// Packed ones whose partners going over them does not find.
     special: BTreeMap<EntryId, Entry>,
-    /// Those behind the packed ones, each with the innermost structure around it when it was met.
+    /// Those after the packed ones, each with the innermost structure around it when it was met.
     recent: Vec<(Entry, Option<EntryId>)>,
     near: Mutex<Option<Near>>,
 }
@@ -49,7 +49,7 @@ enum Role {
     Opens,
     Clause,
     Closes,
-    /// Nothing: `#IF` and comments have an order of their own.
+    /// Nothing: `#IF` and comments are ordered separately.
     None,
 }
 
@@ -82,7 +82,7 @@ impl Entries {
             + self.special.len() * 2 * size_of::<Entry>()
     }
 
-    /// Adds one that lies behind the others; `inside` is the innermost structure around it.
+    /// Adds one that lies after the others; `inside` is the innermost structure around it.
     pub(super) fn push(&mut self, entry: Entry, inside: Option<EntryId>) {
         self.recent.push((entry, inside));
         if self.recent.len() >= 2 * GROUP + NEAR {
@@ -90,7 +90,7 @@ impl Entries {
         }
     }
 
-    /// Packs the oldest group; [`NEAR`] others are behind it.
+    /// Packs the oldest group; [`NEAR`] others are after it.
     fn pack(&mut self) {
         let first = self.packed();
         let group: Vec<_> = self.recent.drain(..GROUP).collect();

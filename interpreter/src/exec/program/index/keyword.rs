@@ -6,7 +6,7 @@ use crate::diag::Condition;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Keyword {
     If,
-    /// `$IF .. $GOTO ..`: no block of its own.
+    /// `$IF .. $GOTO ..`: not a block.
     IfGoto,
     ElseIf,
     Else,

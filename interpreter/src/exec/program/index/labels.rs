@@ -63,7 +63,7 @@ impl Labels {
         self.others.get(&(section, label.clone())).copied()
     }
 
-    /// Enters a label that lies behind those entered so far and is not among them.
+    /// Enters a label that lies after those entered so far and is not among them.
     pub(in crate::exec::program) fn insert(
         &mut self,
         section: usize,

@@ -2,7 +2,7 @@
 
 use integer_encoding::VarInt;
 
-/// What follows each other in a group: a reader finds its place at the beginning of one and goes on from there.
+/// What follows each other in a group: a reader finds its place at the beginning of one and continues from there.
 pub(super) const GROUP: usize = 16;
 
 /// Numbers behind each other, the small ones in one byte.
@@ -31,7 +31,7 @@ impl Bytes {
 pub(super) struct Numbers<'a>(&'a [u8]);
 
 impl Numbers<'_> {
-    /// The next number, zero behind the last one.
+    /// The next number, zero after the last one.
     pub(super) fn next<N: VarInt + Default>(&mut self) -> N {
         let Some((number, length)) = N::decode_var(self.0) else { return N::default() };
         self.0 = &self.0[length..];
