@@ -38,25 +38,23 @@ pub struct Ends {
     pub tangent_in: AxisVec,
     /// `dq/ds` at the end.
     pub tangent_out: AxisVec,
-    /// `d2q/ds2` at the start in 1/mm.
-    pub curvature_in: AxisVec,
-    /// `d2q/ds2` at the end in 1/mm.
-    pub curvature_out: AxisVec,
+    /// `d2q/ds2` at the start and at the end in 1/mm; none of a line, where they are 0: most blocks are lines, and many of
+    /// them wait in the queue.
+    pub curvatures: Option<Box<[AxisVec; 2]>>,
 }
 
 impl Ends {
     /// The ends of a block's path.
     pub fn of(block: &Block) -> Self {
-        let n = block.path.start().len();
         if let Path::Line(line) = &block.path {
-            let (tangent, none) = (line.direction(), AxisVec::zeros(n));
+            let tangent = line.direction();
             return Self {
                 tangent_in: tangent.clone(),
                 tangent_out: tangent.clone(),
-                curvature_in: none.clone(),
-                curvature_out: none,
+                curvatures: None,
             };
         }
+        let n = block.path.start().len();
         let at = |f: &dyn Fn(&mut [f64])| {
             let mut v = AxisVec::zeros(n);
             f(&mut v);
@@ -66,8 +64,7 @@ impl Ends {
         Self {
             tangent_in: at(&|v| path.tangent(0.0, v)),
             tangent_out: at(&|v| path.tangent(length, v)),
-            curvature_in: at(&|v| path.curvature(0.0, v)),
-            curvature_out: at(&|v| path.curvature(length, v)),
+            curvatures: Some(Box::new([0.0, length].map(|s| at(&|v| path.curvature(s, v))))),
         }
     }
 }
@@ -197,10 +194,15 @@ pub(crate) fn curvature_step_velocity(
     {
         return f64::INFINITY;
     }
+    let curvature =
+        |ends: &Ends, at: usize, i: usize| ends.curvatures.as_ref().map_or(0.0, |c| c[at][i]);
+    if a.curvatures.is_none() && b.curvatures.is_none() {
+        return f64::INFINITY;
+    }
     let t = cycle.seconds();
     let mut v2 = f64::INFINITY;
-    for i in 0..a.curvature_out.len() {
-        let dk = (b.curvature_in[i] - a.curvature_out[i]).abs();
+    for i in 0..a.tangent_out.len() {
+        let dk = (curvature(b, 0, i) - curvature(a, 1, i)).abs();
         if dk <= TANGENT {
             continue;
         }

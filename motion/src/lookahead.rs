@@ -50,9 +50,8 @@ use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::ride;
 pub(crate) use draft::Draft;
-use std::borrow::Cow;
 use std::sync::Arc;
-use stretch::{Stretch, cells, most_exceeded};
+use stretch::{Stretch, Weakest, cells, most_exceeded};
 
 /// Relative difference of speeds that is rounding.
 pub(crate) const ROUNDING: f64 = 1e-7;
@@ -248,7 +247,7 @@ impl<'a> Window<'a> {
             end,
             length: blocks[first].length,
             feed: feeds[first].v_mm_s,
-            slope: Cow::Borrowed(&blocks[first].slope),
+            slope: Weakest::One(&blocks[first].slope),
         };
         for i in first + 1..end {
             s.length += blocks[i].length;
@@ -259,7 +258,7 @@ impl<'a> Window<'a> {
                 // across blocks of different feed the check finds what is exceeded
                 s.feed.max(feeds[i].v_mm_s)
             };
-            s.slope = Cow::Owned(s.slope.weaker(&blocks[i].slope));
+            s.slope.join(&blocks[i].slope);
         }
         s
     }

@@ -112,7 +112,9 @@ impl Queued {
         rest.length =
             if self.goes_on { self.length - s } else { self.block.path.length() - rest.offset };
         rest.block.path.tangent(rest.offset, &mut rest.ends.tangent_in);
-        rest.block.path.curvature(rest.offset, &mut rest.ends.curvature_in);
+        if let Some(curvatures) = &mut rest.ends.curvatures {
+            rest.block.path.curvature(rest.offset, &mut curvatures[0]);
+        }
         Arc::new(rest)
     }
 
@@ -122,7 +124,9 @@ impl Queued {
         (part.length, part.goes_on) = (s, true);
         let end = part.offset + s;
         part.block.path.tangent(end, &mut part.ends.tangent_out);
-        part.block.path.curvature(end, &mut part.ends.curvature_out);
+        if let Some(curvatures) = &mut part.ends.curvatures {
+            part.block.path.curvature(end, &mut curvatures[1]);
+        }
         part
     }
 

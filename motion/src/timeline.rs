@@ -297,7 +297,7 @@ impl Timeline {
         self.entries.push_back(entry);
     }
 
-    pub(crate) fn extend(&mut self, entries: Vec<Entry>) {
+    pub(crate) fn extend(&mut self, entries: impl IntoIterator<Item = Entry>) {
         self.entries.extend(entries);
     }
 

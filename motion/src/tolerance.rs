@@ -173,9 +173,11 @@ impl Monitor {
     /// Takes the setpoint of a cycle.
     pub(crate) fn record(&mut self, position: &AxisVec, s_mm: f64) {
         if self.length > 0 {
-            self.history.push_back((position.clone(), s_mm));
-            if self.history.len() > self.length {
-                self.history.pop_front();
+            // the oldest one becomes the newest one
+            self.history.rotate_left(1);
+            if let Some((point, s)) = self.history.back_mut() {
+                point.copy_from_slice(position);
+                *s = s_mm;
             }
         }
     }

@@ -102,7 +102,9 @@ impl Contour {
             let (Step::Motion { events, .. }
             | Step::Sync { events, .. }
             | Step::End { events, .. }) = &mut step;
-            events.splice(0..0, before);
+            if !before.is_empty() {
+                events.splice(0..0, before);
+            }
             if let Some(engaged) = engaged
                 && self.tells_engagement
                 && self.engaged != engaged

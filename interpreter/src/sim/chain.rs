@@ -327,14 +327,17 @@ impl AxisChain {
     ///
     /// Sampled setpoints and differences are shorter than what the kernel remembers and the rest of the control.
     fn rests_under(&self, ipo: f64, gain: f64, jerk_limited: bool) -> bool {
+        // an axis that moves fails here
+        if !self.shaping.rests_under(ipo) {
+            return false;
+        }
         let additional_mm = match &self.additional {
             None => 0.0,
             Some(AdditionalInterface { filter: None }) => self.inputs.additional_mm,
             Some(AdditionalInterface { filter: Some(_) }) => return false,
         };
         let inputs = AxisInputs { additional_mm: additional_mm + self.wear_mm, ..self.inputs };
-        self.shaping.rests_under(ipo)
-            && self.control.rests_under(self.set, gain, jerk_limited, &inputs)
+        self.control.rests_under(self.set, gain, jerk_limited, &inputs)
     }
 
     /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.

@@ -5,7 +5,9 @@
 use super::stretch::{Stretch, rates};
 use super::{Window, is_above};
 use crate::cap::Cap;
+use crate::queue::Queued;
 use crate::ride::has_hill;
+use std::sync::Arc;
 
 /// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller
 /// value (Assumption: a CAM contour changes its direction from block to block by little, and the control does not
@@ -20,20 +22,20 @@ impl Window<'_> {
     pub(super) fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
         let blocks = self.blocks;
         let n = blocks.len();
-        let mut square: Vec<f64> =
-            (1..n).map(|i| self.limit(i).v_mm_s * self.limit(i).v_mm_s).collect();
-        square.insert(0, self.v_start.v_mm_s * self.v_start.v_mm_s);
-        square.push(0.0);
-        let own = square.clone();
-        let gain = |i: usize, up: bool| {
-            rates(&blocks[i])
-                .map_or(0.0, |r| 2.0 * blocks[i].length * if up { r.acc } else { r.dec })
-        };
+        let mut own = Vec::with_capacity(n + 1);
+        own.push(self.v_start.v_mm_s * self.v_start.v_mm_s);
+        own.extend((1..n).map(|i| self.limit(i).v_mm_s).map(|v| v * v));
+        own.push(0.0);
+        let mut square = own.clone();
+        // what the square of the speed gains along each block, up and down; none where its limits have no rates
+        let gain =
+            |b: &Arc<Queued>| rates(b).map(|r| (2.0 * b.length * r.acc, 2.0 * b.length * r.dec));
+        let gains: Vec<Option<(f64, f64)>> = blocks.iter().map(gain).collect();
         for i in (0..n).rev() {
-            square[i] = square[i].min(square[i + 1] + gain(i, false));
+            square[i] = square[i].min(square[i + 1] + gains[i].map_or(0.0, |(_, down)| down));
         }
         for i in 0..n {
-            square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
+            square[i + 1] = square[i + 1].min(square[i] + gains[i].map_or(0.0, |(up, _)| up));
         }
         // where a line is only divided nothing is to be decided, and a hill may reach over its parts
         let divides: Vec<bool> = (0..=n).map(|b| b > 0 && b < n && self.only_divides(b)).collect();
@@ -62,7 +64,7 @@ impl Window<'_> {
                     && !knot[i]
                     && !plain[i]
                     && blocks[i].plans_across()
-                    && rates(&blocks[i]).is_some()
+                    && gains[i].is_some()
                     && square[i] >= own[i]
                     && (square[i] <= square[begins[i - 1]] || own_hill(begins[i - 1], i))
                     && (square[i] <= square[ends[i]] || own_hill(i, ends[i]))
@@ -81,8 +83,9 @@ impl Window<'_> {
             && same(self.feeds[b - 1].v_mm_s, feed.v_mm_s)
             && before.block.slope == behind.block.slope
             && rates(before).zip(rates(behind)).is_some_and(|(x, y)| {
-                let ramps = x.ramps.iter().zip(y.ramps).all(|(x, y)| same(*x, y));
-                ramps && same(x.acc, y.acc) && same(x.dec, y.dec)
+                // from line to line of a contour the acceleration changes first
+                let ramps = || x.ramps.iter().zip(y.ramps).all(|(x, y)| same(*x, y));
+                same(x.acc, y.acc) && same(x.dec, y.dec) && ramps()
             })
     }
 

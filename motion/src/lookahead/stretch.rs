@@ -7,7 +7,7 @@ use crate::cap::Cap;
 use crate::profile::{Infeasible, Profile, Rates, SlopeLimits};
 use crate::queue::Queued;
 use crate::ride::{Cell, has_hill};
-use std::borrow::Cow;
+use std::ops::Deref;
 use std::sync::Arc;
 
 /// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
@@ -21,20 +21,44 @@ pub(super) struct Stretch<'a> {
     pub(super) length: f64,
     /// Highest feed in mm/s.
     pub(super) feed: f64,
-    /// The one of its only block, or the weakest of several.
-    pub(super) slope: Cow<'a, SlopeLimits>,
+    pub(super) slope: Weakest<'a>,
+}
+
+/// The slope of an only block, or the weakest of several: limits are large, and most stretches have one block.
+pub(super) enum Weakest<'a> {
+    One(&'a SlopeLimits),
+    OfSeveral(Box<SlopeLimits>),
+}
+
+impl Deref for Weakest<'_> {
+    type Target = SlopeLimits;
+
+    fn deref(&self) -> &SlopeLimits {
+        match self {
+            Self::One(slope) => slope,
+            Self::OfSeveral(slope) => slope,
+        }
+    }
+}
+
+impl Weakest<'_> {
+    /// Is to hold for another block, too.
+    pub(super) fn join(&mut self, other: &SlopeLimits) {
+        let weaker = self.weaker(other);
+        match self {
+            Self::One(_) => *self = Self::OfSeveral(Box::new(weaker)),
+            Self::OfSeveral(slope) => **slope = weaker,
+        }
+    }
 }
 
 impl Stretch<'_> {
     /// Both in one, with the feed of the second one: braking continues from the first to the second.
-    pub(super) fn carried_into(self, second: &Self) -> Self {
-        Self {
-            first: self.first,
-            end: second.end,
-            length: self.length + second.length,
-            feed: second.feed,
-            slope: Cow::Owned(self.slope.weaker(&second.slope)),
-        }
+    pub(super) fn carried_into(mut self, second: &Self) -> Self {
+        self.slope.join(&second.slope);
+        self.length += second.length;
+        (self.end, self.feed) = (second.end, second.feed);
+        self
     }
 
     /// Largest speed at its end, acceleration zero, from a speed and an acceleration at its start: the acceleration is

@@ -11,6 +11,7 @@ use crate::timeline::{Entry, Moment, Seen};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Parts in which a span of the last plan becomes final where there is no new one.
@@ -208,21 +209,21 @@ impl Planner {
         Some(())
     }
 
-    fn commit(&mut self, mut entries: Vec<Entry>, count: usize) {
-        self.plan.reserve = entries.split_off(count).into();
-        let blocks = entries.iter().map(|entry| entry.blocks.len()).sum();
+    fn commit(&mut self, entries: Vec<Entry>, count: usize) {
+        let mut entries = VecDeque::from(entries);
         let mut dwells: Vec<u32> = Vec::with_capacity(count);
-        let mut behind = 0;
-        for entry in &entries {
-            behind += entry.blocks.len();
-            dwells.push(self.plan.demands.stop[behind].unwrap_or(0));
+        let mut blocks = 0;
+        for entry in entries.range(..count) {
+            blocks += entry.blocks.len();
+            dwells.push(self.plan.demands.stop[blocks].unwrap_or(0));
         }
         let mut segments = self.plan.pass(blocks).into_iter();
-        for (entry, dwell) in entries.iter_mut().zip(dwells) {
+        for (entry, dwell) in entries.range_mut(..count).zip(dwells) {
             entry.caps = held_to(segments.by_ref().take(entry.blocks.len()));
             self.enter(entry, dwell);
         }
-        self.timeline.extend(entries);
+        self.timeline.extend(entries.drain(..count));
+        self.plan.reserve = entries;
     }
 
     /// Puts an entry after the others on the timeline; what follows a stop starts after `dwell` cycles.
