@@ -6,19 +6,31 @@
 use super::motion::{Driven, Motion};
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
+use kontur_filters::time::CycleTime;
 use kontur_motion::block::{Block, ContourMode};
 use kontur_motion::contouring::Contouring;
 use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
 /// The curves that have been made.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Interim {
     stage: Contouring,
     /// Number of the next motion.
     next: u64,
     /// Motions at whose end a curve may come, with their numbers.
     before: VecDeque<(u64, SourceRef, Span)>,
+}
+
+/// A curve through an interim point is made whatever it costs: neither cycle nor filters matter.
+fn stage() -> Contouring {
+    Contouring::new(CycleTime::DEFAULT)
+}
+
+impl Default for Interim {
+    fn default() -> Self {
+        Self { stage: stage(), next: 0, before: VecDeque::new() }
+    }
 }
 
 /// At its end a curve may lead through a point.
@@ -45,7 +57,7 @@ impl Interim {
         }
         self.next += 1;
         let mut driven: Option<Driven> = None;
-        for made in self.stage.push(block) {
+        for made in self.stage.push(block, false) {
             while self.before.front().is_some_and(|(seq, ..)| *seq < made.seq) {
                 self.before.pop_front();
             }
@@ -77,7 +89,7 @@ impl Interim {
 
     /// The path rests: no curve.
     pub(super) fn rest(&mut self) {
-        self.stage = Contouring::new();
+        self.stage = stage();
         self.before.clear();
     }
 }
