@@ -255,9 +255,11 @@ impl Wait {
         self.patience.is_over(worst.distance_mm, settling_s, cycle).then_some((i, worst))
     }
 
-    /// Its cycles belong to its own block, not to the motion before.
+    /// Its cycles belong to its own block, not to the motion before; in the one at the end of a thread the axes complete that.
     pub(super) fn is_of_its_own_block(&self) -> bool {
-        matches!(self.until, Until::Cycles(..) | Until::Spindle(..) | Until::Arrived(_))
+        let waits =
+            matches!(self.until, Until::Cycles(..) | Until::Spindle(..) | Until::Arrived(_));
+        waits && !matches!(self.action, Action::ThreadEnd)
     }
 
     /// The mark that the wait is for.
