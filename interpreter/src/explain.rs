@@ -251,7 +251,9 @@ fn example(row: &Row) -> Option<String> {
     if row.key.is_empty() {
         return None;
     }
-    let key = table::with_indices(row.key, [0; 2]);
+    // the logical number of an axis is never 0
+    let first = u32::from(row.key.starts_with("kontur.axis[i]"));
+    let key = table::with_indices(row.key, [first, 0]);
     let value = match (notes::example(row.id), row.raw) {
         (Some(value), _) => value.to_owned(),
         (None, Raw::Word(words)) => words.first().copied().unwrap_or_default().to_owned(),

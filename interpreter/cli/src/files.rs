@@ -346,7 +346,8 @@ fn in_other_case(place: &Path) -> Option<PathBuf> {
     let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.take(LOOKED_AT);
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let found = names.filter(|name| name.eq_ignore_ascii_case(wanted)).min()?;
+    let wanted = wanted.to_lowercase();
+    let found = names.filter(|name| name.to_lowercase() == wanted).min()?;
     Some(place.with_file_name(found))
 }
 
@@ -412,5 +413,9 @@ mod tests {
         assert_eq!(found("./SRC/../cargo.toml"), None);
         assert_eq!(found("src/FILES.rs"), Some(PathBuf::from("src/files.rs")));
         assert_eq!(found("no such file"), None);
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        std::fs::write(place("Fräsen 1.nc"), "M30").unwrap();
+        assert_eq!(in_other_case(&place("FRÄSEN 1.NC")), Some(place("Fräsen 1.nc")));
     }
 }

@@ -237,14 +237,18 @@ impl Problem {
     }
 }
 
-/// Fields of a line without the blanks around them, with the characters in front of each.
+/// Fields of a line without the blanks and quotes around them, with the characters in front of each. No field holds a comma.
 fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut at = 0;
     line.split(',').map(move |field| {
         let blanks = field.chars().take_while(|c| c.is_whitespace()).count();
         let start = at + blanks;
         at += field.chars().count() + 1;
-        (start, field.trim())
+        let field = field.trim();
+        match field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
+            Some(quoted) => (start + 1, quoted),
+            None => (start, field),
+        }
     })
 }
 
@@ -298,6 +302,9 @@ mod tests {
             change(0.25, Signal::Additional(1), -0.15),
         ];
         assert_eq!(changes(&[text]).unwrap(), expected);
+        // as spreadsheets write it
+        let quoted = "\"t_s\",\"override_percent\",feedhold,Y_add_mm\n\"0\",\"50\",\"0\",\"\"\n0.25,,1,\"-0.15\"\n";
+        assert_eq!(changes(&[quoted]).unwrap(), expected);
         assert_eq!(changes(&["t_s,feedhold\n"]).unwrap(), []);
     }
 

@@ -154,7 +154,7 @@ conditions! {
     BreakOutside = Vendor 20243: Error ProgramAbort 3 1, "$BREAK outside of loops and $SWITCH", hint "$BREAK leaves the innermost loop or $SWITCH; $GOTO leaves other blocks";
     ContinueOutside = Vendor 20244: Error ProgramAbort 3 1, "$CONTINUE outside of loops", hint "$CONTINUE starts the next pass of the innermost loop";
     ContinueNotAlone = Vendor 20245: Error ProgramAbort 3 1, "$CONTINUE is not alone in its block", hint "move the words to the block before $CONTINUE";
-    LineTooLong = Vendor 20301: Error ProgramAbort 3 1, "line too long", cause "over 4096 characters", hint "a block has up to 4000 characters: split it, long comments into separate lines";
+    LineTooLong = Vendor 20301: Error ProgramAbort 3 1, "line too long", cause "over 4096 characters", hint "split it, and move long comments to separate lines";
     AxisNumberUnknown = Vendor 20312: Error ProgramAbort 3 1, "logical axis number unknown", cause "axis exchange", hint "the logical axis numbers are in the axis lists (kopf.achs_nr)";
     InsertionWithoutMotion = Vendor 20351: Warning None 1 1, "no motion before a chamfer or rounding", cause "G301/G302 belong between two motion blocks", hint "write a motion before it";
     InsertionFlushed = Vendor 20352: Warning None 1 1, "flush inside chamfer/rounding, nothing inserted", hint "write the flush before the insertion or after the motion that follows it";
@@ -417,6 +417,7 @@ conditions! {
     CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";
     CuttingSpeedNegative = Vendor 120167: Error ProgramAbort 6 1, "cutting speed not above 0", cause "G96 S-5", hint "S is the cutting speed in m/min under G96";
     CuttingSpeedMax = Vendor 120169: Error ProgramAbort 3 1, "highest spindle speed of G196 not above 0", hint "G196 S2500";
+    FaceTurningAxis = Vendor 120170: Error ProgramAbort 6 1, "G96 without exactly one face turning axis in the plane", cause "G96 S100, P-AXIS-00015 without the bit 0x40", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
     SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "P-CHAN-00073", hint "0 all, 1 to 4 one of the ramp times", parameter "P-CHAN-00073";
     SplineWithoutMainAxis = Vendor 120180: Error ProgramAbort 6 0, "a point of a spline moves no main axis", cause "G151 with tracking axes alone", hint "move tracking axes together with main axes";
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
@@ -481,7 +482,7 @@ conditions! {
     ListEnd = Kontur 72 "K-LIST-END": Note None 1 2, "end mark in a list, the rest is not read", cause "a line with END or Ende only";
     Setting = Kontur 73 "K-SETTING": Error JobAbort 3 0, "setting names no axis, parameter or value", cause "--set TARGET.key=value", hint "write AXIS.key=value, channel.key=value or kontur.key=value";
     ListCount = Kontur 74 "K-LIST-COUNT": Warning None 1 2, "more entries than the list's own count, ignored", cause "zahl_mds, achs_anzahl, spdl_anzahl", hint "raise the count, or remove the entries", parameter "P-STUP-00014";
-    ListNoEffect = Kontur 75 "K-LIST-NOEFFECT": Warning None 1 2, "list value without effect", cause "P-CHAN-00063 presets G135", hint "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
+    ListNoEffect = Kontur 75 "K-LIST-NOEFFECT": Warning None 1 2, "list value without effect", cause "kontur does not simulate what the value switches on, or the program overrides it: the text says which", hint "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
     InputFile = Kontur 76 "K-INPUT": Error JobAbort 3 0, "file of real-time inputs wrong or not readable", cause "--input FILE: CSV with the columns t_s and signals, times rising";
     InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message says what is off in the machine";
     ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed";
@@ -514,7 +515,6 @@ conditions! {
     ThreadSpeed = Kontur 122 "K-THREAD-SPEED": Error ProgramAbort 3 1, "thread faster than the axes (no vendor ID known)", cause "pitch times spindle speed above P-AXIS-00212", hint "lower the spindle speed";
     SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a turning spindle (no vendor ID known)", cause "M03 before G63, or before or in the block of G331", hint "stop the spindle with M05, or position it with M19, in an earlier block";
     ThreadPitch = Kontur 124 "K-THREAD-PITCH": Error ProgramAbort 3 1, "thread without a pitch (no vendor ID known)", cause "G33 Z-50 without K", hint "I, J, K are the pitches of X, Y, Z in mm/rev; G33 has no sign";
-    FaceTurningAxis = Kontur 125 "K-FACE-TURNING": Error ProgramAbort 3 1, "G96 without exactly one face turning axis in the plane (no vendor ID known)", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
     ArcPoints = Kontur 126 "K-ARC-POINTS": Error ProgramAbort 3 1, "three points of G303 that define no arc (no vendor ID known)", cause "points on a line, or the same point twice", hint "I, J, K lie between start and target, off the line between them";
     ContourLineMissed = Kontur 127 "K-CONTOUR-LINE": Error ProgramAbort 3 1, "end of a contour line that cannot be reached at its angle (no vendor ID known)", cause "#ANG=90 X20, or the other direction", hint "the angle counts from the first main axis of the plane, counter-clockwise";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop rests or oscillates outside the window, and no remaining input can move it", hint "raise the window or the gain kv, or take the force away";

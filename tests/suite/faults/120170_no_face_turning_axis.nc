@@ -1,4 +1,4 @@
 ; check: exit 1
-; error K-0125 at 3:5
+; error 120170 at 3:5
 G96 S100
 M30
