@@ -3,7 +3,7 @@
 //! Only what a list states is judged; the vendor's defaults are not.
 
 use super::table::param::{Number, Param, Place};
-use super::table::{axis_control, axis_drive, axis_filters, axis_general};
+use super::table::{axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
 use super::{Axis, Machine, issues};
 use crate::diag::{Condition, Diagnostic};
 
@@ -127,7 +127,7 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
 
 /// Feedforward that only one side of a bridge has, and limits of the slave, which no program asks.
 ///
-/// Assumption: a slave has the software limits of its master (the pages say that it takes its set positions).
+/// Source: TF5200 gantry operation, page 285697291: dynamics that have to be the same. Assumption: a slave has the software limits of its master (the pages say that it takes its set positions).
 fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let lags = |on: bool| (slave.lag_s(on, 1.0) - master.lag_s(on, 1.0)).abs() > 1e-9;
     if lags(true) && !lags(false) {
@@ -135,6 +135,15 @@ fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
         let what = format!("feedforward of the gantry slave is not that of {}", master.name());
         let advice = "the bridge racks by the difference of the lags under G135";
         diagnostics.push(issues::about(slave, Condition::ListAdvice, place, &what, advice));
+    }
+    for param in [axis_dynamics::ACC_MAX, axis_dynamics::EMERGENCY_DEC] {
+        let [own, other] = [slave, master].map(|axis| axis.get(param));
+        if (own - other).abs() > 0.0 {
+            let what =
+                format!("{own} mm/s2 of the gantry slave, {other} mm/s2 of {}", master.name());
+            let advice = "the control takes the value of the master, kontur that of each axis";
+            diagnostics.push(issues::about(slave, Condition::ListAdvice, param, &what, advice));
+        }
     }
     for limit in [axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT] {
         if listed(slave, limit) && (slave.get(limit) - master.get(limit)).abs() > 0.0 {
