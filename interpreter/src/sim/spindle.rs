@@ -5,7 +5,7 @@ mod turning;
 use crate::exec::{Approach, CuttingSpeed, SpindleMotion};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
-use kontur_motion::profile::{Profile, SlopeLimits};
+use kontur_motion::profile::Profile;
 use turning::Turning;
 
 /// Positioning after M19: the profile, where it began, cycles since.
@@ -125,10 +125,6 @@ impl Spindle {
         self.acc_ratio = ratio;
     }
 
-    fn limits(&self, cycle: CycleTime) -> SlopeLimits {
-        turning::limits(self.slope, self.acc_ratio, cycle)
-    }
-
     /// It has been ordered to an angle.
     pub(super) fn positions(&self) -> bool {
         matches!(self.wanted, SpindleMotion::Position { .. })
@@ -174,7 +170,7 @@ impl Spindle {
             return self.position_deg;
         }
         let target = self.target_deg_s();
-        let limits = self.limits(cycle);
+        let limits = || turning::limits(self.slope, self.acc_ratio, cycle);
         let most = self.slope.acc_mm_s2.min(self.slope.dec_mm_s2) * self.acc_ratio;
         let follows = self.cutting.is_some() && self.turning.is_steady();
         let change = (target - self.turning.speed_deg_s()).abs();
@@ -182,7 +178,7 @@ impl Spindle {
         self.position_deg += if follows && change <= most * cycle.seconds() {
             self.turning.set_speed(target, cycle)
         } else {
-            self.turning.step(target, &limits, cycle)
+            self.turning.step(target, limits, cycle)
         };
         self.position_deg
     }
@@ -201,7 +197,8 @@ impl Spindle {
                 Approach::Clockwise | Approach::Free => (1.0, clockwise),
             };
             let speed = rpm.map_or(self.v_max_deg_s, |rpm| (rpm * 6.0).min(self.v_max_deg_s));
-            let profile = self.limits(cycle).plan(0.0, 0.0, speed, way);
+            let limits = turning::limits(self.slope, self.acc_ratio, cycle);
+            let profile = limits.plan(0.0, 0.0, speed, way);
             self.positioning = profile.ok().map(|profile| Positioning {
                 profile,
                 from_deg: self.position_deg,

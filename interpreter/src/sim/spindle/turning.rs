@@ -59,17 +59,17 @@ impl Turning {
         self.change.is_none()
     }
 
-    /// One cycle towards a speed: the way in deg.
+    /// One cycle towards a speed: the way in deg. `limits` are asked for where a change begins.
     pub(super) fn step(
         &mut self,
         target_deg_s: f64,
-        limits: &SlopeLimits,
+        limits: impl Fn() -> SlopeLimits,
         cycle: CycleTime,
     ) -> f64 {
         let (mut left_s, mut way_deg) = (cycle.seconds(), 0.0);
         // to rest, from there to the speed of the other sense, and what is left of the cycle at that speed
         for _ in 0..3 {
-            self.head_for(target_deg_s, limits);
+            self.head_for(target_deg_s, &limits);
             let Some(change) = &mut self.change else { break };
             let before_deg = change.profile.at(change.at_s).s_mm;
             let rest_s = change.profile.duration() - change.at_s;
@@ -88,7 +88,7 @@ impl Turning {
     }
 
     /// Plans the way to a speed, where it is another one than that of the change under way.
-    fn head_for(&mut self, target_deg_s: f64, limits: &SlopeLimits) {
+    fn head_for(&mut self, target_deg_s: f64, limits: impl Fn() -> SlopeLimits) {
         let now = self.change.as_ref();
         let sense = match now {
             Some(change) => change.sense,
@@ -106,7 +106,7 @@ impl Turning {
             (state.v_mm_s, state.a_mm_s2)
         });
         // where the acceleration leaves no way, the change under way goes on
-        if let Some(profile) = limits.change_of_speed(v, a, target_deg_s.abs()) {
+        if let Some(profile) = limits().change_of_speed(v, a, target_deg_s.abs()) {
             self.change = Some(Change { profile, target_deg_s, sense, at_s: 0.0 });
         }
     }
