@@ -82,7 +82,7 @@ impl Contouring {
         block.contour.is_none() && self.held.is_none()
     }
 
-    /// Takes a block; what is final comes back. `kernel_active`: some axis has a filter, and `ACC_FACT` acts at corners.
+    /// Takes a block; what is final comes back. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at corners.
     pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         self.take(block, kernel_active);
         self.ready.drain(..)
@@ -130,8 +130,8 @@ impl Contouring {
                 cycle: self.cycle,
                 kernel_active,
             };
-            // how fast a sharp corner is under a tolerance is known to the planner alone; an interim point and
-            // the speed at the end of a block are programmed
+            // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end
+            // speed are programmed explicitly
             let monitored = [&held.block, &block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
             let demanded = matches!(settings.mode, ContourMode::Pos { .. })
                 || held.block.end_velocity_mm_s.is_some();

@@ -30,7 +30,7 @@ pub enum NoContour {
         /// Angle of the corner in deg.
         angle_deg: f64,
     },
-    /// The curve would take longer than the corner.
+    /// The curve would take longer than the sharp corner.
     Slower,
     /// The mode is not available; the corner was contoured as DEV.
     ModeReplaced,

@@ -1,11 +1,11 @@
-//! Whether the curve at a corner is worth it: a rounded corner may not take longer than the sharp one.
+//! Whether rounding a corner saves time: a rounded corner must not take longer than the sharp one.
 //!
-//! A sharp corner is a point that is passed with the speed of its kink; a curve is passed over its whole length with the
-//! speed that its curvature and the change of it allow. A small curve at a sharp corner, or at the flat one between two
-//! chords of a hundredth of a millimetre, has the lower speed, and over a longer way.
+//! A sharp corner limits the speed at one point only, to the speed allowed at its kink. A curve limits it over its whole
+//! length, to what its curvature and the rate of change of that curvature allow. A small curve at a sharp corner, or between
+//! two chords of a few hundredths of a millimetre, is the slower of the two.
 //!
-//! Both are timed from the middle of the block before the corner to the middle of the one after it, as if the speed had its
-//! peak there: in a row of equal corners these are the times of the whole row.
+//! Both are timed from the middle of the block before the corner to the middle of the block after it, as if the speed peaked
+//! at those points. For a row of equal corners this is exact.
 
 use crate::block::Block;
 use crate::junction::{Ends, transition};
@@ -13,17 +13,17 @@ use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::profile::SlopeLimits;
 use kontur_filters::time::CycleTime;
 
-/// Part of the time of the sharp corner that the estimate of a curve may be above it.
+/// Relative rounding error allowed when times are compared.
 const SLACK: f64 = 1e-9;
 
-/// A block next to the corner, seen from there; both are driven away from the corner, in time or against it.
+/// A block next to the corner, seen from the corner: speed rises with the distance from it on either side.
 struct Side {
     slope: SlopeLimits,
     v_mm_s: f64,
     half_mm: f64,
-    /// Time runs towards the corner: the speed is built up by braking.
+    /// The block before the corner: away from the corner means backwards in time, so its legs are braking legs.
     before: bool,
-    /// A leg may pass several blocks.
+    /// A leg may extend over several blocks.
     across: bool,
 }
 
@@ -40,7 +40,7 @@ impl Side {
         }
     }
 
-    /// Highest speed, at most `limit`, with which a leg from `v` ends within `length`, and its time over all of it.
+    /// Highest speed, at most `limit`, that a leg from `v` reaches within `length`, and the time for the whole length.
     fn leg(&self, v: f64, limit: f64, length: f64) -> (f64, f64) {
         let v = v.min(limit);
         let slope = &self.slope;
@@ -78,10 +78,10 @@ impl Side {
         held.min(in_two).min(at_once.unwrap_or(f64::INFINITY))
     }
 
-    /// Time of one leg from `v` over `length`, if it keeps the speeds of the parts that it passes first.
+    /// Time of a single leg from `v` over `length`, if it respects the speeds of the parts that it passes first.
     fn through(&self, v: f64, parts: &[(f64, f64)], length: f64) -> Option<f64> {
         let (to, time) = self.leg(v, self.v_mm_s, length);
-        // in time or against it, the leg is the same
+        // a braking leg is a speed-up reversed in time
         let profile = if self.before {
             self.slope.plan(to, v, to, length).ok()?
         } else {
@@ -97,7 +97,7 @@ impl Side {
     }
 }
 
-/// A corner between two blocks, with those that a curve bridges.
+/// A corner between two blocks, with the short blocks that a curve bridges.
 pub(super) struct Passage<'a> {
     pub(super) from: &'a Block,
     pub(super) bridged: &'a [Block],
@@ -107,12 +107,12 @@ pub(super) struct Passage<'a> {
 }
 
 impl Passage<'_> {
-    /// True if the curve in `parts`, each with its speed in mm/s, is passed at least as fast as the sharp corner; `pre_mm` and
+    /// True if the curve in `parts`, each with its speed in mm/s, takes no longer than the sharp corner; `pre_mm` and
     /// `post_mm` are its corner distances.
     pub(super) fn is_worth(&self, parts: &[(Block, f64)], pre_mm: f64, post_mm: f64) -> bool {
         let slowest = parts.iter().map(|part| part.1).fold(f64::INFINITY, f64::min);
         let sides = [Side::of(self.from, true, self.cycle), Side::of(self.to, false, self.cycle)];
-        // nothing but the feed that one of the blocks is programmed with holds the curve down
+        // only the programmed feed of one of the blocks limits the curve
         if sides.iter().any(|side| slowest >= side.v_mm_s) {
             return true;
         }
@@ -133,8 +133,8 @@ impl Passage<'_> {
     }
 }
 
-/// Time of the curve and of what is left of both sides: the slowest part with its speed, what lies outside as fast as
-/// one leg, or two, allow.
+/// Time in s for the curve and the rest of both sides: the slowest part at its speed, everything outside of it as fast as one
+/// or two legs allow.
 fn curve_s(sides: &[Side; 2], parts: &[(Block, f64)], slowest: f64, distances: [f64; 2]) -> f64 {
     let is_slow = |part: &&(Block, f64)| part.1 <= slowest * (1.0 + SLACK);
     let first = parts.iter().position(|part| is_slow(&part)).unwrap_or(0);

@@ -7,7 +7,7 @@
 //! the corner off: where a set point has no parts, those of the middle of its line count.
 //!
 //! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
-//! A bend beside a larger kink comes after it.
+//! A bend next to a larger kink is slowed down only once the kink is no longer to blame.
 //! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
 //! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
 //! filter holds them are isolated again: between them it is faster to speed up and to brake. Where a stretch exceeds however slowly
@@ -140,8 +140,8 @@ impl View<'_> {
             let line = [v.cycle.saturating_sub(1), v.cycle];
             parts = self.parts_of(v, &line, record, (first, last));
         }
-        // far off the contour the nearest point is not the middle of what the filters hold: no part may point the same way, or
-        // all of them together may not
+        // far from the contour, the nearest point is not the middle of what the filters hold; then no part, or not even the sum
+        // of all parts, may point in the direction of the deviation
         if !parts.iter().any(|p| free(p) && p.size > 0.0)
             || parts.iter().map(|p| p.size).sum::<f64>() <= 0.0
         {
@@ -162,7 +162,7 @@ impl View<'_> {
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let kinks = parts.iter().filter(|p| free(p) && !p.bend).map(|p| p.size);
         let sharpest = kinks.fold(0.0, f64::max);
-        // a bend beside a larger kink is to blame when that no longer is: it may be the whole of a long arc, which would stay slow
+        // a bend next to a larger kink has to wait until the kink is settled: it may be a long arc, which would remain slow
         let counts = |p: &&Part| {
             free(p) && p.size > 0.0 && p.size >= ALIKE * largest && !(p.bend && p.size <= sharpest)
         };

@@ -107,7 +107,7 @@ impl Foot {
         distance(&self.point, &other.point)
     }
 
-    /// Way along the contour in mm over all axes; its path length leaves out those beside the feed group.
+    /// Way along the contour in mm, counting all axes; the path length counts only those of the feed group.
     fn way(&self, other: &Self) -> f64 {
         (other.s - self.s).abs().max(distance(&self.of, &other.of))
     }
@@ -299,7 +299,7 @@ impl View<'_> {
         bounds.fold(f64::INFINITY, f64::min)
     }
 
-    /// Change of direction at the entry of a mark's block, in the direction `toward`.
+    /// Component in the direction `toward` of the change of direction at the entry of a mark's block.
     pub(super) fn turn(&self, m: usize, toward: &[f64]) -> f64 {
         let Some(before) = m.checked_sub(1).map(|b| &self.marks[b]) else { return 0.0 };
         if self.marks[m].goes_on_from(before) {

@@ -1,11 +1,12 @@
-//! Resting at every corner until the filters have let go of it always keeps the tolerance: no plan may take longer than that.
+//! Resting at every corner until the filters no longer hold it always keeps the tolerance, so no plan may take longer than
+//! that.
 
 use crate::program::rounded;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::run;
 use std::f64::consts::PI;
 
-/// A dwell in s after which no guard of this frequency holds anything any more: three half periods at most, and what is left.
+/// A dwell in s that is longer than any guard of this frequency: they last for three half periods at most.
 fn dwell(freq_hz: f64) -> f64 {
     2.0 / freq_hz
 }
@@ -22,9 +23,9 @@ fn cycles(head: &str, motions: &[String], dwell_s: f64) -> [usize; 2] {
     })
 }
 
-/// A corner at which one axis turns back and the other goes straight on (X5 Y5, X10 Y0): the nearest point of the contour lies
-/// aside in both axes, and the one without a kink was asked who is to blame. Nobody was, and both lines crawled: SIN2 2.04 s
-/// instead of 0.30 s, TRAPEZ 1.76 s at F12000 and 0.40 s at F6000.
+/// Corners at which one axis reverses and the other keeps its direction (X5 Y5, X10 Y0). The deviation has a component in both
+/// axes; the cause was searched for in the axis without a kink, none was found, and both lines crawled: SIN2 2.04 s instead of
+/// 0.30 s, TRAPEZ 1.76 s at F12000 but 0.40 s at F6000.
 #[test]
 fn corners_in_every_direction() {
     let contours: [&[&str]; 5] = [
@@ -48,8 +49,8 @@ fn corners_in_every_direction() {
     }
 }
 
-/// A circle through a corner was slowed down over its whole length (8.7 s instead of 0.6 s): the kink beside it pointed the other
-/// way, because the nearest point lay on the other side of the corner.
+/// An arc after a corner was slowed down over its whole length (8.7 s instead of 0.6 s): the nearest point was on the far side of
+/// the corner, so the part of the kink had the wrong sign and the tiny part of the arc was taken for the cause.
 #[test]
 fn an_arc_beside_a_corner() {
     let head = "#SLOPE [TYPE=HSC]\n#VIB GUARD ON [MODE=3 FREQ=50 AX_DEV=0.01]\nF3000";
@@ -65,9 +66,9 @@ fn an_arc_beside_a_corner() {
     assert!(plain <= rests, "{plain} cycles, with rests {rests}");
 }
 
-/// Random lines and arcs. An arc has one speed, and where it was asked for too little beside a corner that was still too fast, the
-/// arc stayed slow: 8 of 250 contours took up to twice as long as with rests.
-/// The search finds no optimum: of 1,000 some five take longer still, by a third at most.
+/// Random lines and arcs. An arc has a single speed limit, and it kept the one that was asked of it while the corner next to it
+/// was still too fast: 8 of 250 contours took up to twice as long as with rests. The search is not optimal: about 5 of 1,000
+/// still take longer, by a third at most.
 #[test]
 fn lines_and_arcs() {
     let mut r = Random::new(seed());
@@ -104,8 +105,8 @@ fn lines_and_arcs() {
     }
 }
 
-/// Axes outside the feed group go far while the path goes a little: Y 16 mm for each of X. Points of the contour counted as close
-/// by the path alone, and the search for what is missed did not end.
+/// Axes outside the feed group move further than the path: Y 16 mm per mm of X. Distances between points of the contour were taken
+/// from the path length, and the search for what is missed did not end.
 #[test]
 fn axes_outside_the_feed_group() {
     let contours: [&[&str]; 4] = [
