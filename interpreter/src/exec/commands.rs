@@ -15,6 +15,7 @@ pub(in crate::exec) mod keys;
 mod measuring;
 mod messages;
 mod misc;
+mod path_limits;
 mod positions;
 mod row;
 mod shaping;
@@ -65,11 +66,11 @@ const ROWS: &[Row] = &[
     // contour
     contour::CONTOUR_MODE,
     contour::HSC,
-    contour::VECTOR_LIMIT,
-    contour::VECTORVEL,
-    contour::VECTORACC,
-    contour::TRANSVELMIN,
-    contour::OVERRIDE,
+    path_limits::VECTOR_LIMIT,
+    path_limits::VECTORVEL,
+    path_limits::VECTORACC,
+    path_limits::TRANSVELMIN,
+    path_limits::OVERRIDE,
     // waiting and synchronising
     misc::FLUSH,
     misc::CHANNEL_INIT,

@@ -354,7 +354,8 @@ impl Contour {
                 }
             }
         }
-        for item in std::mem::take(&mut self.done) {
+        let mut done = std::mem::take(&mut self.done);
+        for item in done.drain(..) {
             match item {
                 Item::Motion(motion) if motion.course.is_some() => {
                     for piece in feed_course::pieces(motion) {
@@ -364,6 +365,8 @@ impl Contour {
                 Item::Motion(_) | Item::Rest(_) | Item::Events(_) => self.go_out(item),
             }
         }
+        // its memory is used again
+        self.done = done;
     }
 
     /// The last stage before the simulation.
