@@ -5,7 +5,7 @@
 ;   lines 22 to 24  contouring DIST, from 1 mm before to 1 mm after the corner: 0.265 mm from it
 ;   lines 26 to 28  contouring POS, through the point X4.35 Y0.15: 0.212 mm from the corner
 ;   lines 30 to 32  contouring PTP, at most 0.15 mm from the corner and from 0.4 mm before it: 0.106 mm
-;   lines 35 to 37  B-spline, 0.08 mm from the corner: it begins 0.339 mm before it
+;   lines 35 to 37  B-spline, 0.1 mm from the corner: it begins 0.424 mm before it
 %CORNER_ROUNDING
 N10 G71 G90 G17 G00 X0 Y0
 N20 G60 G01 X4.5 F3000
@@ -31,7 +31,7 @@ N210 X4.5
 N220 G60 Y2
 N230 G60 X0 Y0
 N240 #CONTOUR MODE OFF
-N250 #HSC ON [BSPLINE PATH_DEV=0.08]
+N250 #HSC ON [BSPLINE PATH_DEV=0.1]
 N260 X4.5
 N270 G60 Y2
 N280 G60 X0 Y0

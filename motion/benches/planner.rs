@@ -110,13 +110,13 @@ fn smoothing(c: &mut Criterion) {
     let splined: Vec<Block> = lines(count).into_iter().map(|b| Block { spline, ..b }).collect();
     group.bench_function("BSPLINE", |b| {
         b.iter(|| {
-            let mut stage = Splining::new();
+            let mut stage = Splining::new(CycleTime::DEFAULT);
             for block in &splined {
-                for out in stage.push(block.clone()) {
+                for out in stage.push(block.clone(), false) {
                     black_box(out);
                 }
             }
-            for out in stage.flush() {
+            for out in stage.flush(false) {
                 black_box(out);
             }
         });

@@ -30,16 +30,15 @@
 mod blend;
 mod notice;
 mod rounding;
-mod worth;
 
 use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath, PolyPiece};
+use crate::worth::{Part, Passage};
 use kontur_filters::time::CycleTime;
 pub(crate) use rounding::NEEDLE_RAD;
 use rounding::{Curve, curve};
 use std::sync::Arc;
-use worth::Passage;
 
 pub use notice::{NoContour, Notice};
 
@@ -135,7 +134,12 @@ impl Contouring {
             let monitored = [&held.block, &block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
             let demanded = matches!(settings.mode, ContourMode::Pos { .. })
                 || held.block.end_velocity_mm_s.is_some();
-            if monitored || demanded || passage.is_worth(&parts, curve.pre_mm, curve.post_mm) {
+            let timed = |(block, v_mm_s): &(Block, f64)| Part {
+                length_mm: block.path.length(),
+                v_mm_s: *v_mm_s,
+            };
+            let timed: Vec<Part> = parts.iter().map(timed).collect();
+            if monitored || demanded || passage.is_worth(&timed, curve.pre_mm, curve.post_mm) {
                 Ok(Some((curve, parts)))
             } else {
                 Err(NoContour::Slower)

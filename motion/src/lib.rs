@@ -57,6 +57,7 @@ mod ride;
 pub mod spline;
 mod timeline;
 pub mod tolerance;
+mod worth;
 
 // so that unit tests can share the fixtures of the documentation's examples
 #[cfg(test)]

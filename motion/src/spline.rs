@@ -19,7 +19,8 @@
 //! Whatever the control points: a spline that passes a corner at the distance `d` with a change of direction by `jump`
 //! has a curvature of about `jump^2 / (6 d)` there. Below the deviation of the even polygon a smaller tolerance therefore
 //! costs speed, as its root: the edges get straighter and the corners sharper, and the path speed has a ripple. A corner
-//! just short of a reversal stays a corner, as in contouring.
+//! just short of a reversal stays a corner, as in contouring. So does one that is passed faster without the spline
+//! ([`worth`]): a larger tolerance or more corners do not cost time.
 //!
 //! `PATH_DEV` and `TRACK_DEV` hold for both together: what fairing takes is missing for the corners.
 //!
@@ -30,34 +31,38 @@
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
+//! use kontur_filters::time::CycleTime;
 //! use kontur_motion::block::SplineSettings;
 //! use kontur_motion::spline::Splining;
 //!
 //! // a circle of 10 mm in chords of 10 degrees
 //! let point = |i: u64| { let (sin, cos) = libm::sincos(i as f64 * 0.1745); [10.0 * cos, 10.0 * sin] };
-//! let mut stage = Splining::new();
+//! let mut stage = Splining::new(CycleTime::DEFAULT);
 //! let mut out: Vec<Block> = Vec::new();
 //! for i in 0..36 {
 //!     let mut chord = block(i, point(i), point(i + 1), 100.0);
 //!     chord.spline = Some(SplineSettings::default());
-//!     out.extend(stage.push(chord));
+//!     out.extend(stage.push(chord, false));
 //! }
-//! out.extend(stage.flush());
+//! out.extend(stage.flush(false));
 //! assert!(out.iter().all(|block| !block.path.is_straight()));
 //! ```
 
+mod edge;
 mod fairing;
 mod pace;
 mod polygon;
+mod worth;
 
-use crate::axis::AxisVec;
-use crate::block::{Block, Feed, SplineSettings};
-use crate::contouring::NEEDLE_RAD;
+use crate::block::{Block, Feed};
+use crate::contouring::{NoContour, Notice};
 use crate::path::{Path, PolyPath, piece};
+use edge::{Corner, Curve, Edge, corner};
 use fairing::Fairing;
+use kontur_filters::time::CycleTime;
 use polygon::ControlPolygon;
 use std::collections::VecDeque;
-use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Edges after the present one that decide its piece.
 const AHEAD: usize = 5;
@@ -70,45 +75,50 @@ const SHARE: f64 = 0.245;
 /// third of the deviation. Otherwise the control points would crowd at the ends of short edges.
 const EVEN: f64 = 2.0;
 
-/// A linear block of a run.
+/// Edges that decide a piece.
+#[derive(Clone, Debug, PartialEq)]
+struct Span {
+    edges: Range<usize>,
+    /// The spline begins and ends with them.
+    from_start: bool,
+    to_end: bool,
+}
+
+/// The stage. It holds a few blocks after those of [`fairing`], and what it needs of the [`BEHIND`] before them.
 #[derive(Debug)]
-struct Edge {
-    block: Block,
-    settings: SplineSettings,
-    direction: AxisVec,
-    length: f64,
-    corner: Corner,
-}
-
-/// The corner at the start of an edge inside a run.
-#[derive(Clone, Copy, Debug)]
-struct Corner {
-    /// Largest deviation there for a change of direction by 1 in mm, as far as the tolerances go.
-    reach: f64,
-    /// Control points at `e` and `2 e` on either side.
-    e: Option<f64>,
-}
-
-impl Corner {
-    const FREE: Self = Self { reach: f64::INFINITY, e: None };
-}
-
-/// The stage. It holds at most [`AHEAD`] blocks after those of [`fairing`], and what it needs of the [`BEHIND`] before them.
-#[derive(Debug, Default)]
 pub struct Splining {
+    cycle: CycleTime,
     fairing: Fairing,
     run: VecDeque<Edge>,
+    /// Edges at the front that have their curves as if every corner of the run were rounded.
+    curved: usize,
+    /// Edges at the front of which it is known whether the corner at their start is rounded.
+    judged: usize,
     /// Edges at the front that have been put out.
     done: usize,
     /// The first edge in the buffer is the first of the run.
     from_start: bool,
+    /// The last edge in the buffer is the last of the run.
+    to_end: bool,
     ready: Vec<Block>,
+    notices: Vec<Notice>,
 }
 
 impl Splining {
     /// A stage that holds nothing.
-    pub fn new() -> Self {
-        Self::default()
+    pub fn new(cycle: CycleTime) -> Self {
+        Self {
+            cycle,
+            fairing: Fairing::default(),
+            run: VecDeque::new(),
+            curved: 0,
+            judged: 0,
+            done: 0,
+            from_start: false,
+            to_end: false,
+            ready: Vec::new(),
+            notices: Vec::new(),
+        }
     }
 
     /// The block does not belong to a spline, and none is waiting: pushed, it would be returned at once and unchanged.
@@ -116,45 +126,48 @@ impl Splining {
         block.spline.is_none() && self.run.is_empty() && self.fairing.is_empty()
     }
 
-    /// Takes a block; what is final comes back.
-    pub fn push(&mut self, block: Block) -> impl Iterator<Item = Block> + '_ {
+    /// Takes a block; what is final comes back. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at corners.
+    pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
         for block in fairing.push(block) {
-            self.take(block);
+            self.take(block, kernel_active);
         }
         self.fairing = fairing;
         self.ready.drain(..)
     }
 
     /// The path stops after the last block: everything comes back.
-    pub fn flush(&mut self) -> impl Iterator<Item = Block> + '_ {
+    pub fn flush(&mut self, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
         for block in fairing.flush() {
-            self.take(block);
+            self.take(block, kernel_active);
         }
         self.fairing = fairing;
-        self.end_run();
+        self.end_run(kernel_active);
         self.ready.drain(..)
     }
 
-    fn take(&mut self, block: Block) {
+    /// Corners that stay sharp because the spline would take longer, since the last call.
+    pub fn take_notices(&mut self) -> Vec<Notice> {
+        std::mem::take(&mut self.notices)
+    }
+
+    fn take(&mut self, block: Block, kernel_active: bool) {
         let Some(mut edge) = Edge::new(&block) else {
-            self.end_run();
+            self.end_run(kernel_active);
             self.ready.push(block);
             return;
         };
         if let Some(last) = self.run.back() {
             match corner(last, &edge) {
                 Some(corner) => edge.corner = corner,
-                None => self.end_run(),
+                None => self.end_run(kernel_active),
             }
         }
         self.from_start |= self.run.is_empty();
         self.settle(edge.length);
         self.run.push_back(edge);
-        if self.run.len() > self.done + AHEAD {
-            self.put_out(false);
-        }
+        self.advance(kernel_active);
     }
 
     /// Settles the corner at the start of the last edge, which the length of the next edge has a part in.
@@ -166,160 +179,143 @@ impl Splining {
         let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
         let even = lengths.iter().all(|l| *l <= EVEN * shortest);
         let most = SHARE * h.min(k);
-        let Corner { reach, e } = &mut self.run[at + 1].corner;
+        let Corner { reach, e, .. } = &mut self.run[at + 1].corner;
         if reach.is_finite() {
             let exact = 6.0 * *reach;
             *e = (!even || exact < most).then_some(exact.min(most));
         }
     }
 
-    fn end_run(&mut self) {
+    fn end_run(&mut self, kernel_active: bool) {
         if let Some(last) = self.run.back() {
             // mirrored at the end
             self.settle(last.length);
         }
-        while self.done < self.run.len() {
-            self.put_out(true);
-        }
+        self.to_end = true;
+        self.advance(kernel_active);
         self.run.clear();
-        (self.done, self.from_start) = (0, false);
+        (self.curved, self.judged, self.done) = (0, 0, 0);
+        (self.from_start, self.to_end) = (false, false);
+    }
+
+    /// Puts out the edges that are decided; all of them at the end of the run.
+    fn advance(&mut self, kernel_active: bool) {
+        let to_end = self.to_end;
+        let decided = |ahead: usize, of: usize| if to_end { of } else { of.saturating_sub(ahead) };
+        while self.curved < decided(AHEAD, self.run.len()) {
+            let span = self.span(self.curved);
+            self.run[self.curved].curves = self.curves(self.curved, &span);
+            self.curved += 1;
+        }
+        while self.judged < self.curved {
+            if self.judged > 0 && !self.is_worth(self.judged, kernel_active) {
+                self.run[self.judged].corner.sharp = true;
+                let seq = self.run[self.judged - 1].block.seq;
+                self.notices.push(Notice { seq, reason: NoContour::Slower });
+            }
+            self.judged += 1;
+        }
+        while self.done < decided(AHEAD - 1, self.judged) {
+            self.put_out();
+        }
+    }
+
+    /// The edges that decide the piece of an edge where every corner is rounded.
+    fn span(&self, edge: usize) -> Span {
+        let start = edge.saturating_sub(BEHIND);
+        // the corner after these edges is settled
+        let end = (edge + AHEAD - 1).min(self.run.len());
+        Span {
+            edges: start..end,
+            from_start: self.from_start && start == 0,
+            to_end: self.to_end && end == self.run.len(),
+        }
+    }
+
+    /// Those of them between the corners next to the edge that stay sharp, one more of them given.
+    fn between_sharp(&self, edge: usize, span: &Span, also: Option<usize>) -> Span {
+        let is_sharp = |i: &usize| self.run[*i].corner.sharp || also == Some(*i);
+        let (start, end) = (span.edges.start, span.edges.end);
+        let before = (start..=edge).rev().find(is_sharp);
+        let after = (edge + 1..end).find(is_sharp);
+        Span {
+            edges: before.unwrap_or(start)..after.unwrap_or(end),
+            from_start: before.is_some() || span.from_start,
+            to_end: after.is_some() || span.to_end,
+        }
     }
 
     /// Puts out the piece of the next edge.
-    fn put_out(&mut self, to_end: bool) {
-        let single = self.from_start && to_end && self.run.len() == 1;
-        let curves = if single { Vec::new() } else { self.curves(to_end) };
-        let block = &self.run[self.done].block;
+    fn put_out(&mut self) {
+        let edge = self.done;
+        let mut curves = std::mem::take(&mut self.run[edge].curves);
+        let whole = self.span(edge);
+        let span = self.between_sharp(edge, &whole, None);
+        if span != whole {
+            curves = self.curves(edge, &span);
+        }
+        let block = &self.run[edge].block;
         if curves.is_empty() {
             self.ready.push(block.clone());
         }
-        let whole: f64 = curves.iter().map(PolyPath::length).sum();
+        let whole: f64 = curves.iter().map(|curve| curve.path.length()).sum();
         let parts = curves.len();
-        for (i, curve) in curves.into_iter().enumerate() {
+        for (i, Curve { path, .. }) in curves.into_iter().enumerate() {
             let mut part = block.clone();
             if let Feed::Duration(t) = block.feed {
-                part.feed = Feed::Duration(t * curve.length() / whole);
+                part.feed = Feed::Duration(t * path.length() / whole);
             }
             if i + 1 < parts {
                 (part.end_velocity_mm_s, part.contour) = (None, None);
             }
-            part.path = Path::Curve(Box::new(curve));
+            part.path = Path::Curve(Box::new(path));
             self.ready.push(part);
         }
         self.done += 1;
         if self.done > BEHIND {
             self.run.pop_front();
-            self.done -= 1;
             self.from_start = false;
+            for count in [&mut self.curved, &mut self.judged, &mut self.done] {
+                *count -= 1;
+            }
         }
     }
 
-    /// The spline over the next edge: one curve, or one for each part with its own speed.
-    fn curves(&self, to_end: bool) -> Vec<PolyPath> {
-        let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
+    /// The spline over an edge: one curve, or one for each part with its own speed; none over an edge that is a spline for itself.
+    fn curves(&self, edge: usize, span: &Span) -> Vec<Curve> {
+        if span.from_start && span.to_end && span.edges.len() == 1 {
+            return Vec::new();
+        }
+        let polygon = ControlPolygon::around(&self.run, edge, span);
         let pieces = polygon.pieces();
-        let block = &self.run[self.done].block;
-        let mut start = if self.from_start && self.done == 0 {
+        let block = &self.run[edge].block;
+        let mut start = if span.from_start && edge == span.edges.start {
             block.path.start().clone()
         } else {
             polygon.joint(polygon.first)
         };
-        let end = if to_end && self.done + 1 == self.run.len() {
+        let end = if span.to_end && edge + 1 == span.edges.end {
             block.path.end().clone()
         } else {
             polygon.joint(polygon.last)
         };
         // a stop at every transition (G116) means those of the program
         let groups = if block.dynamics.stop_at_transitions {
-            vec![pieces]
+            vec![(pieces, f64::INFINITY)]
         } else {
             pace::groups(block, pieces)
         };
         let mut groups = groups.into_iter();
         let mut out = Vec::with_capacity(groups.len());
-        while let Some(pieces) = groups.next() {
+        while let Some((pieces, v_mm_s)) = groups.next() {
             let here = match pieces.last() {
                 Some(last) if groups.len() > 0 => piece::point(last, 1.0),
                 _ => end.clone(),
             };
             let from = std::mem::replace(&mut start, here.clone());
-            out.extend(PolyPath::new(from, here, pieces, &block.dynamics.feed_axes));
+            let path = PolyPath::new(from, here, pieces, &block.dynamics.feed_axes);
+            out.extend(path.map(|path| Curve { path, v_mm_s }));
         }
         out
     }
-}
-
-impl Edge {
-    /// `None` if the block is not part of a spline.
-    fn new(block: &Block) -> Option<Self> {
-        let settings = block.spline?;
-        let Path::Line(line) = &block.path else { return None };
-        let length = block.path.length();
-        let long = settings.max_length_mm > 0.0 && length > settings.max_length_mm;
-        let slaved_only =
-            (0..line.direction().len()).all(|i| !is_feed(block, i) || line.direction()[i] == 0.0);
-        if long || slaved_only || (settings.off_at_rapid && block.feed == Feed::Rapid) {
-            return None;
-        }
-        let direction = line.direction().clone();
-        Some(Self { block: block.clone(), settings, direction, length, corner: Corner::FREE })
-    }
-}
-
-fn is_feed(block: &Block, i: usize) -> bool {
-    block.dynamics.feed_axes.get(i).copied().unwrap_or(true)
-}
-
-/// How two edges differ in direction.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    /// Length of the change of direction over the feed axes.
-    jump: f64,
-    /// Angle between the directions over the feed axes in rad.
-    angle_rad: f64,
-    /// Largest change of `dq/ds` of an axis outside the feed group.
-    track: f64,
-}
-
-fn turn(a: &Edge, b: &Edge) -> Turn {
-    let (mut jump2, mut sum2, mut track) = (0.0, 0.0, 0.0_f64);
-    for i in 0..a.direction.len() {
-        let (u, w) = (a.direction[i], b.direction[i]);
-        if is_feed(&b.block, i) {
-            jump2 += (w - u) * (w - u);
-            sum2 += (w + u) * (w + u);
-        } else {
-            track = track.max((w - u).abs());
-        }
-    }
-    let jump = jump2.sqrt();
-    Turn { jump, angle_rad: 2.0 * libm::atan2(jump, sum2.sqrt()), track }
-}
-
-/// Judges the corner between two edges of a run; `None` where the spline ends.
-fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
-    if a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
-        return None;
-    }
-    let Turn { jump, angle_rad: angle, track } = turn(a, b);
-    let settings = &b.settings;
-    if angle.to_degrees() > settings.max_angle_deg || angle >= PI - NEEDLE_RAD {
-        return None;
-    }
-    // the reach whatever the knots of the other corners are
-    let (h, k) = (a.length, b.length);
-    let most = h * k / (h + k) * h.max(k) / (h + k);
-    let allowed = |dev: f64, off: bool, jump: f64| {
-        (dev > 0.0 && most * jump > dev).then_some((off, dev / jump))
-    };
-    let path = allowed(settings.path_dev_mm, settings.off_at_path_dev, jump);
-    let slaved = allowed(settings.track_dev_deg, settings.off_at_track_dev, track);
-    let mut reach = f64::INFINITY;
-    for (off, allowed) in [path, slaved].into_iter().flatten() {
-        if off {
-            return None;
-        }
-        reach = reach.min(allowed);
-    }
-    Some(Corner { reach, e: None })
 }

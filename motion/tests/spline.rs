@@ -5,6 +5,7 @@
 mod common;
 
 use common::{Job, axis, channel, circle, deviation, peaks};
+use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
@@ -12,24 +13,35 @@ use kontur_motion::block::{Block, ChannelDynamics, SplineSettings};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::Setpoint;
 use kontur_motion::spline::Splining;
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
-    let mut stage = Splining::new();
+    splined_and_sharp(job, settings, points, feed).0
+}
+
+/// With the numbers of the blocks that end in a corner that is faster without a spline.
+fn splined_and_sharp(
+    job: &Job,
+    settings: SplineSettings,
+    points: &[Vec<f64>],
+    feed: f64,
+) -> (Vec<Block>, Vec<u64>) {
+    let mut stage = Splining::new(CycleTime::DEFAULT);
     let mut out = Vec::new();
     for (i, w) in points.windows(2).enumerate() {
         let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
         let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
         let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
-        out.extend(stage.push(block));
-        assert!(out.last().map_or(0, |b| b.seq) as usize + 775 > i, "the buffer is bounded");
+        out.extend(stage.push(block, false));
+        assert!(out.last().map_or(0, |b| b.seq) as usize + 779 > i, "the buffer is bounded");
     }
-    out.extend(stage.flush());
+    out.extend(stage.flush(false));
     let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();
     assert!(numbers.is_sorted());
     numbers.dedup();
     assert_eq!(numbers, (0..points.len() as u64 - 1).collect::<Vec<_>>(), "every block survives");
-    out
+    (out, stage.take_notices().iter().map(|n| n.seq).collect())
 }
 
 fn vector(path: &Path, f: impl Fn(&Path, &mut [f64])) -> Vec<f64> {
@@ -42,13 +54,17 @@ fn apart(p: &[f64], q: &[f64]) -> f64 {
     p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// Largest gaps in position, tangent and curvature between neighbours.
-fn gaps(blocks: &[Block]) -> [f64; 3] {
+/// Largest gaps in position, tangent and curvature between neighbours; the latter two not at sharp corners, where the spline
+/// ends.
+fn gaps(blocks: &[Block], sharp: &[u64]) -> [f64; 3] {
     let mut worst = [0.0_f64; 3];
     for w in blocks.windows(2) {
         let (a, b) = (&w[0].path, &w[1].path);
         let l = a.length();
         worst[0] = worst[0].max(apart(a.end(), b.start()));
+        if w[0].seq != w[1].seq && sharp.contains(&w[0].seq) {
+            continue;
+        }
         let (t, u) = (vector(a, |p, v| p.tangent(l, v)), vector(b, |p, v| p.tangent(0.0, v)));
         worst[1] = worst[1].max(apart(&t, &u));
         let (t, u) = (vector(a, |p, v| p.curvature(l, v)), vector(b, |p, v| p.curvature(0.0, v)));
@@ -91,6 +107,9 @@ const GENTLE: Shape = (|u| 0.1 * libm::pow(50.0, u), |u| 1.2 * (u - 0.5));
 /// Edges of 0.6 to 1.2 mm that turn by at most 29 degrees: where a tolerance is a little too small.
 const EVEN: Shape = (|u| 0.6 * libm::pow(2.0, u), |u| u - 0.5);
 
+/// Edges of 5 to 20 mm that turn by a right angle to either side.
+const SQUARES: Shape = (|u| 5.0 * libm::pow(4.0, u), |u| FRAC_PI_2 * libm::copysign(1.0, u - 0.5));
+
 fn polygon((edge, turn): Shape, seed: u64, count: usize) -> Vec<Vec<f64>> {
     let mut random = Random::from_state(seed);
     let (mut heading, mut p) = (0.0, [0.0, 0.0]);
@@ -112,11 +131,11 @@ fn the_tolerance_is_kept_and_the_curve_is_smooth() {
         let points = polygon(if seed % 2 == 0 { ROUGH } else { EVEN }, seed, 60);
         for path_dev_mm in [0.001, 0.005, 0.02, 0.03, 0.04, 0.2] {
             let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-            let blocks = splined(&job, settings, &points, 50.0);
+            let (blocks, sharp) = splined_and_sharp(&job, settings, &points, 50.0);
             let (out, missed) = strays(&blocks, &points);
             assert!(out <= path_dev_mm * (1.0 + 1e-9), "{seed}: {out}");
             assert!(missed <= path_dev_mm * (1.0 + 1e-2) + 1e-9, "{seed}: {missed}");
-            let [position, tangent, curvature] = gaps(&blocks);
+            let [position, tangent, curvature] = gaps(&blocks, &sharp);
             assert!(position < 1e-11 && tangent < 1e-9, "{seed}: {position} {tangent}");
             assert!(curvature < 1e-6, "{seed}: {curvature}");
             // the ends are exact, with the direction of the polygon
@@ -183,7 +202,7 @@ fn a_needle_stays_a_corner() {
 fn where_the_spline_ends() {
     let job = Job::new(1.0, Hsc);
     let points = [vec![0.0, 0.0], vec![1.0, 0.0], vec![2.0, 0.1], vec![2.2, 1.0], vec![2.3, 2.0]];
-    let kink = |settings: SplineSettings| gaps(&splined(&job, settings, &points, 50.0))[1];
+    let kink = |settings: SplineSettings| gaps(&splined(&job, settings, &points, 50.0), &[])[1];
     assert!(kink(SplineSettings::default()) < 1e-9);
     let base = SplineSettings::default();
     assert!(kink(SplineSettings { max_angle_deg: 60.0, ..base }) > 0.5);
@@ -208,7 +227,7 @@ fn slaved_axes() {
         .collect();
     for track_dev_deg in [0.5, 0.05] {
         let settings = SplineSettings { track_dev_deg, ..SplineSettings::default() };
-        let blocks = splined(&job, settings, &points, 50.0);
+        let (blocks, sharp) = splined_and_sharp(&job, settings, &points, 50.0);
         // the programmed angle at the same place of the polygon in X
         for b in &blocks {
             for k in 0..=10 {
@@ -218,7 +237,7 @@ fn slaved_axes() {
                 assert!((q[2] - want).abs() <= 1.001 * track_dev_deg, "{} {want}", q[2]);
             }
         }
-        assert!(gaps(&blocks)[1] < 1e-8);
+        assert!(gaps(&blocks, &sharp)[1] < 1e-8);
     }
 }
 
@@ -281,7 +300,7 @@ fn ripple_on_a_circle_with_the_least_tolerance() {
     }
 }
 
-/// Tolerances below `h^2 / (6 r)` are used, and a smaller one never makes the run shorter.
+/// Tolerances below `h^2 / (6 r)` are used, unless the polygon is faster, and a smaller one never makes the run shorter.
 #[test]
 fn a_small_tolerance_on_a_circle() {
     let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
@@ -292,11 +311,12 @@ fn a_small_tolerance_on_a_circle() {
         for share in [2.0, 1.001, 0.999, 0.9, 0.75, 0.6, 0.5, 0.4, 0.3, 0.25, 0.201, 0.199, 0.1] {
             let path_dev_mm = natural(chord) * share;
             let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-            let blocks = splined(&job, settings, &points, 300.0);
+            let (blocks, sharp) = splined_and_sharp(&job, settings, &points, 300.0);
             let (out, missed) = strays(&blocks, &points);
             assert!(out <= path_dev_mm * (1.0 + 1e-9), "{chord} {share}: {out}");
-            assert!(missed >= 0.95 * path_dev_mm.min(natural(chord)), "{chord} {share}: {missed}");
-            assert!(gaps(&blocks)[2] < 1e-6);
+            let used = missed >= 0.95 * path_dev_mm.min(natural(chord));
+            assert!(used || !sharp.is_empty(), "{chord} {share}: {missed}");
+            assert!(gaps(&blocks, &sharp)[2] < 1e-6);
             let cycles = job.run(&points[0], blocks.into_iter()).len();
             println!("chord {chord} share {share}: {cycles} cycles, {missed}");
             assert!(cycles >= last, "{chord} {share}: {cycles} after {last}");
@@ -323,7 +343,7 @@ fn ripple_on_a_circle_with_estimated_curvature() {
     }
 }
 
-/// A larger `PATH_DEV` never lengthens the run, and no axis is loaded beyond what the shape of the curve (`a`,
+/// A larger `PATH_DEV` does not lengthen the run, but by the 2 % that a corner judged for itself may cost, and no axis is loaded beyond what the shape of the curve (`a`,
 /// `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together. `COUNT` raises the number of polygons.
 #[test]
 fn a_larger_tolerance_costs_nothing() {
@@ -340,12 +360,43 @@ fn a_larger_tolerance_costs_nothing() {
                     let blocks = splined(&job, settings, &points, 100.0);
                     let now = peaks(&job.run(&points[0], blocks.into_iter()), job.cycle_us);
                     println!("{kind:?} {seed} {path_dev_mm}: {now:?}");
-                    assert!(now.0 <= last, "{kind:?} {seed} {path_dev_mm}: {now:?} after {last}");
+                    assert!(
+                        now.0 - now.0 / 50 <= last,
+                        "{kind:?} {seed} {path_dev_mm}: {now:?} after {last}"
+                    );
                     assert!(
                         now.1 <= 2000.0 * (1.0 + 1e-6),
                         "{kind:?} {seed} {path_dev_mm}: {now:?}"
                     );
                     last = now.0;
+                }
+            }
+        }
+    }
+}
+
+/// A spline takes no longer than its polygon, but by the 1 % that a corner judged for itself may cost. `COUNT` raises the number of
+/// polygons.
+#[test]
+fn a_spline_takes_no_longer_than_its_polygon() {
+    let count = environment("COUNT", 3);
+    for kind in [Hsc, Trapez] {
+        let mut job = Job { window: 400, ..Job::new(1.0, kind) };
+        job.slope.optimised = kind == Trapez;
+        for shape in [ROUGH, GENTLE, EVEN, SQUARES] {
+            for seed in 100..100 + count {
+                let points = polygon(shape, seed, 60);
+                let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+                let sharp = job.drive(&views, &[100.0]).len();
+                for path_dev_mm in [1e-3, 0.01, 0.05, 0.2] {
+                    let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                    let blocks = splined(&job, settings, &points, 100.0);
+                    let round = job.run(&points[0], blocks.into_iter()).len();
+                    println!("{kind:?} {seed} {path_dev_mm}: {round} of {sharp}");
+                    assert!(
+                        round - round / 100 <= sharp,
+                        "{kind:?} {seed} {path_dev_mm}: {round} of {sharp} cycles"
+                    );
                 }
             }
         }

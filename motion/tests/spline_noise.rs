@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Job, channel, circle};
+use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::Hsc;
@@ -23,15 +24,15 @@ fn rounded(points: &[Vec<f64>], decimals: i32) -> Vec<Vec<f64>> {
 }
 
 fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
-    let mut stage = Splining::new();
+    let mut stage = Splining::new(CycleTime::DEFAULT);
     let mut out = Vec::new();
     for (i, w) in points.windows(2).enumerate() {
         let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
         let Some(line) = LinePath::new(from, to, &job.dynamics.feed_axes) else { continue };
         let block = job.block(i as u64, Path::Line(line), feed);
-        out.extend(stage.push(Block { spline: Some(settings), ..block }));
+        out.extend(stage.push(Block { spline: Some(settings), ..block }, false));
     }
-    out.extend(stage.flush());
+    out.extend(stage.flush(false));
     out
 }
 

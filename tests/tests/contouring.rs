@@ -187,7 +187,9 @@ fn a_larger_path_dev_keeps_long_edges_fast() {
                  X-15 Y40\n#HSC OFF\nM30\n"
             );
             let run = run(&program, &[]);
-            assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+            // of the smallest ones a corner is faster
+            let other = run.diagnostics.iter().find(|d| d.id != Condition::CornerFaster);
+            assert_eq!(other, None);
             let cycles = run.records.len();
             assert!(cycles <= last, "F{feed} {path_dev}: {cycles} cycles after {last}");
             last = cycles;

@@ -147,7 +147,7 @@ fn corner_rounding() {
         (22, corner, 0.375 * sin45),
         (26, point, 0.0),
         (30, corner, 0.375 * 0.4 * sin45),
-        (35, corner, 0.08),
+        (35, corner, 0.1),
     ] {
         let points: Vec<Vec<f64>> = path(first).into_iter().map(|(p, _)| p).collect();
         let to = from_polyline(&near, &points);

@@ -21,7 +21,7 @@ pub(super) struct Smoothing {
 impl Smoothing {
     /// Stages that hold nothing.
     pub(super) fn new(cycle: CycleTime) -> Self {
-        let (splining, contouring) = (Splining::default(), Contouring::new(cycle));
+        let (splining, contouring) = (Splining::new(cycle), Contouring::new(cycle));
         Self { splining, contouring, said: BTreeSet::new() }
     }
 
@@ -31,7 +31,7 @@ impl Smoothing {
             planner.push(block);
             return;
         }
-        for block in self.splining.push(*block) {
+        for block in self.splining.push(*block, planner.has_kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
                 planner.push(block);
             }
@@ -40,7 +40,7 @@ impl Smoothing {
 
     /// The path stops after the last motion: everything goes to the planner.
     pub(super) fn flush(&mut self, planner: &mut Planner) {
-        for block in self.splining.flush() {
+        for block in self.splining.flush(planner.has_kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
                 planner.push(block);
             }
@@ -52,7 +52,9 @@ impl Smoothing {
 
     /// Corners that were not contoured as asked for, since the last call.
     pub(super) fn take_notices(&mut self) -> Vec<Notice> {
-        self.contouring.take_notices()
+        let mut notices = self.splining.take_notices();
+        notices.append(&mut self.contouring.take_notices());
+        notices
     }
 
     /// True for the first message of this condition about a place.

@@ -18,7 +18,7 @@ mod fit;
 #[cfg(test)]
 mod tests;
 
-use super::{Edge, corner, is_feed, turn};
+use super::edge::{Edge, corner, is_feed, turn};
 use crate::axis::AxisVec;
 use crate::block::Block;
 use crate::block::SplineSettings;

@@ -35,8 +35,8 @@ impl Part {
     }
 }
 
-/// The pieces of an edge in groups of nearly equal speed.
-pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<Vec<PolyPiece>> {
+/// The pieces of an edge in groups of nearly equal speed, each with its speed in mm/s.
+pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiece>, f64)> {
     // a time stands for the speed over the whole edge
     let feed = match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
@@ -49,19 +49,20 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<Vec<PolyPiece
             cut(&block, part, 0, &mut parts);
         }
     }
-    let mut out: Vec<Vec<PolyPiece>> = Vec::new();
+    let mut out: Vec<(Vec<PolyPiece>, f64)> = Vec::new();
     // of the group under way: its length, the time of its parts, and that of its slowest part for a mm
     let (mut length, mut time_s, mut pace) = (0.0, 0.0, 0.0);
     for part in parts {
         let own = part.time_s / part.length;
         let (long, apart_s, slowest) = (length + part.length, time_s + part.time_s, own.max(pace));
         match out.last_mut() {
-            Some(group) if !gains(apart_s, long * slowest) => {
+            Some((group, v)) if !gains(apart_s, long * slowest) => {
                 group.push(part.piece);
+                *v = slowest.recip();
                 (length, time_s, pace) = (long, apart_s, slowest);
             }
             _ => {
-                out.push(vec![part.piece]);
+                out.push((vec![part.piece], own.recip()));
                 (length, time_s, pace) = (part.length, part.time_s, own);
             }
         }

@@ -1,6 +1,7 @@
 //! The control polygon around an edge: control points, knots, and the spline in Bezier form.
 
-use super::{AHEAD, BEHIND, Edge};
+use super::Span;
+use super::edge::Edge;
 use crate::axis::AxisVec;
 use crate::path::PolyPiece;
 use smallvec::SmallVec;
@@ -31,18 +32,10 @@ pub(super) struct ControlPolygon {
 }
 
 impl ControlPolygon {
-    pub(super) fn around(
-        run: &VecDeque<Edge>,
-        edge: usize,
-        from_start: bool,
-        to_end: bool,
-    ) -> Self {
+    pub(super) fn around(run: &VecDeque<Edge>, edge: usize, span: &Span) -> Self {
         let mut out = Self { nodes: SmallVec::new(), first: 0, last: 0 };
-        let begin = edge.saturating_sub(BEHIND);
-        // the corner after these edges is settled
-        let end = (edge + AHEAD - 1).min(run.len());
         let mut at = 0.0;
-        for i in begin..end {
+        for i in span.edges.clone() {
             let Edge { length, corner, block, .. } = &run[i];
             out.last = if i == edge + 1 { out.nodes.len() } else { out.last };
             out.first = if i == edge { out.nodes.len() } else { out.first };
@@ -58,14 +51,14 @@ impl ControlPolygon {
             }
             at += length;
         }
-        if let Some(last) = run.get(end.wrapping_sub(1)) {
-            out.last = if end == edge + 1 { out.nodes.len() } else { out.last };
+        if let Some(last) = run.get(span.edges.end.wrapping_sub(1)) {
+            out.last = if span.edges.end == edge + 1 { out.nodes.len() } else { out.last };
             out.push(last.block.path.end().clone(), at, None);
         }
-        if to_end && end == run.len() {
+        if span.to_end {
             out.mirror_end();
         }
-        if from_start && begin == 0 {
+        if span.from_start {
             out.mirror_start();
         }
         for _ in 0..DEEPEST {

@@ -16,6 +16,14 @@ use kontur_filters::time::CycleTime;
 /// Relative rounding error allowed when times are compared.
 const SLACK: f64 = 1e-9;
 
+/// A part of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part {
+    pub(crate) length_mm: f64,
+    /// Highest speed.
+    pub(crate) v_mm_s: f64,
+}
+
 /// A block next to the corner, seen from the corner: speed rises with the distance from it on either side.
 struct Side {
     slope: SlopeLimits,
@@ -56,20 +64,20 @@ impl Side {
 
     /// Time from the slowest part of a curve to the middle of the block: `outer` has length and speed of the parts in
     /// between, from the slowest one on, `distance` is the corner distance.
-    fn away(&self, slowest: f64, outer: &[(f64, f64)], distance: f64) -> f64 {
+    fn away(&self, slowest: f64, outer: &[Part], distance: f64) -> f64 {
         let rest = self.half_mm - distance;
-        let inside: f64 = outer.iter().map(|part| part.0).sum();
+        let inside: f64 = outer.iter().map(|part| part.length_mm).sum();
         let held = inside / slowest + self.leg(slowest, self.v_mm_s, rest).1;
         if !self.across {
             return held;
         }
-        let limit = outer.iter().map(|part| part.1).fold(self.v_mm_s, f64::min);
+        let limit = outer.iter().map(|part| part.v_mm_s).fold(self.v_mm_s, f64::min);
         let (v, rising) = self.leg(slowest, limit, inside);
         let in_two = rising + self.leg(v, self.v_mm_s, rest).1;
         let mut passed = 0.0;
         let starts = outer.iter().map(|part| {
             let at = passed;
-            passed += part.0;
+            passed += part.length_mm;
             at
         });
         let at_once = starts.enumerate().find_map(|(skipped, at)| {
@@ -79,7 +87,7 @@ impl Side {
     }
 
     /// Time of a single leg from `v` over `length`, if it respects the speeds of the parts that it passes first.
-    fn through(&self, v: f64, parts: &[(f64, f64)], length: f64) -> Option<f64> {
+    fn through(&self, v: f64, parts: &[Part], length: f64) -> Option<f64> {
         let (to, time) = self.leg(v, self.v_mm_s, length);
         // a braking leg is a speed-up reversed in time
         let profile = if self.before {
@@ -88,62 +96,76 @@ impl Side {
             self.slope.plan(v, to, to, length).ok()?
         };
         let mut passed = 0.0;
-        let kept = parts.iter().all(|(part, cap)| {
-            passed += part;
+        let kept = parts.iter().all(|part| {
+            passed += part.length_mm;
             let at = if self.before { length - passed } else { passed };
-            profile.at(profile.time_at(at)).v_mm_s <= cap * (1.0 + SLACK)
+            profile.at(profile.time_at(at)).v_mm_s <= part.v_mm_s * (1.0 + SLACK)
         });
         kept.then_some(time)
     }
 }
 
 /// A corner between two blocks, with the short blocks that a curve bridges.
-pub(super) struct Passage<'a> {
-    pub(super) from: &'a Block,
-    pub(super) bridged: &'a [Block],
-    pub(super) to: &'a Block,
-    pub(super) cycle: CycleTime,
-    pub(super) kernel_active: bool,
+pub(crate) struct Passage<'a> {
+    pub(crate) from: &'a Block,
+    pub(crate) bridged: &'a [Block],
+    pub(crate) to: &'a Block,
+    pub(crate) cycle: CycleTime,
+    pub(crate) kernel_active: bool,
 }
 
 impl Passage<'_> {
-    /// True if the curve in `parts`, each with its speed in mm/s, takes no longer than the sharp corner; `pre_mm` and
+    /// True if the curve in `parts` takes no longer than the sharp corner; `pre_mm` and
     /// `post_mm` are its corner distances.
-    pub(super) fn is_worth(&self, parts: &[(Block, f64)], pre_mm: f64, post_mm: f64) -> bool {
-        let slowest = parts.iter().map(|part| part.1).fold(f64::INFINITY, f64::min);
-        let sides = [Side::of(self.from, true, self.cycle), Side::of(self.to, false, self.cycle)];
+    pub(crate) fn is_worth(&self, parts: &[Part], pre_mm: f64, post_mm: f64) -> bool {
+        let slowest = slowest(parts);
+        let sides = self.sides();
         // only the programmed feed of one of the blocks limits the curve
         if sides.iter().any(|side| slowest >= side.v_mm_s) {
             return true;
         }
-        let sharp = self.sharp_s(&sides);
-        curve_s(&sides, parts, slowest, [pre_mm, post_mm]) <= sharp * (1.0 + SLACK)
+        let v = self.sharp_mm_s().min(sides[0].v_mm_s).min(sides[1].v_mm_s);
+        let bridged: f64 = self.bridged.iter().map(|b| b.path.length()).sum();
+        let over = if bridged > 0.0 { bridged / v } else { 0.0 };
+        let away = sides.iter().map(|side| side.leg(v, side.v_mm_s, side.half_mm).1);
+        let sharp = over + away.sum::<f64>();
+        curve_s(&sides, parts, [pre_mm, post_mm]) <= sharp * (1.0 + SLACK)
     }
 
-    fn sharp_s(&self, sides: &[Side; 2]) -> f64 {
+    /// Highest speed at the sharp corner.
+    pub(crate) fn sharp_mm_s(&self) -> f64 {
         let blocks = || [self.from].into_iter().chain(self.bridged).chain([self.to]);
         let ends: Vec<Ends> = blocks().map(Ends::of).collect();
         let caps = blocks().zip(blocks().skip(1)).zip(ends.windows(2)).map(|((a, b), ends)| {
             transition(a, b, &ends[0], &ends[1], self.cycle, self.kernel_active).v_mm_s
         });
-        let v = caps.fold(f64::INFINITY, f64::min).min(sides[0].v_mm_s).min(sides[1].v_mm_s);
-        let bridged: f64 = self.bridged.iter().map(|b| b.path.length()).sum();
-        let over = if bridged > 0.0 { bridged / v } else { 0.0 };
-        over + sides.iter().map(|side| side.leg(v, side.v_mm_s, side.half_mm).1).sum::<f64>()
+        caps.fold(f64::INFINITY, f64::min)
     }
+
+    /// Time in s for the parts alone, as if the speed peaked at both ends.
+    pub(crate) fn time_s(&self, parts: &[Part]) -> f64 {
+        let sides = self.sides();
+        curve_s(&sides, parts, sides.each_ref().map(|side| side.half_mm))
+    }
+
+    fn sides(&self) -> [Side; 2] {
+        [Side::of(self.from, true, self.cycle), Side::of(self.to, false, self.cycle)]
+    }
+}
+
+fn slowest(parts: &[Part]) -> f64 {
+    parts.iter().map(|part| part.v_mm_s).fold(f64::INFINITY, f64::min)
 }
 
 /// Time in s for the curve and the rest of both sides: the slowest part at its speed, everything outside of it as fast as one
 /// or two legs allow.
-fn curve_s(sides: &[Side; 2], parts: &[(Block, f64)], slowest: f64, distances: [f64; 2]) -> f64 {
-    let is_slow = |part: &&(Block, f64)| part.1 <= slowest * (1.0 + SLACK);
-    let first = parts.iter().position(|part| is_slow(&part)).unwrap_or(0);
-    let last = parts.iter().rposition(|part| is_slow(&part)).unwrap_or(parts.len() - 1);
-    let lengths = |parts: &mut dyn Iterator<Item = &(Block, f64)>| {
-        parts.map(|(block, v)| (block.path.length(), *v)).collect::<Vec<_>>()
-    };
-    let outer = [lengths(&mut parts[..first].iter().rev()), lengths(&mut parts[last + 1..].iter())];
-    let inner: f64 = parts[first..=last].iter().map(|part| part.0.path.length()).sum();
+fn curve_s(sides: &[Side; 2], parts: &[Part], distances: [f64; 2]) -> f64 {
+    let slowest = slowest(parts);
+    let is_slow = |part: &Part| part.v_mm_s <= slowest * (1.0 + SLACK);
+    let first = parts.iter().position(is_slow).unwrap_or(0);
+    let last = parts.iter().rposition(is_slow).unwrap_or(parts.len() - 1);
+    let outer = [parts[..first].iter().rev().copied().collect(), parts[last + 1..].to_vec()];
+    let inner: f64 = parts[first..=last].iter().map(|part| part.length_mm).sum();
     let outside = sides.iter().zip(&outer).zip(distances);
     inner / slowest
         + outside.map(|((side, outer), distance)| side.away(slowest, outer, distance)).sum::<f64>()
