@@ -2,14 +2,11 @@
 
 use crate::Error;
 use crate::args::Vary;
-use crate::args::vary::used_name;
+use crate::args::vary::{MOST_COMBINATIONS, used_name};
 use crate::request::Request;
 use crate::words::Word;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-
-/// More combinations than this are a slip of the hand.
-const MOST_COMBINATIONS: usize = 100_000;
 
 /// Every combination of values, the last parameter changing fastest: for each an index into the values of each parameter.
 ///
@@ -173,6 +170,8 @@ mod tests {
         assert!(error(["X.a={F}", "Y.b=1"]).contains("needs --vary F="));
         assert!(error(["kv=1,2", "Y.b=1"]).contains("AXIS.kv"));
         assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
+        // one alone may have as many as several together
+        assert_eq!("X.a=1000..60000:10".parse::<Vary>().unwrap().values.len(), 5901);
         assert!(error(["X.a=1", "x.A=2"]).contains("twice"));
     }
 }

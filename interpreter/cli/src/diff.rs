@@ -41,7 +41,7 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
     let names = [args.a.display().to_string(), args.b.display().to_string()];
     if !args.map.is_empty() {
         let mut a = open(&args.a, is_a, Some(&recording::columns(&args.map)))?;
-        let outcome = recording::compare(&mut a, &args.b, &args.map, args.tolerance)?;
+        let outcome = recording::compare(&mut a, &args.b, &args.map, args.rate, args.tolerance)?;
         for message in a.take_messages() {
             console.announce(&message);
         }

@@ -194,6 +194,12 @@ fn a_recording_has_a_verdict_too() {
     assert_eq!(exit, Exit::Finished, "{xml}{err}");
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     assert_eq!((report.test_suites[0].tests, report.test_suites[0].failures), (1, 0));
+    // without times the rate says them
+    std::fs::write(f.path("rec.csv"), f.read("rec.csv").replace("t_s,", "Zeit,")).unwrap();
+    assert_eq!(f.call(&words).0, Exit::Usage);
+    assert_eq!(f.call(&[&words[..], &["--rate", "1000"]].concat()).0, Exit::Finished);
+    assert_eq!(f.call(&[&words[..], &["--rate", "900"]].concat()).0, Exit::Aborted);
+    std::fs::write(f.path("rec.csv"), f.read("rec.csv").replace("Zeit,", "t_s,")).unwrap();
     let (exit, out, _) = f.call(&[
         "diff",
         "@slow.nc",
@@ -222,6 +228,8 @@ fn the_recipes_for_build_servers_work() {
         let recipe = std::fs::read_to_string(here.join("../docs/ci").join(name)).unwrap();
         let scripts = scripts(&recipe, key);
         assert_eq!(scripts.len(), 3, "{scripts:?}");
+        // the package of this name in the registry is another project
+        assert!(scripts[0].starts_with("cargo install --locked --git "), "{scripts:?}");
         let f = Folder::new();
         for folder in ["nc", "expected", "machine"] {
             std::fs::create_dir(f.path(folder)).unwrap();
@@ -231,8 +239,8 @@ fn the_recipes_for_build_servers_work() {
             std::fs::copy(&list, f.path("machine").join(list.file_name().unwrap())).unwrap();
         }
         let run = || -> bool {
-            let installed = |script: &&String| !script.starts_with("cargo install");
-            scripts.iter().filter(installed).all(|script| {
+            let uses = |script: &&String| !script.starts_with("cargo install");
+            scripts.iter().filter(uses).all(|script| {
                 let mut shell = Command::new("sh");
                 shell.args(["-e", "-c", script]).current_dir(f.path(".")).env("PATH", &path);
                 shell.stdout(Stdio::null()).stderr(Stdio::null()).status().unwrap().success()

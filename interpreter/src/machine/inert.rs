@@ -9,7 +9,7 @@ use crate::diag::{AxisRef, Condition, Diagnostic};
 
 /// ID, and what happens in its place.
 ///
-/// Source: TF5200 axis and channel parameters.
+/// Source: TF5200 axis, channel and start-up parameters.
 const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
     (
@@ -17,6 +17,10 @@ const INERT: &[(&str, &str)] = &[
         "set positions are checked against the software limits only during preparation",
     ),
     ("P-AXIS-00833", "the drive applies no weight to the velocity feedforward"),
+    (
+        "P-STUP-00018",
+        "programs and subroutines are looked for next to the main program and in the folders of --path",
+    ),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
     ("P-CHAN-00259", "contouring rounds arcs as with 0"),
 ];

@@ -1,6 +1,7 @@
 //! The arguments of `kontur diff`.
 
 use super::SimulationArgs;
+use super::values::above_zero;
 use clap::ValueEnum;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -19,6 +20,10 @@ pub struct DiffArgs {
     /// The shift in time is found; positions count as equal up to 0.1 um at least
     #[arg(long, value_name = "COLUMN=CHANNEL")]
     pub map: Vec<Pairing>,
+
+    /// Samples per second of the recording [default: from its column `t_s`, `time` or `t` in seconds]
+    #[arg(long, value_name = "HZ", requires = "map", value_parser = above_zero)]
+    pub rate: Option<f64>,
 
     /// Tolerances by unit
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! The arguments of `kontur tune`.
 
 use super::SimulationArgs;
-use super::values::{feed, span};
+use super::values::{above_zero, feed, span};
 use clap::ArgGroup;
 use std::path::PathBuf;
 
@@ -83,13 +83,6 @@ pub struct TuneArgs {
     /// Machine and cycle; what else is simulated in --program
     #[command(flatten)]
     pub simulation: SimulationArgs,
-}
-
-fn above_zero(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
-        _ => Err("a number above 0 is expected".to_owned()),
-    }
 }
 
 fn damping(text: &str) -> Result<f64, String> {

@@ -8,14 +8,21 @@ use std::str::FromStr;
 pub struct Numbers(pub Vec<f64>);
 
 /// More curves than this are a slip of the hand.
-const MOST_NUMBERS: usize = 1000;
+const MOST_CURVES: usize = 1000;
 
 impl FromStr for Numbers {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        Self::parse(text, MOST_CURVES)
+    }
+}
+
+impl Numbers {
+    /// At most so many of them.
+    pub(super) fn parse(text: &str, most: usize) -> Result<Self, String> {
         let wrong = || format!("`{text}`: 4 or 1,2,5 or 1..6 or 2..200:2 expected");
-        let too_many = || format!("`{text}`: more than {MOST_NUMBERS} values");
+        let too_many = || format!("`{text}`: more than {most} values");
         let number = |text: &str| match text.trim().parse::<f64>() {
             Ok(v) if v.is_finite() => Ok(v),
             _ => Err(wrong()),
@@ -31,17 +38,24 @@ impl FromStr for Numbers {
             if !(step > 0.0 && last >= first) {
                 return Err(wrong());
             }
-            if (last - first) / step >= MOST_NUMBERS as f64 {
+            if (last - first) / step >= most as f64 {
                 return Err(too_many());
             }
             let steps = (last - first) / step + 1e-9;
-            let indices = (0..=MOST_NUMBERS).map(|i| i as f64).take_while(|i| *i <= steps);
+            let indices = (0..=most).map(|i| i as f64).take_while(|i| *i <= steps);
             numbers.extend(indices.map(|i| first + i * step));
         }
-        if numbers.len() > MOST_NUMBERS {
+        if numbers.len() > most {
             return Err(too_many());
         }
         Ok(Self(numbers))
+    }
+}
+
+pub(super) fn above_zero(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
+        _ => Err("a number above 0 is expected".to_owned()),
     }
 }
 

@@ -21,6 +21,9 @@ pub struct Vary {
     pub values: Vec<String>,
 }
 
+/// More combinations of values than this are a slip of the hand.
+pub(crate) const MOST_COMBINATIONS: usize = 100_000;
+
 impl FromStr for Vary {
     type Err = String;
 
@@ -31,7 +34,7 @@ impl FromStr for Vary {
         let mut values = Vec::new();
         for part in list.split(',') {
             if part.contains("..") {
-                let numbers: Numbers = part.parse()?;
+                let numbers = Numbers::parse(part, MOST_COMBINATIONS)?;
                 values.extend(numbers.0.into_iter().map(plain));
             } else {
                 values.push(part.trim().to_owned());

@@ -86,10 +86,11 @@ pub(super) fn compare(
     trace: &mut Table,
     path: &Path,
     pairings: &[Pairing],
+    rate_hz: Option<f64>,
     tolerance: Tolerance,
 ) -> Result<Outcome, Error> {
     let name = path.display().to_string();
-    let recorded = signals::channels(&recorded::read(path)?, pairings, &name)?;
+    let recorded = signals::channels(&recorded::read(path)?, pairings, rate_hz, &name)?;
     let trace = signals::read(trace, pairings)?;
     let wrong = |text: String| Err(Error::Usage(text));
     let Some(cycle_s) = shift::cycle_of(&trace.times_s) else {

@@ -1,6 +1,7 @@
 //! Signals in equal steps: sampling times out of printed ones, and missing samples.
 
 use super::Channel;
+use crate::table::number;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -28,6 +29,9 @@ impl From<DropOut> for (f64, usize) {
     }
 }
 
+/// A rate that is given may differ from that of the times by this share.
+const RATE_RATIO: f64 = 0.01;
+
 /// A signal in equal steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Even {
@@ -42,12 +46,30 @@ pub(crate) struct Even {
 }
 
 impl Channel {
-    /// The values in equal steps: the straight line through the times, more accurate than a printed step.
+    /// The values in equal steps, by the times of the file or the rate that was given.
     ///
     /// # Errors
-    /// Why there are none: the times do not rise in equal steps (beyond rounding), or the gaps hold more than
-    /// [`MOST_SAMPLES`].
-    pub(crate) fn even(&self) -> Result<Even, String> {
+    /// Why there are none: neither times nor a rate, a rate that is not that of the times, times that do not rise in equal steps
+    /// (beyond rounding), or gaps that hold more than [`MOST_SAMPLES`].
+    pub(crate) fn even(&self, rate_hz: Option<f64>) -> Result<Even, String> {
+        if self.times_s.is_empty() {
+            let rate_hz =
+                rate_hz.ok_or("no column t_s, time or t; --rate names the samples per second")?;
+            let (values, drop_outs) = (self.values.clone(), Vec::new());
+            return Ok(Even { values, begin_s: 0.0, step_s: 1.0 / rate_hz, drop_outs });
+        }
+        let even = self.by_times()?;
+        match rate_hz.filter(|given| (given * even.step_s - 1.0).abs() > RATE_RATIO) {
+            Some(given) => Err(format!(
+                "--rate {given} Hz disagrees with its time column, which says {} Hz; leave one of the two out",
+                number(1.0 / even.step_s, 3)
+            )),
+            None => Ok(even),
+        }
+    }
+
+    /// By the straight line through the times, more accurate than a printed step.
+    fn by_times(&self) -> Result<Even, String> {
         let unequal = || "its times do not rise in equal steps".to_owned();
         let steps: Vec<f64> = self.times_s.windows(2).map(|w| w[1] - w[0]).collect();
         let rough = median(&steps).filter(|s| *s > 0.0).ok_or_else(unequal)?;
@@ -118,7 +140,7 @@ mod tests {
     #[test]
     fn drop_outs_are_named_and_bridged() {
         let channel = &parse("t_s,a\n0,0\n0.001,1\n0.004,4\n0.005,5\n").unwrap()[0];
-        let even = channel.even().unwrap();
+        let even = channel.even(None).unwrap();
         assert!((even.step_s - 0.001).abs() < 1e-12);
         assert_eq!(even.drop_outs, [DropOut { after_s: 0.001, samples: 2..4 }]);
         for (i, x) in even.values.iter().enumerate() {
@@ -132,7 +154,7 @@ mod tests {
         let even = |hours: u32| {
             let row = |h: u32| format!("{0},1\n{0}.001,1\n{0}.002,1\n", 3600 * h);
             let rows: Vec<String> = (0..hours).map(row).collect();
-            parse(&format!("t_s,a\n{}", rows.concat())).unwrap()[0].even()
+            parse(&format!("t_s,a\n{}", rows.concat())).unwrap()[0].even(None)
         };
         assert!(even(4).is_ok());
         assert!(even(30).is_err());
@@ -146,7 +168,7 @@ mod tests {
             let row = |i: u32| format!("{:.decimals$},{i}\n", f64::from(i) * step);
             for missing in [0..0, 40..47] {
                 let rows: String = (0..200).filter(|i| !missing.contains(i)).map(row).collect();
-                let even = parse(&format!("t_s,a\n{rows}")).unwrap()[0].even().unwrap();
+                let even = parse(&format!("t_s,a\n{rows}")).unwrap()[0].even(None).unwrap();
                 let rounding = 0.5 * libm::pow(10.0, -(decimals as f64));
                 assert!((even.step_s - step).abs() < rounding / 100.0, "{step}: {}", even.step_s);
                 assert!(even.begin_s.abs() < rounding);
@@ -158,6 +180,6 @@ mod tests {
         let coarse: Vec<String> =
             (0..200).map(|i| format!("{:.3},{i}\n", f64::from(i) * 0.0015)).collect();
         let coarse = coarse.concat();
-        assert!(parse(&format!("t_s,a\n{coarse}")).unwrap()[0].even().is_err());
+        assert!(parse(&format!("t_s,a\n{coarse}")).unwrap()[0].even(None).is_err());
     }
 }

@@ -4,7 +4,7 @@ use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
 use crate::args::TuneArgs;
 use crate::console::Console;
-use crate::recorded::{self, Channel, Even};
+use crate::recorded::{self, Even};
 use crate::table::{Table, number};
 use std::ops::Range;
 use std::path::Path;
@@ -13,8 +13,6 @@ use std::path::Path;
 const LEAST_SAMPLES: usize = 64;
 /// Longer ones are refused: two minutes at 4 kHz. Their spectra take 130 MB.
 const MOST_SAMPLES: usize = 1 << 19;
-/// A rate that is given may differ from that of the times by this share.
-const RATE_RATIO: f64 = 0.01;
 
 /// One recording with what it shows.
 #[derive(Clone, Debug)]
@@ -169,7 +167,7 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error>
         None => channels.last().ok_or_else(|| wrong("no columns".to_owned()))?,
     };
     let Even { values: samples, begin_s, step_s, drop_outs } =
-        even(channel, args.rate, &known).map_err(wrong)?;
+        channel.even(args.rate).map_err(|e| wrong(format!("{e}; {}", known())))?;
     let rate_hz = 1.0 / step_s;
     let missing: Vec<_> = drop_outs.iter().map(|d| d.samples.clone()).collect();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
@@ -186,35 +184,6 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error>
     let found = analyse(&samples, &missing, rate_hz, &focus);
     let lost_s = drop_outs.first().map(|d| d.after_s - begin_s);
     Ok((Recording { name, samples, missing, rate_hz, found }, lost_s))
-}
-
-/// Samples in equal steps, by the times of the file or the rate that was given.
-fn even(
-    channel: &Channel,
-    rate_hz: Option<f64>,
-    known: &dyn Fn() -> String,
-) -> Result<Even, String> {
-    if channel.times_s.is_empty() {
-        let values = channel.values.clone();
-        return match rate_hz {
-            Some(rate_hz) => {
-                Ok(Even { values, begin_s: 0.0, step_s: 1.0 / rate_hz, drop_outs: Vec::new() })
-            }
-            None => Err(format!(
-                "no column t_s, time or t; --rate names the samples per second; {}",
-                known()
-            )),
-        };
-    }
-    let even = channel.even()?;
-    let step_s = even.step_s;
-    if let Some(given) = rate_hz.filter(|given| (given * step_s - 1.0).abs() > RATE_RATIO) {
-        return Err(format!(
-            "--rate {given} Hz disagrees with its time column, which says {} Hz; leave one of the two out",
-            number(1.0 / step_s, 3)
-        ));
-    }
-    Ok(even)
 }
 
 #[cfg(test)]

@@ -179,6 +179,9 @@ fn what_has_no_effect_is_said() {
     files.add("m/lists/channel.lis", "prog_start.g_gruppe[21].nr 135\n");
     assert_eq!(files.ids(&[]), ["K-0075"]);
     let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "pfad[0].prg[0] ../subs\n");
+    assert_eq!(files.ids(&[]), ["K-0075"]);
+    let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "sda_mds[1] more.lis\n");
     files.put(
         "m/hochlauf.lis",

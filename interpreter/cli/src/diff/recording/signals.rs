@@ -75,6 +75,7 @@ impl Recorded {
 pub(super) fn channels(
     found: &[Channel],
     pairings: &[Pairing],
+    rate_hz: Option<f64>,
     file: &str,
 ) -> Result<Vec<Recorded>, Error> {
     let one = |p: &Pairing| {
@@ -82,10 +83,7 @@ pub(super) fn channels(
             let names: Vec<&str> = found.iter().map(|c| c.name.as_str()).collect();
             format!("{file}: no channel `{}`; it has {}", p.channel, names.join(", "))
         })?;
-        if channel.times_s.is_empty() {
-            return Err(format!("{file}: no column of times, t_s, time or t"));
-        }
-        let even = channel.even().map_err(|e| format!("{file}: `{}`: {e}", channel.name))?;
+        let even = channel.even(rate_hz).map_err(|e| format!("{file}: `{}`: {e}", channel.name))?;
         let Even { values, begin_s, step_s, drop_outs } = even;
         let values = values.iter().map(|v| p.factor * v).collect();
         Ok(Recorded { values, begin_s, step_s, drop_outs })

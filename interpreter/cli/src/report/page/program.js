@@ -1,11 +1,17 @@
 // ---- the NC text and the times, both linked with the samples
 const NO_LINE = { element: null };
 const rows = new Map();
+// time of a line in each run that it belongs to
 const spent = new Map();
 runs.forEach(r => r.times.lines.forEach(l => {
   const name = `${l.file}\n${l.line}`;
-  spent.set(name, (spent.get(name) || 0) + l.seconds);
+  spent.set(name, [...(spent.get(name) || []), l.seconds]);
 }));
+function spentIn(name) {
+  const times = spent.get(name) || [];
+  const [least, most] = [Math.min(...times), Math.max(...times)].map(t => t.toFixed(3));
+  return !times.length ? "" : least === most ? `${most} s` : `${least} .. ${most} s`;
+}
 const files = [...new Set(runs.flatMap(r => r.files))].filter(file => runs.some(r => r.texts[r.files.indexOf(file)]));
 function choose(file, line) {
   const again = view.line && view.line.file === file && view.line.line === line;
@@ -24,8 +30,8 @@ function showFile(file) {
   panel.replaceChildren();
   rows.clear();
   r.texts[r.files.indexOf(file)].forEach((text, i) => {
-    const name = `${file}\n${i + 1}`, row = make("div"), time = spent.get(name);
-    row.append(make("span", i + 1), make("span", time ? `${time.toFixed(3)} s` : ""), text);
+    const name = `${file}\n${i + 1}`, row = make("div");
+    row.append(make("span", i + 1), make("span", spentIn(name)), text);
     row.setAttribute("role", "option");
     row.onclick = () => choose(file, i + 1);
     rows.set(name, row);
@@ -34,6 +40,7 @@ function showFile(file) {
 }
 if (files.length) {
   byId("program-card").hidden = false;
+  byId("program").classList.toggle("several", runs.length > 1);
   files.forEach(file => byId("file").append(new Option(file, file)));
   byId("file").hidden = files.length < 2;
   byId("file").onchange = () => { showFile(byId("file").value); };
