@@ -196,7 +196,11 @@ impl Contouring {
         self.ready.push(block);
     }
 
-    /// The blocks of a curve, each with its speed in mm/s.
+    /// The blocks of a curve, each with its speed in mm/s. Either half has the feed of its block, unless the speed in the curve
+    /// is to be constant.
+    ///
+    /// Assumption: the pages say nothing about different feeds; the two polynomials of a curve belong to one block each (TF5200,
+    /// polynomial contouring).
     fn parts(
         &mut self,
         from: &Block,
@@ -206,37 +210,43 @@ impl Contouring {
     ) -> Vec<(Block, f64)> {
         let mut block = from.clone();
         block.contour = None;
-        (block.feed, block.feed_ratio) = slower(from, to);
-        if let (Some(e), Feed::PathVelocity(v)) = (from.end_velocity_mm_s, block.feed) {
-            // the end of the block lies inside the curve
-            block.feed = Feed::PathVelocity(v.min(e / block.feed_ratio.max(f64::MIN_POSITIVE)));
-        }
+        let whole = settings.constant_velocity.then(|| slower(from, to));
+        let halves = [from, to].map(|b| whole.unwrap_or_else(|| (speed(b), b.feed_ratio)));
+        // the end of the block lies inside the curve
+        let halves = halves.map(|(feed, ratio)| match (from.end_velocity_mm_s, feed) {
+            (Some(e), Feed::PathVelocity(v)) => {
+                (Feed::PathVelocity(v.min(e / ratio.max(f64::MIN_POSITIVE))), ratio)
+            }
+            _ => (feed, ratio),
+        });
         let dev = [from, to].iter().filter_map(|b| b.tolerance.ax_dev_mm).min_by(f64::total_cmp);
         block.tolerance.ax_dev_mm = dev;
         if let Some(check) = settings.curve_jerk {
             block.dynamics = self.with_check(&block.dynamics, check);
         }
         let parts = if settings.constant_velocity { 1 } else { PARTS };
-        // neighbouring pieces that allow the same speed are one block
-        let mut group: Vec<PolyPiece> = Vec::new();
-        let mut out: Vec<(Block, f64)> = Vec::new();
-        let mut speed = f64::INFINITY;
         let feed_axes = from.dynamics.feed_axes.clone();
-        for piece in curve.blend.pieces(parts) {
-            let Some(path) = PolyPath::through(vec![piece.clone()], &feed_axes) else { continue };
-            block.path = Path::Curve(Box::new(path));
-            let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
+        let timed = |(i, piece): (u32, PolyPiece)| {
+            let (feed, feed_ratio) = halves[usize::from(i >= parts)];
+            let path = Path::Curve(Box::new(PolyPath::through(vec![piece.clone()], &feed_axes)?));
+            let part = Block { path, feed, feed_ratio, ..block.clone() };
+            let speeds = PathSpeeds::of(&part, &PathExtremes::of(&part.path));
             let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
-            let same = settings.constant_velocity || (v - speed).abs() <= 1e-9 * speed;
-            if !same && !group.is_empty() {
-                let done = with_path(&block, std::mem::take(&mut group), &feed_axes);
-                out.extend(done.map(|block| (block, speed)));
-            }
-            speed = v;
-            group.push(piece);
-        }
-        out.extend(with_path(&block, group, &feed_axes).map(|block| (block, speed)));
-        out
+            Some((piece, part, v))
+        };
+        let pieces: Vec<_> = (0..).zip(curve.blend.pieces(parts)).filter_map(timed).collect();
+        // neighbouring pieces of the same feed that allow the same speed are one block
+        let groups = pieces.chunk_by(|(_, a, v), (_, b, w)| {
+            let same = settings.constant_velocity || (w - v).abs() <= 1e-9 * v;
+            same && (a.feed, a.feed_ratio) == (b.feed, b.feed_ratio)
+        });
+        let joined = |group: &[(PolyPiece, Block, f64)]| {
+            let pieces = group.iter().map(|(piece, ..)| piece.clone()).collect();
+            let path = Path::Curve(Box::new(PolyPath::through(pieces, &feed_axes)?));
+            let slowest = group.iter().map(|(.., v)| *v).fold(f64::INFINITY, f64::min);
+            Some((Block { path, ..group.first()?.1.clone() }, slowest))
+        };
+        groups.filter_map(joined).collect()
     }
 
     fn with_check(
@@ -260,11 +270,6 @@ impl Contouring {
             }
         }
     }
-}
-
-fn with_path(block: &Block, pieces: Vec<PolyPiece>, feed_axes: &[bool]) -> Option<Block> {
-    let path = Path::Curve(Box::new(PolyPath::through(pieces, feed_axes)?));
-    Some(Block { path, ..block.clone() })
 }
 
 /// Feed of a block whose path gets shorter: a time becomes the speed it stands for.

@@ -22,6 +22,8 @@ const CYCLE_US: u32 = 1000;
 const CYCLE_S: f64 = 1e-3;
 /// Ramps that a hill of the speed may take longer than without ramps.
 const HILL_RAMPS: f64 = 1.17;
+/// Feeds of the blocks of a contour in a row, as parts of the largest.
+const SLOWER: [f64; 3] = [1.0, 0.3, 0.8];
 /// Part by which a run may get longer with the tolerance.
 const LONGER: f64 = 0.01;
 
@@ -70,12 +72,16 @@ fn job(dynamics: AxisDynamics, kind: SlopeKind) -> Job {
     job
 }
 
+fn feed_of(block: usize, feed: f64) -> f64 {
+    feed * SLOWER[block % SLOWER.len()]
+}
+
 fn rounded(job: &Job, paths: &[Path], mode: ContourMode, feed: f64) -> Vec<Block> {
     let settings = ContourSettings { mode, ..ContourSettings::default() };
     let mut stage = Contouring::new(CycleTime::from_us(CYCLE_US).unwrap());
     let mut out = Vec::new();
     for (i, path) in paths.iter().enumerate() {
-        let block = job.block(i as u64, path.clone(), feed);
+        let block = job.block(i as u64, path.clone(), feed_of(i, feed));
         out.extend(stage.push(Block { contour: Some(settings), ..block }, false));
     }
     out.extend(stage.flush());
@@ -214,7 +220,9 @@ fn rounding_costs_no_time() {
         for kind in [Trapez, Sin2, Hsc] {
             let job = job(a, kind);
             let cycles = |blocks: Vec<Block>| job.run(paths[0].start(), blocks.into_iter()).len();
-            let sharp = (0..).zip(&paths).map(|(i, path)| job.block(i, path.clone(), feed));
+            let sharp = (0..)
+                .zip(&paths)
+                .map(|(i, path)| job.block(i as u64, path.clone(), feed_of(i, feed)));
             let (sharp, round) =
                 (cycles(sharp.collect()), cycles(rounded(&job, &paths, mode, feed)));
             let name =
