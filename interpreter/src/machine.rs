@@ -38,7 +38,7 @@ mod transmission;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
-pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
+pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride, SpindleMoment};
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
 pub use levers::Lever;

@@ -31,3 +31,17 @@ fn the_main_spindle_changes() {
         }
     }
 }
+
+/// With MVS_SVS for M3 (P-CHAN-00045) the motion beside it begins when the spindle has its speed (M and H functions 286059787).
+#[test]
+fn a_motion_waits_for_its_spindle() {
+    let first_moved = |settings: &[&str]| {
+        let run = run_on(sample_machine("two_spindles", settings), "S1000 M3 G01 F1000 X10\nM30\n");
+        let moved = run.records.iter().position(|r| r.path.v_mm_s > 0.0).unwrap();
+        let set = |k: usize| run.records[k].axes[3].set;
+        (set(moved) - set(moved.saturating_sub(1))) / run.cycle_s / 6.0
+    };
+    assert!(first_moved(&[]) < 500.0);
+    let waited = first_moved(&["channel.spindel[0].m3_synch=MVS_SVS"]);
+    assert!((waited - 1000.0).abs() < 1e-6, "{waited}");
+}

@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, list of commands.
 
-mod axes;
+pub(in crate::exec) mod axes;
 mod compensation;
 mod contour;
 mod corner;
@@ -180,7 +180,12 @@ const ROWS: &[Row] = &[
     unsupported("MICROJOINT"),
     off_only("SEGMENTATION"),
     unsupported("SET JOG"),
-    unsupported("SET TIP"),
+    unsupported("MIRROR"),
+    unsupported("PATTERN"),
+    unsupported("AT"),
+    unsupported("SYNC IN"),
+    unsupported("SYNC OUT"),
+    run("SET TIP", axes::set_tip),
     splines::SPLINE,
     splines::SPLINE_TYPE,
     splines::SET_SPLINE,

@@ -276,6 +276,17 @@ impl Contour {
         faults
     }
 
+    /// G40 (true), G41, G42.
+    pub(super) fn deselect(&mut self, off: bool) {
+        self.compensator.deselected = off;
+    }
+
+    /// The tool is on its way to, at, or not yet away from a compensated contour.
+    pub(super) fn compensates(&self) -> bool {
+        self.compensator.is_active()
+            || self.held.as_ref().is_some_and(|motion| motion.compensation.is_some())
+    }
+
     /// G40 with G239: axes of the plane, and where the centre of the tool is, if compensation was active.
     pub(super) fn deselect_in_place(&mut self) -> (Option<([usize; 2], Point)>, Vec<Fault>) {
         let mut faults = self.flush();

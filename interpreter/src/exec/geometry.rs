@@ -51,7 +51,11 @@ impl Geometry {
                 coordinates.set_zero_entry(*group, *axis, *value);
             }
         }
-        coordinates.select_zero_group(offsets.start_group, false);
+        coordinates.use_zero_groups(
+            offsets.has_g53,
+            machine.channel.offsets_in_systems,
+            offsets.start_group,
+        );
         Self {
             coordinates,
             limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),

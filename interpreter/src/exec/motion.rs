@@ -277,6 +277,11 @@ impl Decoder {
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
+        let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
+        if begins && self.motion.wear.on && !path.is_straight() {
+            let text = "the compensation begins with an arc while #OTC is on";
+            return Err(Fault::new(Condition::WearSelectedInArc, text, span));
+        }
         // a compensated path is known later
         if self.modal.compensation == Compensation::Off {
             let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
@@ -300,10 +305,13 @@ impl Decoder {
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
+        if rounds {
+            self.contouring_fits(span)?;
+        }
         let course = self.feed_course(words, feed, rounds, span)?;
         let in_plane = self.in_plane(span)?;
         if self.contour.akima.selected {
-            self.spline_fits(rapid, span)?;
+            self.spline_fits(rapid, rounds, span)?;
             self.spline_leads(&path, span)?;
         }
         // of a block with an error nothing moves; what was said before it is still said
@@ -338,7 +346,15 @@ impl Decoder {
     }
 
     /// What does not go with splines.
-    fn spline_fits(&self, rapid: bool, span: Span) -> Outcome<()> {
+    fn spline_fits(&self, rapid: bool, rounds: bool, span: Span) -> Outcome<()> {
+        if self.contour.hsc.spline().is_some() {
+            let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
+            return Err(Fault::new(Condition::SplineInSurface, text, span));
+        }
+        if rounds || self.contour.hsc.contour().is_some() {
+            let text = "a spline (G151) together with contouring or #HSC";
+            return Err(Fault::new(Condition::SplineWithContouring, text, span));
+        }
         let what = if rapid {
             "G00 in a spline"
         } else if self.modal.compensation != Compensation::Off {
@@ -353,6 +369,22 @@ impl Decoder {
             return Ok(());
         };
         Err(Fault::unsupported(what, span))
+    }
+
+    /// 120566: the feed of contoured motions is that of the main axes.
+    ///
+    /// Source: TF5200 diagnosis 265098635.
+    fn contouring_fits(&self, span: Span) -> Outcome<()> {
+        let feed = &self.motion.feed_axes;
+        let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
+        let fits = || (0..feed.len()).all(|axis| feed[axis] == is_main(axis));
+        // the group of the lists is that of the main axes, whatever an axis exchange makes of them
+        let of_lists = *feed == self.machine.channel.feed_axes;
+        if (of_lists && (0..feed.len()).all(|axis| feed[axis] == (axis < 3))) || fits() {
+            return Ok(());
+        }
+        let text = "contouring, but the feed axes (#FGROUP, P-CHAN-00011) are not the main axes";
+        Err(Fault::new(Condition::ContouringFeedGroup, text, span))
     }
 
     /// 120180: a point of a spline moves a main axis.

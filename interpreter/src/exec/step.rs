@@ -319,6 +319,8 @@ impl CuttingSpeed {
 pub(crate) enum SpindleState {
     /// It is at rest.
     Rest,
+    /// It has the speed, or the position, that it was told.
+    Reached,
     /// It turns with its speed, and in this cycle through this angle in deg.
     Mark {
         /// Angle.

@@ -2,6 +2,7 @@
 
 mod akima;
 mod arcs;
+mod as_printed;
 mod assignments;
 mod calls;
 mod compensation;

@@ -275,7 +275,6 @@ impl Chain<'_> {
         plausible::check_presets(&settled.channel, diagnostics);
         plausible::check_rapid_override(&settled.channel, diagnostics);
         plausible::check_synchronisation(&settled.channel, diagnostics);
-        plausible::check_offsets(&settled.channel, diagnostics);
         inert::check(&settled.start_up, None, diagnostics);
         inert::check(&settled.channel, None, diagnostics);
         for axis in &mut settled.axes {

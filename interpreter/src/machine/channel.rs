@@ -114,6 +114,18 @@ pub struct Channel {
     pub shortest_way: bool,
     /// Cycles give no modal state back at their ends (P-CHAN-00210).
     pub cycle_changes_stay: bool,
+    /// There are no chamfers and roundings (P-CHAN-00273).
+    pub no_chamfers: bool,
+    /// Offsets of axes that are no main axes belong to their coordinate system (P-CHAN-00397).
+    pub offsets_in_systems: bool,
+    /// The offsets of a tool move with its D word (P-CHAN-00100).
+    pub tool_offsets_at_once: bool,
+    /// The limits of the axis lists bound those of G98 and G99 (P-CHAN-00498).
+    pub limits_bounded: bool,
+    /// Most characters of the name of a macro (P-CHAN-00511).
+    pub macro_name_length: u32,
+    /// Most characters of the text of a macro (P-CHAN-00512).
+    pub macro_text_length: u32,
     /// P parameters survive program start (P-CHAN-00067).
     pub keep_p_parameters: bool,
     /// What the override multiplies (P-CHAN-00066).
@@ -135,6 +147,8 @@ pub struct Channel {
     pub h_durations_s: BTreeMap<u32, f64>,
     /// Durations of the functions of each spindle in s, in the order of the list.
     pub spindle_durations_s: Vec<SpindleDurations>,
+    /// For which functions of each spindle the path waits, in the order of the list.
+    pub spindle_waits: Vec<SpindleWaits>,
     /// Macros of every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
     pub macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
@@ -191,6 +205,51 @@ const CYCLE_PROGRAMS: [Param<Text>; 10] = [
 
 /// Spindles of a channel list.
 const SPINDLES: u32 = 16;
+
+/// When the path waits for a spindle that has been told something.
+///
+/// Source: TF5200 M and H functions 286059787; P-CHAN-00041.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpindleMoment {
+    /// MVS_SVS: before the motion of the block.
+    BeforeMotion,
+    /// MVS_SNS, MNS_SNS: after it.
+    AfterMotion,
+}
+
+/// For which functions of a spindle the path waits, until its speed, rest or position is reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SpindleWaits {
+    /// M03 (P-CHAN-00045).
+    pub m3: Option<SpindleMoment>,
+    /// M04 (P-CHAN-00047).
+    pub m4: Option<SpindleMoment>,
+    /// M05 (P-CHAN-00049).
+    pub m5: Option<SpindleMoment>,
+    /// M19 (P-CHAN-00043).
+    pub m19: Option<SpindleMoment>,
+    /// S word (P-CHAN-00081).
+    pub speed: Option<SpindleMoment>,
+}
+
+impl SpindleWaits {
+    fn of(parameters: &Parameters, spindle: u32) -> Self {
+        let moment = |array: Param<Optional>| {
+            let bits = parameters.get(array.at(spindle)).and_then(whole)?;
+            if bits & of::BEFORE_MOTION != 0 {
+                return Some(SpindleMoment::BeforeMotion);
+            }
+            (bits & of::AFTER_MOTION != 0).then_some(SpindleMoment::AfterMotion)
+        };
+        Self {
+            m3: moment(of::SPINDLE_M3_SYNCHRONISATION),
+            m4: moment(of::SPINDLE_M4_SYNCHRONISATION),
+            m5: moment(of::SPINDLE_M5_SYNCHRONISATION),
+            m19: moment(of::SPINDLE_M19_SYNCHRONISATION),
+            speed: moment(of::SPINDLE_SPEED_SYNCHRONISATION),
+        }
+    }
+}
 
 /// Durations of the functions of a spindle in s, where the list declares them above 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -270,6 +329,12 @@ impl Channel {
             several_words: p.get(of::SEVERAL_DIMENSIONS) && p.get(of::SEVERAL_WORDS),
             shortest_way: p.get(of::SHORTEST_WAY),
             cycle_changes_stay: p.get(of::CYCLE_CHANGES_STAY),
+            no_chamfers: p.get(of::NO_CHAMFERS),
+            offsets_in_systems: p.get(of::OFFSETS_IN_SYSTEMS),
+            tool_offsets_at_once: p.get(of::TOOL_OFFSETS_AT_ONCE),
+            limits_bounded: p.get(of::LIMITS_BOUNDED),
+            macro_name_length: p.get(of::MACRO_NAME_LENGTH),
+            macro_text_length: p.get(of::MACRO_TEXT_LENGTH),
             keep_p_parameters: p.get(of::KEEP_P_PARAMETERS),
             override_mode: match choice(of::OVERRIDE_MODE) {
                 0 => OverrideMode::OfReached,
@@ -293,6 +358,7 @@ impl Channel {
                 .collect(),
             h_durations_s: table(of::H_DURATION),
             spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
+            spindle_waits: (0..SPINDLES).map(|i| SpindleWaits::of(p, i)).collect(),
             macros: macros(p),
             g8x_programs: (80..)
                 .zip(CYCLE_PROGRAMS)

@@ -285,9 +285,14 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
     for (i, named) in names.named.iter().enumerate() {
         let earlier = &names.named[..i];
         let Named { name, number, .. } = named;
+        let mut condition = Condition::ListLink;
         let problem = if *number == 0 {
             Some(format!("{name}: logical axis number 0 is not allowed"))
         } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
+            // the manual has a number for path axes alone
+            if !named.spindle && !first.spindle {
+                condition = Condition::PathAxisNumberTwice;
+            }
             Some(format!("{name}: logical axis number {number} is that of {} already", first.name))
         } else if earlier.iter().any(|n| n.name.eq_ignore_ascii_case(name)) {
             Some(format!("the name {name} is in the channel list twice"))
@@ -297,9 +302,8 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             None
         };
         if let Some(message) = problem {
-            diagnostics.push(
-                error(Condition::ListLink, message, named.at.clone()).axis(*number, name.as_str()),
-            );
+            diagnostics
+                .push(error(condition, message, named.at.clone()).axis(*number, name.as_str()));
         }
     }
     for (indices, setting) in settled.own.settings() {

@@ -316,30 +316,6 @@ pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Ve
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
-/// K-0075: P-CHAN-00100 = 1 (offsets of a tool move with its D word) and P-CHAN-00397 = 0 (systems without offsets of their own).
-pub(super) fn check_offsets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let at_once = (
-        channel::TOOL_OFFSETS_AT_ONCE,
-        true,
-        "a D word moves nothing, new tool offsets act with the next absolute word of an axis",
-        "write absolute words (G90) of the axes behind D",
-    );
-    let in_systems = (
-        channel::OFFSETS_IN_SYSTEMS,
-        false,
-        "offsets of all axes belong to the coordinate system that they are programmed in",
-        "program G92 and zero offsets of these axes outside of coordinate systems",
-    );
-    for (parameter, without_effect, what, hint) in [at_once, in_systems] {
-        let Some(setting) = parameters.set_by(parameter) else { continue };
-        if parameters.get(parameter) == without_effect {
-            let text = format!("{}: {what}", parameter.place());
-            let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
-            diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
-        }
-    }
-}
-
 /// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 and 00027 say.
 pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let waiting = ["MVS_SVS", "MVS_SNS", "MNS_SNS", "MVS_SLM", "MVS_SLP", "MEP_SVS", "MET_SVS"];
@@ -347,7 +323,8 @@ pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut V
         .iter()
         .filter(|(name, _)| waiting.contains(name))
         .fold(0, |all, (_, bits)| all | bits);
-    let waits = |value: Option<f64>| value.and_then(whole).is_some_and(|v| v & waiting != 0);
+    // for its spindles the path does wait
+    let simulated = channel::BEFORE_MOTION | channel::AFTER_MOTION;
     let durations = [
         (channel::M_SYNCHRONISATION, channel::M_DURATION),
         (channel::H_SYNCHRONISATION, channel::H_DURATION),
@@ -363,7 +340,10 @@ pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut V
         let row =
             rows.find(|(synchronisation, _)| synchronisation.place().row.key == setting.row.key);
         row.is_some_and(|(_, duration)| {
-            waits(setting.value.number())
+            let of_spindle = setting.row.key.starts_with("spindel");
+            let not_simulated = if of_spindle { waiting & !simulated } else { waiting };
+            let bits = setting.value.number().and_then(whole);
+            bits.is_some_and(|bits| bits & not_simulated != 0)
                 && parameters.listed(duration.at(i[0])).is_none_or(|us| us <= 0.0)
         })
     };

@@ -81,6 +81,8 @@ pub struct ZeroOffsets {
     pub entries: BTreeMap<(u32, usize), f64>,
     /// Group that is active at program start (P-ZERO-00002).
     pub start_group: u32,
+    /// G53 has the offsets of group 0 (P-ZERO-00001); otherwise it takes offsets back.
+    pub has_g53: bool,
 }
 
 /// Tools of a list by the number of the D word. D0 is not a tool: what a list says of it does not count.
@@ -136,5 +138,9 @@ pub(super) fn zero_offsets(list: &Parameters) -> ZeroOffsets {
         .filter(|(_, setting)| setting.row.key == offset)
         .map(|([i, j], _)| ((i, j as usize), list.get(zero::OFFSET.at(i).and(j))))
         .collect();
-    ZeroOffsets { entries, start_group: list.get(zero::DEFAULT_GROUP) }
+    ZeroOffsets {
+        entries,
+        start_group: list.get(zero::DEFAULT_GROUP),
+        has_g53: list.get(zero::G53_IN_USE),
+    }
 }

@@ -440,7 +440,7 @@ impl Simulation {
                     "contouring is not possible at the end of this block",
                 ),
                 NoContour::FeedGroup => {
-                    (Condition::ContouringFeedGroup, "the feed group changes after this block")
+                    (Condition::ContouringGroupChanged, "the feed group changes after this block")
                 }
                 // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor reports the mode
                 NoContour::NothingFollows

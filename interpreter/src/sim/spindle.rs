@@ -95,10 +95,8 @@ impl Spindle {
 
     /// It turns with its speed and passes an angle between this cycle and the next one: the share of the cycle until then.
     pub(super) fn mark_ahead(&self, deg: f64, cycle: CycleTime) -> Option<f64> {
-        let speed = self.turning.speed_deg_s();
-        let way = speed * cycle.seconds();
-        let steady = self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits();
-        if !steady || way.abs() <= 0.0 {
+        let way = self.turning.speed_deg_s() * cycle.seconds();
+        if !self.is_as_told() || way.abs() <= 0.0 {
             return None;
         }
         let ahead = ((deg - self.position_deg) * way.signum()).rem_euclid(360.0) / way.abs();
@@ -133,6 +131,15 @@ impl Spindle {
     /// The set position is still on its way to an angle.
     pub(super) fn approaches(&self) -> bool {
         self.positions() && self.positioning.as_ref().is_none_or(|p| !p.arrived)
+    }
+
+    /// It turns with its speed, rests, or stands at its position.
+    pub(super) fn is_as_told(&self) -> bool {
+        if self.positions() {
+            return !self.approaches();
+        }
+        let speed = self.turning.speed_deg_s();
+        self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits()
     }
 
     /// The set position is at rest.

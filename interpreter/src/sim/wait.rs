@@ -186,6 +186,7 @@ impl Wait {
             Until::Spindle(spindle, state) => {
                 !parts.spindles.get(*spindle).is_none_or(|s| match state {
                     SpindleState::Rest => s.rests(),
+                    SpindleState::Reached => s.is_as_told(),
                     SpindleState::Mark { deg, .. } => s.mark_ahead(*deg, parts.cycle).is_some(),
                 })
             }

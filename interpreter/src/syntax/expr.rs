@@ -159,6 +159,7 @@ impl Builder<'_> {
             Rule::constant => match pair.as_str().to_ascii_uppercase().as_str() {
                 "TRUE" => ExprKind::Bool(true),
                 "FALSE" => ExprKind::Bool(false),
+                "R1" => ExprKind::Radius,
                 _ => ExprKind::Pi,
             },
             Rule::string => ExprKind::Text(self.string(&pair)),

@@ -1,7 +1,7 @@
 //! Macros: their text replaces `"NAME"` before a block is parsed.
 //!
 //! A string that is the name of a macro is a use of it wherever it appears, but for the two strings of a definition
-//! `"NAME" = "text"`. Places in the expanded text map to the use in the program.
+//! `"NAME" = "text"`. Blanks at the ends of a name do not count (208407691). Places in the expanded text map to the use in the program.
 
 use super::ast::Span;
 use crate::diag::{Condition, Diagnostic};
@@ -57,13 +57,15 @@ pub(crate) fn expand<'m>(
     };
     let mut at = 0;
     for (range, text) in uses {
-        copy(raw, &line, at..range.start, &mut out);
+        let is_number = numbers(&raw.text[..range.start]);
+        let before = &raw.text[at..range.start];
+        let before = if is_number { before.trim_ascii_end() } else { before };
+        copy(raw, &line, at..at + before.len(), &mut out);
         at = range.end;
         let start = out.text.len();
         // a call without its blank stays one, so that the block says so
         let quote = if is_call(&raw.text[..range.start]) { "\"" } else { "" };
         out.text.push_str(quote);
-        let is_number = numbers(&raw.text[..range.start]);
         if let Err(wrong) = insert(text, is_number, 1, lookup, &mut out.text) {
             let location = raw.locate(file, Span::new(range.start, range.end));
             let diagnostic = match wrong {
@@ -131,9 +133,11 @@ fn insert<'m>(
     out.push_str(if computed { "[" } else { "" });
     let mut at = 0;
     for (range, inner) in uses(text, lookup) {
-        out.push_str(&text[at..range.start]);
+        let is_number = numbers(&text[..range.start]);
+        let before = &text[at..range.start];
+        out.push_str(if is_number { before.trim_ascii_end() } else { before });
         at = range.end;
-        insert(inner, numbers(&text[..range.start]), depth + 1, lookup, out)?;
+        insert(inner, is_number, depth + 1, lookup, out)?;
         // Macros that use others twice grow without bound.
         if out.len() > 4 * BLOCK_LENGTH_MAX as usize {
             return Ok(());
@@ -144,6 +148,26 @@ fn insert<'m>(
     Ok(())
 }
 
+/// The text of a macro with the macros in it replaced; `None` if it cannot be used or is longer than a block.
+pub(crate) fn resolved<'m>(
+    text: &'m str,
+    lookup: &impl Fn(&str) -> Option<&'m str>,
+) -> Option<String> {
+    let mut out = String::new();
+    insert(text, false, 1, lookup, &mut out).ok()?;
+    (out.chars().count() <= BLOCK_LENGTH_MAX as usize).then_some(out)
+}
+
+/// True for a text that ends where the name of a macro is meant and not its text: `MACRO_LENGTH["NAME"]`.
+fn names_macro(before: &str) -> bool {
+    let Some(head) = before.trim_ascii_end().strip_suffix('[') else { return false };
+    let head = head.trim_ascii_end();
+    ["MACRO_LENGTH", "MACRO_CONTENT"].iter().any(|name| {
+        let at = head.len().checked_sub(name.len());
+        at.and_then(|at| head.get(at..)).is_some_and(|end| end.eq_ignore_ascii_case(name))
+    })
+}
+
 /// Places of macros in a text, and what they stand for.
 fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range<usize>, &'m str)> {
     let mut found = Vec::new();
@@ -152,9 +176,9 @@ fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range
         let behind = text[range.end..].trim_ascii_start();
         let definition = behind.starts_with('=') && !behind.starts_with("==");
         let skip = std::mem::replace(&mut defined, definition) || definition;
-        if !skip {
+        if !skip && !names_macro(&text[..range.start]) {
             let name = text[range.start + 1..range.end - 1].replace("\\\"", "\"");
-            found.extend(lookup(&name).map(|text| (range, text)));
+            found.extend(lookup(name.trim_ascii()).map(|text| (range, text)));
         }
     }
     found
@@ -167,9 +191,12 @@ fn is_call(before: &str) -> bool {
     before[word.len()..].eq_ignore_ascii_case("LL")
 }
 
-/// True for `G`, `M` or `H` with nothing between it and the name (source: TF5200 channel parameters 149215627).
+/// True for `G`, `M` or `H` with nothing but blanks between it and the name (source: TF5200 channel parameters 149215627, programming
+/// manual 208407691).
 fn numbers(before: &str) -> bool {
-    let Some(word) = before.strip_suffix(['G', 'g', 'M', 'm', 'H', 'h']) else { return false };
+    let Some(word) = before.trim_ascii_end().strip_suffix(['G', 'g', 'M', 'm', 'H', 'h']) else {
+        return false;
+    };
     !word.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.')
 }
 

@@ -309,6 +309,7 @@ impl Display for Expr {
             ExprKind::Bool(true) => f.write_str("TRUE"),
             ExprKind::Bool(false) => f.write_str("FALSE"),
             ExprKind::Pi => f.write_str("PI"),
+            ExprKind::Radius => f.write_str("R1"),
             ExprKind::Text(text) => write!(f, "{}", Quoted(text)),
             ExprKind::Place(place) => write!(f, "{place}"),
             ExprKind::Negate(inner) if matches!(inner.kind, ExprKind::Binary(_)) => {

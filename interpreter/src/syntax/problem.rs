@@ -188,7 +188,22 @@ fn misplaced(before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
     if expected.contains(&VALUE) && is_function(rest) {
         return Some(Condition::FunctionBracket);
     }
+    if let (Some(head), true) = (written.strip_suffix('['), expected.contains(&VALUE)) {
+        return name_expected(head);
+    }
     None
+}
+
+/// The vendor's number for a function that takes a name and got something else; `head`: the text up to its bracket.
+fn name_expected(head: &str) -> Option<Condition> {
+    let head = head.trim_ascii_end().to_ascii_uppercase();
+    [
+        ("MACRO_CONTENT", Condition::MacroContentArgument),
+        ("MACRO_LENGTH", Condition::MacroLengthArgument),
+        ("SIZEOF", Condition::SizeOfArgument),
+    ]
+    .into_iter()
+    .find_map(|(name, condition)| head.ends_with(name).then_some(condition))
 }
 
 /// True for a text that begins with a block number.

@@ -42,7 +42,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(21141), "", Error, ProgramAbort, 3, 1, "command not allowed in a manual block", ""),
     documented(Vendor(21372), "", Error, ProgramAbort, 3, 1, "logical axis number unknown or invalid", ""),
     documented(Vendor(21777), "", Error, ProgramAbort, 3, 1, "keyword index outside the data format", ""),
-    documented(Vendor(21909), "", Error, ProgramAbort, 3, 1, "flush inside a two-block contour", ""),
     documented(Vendor(22145), "", Error, JobAbort, 3, 1, "key twice (#DIAGNOSIS)", ""),
     documented(Vendor(50544), "", Error, FeedHold, 1, 0, "vendor-internal slope diagnosis", ""),
     documented(Vendor(50605), "", Warning, None, 1, 0, "order of the position filter is odd", "P-AXIS-00622"),

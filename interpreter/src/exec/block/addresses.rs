@@ -80,7 +80,7 @@ impl Decoder {
         };
         let angle = self.number(value)?;
         let (angles, condition) = if what == "POS" {
-            (&mut block.angles, Condition::SpindleTwice)
+            (&mut block.angles, Condition::SpindlePositionTwice)
         } else {
             (&mut block.offsets, Condition::ThreadOffsetTwice)
         };

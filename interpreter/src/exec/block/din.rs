@@ -11,10 +11,12 @@ use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane}
 use super::modes::weight_ratio;
 use super::words::{CycleCall, GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
+use crate::exec::commands::axes::jog_speeds;
 use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::machine::Axis;
+use crate::exec::values::number::LARGEST_MM;
+use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 
 /// What follows a block.
@@ -32,6 +34,14 @@ pub(in crate::exec) enum After<'b> {
     End,
 }
 
+/// `#CHR`, `#CHF` and `#RND` in a motion belong to the corner at its end; as blocks of their own they lie between two motions anyway.
+///
+/// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
+fn inserts_behind(words: &Words<'_>) -> bool {
+    let of_corner = |name: &str| matches!(name, "CHR" | "CHF" | "RND");
+    !words.axes.is_empty() && words.hashes.iter().any(|(hash, _, _)| of_corner(&hash.name))
+}
+
 impl Decoder {
     /// Executes a block of words.
     pub(in crate::exec) fn execute_words<'b>(
@@ -47,7 +57,12 @@ impl Decoder {
         self.dialect_guard(&words);
         self.planes_and_units(&words);
         let takes_axes = self.axis_functions(&words);
+        let at_once = self.machine.channel.tool_offsets_at_once;
+        let tool_before = at_once.then(|| self.geometry.coordinates.tool_offsets().clone());
         self.tools_and_offsets(&words, takes_axes);
+        if let Some(before) = tool_before {
+            self.tool_moves(&before, &mut words, takes_axes);
+        }
         let preset = self.position_presets(&words) || self.spline_vectors(&words);
         self.motion.feed_before = self.modal.feed();
         self.feeds_and_modes(&words, takes_axes);
@@ -65,18 +80,21 @@ impl Decoder {
             let outcome = self.bracket(bracket, &words);
             self.report.keep(outcome);
         }
-        self.technology_wait();
+        self.technology_wait(SpindleMoment::BeforeMotion);
         let banding = self.banding_run(&words);
         let banding = self.report.keep(banding).flatten();
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
+        }
+        if inserts_behind(&words) {
+            self.insertions(&words);
         }
         if let Some(at) = banding {
             self.banding_moves(at);
         }
         self.join_synchronous();
         let after = self.functions_after(&words);
-        self.technology_wait();
+        self.technology_wait(SpindleMoment::AfterMotion);
         after
     }
 
@@ -167,7 +185,9 @@ impl Decoder {
             };
             self.report.keep(outcome);
         }
-        self.insertions(words);
+        if !inserts_behind(words) {
+            self.insertions(words);
+        }
     }
 
     pub(in crate::exec) fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
@@ -277,7 +297,26 @@ impl Decoder {
         Ok(())
     }
 
+    /// P-CHAN-00273 = 1: what it leaves out is an error (256603531, 255785355).
+    fn insertions_are_on(&self, words: &Words<'_>) -> Outcome<()> {
+        if !self.machine.channel.no_chamfers {
+            return Ok(());
+        }
+        let text = "chamfers and roundings are switched off (P-CHAN-00273)";
+        if let Some(g) = words.group(Group::Insertion) {
+            return Err(Fault::new(Condition::InsertionsOff, text, g.span));
+        }
+        let names = ["ANG", "CHR", "CHF", "RND"];
+        match words.hashes.iter().find(|(hash, _, _)| names.contains(&&*hash.name)) {
+            Some((_, _, span)) => Err(Fault::new(Condition::ContourLinesOff, text, *span)),
+            None => Ok(()),
+        }
+    }
+
     fn insertions(&mut self, words: &Words<'_>) {
+        if self.report.keep(self.insertions_are_on(words)).is_none() {
+            return;
+        }
         let mut request = None;
         for g in &words.g {
             let kind = match g.row.act {
@@ -290,6 +329,10 @@ impl Decoder {
                 self.modal.insertion_mm = Some(size);
             }
             match self.modal.insertion_mm {
+                Some(size) if size > LARGEST_MM => {
+                    let text = format!("G{}: {size} mm is outside the data format", g.row.number);
+                    self.report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
+                }
                 Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
                 _ => {
                     let text = format!("G{} without a size (I)", g.row.number);
@@ -327,6 +370,11 @@ impl Decoder {
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
+                "SET TIP" => {
+                    let speeds = hash.bracket.as_ref().map_or(0, |group| group.items.len());
+                    self.report.note(jog_speeds(speeds, *span));
+                    continue;
+                }
                 other => {
                     self.report.note(Fault::unsupported(format!("#{other}"), *span));
                     continue;

@@ -348,6 +348,8 @@ const ROWS: &[Row] = &[
     g(164, Group::CentreCorrection, Act::CentreCorrection(false)),
     g(165, Group::CentreCorrection, Act::CentreCorrection(true)),
     g(166, Group::FullOverride, Act::FullOverride),
+    // no override from outside acts on spindles
+    g(167, Group::None, Act::Nothing),
     g(193, Group::FeedInterpolation, Act::FeedOverPath),
     g(194, Group::FeedType, Act::FeedType(FeedType::ShareOfMaximum)),
     g(196, Group::SpindleMode, Act::CuttingSpeedMax),

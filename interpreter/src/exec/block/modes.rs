@@ -129,7 +129,12 @@ impl Decoder {
 
     /// T.
     pub(in crate::exec) fn select_tool(&mut self, number: f64, span: Span) {
-        if let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) {
+        /// Source: TF5200 diagnosis 250967691, 20166.
+        const HIGHEST: u32 = i32::MAX.unsigned_abs();
+        if number > f64::from(HIGHEST) {
+            let text = format!("T{number} is above {HIGHEST}");
+            self.report.note(Fault::new(Condition::ToolNumberTooLarge, text, span));
+        } else if let Some(number) = crate::exec::values::number::whole(number, 0, HIGHEST) {
             self.geometry.tools.tool = number;
             self.contour.event(Event::Tool { number });
             self.takes_time(Function::Tool);
@@ -266,6 +271,7 @@ impl Decoder {
             self.deselect_in_place();
         }
         self.modal.compensation = side;
+        self.contour.deselect(side == Compensation::Off);
         Ok(())
     }
 

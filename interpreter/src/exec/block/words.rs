@@ -112,8 +112,9 @@ impl Decoder {
                 self.assign(assign)
             }
             WordKind::MacroDefinition(definition) => {
-                let before =
-                    self.calls.macros.insert(definition.name.clone(), definition.text.clone());
+                let name = definition.name.trim_ascii();
+                self.macro_fits(name, &definition.text, span)?;
+                let before = self.calls.macros.insert(name.into(), definition.text.clone());
                 // blocks that hold the text of before have to be read again
                 self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
                 Ok(())
@@ -185,23 +186,48 @@ impl Decoder {
         letter: &str,
         span: Span,
     ) -> Outcome<Code> {
-        /// Highest number of M and H functions.
-        const HIGHEST: u32 = 65535;
+        // of M the diagnosis manual prints the limit (20160, 250945931), of H none
+        let (highest, condition) = match letter {
+            "M" => (1000, Condition::MNumberTooLarge),
+            _ => (65535, Condition::Range),
+        };
         let number = match number {
-            CodeNumber::Literal(n) if *n <= HIGHEST => *n,
-            CodeNumber::Literal(_) => {
-                let text = format!("the number of the {letter} function is above {HIGHEST}");
-                return Err(Fault::new(Condition::Range, text, span));
-            }
+            CodeNumber::Literal(n) => *n,
             CodeNumber::Computed(expr) => {
-                self.whole(expr, "the number of a function", 0, HIGHEST)?
+                self.whole(expr, "the number of a function", 0, u32::MAX)?
             }
         };
+        if number > highest {
+            let text = format!("the number of the {letter} function is above {highest}");
+            return Err(Fault::new(condition, text, span).with(|d| {
+                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, highest, "-")
+            }));
+        }
         let value = match value {
             Some(expr) => Some(self.number(expr)?),
             None => None,
         };
         Ok(Code { number, value, span })
+    }
+
+    /// The name and the text of a macro are not too long (P-CHAN-00511, 00512).
+    ///
+    /// Assumption: the pages print an ID for the name alone; a text beyond its limit is K-RANGE.
+    fn macro_fits(&self, name: &str, text: &str, span: Span) -> Outcome<()> {
+        let channel = &self.machine.channel;
+        for (what, written, most, condition, parameter) in [
+            ("name", name, channel.macro_name_length, Condition::MacroNameLength, "P-CHAN-00511"),
+            ("text", text, channel.macro_text_length, Condition::Range, "P-CHAN-00512"),
+        ] {
+            let length = written.chars().count();
+            if length > most as usize {
+                let text =
+                    format!("the {what} of the macro has {length} characters, at most {most}");
+                return Err(Fault::new(condition, text, span)
+                    .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter)));
+            }
+        }
+        Ok(())
     }
 
     fn g_word(

@@ -128,7 +128,7 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 arguments! {
     /// Keys of `#TANGFEED`.
     struct TangfeedArguments {
-        rmin: Number "RMIN" in at_least(0.0), "mm (G70: inch)", "arcs of a smaller radius keep F at the tool's centre; default 0";
+        rmin: Number "RMIN" in at_least(0.0).or(Condition::TangentialRadius), "mm (G70: inch)", "arcs of a smaller radius keep F at the tool's centre; default 0";
     }
 }
 

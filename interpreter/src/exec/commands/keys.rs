@@ -111,7 +111,7 @@ pub(in crate::exec) const fn above_zero_to(high: f64) -> Range {
 }
 
 impl Range {
-    /// Another condition than K-RANGE.
+    /// Another condition than 21296, K-RANGE in the bracket of an axis.
     pub(in crate::exec) const fn or(self, condition: Condition) -> Self {
         Self { condition, ..self }
     }
@@ -321,7 +321,12 @@ pub(in crate::exec) fn read_all(
             && !range.contains(*x)
         {
             let text = format!("{name}={x}, allowed are {}", range.allowed());
-            return Err(Fault::new(range.condition, text, *span));
+            // the general number of commands (254101131); brackets of axes have none
+            let condition = match range.condition {
+                Condition::Range if title.starts_with('#') => Condition::KeyRange,
+                condition => condition,
+            };
+            return Err(Fault::new(condition, text, *span));
         }
     }
     Ok(found)

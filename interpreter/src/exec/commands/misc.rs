@@ -20,6 +20,10 @@ pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
 
 /// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
 fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if decoder.motion.contour_line.is_open() {
+        let text = "#FLUSH between the two blocks of a contour line (#ANG)";
+        return Err(Fault::new(Condition::FlushInContourLine, text, call.span()));
+    }
     match call.rest {
         [] => decoder.sync(Sync::Stop),
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
@@ -47,8 +51,12 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut axes = Vec::new();
     for item in &group.items {
         match &item.kind {
-            ItemKind::Flag(word) if word.is("CMDPOS") => actual = Some(false),
-            ItemKind::Flag(word) if word.is("ACTPOS") => actual = Some(true),
+            ItemKind::Flag(word) if word.is("CMDPOS") || word.is("ACTPOS") => {
+                if actual.replace(word.is("ACTPOS")).is_some() {
+                    let text = "#CHANNEL INIT: one of CMDPOS and ACTPOS, once";
+                    return Err(Fault::new(Condition::ChannelInitTwice, text, item.span));
+                }
+            }
             ItemKind::Flag(word) => axes.push(decoder.names.in_command(word)?),
             ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("AX") => {
                 axes.push(decoder.names.in_command(name)?);
@@ -181,9 +189,25 @@ pub(super) const TIMER: Row = Row::run("TIMER", timer)
     .note("without SYN the timer runs with the decoder, which is ahead of the motion; READ SYN brings the path to rest")
     .example("#TIMER START SYN [ID=3]");
 
+/// What `#TIMER` does.
+const TIMER_ACTS: &[(&str, TimerAct)] = &[
+    ("START", TimerAct::Start),
+    ("STOP", TimerAct::Stop),
+    ("READ", TimerAct::Read),
+    ("CLEAR", TimerAct::Clear),
+];
+
 /// `#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]`.
 fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    let keys = TimerArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let group = call.command.groups.first();
+    let ids = group.into_iter().flat_map(|group| &group.items);
+    let ids = ids.filter(|item| matches!(&item.kind, ItemKind::Pair { key, .. } if key.is("ID")));
+    let acts = call.rest.iter().filter(|word| TIMER_ACTS.iter().any(|(name, _)| word.is(name)));
+    if ids.count() > 1 || acts.count() > 1 {
+        let text = "#TIMER: one action and one ID";
+        return Err(Fault::new(Condition::TimerTwice, text, call.span()));
+    }
+    let keys = TimerArguments::read(decoder, &call.title(), group)?;
     let id =
         keys.id.and_then(|(id, _)| crate::exec::values::number::whole(id, 0, 127)).unwrap_or(0);
     let (word, synchronous) = match call.rest {
@@ -195,13 +219,7 @@ fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
         }
     };
-    let acts = [
-        ("START", TimerAct::Start),
-        ("STOP", TimerAct::Stop),
-        ("READ", TimerAct::Read),
-        ("CLEAR", TimerAct::Clear),
-    ];
-    let Some((_, act)) = acts.into_iter().find(|(name, _)| word.is(name)) else {
+    let Some((_, act)) = TIMER_ACTS.iter().copied().find(|(name, _)| word.is(name)) else {
         return Err(call.unexpected(word));
     };
     if !synchronous {

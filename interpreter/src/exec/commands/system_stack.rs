@@ -69,7 +69,7 @@ fn place(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
             format!("the stack has {}", names.join(", "))
         };
         let text = format!("coordinate system {} is not defined", name.text);
-        Fault::new(Condition::NoCoordinateSystem, text, name.span).hint(hint)
+        Fault::new(Condition::SystemNameUnknown, text, name.span).hint(hint)
     })
 }
 

@@ -110,7 +110,15 @@ fn basic_number(decoder: &Decoder, call: &Call<'_>) -> Outcome<(f64, Span)> {
         }
     }
     match &basic.kind {
-        ItemKind::Value(ItemValue::Expr(expr)) => Ok((decoder.number(expr)?, expr.span)),
+        ItemKind::Value(ItemValue::Expr(expr)) => {
+            let number = decoder.number(expr)?;
+            if !(0.0..=f64::from(i32::MAX)).contains(&number) {
+                let text =
+                    format!("{}: the number {number} is outside the data format", call.title());
+                return Err(Fault::new(Condition::ToolIdFormat, text, expr.span));
+            }
+            Ok((number, expr.span))
+        }
         _ => Err(wrong(basic.span)),
     }
 }

@@ -8,7 +8,7 @@
 //! an inside corner; with G239 it stays after G40 where it is.
 //!
 //! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G138, G139, G237 to G239); generation
-//! of compensation blocks; restrictions of inside corner selection; 90008, 90031, 90127, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
+//! of compensation blocks; restrictions of inside corner selection; 90008, 90017, 90031, 90050, 90127, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
 //! lists by angle.
 //! Assumption: the approach for every angle between approach and first element, with G139 as with G138; the figures of the
 //! manual show more lines for G139 at outer corners.
@@ -32,7 +32,7 @@ use crate::exec::geometry::planar::Side;
 use crate::exec::step::{SourceRef, Sync};
 use crate::syntax::ast::Span;
 use active::Active;
-use corner::{above, straight};
+use corner::{above, straight_before};
 use element::{Element, moving_side, runs_back};
 use ends::line;
 use inside::Closed;
@@ -55,6 +55,8 @@ pub(in crate::exec) struct Compensator {
     told: bool,
     /// The next motion in the plane begins or ends compensation in an arc (G05).
     tangential: bool,
+    /// G40 is programmed; the next motion in the plane leads away from the contour.
+    pub(in crate::exec) deselected: bool,
 }
 
 impl Compensator {
@@ -173,6 +175,13 @@ impl Compensator {
             return self.select(motion, None, out);
         }
         if !matches!(side, Side::Line { .. }) {
+            let changes =
+                motion.compensation.is_some_and(|c| c.distance_mm * active.distance > 0.0);
+            if changes {
+                let text = "the tool radius changes in front of an arc: a straight motion has to lead to it";
+                return Err(Fault::new(Condition::RadiusChangeInArc, text, motion.span)
+                    .in_block(motion.source));
+            }
             return Err(circular(&motion));
         }
         let away = tangential.then(|| active.last.side.tangent(true));
@@ -195,9 +204,14 @@ impl Compensator {
                 | Sync::SetPosition { .. }
         );
         if flushes {
-            let text = "the channel cannot be flushed while tool radius compensation is active";
-            return Err(Fault::new(Condition::FlushWithCompensation, text, Span::default())
-                .in_block(rest.source));
+            let (condition, text) = if self.deselected {
+                let text = "the channel cannot be flushed before the motion that ends tool radius compensation";
+                (Condition::FlushAfterCompensation, text)
+            } else {
+                let text = "the channel cannot be flushed while tool radius compensation is active";
+                (Condition::FlushWithCompensation, text)
+            };
+            return Err(Fault::new(condition, text, Span::default()).in_block(rest.source));
         }
         let item = Item::Rest(Box::new(rest));
         match (&mut self.active, &mut self.closed) {
@@ -272,7 +286,7 @@ impl Compensator {
             let from = side.start_point();
             let start = above(from, side.tangent(false), distance);
             if let Some(mut there) =
-                straight(&motion, motion.block.path.start(), plane, from, start)
+                straight_before(&motion, motion.block.path.start(), plane, from, start)
             {
                 there.events = std::mem::take(&mut motion.events);
                 out.push(Item::Motion(there));

@@ -4,8 +4,8 @@
 //! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
 //! transition.
 //!
-//! Assumption: without `#FRC` the feed is that of the motion behind, also rapid; the English page names that motion, an older
-//! German one the motion in front.
+//! The feed is that of `#FRC`, else the E word of the motion in front (206811147). Assumption: without them it is that of the motion
+//! behind, also rapid; the English page names that motion, an older German one the motion in front.
 
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
@@ -101,7 +101,10 @@ pub(in crate::exec) fn between(
             ArcPath::new(p.clone(), q.clone(), shape, &feed_axes).map(Path::Arc)
         }
     };
-    let feed = after.feed_beside();
+    let feed = match before.block.end_velocity_mm_s {
+        Some(_) => before.feed_behind(),
+        None => after.feed_beside(),
+    };
     let cut_before = cut(&before.block.path, None, Some(&p), &feed_axes);
     let cut_after = cut(&after.block.path, Some(&q), None, &feed_axes);
     let (Some(element), Some(cut_before), Some(cut_after)) = (element, cut_before, cut_after)
@@ -113,6 +116,8 @@ pub(in crate::exec) fn between(
     let mut inserted = after.clone();
     inserted.block.path = element;
     inserted.course = None;
+    // E belongs to the end of its own block
+    inserted.block.end_velocity_mm_s = None;
     inserted.events = std::mem::take(&mut after.events);
     inserted.block.feed = insertion.feed.unwrap_or(feed);
     Ok(Some(Box::new(inserted)))

@@ -79,6 +79,16 @@ pub(in crate::exec) enum CornerFeed {
 }
 
 impl Motion {
+    /// Feed of an element that is inserted behind the motion: the E word of its block, if it has one.
+    ///
+    /// Source: TF5200 programming manual 206811147. Assumption: E0 ends the block at rest and is no feed.
+    pub(in crate::exec) fn feed_behind(&self) -> Feed {
+        match self.block.end_velocity_mm_s {
+            Some(v) if v > 0.0 => Feed::PathVelocity(v),
+            _ => self.feed_beside(),
+        }
+    }
+
     /// It is a step as it stands.
     pub(super) fn is_complete(&self) -> bool {
         self.compensation.is_none()

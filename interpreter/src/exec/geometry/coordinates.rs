@@ -76,6 +76,11 @@ pub(in crate::exec) struct Coordinates {
     /// First, second and third main axis.
     main: [Option<usize>; 3],
     zero_table: BTreeMap<u32, AxisVec>,
+    /// G53 has offsets of its own (P-ZERO-00001).
+    has_g53: bool,
+    /// Zero-offset group of the axes that are no main axes, where their offsets belong to the channel and not to a coordinate
+    /// system (P-CHAN-00397 = 0).
+    channel_group: Option<u32>,
     /// Axes whose entry of a group is left out (G160).
     zero_masked: BTreeSet<(u32, usize)>,
     /// Offsets below all coordinate systems.
@@ -108,6 +113,8 @@ impl Coordinates {
             word: start.clone(),
             main,
             zero_table: BTreeMap::new(),
+            has_g53: false,
+            channel_group: None,
             zero_masked: BTreeSet::new(),
             lowest: Layer::new(Frame::IDENTITY, n),
             systems: Vec::new(),
@@ -162,10 +169,10 @@ impl Coordinates {
     #[inline]
     pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
         let offset = self.layer_offset(&self.lowest, axis) + self.tool[axis] + self.measuring[axis];
-        if self.systems.is_empty() || self.main_index(axis).is_some() {
+        // the frame has the main axes only
+        if self.systems.is_empty() || self.main_index(axis).is_some() || self.is_of_channel(axis) {
             return offset;
         }
-        // the frame has the main axes only
         offset + self.systems.iter().map(|layer| self.layer_offset(layer, axis)).sum::<f64>()
     }
 
@@ -174,7 +181,12 @@ impl Coordinates {
         let tool = if kinds.contains(&OffsetKind::Tool) { 0.0 } else { self.tool[axis] };
         let measuring =
             if kinds.contains(&OffsetKind::Measuring) { 0.0 } else { self.measuring[axis] };
-        self.lowest_without(kinds, axis) + tool + measuring
+        let offset = self.layer_without(&self.lowest, kinds, axis) + tool + measuring;
+        if self.systems.is_empty() || self.main_index(axis).is_some() || self.is_of_channel(axis) {
+            return offset;
+        }
+        let in_systems = self.systems.iter().map(|layer| self.layer_without(layer, kinds, axis));
+        offset + in_systems.sum::<f64>()
     }
 
     /// Offset contained in the target of an axis.
@@ -191,12 +203,32 @@ impl Coordinates {
         self.measuring[axis] = value_mm;
     }
 
-    /// `#SUPPRESS OFFSETS`: targets of axes without offsets of these kinds. Not in a frame.
+    /// `#SUPPRESS OFFSETS`: targets of axes without offsets of these kinds. Systems, rotation and mirroring remain (207072907).
+    ///
+    /// Assumption: in a turned system a coordinate that is not written stays what it is in the system without these offsets.
     pub(in crate::exec) fn program_without(&mut self, kinds: &[OffsetKind], words: &[Target]) {
+        let frame = self.frame_with(|layer, axis| self.layer_without(layer, kinds, axis));
+        let rest = self.main.map(|m| m.map_or(0.0, |axis| self.offset_without(kinds, axis)));
+        let at = |i: usize| self.main[i].map_or(0.0, |axis| self.target[axis] - rest[i]);
+        let mut point = frame.inverse(std::array::from_fn(at));
+        let mut programmed = [false; 3];
         for &Target { axis, value, .. } in words {
             self.word[axis] = value;
-            self.target[axis] = value + self.offset_without(kinds, axis);
-            self.applied[axis] = self.active_offset(axis);
+            if let Some(main) = self.main_index(axis) {
+                (point[main], programmed[main]) = (value, true);
+            } else {
+                let value = if self.mirrored[axis] { -value } else { value };
+                self.target[axis] = value + self.offset_without(kinds, axis);
+                self.applied[axis] = self.active_offset(axis);
+            }
+        }
+        let moved = frame.apply(point);
+        for main in 0..3 {
+            let follows = (0..3).any(|i| programmed[i] && frame.m[main][i] != 0.0);
+            if let (Some(axis), true) = (self.main[main], follows) {
+                self.target[axis] = moved[main] + rest[main];
+                self.applied[axis] = self.active_offset(axis);
+            }
         }
         self.recompute_program();
     }
@@ -204,6 +236,11 @@ impl Coordinates {
     /// Programmed position of the main axes, 0 for one that is missing.
     pub(in crate::exec) fn programmed_point(&self) -> [f64; 3] {
         std::array::from_fn(|m| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis)))
+    }
+
+    /// Offsets of the tool by axis.
+    pub(in crate::exec) fn tool_offsets(&self) -> &AxisVec {
+        &self.tool
     }
 
     /// Tool offsets: all axes are replaced.
@@ -273,6 +310,13 @@ impl Coordinates {
     }
 
     fn frame_changed(&mut self) {
+        self.frame = self.frame_with(|layer, axis| self.layer_offset(layer, axis));
+        self.plain = self.frame.is_identity();
+        self.recompute_program();
+    }
+
+    /// The frame with these offsets in its systems.
+    fn frame_with(&self, offset: impl Fn(&Layer, usize) -> f64) -> Frame {
         let mirror = Frame::mirror(std::array::from_fn(|i| {
             self.main[i].is_some_and(|axis| self.mirrored[axis])
         }));
@@ -282,13 +326,11 @@ impl Coordinates {
         };
         for layer in self.systems.iter().rev() {
             for (t, axis) in frame.t.iter_mut().zip(self.main) {
-                *t += axis.map_or(0.0, |axis| self.layer_offset(layer, axis));
+                *t += axis.map_or(0.0, |axis| offset(layer, axis));
             }
             frame = layer.system.after(&frame);
         }
-        self.plain = frame.is_identity();
-        self.frame = frame;
-        self.recompute_program();
+        frame
     }
 
     /// Programmed coordinates of the positions where the axes are.

@@ -11,6 +11,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::arc::{self, ArcError};
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
@@ -62,6 +63,10 @@ impl Decoder {
         let g = words.group(Group::Path).map_or(span, |g| g.span);
         let at = at.map_or(g, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
+        if !has_centre && arc.centre.iter().any(|x| x.abs() > LARGEST_MM) {
+            let text = "the centre of this radius is outside the data format";
+            return Err(Fault::new(Condition::CentreTooFar, text, at));
+        }
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {
             let normal = (0..3)

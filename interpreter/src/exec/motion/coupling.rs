@@ -106,8 +106,12 @@ impl Decoder {
         Ok(())
     }
 
-    /// 20457.
+    /// 20457, 120333.
     fn couplings_may_change(&self, span: Span) -> Outcome<()> {
+        if self.modal.contouring {
+            let text = "axis couplings are switched while contouring is active";
+            return Err(Fault::new(Condition::CouplingWithContouring, text, span));
+        }
         if self.modal.compensation == Compensation::Off {
             return Ok(());
         }

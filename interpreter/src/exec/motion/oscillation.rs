@@ -30,7 +30,7 @@ arguments! {
         feed: Number "FEED" in at_least(0.0), "mm/min", "";
         frequency: Number "FREQ" in above_zero(), "1/s", "instead of FEED";
         time: Number "TIME" in above_zero(), "s", "of an oscillation, instead of FEED";
-        count: Number "NBR_OSC" in between(1.0, u32::MAX as f64).whole(), "", "so many oscillations";
+        count: Number "NBR_OSC" in between(1.0, u32::MAX as f64).whole().or(Condition::OscillationCount), "", "so many oscillations";
         zero: Number "ZERO_POS", "mm", "middle of both positions, in their place with EXCUR";
         excursion: Number "EXCUR", "mm", "from the middle: the first position is ZERO_POS - EXCUR";
         offsets: Flag "INCL_OFFSETS", "", "the positions are those of the program, with its offsets";

@@ -68,6 +68,11 @@ impl Decoder {
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("G303 with tool radius compensation", span));
         }
+        if self.contour.compensates() {
+            let text =
+                "an arc in space behind G40: a straight motion has to lead away from the contour";
+            return Err(Fault::new(Condition::SpaceArcAfterCompensation, text, span));
+        }
         let coordinates = &self.geometry.coordinates;
         let main = std::array::from_fn::<_, 3, _>(|m| coordinates.main_axis(m));
         let [Some(x), Some(y), Some(z)] = main else {

@@ -16,7 +16,7 @@ use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::SourceRef;
-use crate::machine::{Channel, Machine};
+use crate::machine::{Channel, Machine, SpindleMoment};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{
@@ -211,6 +211,8 @@ pub(in crate::exec) struct Technology {
     pub(super) counted: bool,
     /// Time in s that is still to be waited.
     pub(super) pending_s: f64,
+    /// Spindles that the path has still to wait for.
+    pub(super) spindles: Vec<(usize, SpindleMoment)>,
     pub(super) named: BTreeSet<Function>,
 }
 

@@ -35,6 +35,7 @@ impl Decoder {
             let text = format!("{}{value} is outside the data format", self.names.name(*axis));
             return Err(Fault::new(Condition::CoordinateTooLarge, text, *at));
         }
+        self.diameters_fit(words)?;
         if self.machine.channel.several_words {
             targets = joined(targets);
         }
@@ -70,10 +71,6 @@ impl Decoder {
                 let text = "#SUPPRESS OFFSETS acts only with G90";
                 return Err(Fault::new(Condition::SuppressWithIncremental, text, at));
             }
-            Some((_, at)) if !self.geometry.coordinates.frame().is_identity() => {
-                let what = "#SUPPRESS OFFSETS in a frame";
-                return Err(Fault::unsupported(what, at));
-            }
             Some((kinds, _)) => self.geometry.coordinates.program_without(&kinds, &targets),
             None => self.geometry.coordinates.program(targets.iter().copied()),
         }
@@ -84,6 +81,29 @@ impl Decoder {
         }
         self.follow_turning_centre(&start);
         Ok(start)
+    }
+}
+
+impl Decoder {
+    /// Diameters are neither negative nor mirrored.
+    ///
+    /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.
+    fn diameters_fit(&self, words: &Words<'_>) -> Outcome<()> {
+        let Some(turned) = self.modal.diameter else { return Ok(()) };
+        for (i, (axis, value, at)) in words.axes.iter().enumerate() {
+            let absolute = words.is_absolute(i, self.modal.absolute);
+            if *axis != turned || !self.machine.axes[*axis].takes_diameters(absolute) {
+                continue;
+            }
+            let mirrored = self.geometry.coordinates.mirrored(*axis);
+            if mirrored || (absolute && *value < 0.0) {
+                let name = self.names.name(*axis);
+                let what = if mirrored { "mirrored" } else { "negative" };
+                let text = format!("{name}{value} is a {what} diameter (G51)");
+                return Err(Fault::new(Condition::DiameterNegative, text, *at));
+            }
+        }
+        Ok(())
     }
 }
 

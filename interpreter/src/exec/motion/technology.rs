@@ -5,14 +5,15 @@
 
 use super::state::Function;
 use crate::exec::decoder::Decoder;
-use crate::exec::step::{Event, Sync};
-use crate::machine::Channel;
+use crate::exec::step::{Event, SpindleState, Sync};
+use crate::machine::{Channel, SpindleMoment};
 
 impl Decoder {
     /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
     pub(in crate::exec) fn takes_time(&mut self, function: Function) {
         // Assumption: the functions of a block go to the machine together, so the longest decides
         self.technology.pending_s = self.technology.pending_s.max(self.counted_time_s(function));
+        self.technology.spindles.extend(waited_for(&self.machine.channel, function));
     }
 
     /// M00, M01 and the end of a program: only a declared duration counts, they do without one.
@@ -50,13 +51,35 @@ impl Decoder {
         0.0
     }
 
-    /// The path waits for the functions called since the last wait.
-    pub(in crate::exec) fn technology_wait(&mut self) {
+    /// The path waits for the functions called since the last wait, before or after the motion of the block.
+    pub(in crate::exec) fn technology_wait(&mut self, now: SpindleMoment) {
+        let spindles = std::mem::take(&mut self.technology.spindles);
+        for (spindle, moment) in spindles {
+            if moment == now || now == SpindleMoment::AfterMotion {
+                self.sync(Sync::Spindle { spindle, state: SpindleState::Reached });
+            } else {
+                self.technology.spindles.push((spindle, moment));
+            }
+        }
         let seconds = std::mem::take(&mut self.technology.pending_s);
         if seconds > 0.0 {
             self.sync(Sync::Technology { seconds });
         }
     }
+}
+
+/// The spindle that the path waits for after a function, and when.
+fn waited_for(channel: &Channel, function: Function) -> Option<(usize, SpindleMoment)> {
+    let listed = |spindle: usize| channel.spindle_waits.get(spindle).copied().unwrap_or_default();
+    let (spindle, moment) = match function {
+        Function::Spindle { spindle, m: 3 } => (spindle, listed(spindle).m3),
+        Function::Spindle { spindle, m: 4 } => (spindle, listed(spindle).m4),
+        Function::Spindle { spindle, m: 5 } => (spindle, listed(spindle).m5),
+        Function::Spindle { spindle, .. } => (spindle, listed(spindle).m19),
+        Function::Speed { spindle } => (spindle, listed(spindle).speed),
+        Function::M(_) | Function::H(_) | Function::Tool => return None,
+    };
+    Some((spindle, moment?))
 }
 
 /// Duration in s above 0 and where it is declared.

@@ -201,11 +201,14 @@ impl Decoder {
             return Err(Fault::new(Condition::ThreadPitch, text, span));
         }
         let spindle = &self.motion.spindles[0];
-        let (Some(index), true) = (spindle.index, spindle.is_turning() && spindle.rpm.abs() > 0.0)
-        else {
+        let (Some(index), true) = (spindle.index, spindle.rpm.abs() > 0.0) else {
             let text = "G33 needs a spindle that turns: M03 or M04 and S before it";
             return Err(Fault::new(Condition::SpindleStandsInThread, text, span));
         };
+        if !spindle.is_turning() {
+            let text = "G33 while the spindle stands: it has a speed, M03 or M04 is missing";
+            return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
+        }
         let most_deg_s = self.machine.spindles[index].dynamics().v_max_mm_s;
         let rev_s = (spindle.rpm.abs() * 6.0).min(most_deg_s) / 360.0;
         let way = (path.end()[axis] - path.start()[axis]).abs();

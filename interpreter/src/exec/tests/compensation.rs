@@ -154,7 +154,7 @@ fn compensation_in_a_tilted_plane() {
 fn errors_stand_at_the_block_that_does_not_fit() {
     let places = |text: &str| super::places(&run(&format!("{TOOL}{text}\nM30\n")).diagnostics);
     // the arc of line 5 is too small, which is known at line 6
-    assert_eq!(places("G42 Y-10\nY0\nG02 X2 I1\nG40 G01 Y-30"), ["90031 5:1"]);
+    assert_eq!(places("G42 Y-10\nY0\nG02 X2 I1\nG40 G01 Y-30"), ["90017 5:1"]);
     assert_eq!(places("G42 X0 Y-10\nY0\nX1\nY-10\nG40 X5"), ["K-0115 5:1"]);
 }
 

@@ -189,15 +189,15 @@ fn stack_of_systems() {
     assert_near(&clean(&format!("{five}#CS SELECT [N4S]\nG00 X0\nM30\n")).end, &[5.0, 0.0, 0.0]);
     assert_eq!(ids(&format!("{five}#CS ADD [SIX][1]")), ["20820"]);
     for (text, id) in [
-        ("#CS SELECT [B]", "20821"),
-        ("#CS SET [B][1]", "20821"),
+        ("#CS SELECT [B]", "21601"),
+        ("#CS SET [B][1]", "21601"),
         ("#CS DEL", "20821"),
         ("#CS ADD [MCS][1]", "20675"),
         ("#CS ADD [NINECHARS][1]", "20675"),
         ("#CS ADD [B]", "20675"),
         ("#CS ADD [B][1,2,3,4,5,6,7]", "20675"),
         ("#CS ADD [B][1]\n#CS SELECT", "20675"),
-        ("#CS ADD [B][1]\n#CS SELECT [b]", "20821"),
+        ("#CS ADD [B][1]\n#CS SELECT [b]", "21601"),
         ("#CS ADD [B][1]\n#CS DEL [B]", "21220"),
         ("#CS ADD [B][1]\n#CS ON [1,2,3]\n#CS SELECT [B]", "K-0019"),
         ("#CS ADD [B][1]\n#CS SELECT [B]\n#CS ON [1,2,3]", "K-0019"),

@@ -499,5 +499,5 @@ fn a_vector_limit_needs_a_limit() {
 fn a_number_of_oscillations() {
     let text = "X[OSC ON 1ST_POS=-10 2ND_POS=10 FREQ=1 NBR_OSC=0]\nM30\n";
     let said = super::shown(&run(text).diagnostics);
-    assert_eq!(said, ["K-0009 NBR_OSC=0, allowed are the whole numbers 1 to 4294967295"]);
+    assert_eq!(said, ["21237 NBR_OSC=0, allowed are the whole numbers 1 to 4294967295"]);
 }

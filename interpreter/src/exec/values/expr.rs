@@ -24,12 +24,22 @@ impl Decoder {
             ExprKind::Number(x) => Ok(Value::Number(*x)),
             ExprKind::Bool(b) => Ok(Value::truth(*b)),
             ExprKind::Pi => Ok(Value::Number(std::f64::consts::PI)),
+            ExprKind::Radius => self.last_radius(expr.span),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
             ExprKind::Place(place) => self.read(place),
             ExprKind::Negate(_) => self.negated(expr),
             ExprKind::Binary(binary) => self.chain(binary),
             ExprKind::Call(call) => functions::call(self, call, expr.span),
         }
+    }
+
+    /// `R1`: the radius that was programmed last (R, `R1=`, G163), in the unit that is active (206014219).
+    fn last_radius(&self, span: Span) -> Outcome<Value> {
+        let radius_mm = self.modal.radius_mm.ok_or_else(|| {
+            let text = "R1 has no value: no radius has been programmed";
+            Fault::new(Condition::Undefined, text, span).hint("write R1=5 before it")
+        })?;
+        Ok(Value::Number(radius_mm / self.modal.unit_mm()))
     }
 
     /// Number of an expression; a text is 21461.

@@ -10,6 +10,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg, tan_deg, to_deg};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Expr, ExprKind, Function, FunctionCall, Place, Span};
+use crate::syntax::macros;
 
 /// Numbers of arguments that a function takes.
 fn arity(function: Function) -> (usize, usize) {
@@ -44,7 +45,7 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
         }
         let condition = match call.function {
             Function::Exist => Condition::ExistArgument,
-            _ => Condition::Syntax,
+            _ => Condition::SizeOfArgument,
         };
         Err(Fault::new(condition, "a variable is expected", call.arguments[0].span))
     };
@@ -59,6 +60,7 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
         Function::Min => arg(0)?.min(arg(1)?),
         Function::Max => arg(0)?.max(arg(1)?),
         Function::Inv => f64::from(inverted(arg(0)?, call.arguments[0].span)?),
+        Function::MacroLength | Function::MacroContent => return of_macro(decoder, call),
         f if is_text_function(f) => return text_function(decoder, call, span),
         f => of_one(f, arg(0)?, call.arguments[0].span)?,
     };
@@ -73,10 +75,6 @@ fn inverted(x: f64, span: Span) -> Outcome<u32> {
 
 fn pole(span: Span) -> Box<Fault> {
     Fault::new(Condition::DivisionByZero, "division by zero", span)
-}
-
-fn outside(function: Function, x: f64, span: Span) -> Box<Fault> {
-    Fault::new(Condition::Range, format!("{} of {x} does not exist", function.name()), span)
 }
 
 /// Functions of one number.
@@ -110,7 +108,11 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
             }
             cos_deg(x) / s
         }
-        Function::Asin | Function::Acos if x.abs() > 1.0 => return Err(outside(function, x, span)),
+        Function::Asin | Function::Acos if x.abs() > 1.0 => {
+            let text = format!("{} of {x} does not exist", function.name());
+            return Err(Fault::new(Condition::ArcFunctionRange, text, span)
+                .with(|d| d.value(ValueKind::Wrong, x, "-")));
+        }
         Function::Asin if (x.abs() - 0.5).abs() == 0.0 => 30.0_f64.copysign(x),
         Function::Asin => to_deg(libm::asin(x)),
         Function::Acos if (x.abs() - 0.5).abs() == 0.0 => {
@@ -133,6 +135,42 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
         Function::Not => f64::from(u8::from(!is_true(x))),
         _ => return Err(Fault::unsupported(function.name(), span)),
     })
+}
+
+/// `MACRO_CONTENT["NAME"]`, `MACRO_LENGTH["NAME"]`: the text of a macro, the macros in it replaced, and its characters.
+///
+/// Source: TF5200 diagnosis 1097005579, 1152060811, 1147344395. Assumption: the length is that of the same text; the pages say it
+/// nowhere. An unknown macro has no length: K-UNDEFINED.
+fn of_macro(decoder: &Decoder, call: &FunctionCall) -> Outcome<Value> {
+    let argument = &call.arguments[0];
+    let wants_length = call.function == Function::MacroLength;
+    let ExprKind::Text(name) = &argument.kind else {
+        let condition = if wants_length {
+            Condition::MacroLengthArgument
+        } else {
+            Condition::MacroContentArgument
+        };
+        let text = format!("{} needs the name of a macro in quotes", call.function.name());
+        return Err(Fault::new(condition, text, argument.span));
+    };
+    let table = &decoder.calls.macros;
+    let lookup = |name: &str| table.get(name).map(|text| &**text);
+    let name = name.trim_ascii();
+    let resolved = lookup(name).and_then(|text| macros::resolved(text, &lookup));
+    match resolved {
+        Some(text) if wants_length => Ok(Value::Number(text.chars().count() as f64)),
+        Some(text) => Ok(Value::Text(text.into())),
+        None => {
+            let known = table.contains_key(name);
+            let why = if known { "cannot be resolved" } else { "is not defined" };
+            let condition = if wants_length && !known {
+                Condition::Undefined
+            } else {
+                Condition::MacroContentFailed
+            };
+            Err(Fault::new(condition, format!("the macro \"{name}\" {why}"), argument.span))
+        }
+    }
 }
 
 /// Size of a dimension of an array; without a dimension that of the first one, -1 if there is none.

@@ -299,6 +299,10 @@ impl Decoder {
         let found = match self.resolve(place)? {
             Target::Parameter(index, _) => self.values.variables.parameters().get(&index),
             Target::Own(class, name, _) => self.values.variables.find(class, &name),
+            Target::System(_) => {
+                let text = "SIZEOF takes arrays of the program, not variables of the control";
+                return Err(Fault::new(Condition::SizeOfSystemVariable, text, place.span));
+            }
             _ => None,
         };
         Ok(found.map(|v| v.sizes.to_vec()).unwrap_or_default())
@@ -322,7 +326,7 @@ impl Decoder {
             }
             Target::External(_) | Target::Cycle(_) | Target::System(_) => {
                 let text = "only self-defined variables can be deleted";
-                return Err(Fault::new(Condition::VariableNotWritable, text, span));
+                return Err(Fault::new(Condition::DeletedNotOwn, text, span));
             }
         };
         self.values.variables.elements -= removed.map_or(0, |v| v.elements());

@@ -27,6 +27,12 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
     ("MET_MOS", 0x1),
 ];
 
+/// Bits of [`SYNCHRONISATION`] that let the path wait before the motion of the block: MVS_SVS.
+pub(crate) const BEFORE_MOTION: u32 = 0x2;
+
+/// Those that let it wait after the motion: MVS_SNS, MNS_SNS.
+pub(crate) const AFTER_MOTION: u32 = 0x4 | 0x8;
+
 /// Overrides of rapid blocks (P-CHAN-00181).
 const RAPID_OVERRIDES: &[(&str, u32)] =
     &[("NOT_USED", 0), ("MINIMUM_OF_G0_G1", 1), ("ACTIVE", 2), ("ACTIVE_EXTENDED", 3)];
@@ -68,23 +74,23 @@ parameters! {
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 goes to the PLC and is acknowledged; acknowledged at once here")
+    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
         .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 goes to the PLC and is acknowledged; acknowledged at once here")
+    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
         .source("TF5200 channel parameters"), as SPINDLE_M4_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 goes to the PLC and is acknowledged; acknowledged at once here")
+    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
         .source("TF5200 channel parameters"), as SPINDLE_M5_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 goes to the PLC and is acknowledged; acknowledged at once here")
+    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
         .source("TF5200 channel parameters"), as SPINDLE_M19_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word goes to the PLC and is acknowledged; acknowledged at once here")
+    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
         .source("TF5200 channel parameters"), as SPINDLE_SPEED_SYNCHRONISATION: Optional;
     chan("P-CHAN-00070", "m_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which M function i goes out early; read and ignored, it changes no motion")
         .default(0.0).source("TF5200 channel parameters");
     chan("P-CHAN-00107", "h_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which H function i goes out early; read and ignored, it changes no motion")
         .default(0.0).source("TF5200 channel parameters");
-    chan("P-CHAN-00397", "coordinate_system.axes_offsets_layer_specific", Raw::Boolean, "offsets of axes that are no main axes belong to their coordinate system; 0, to the channel, is not simulated")
+    chan("P-CHAN-00397", "coordinate_system.axes_offsets_layer_specific", Raw::Boolean, "offsets of axes that are no main axes: 1 belong to the coordinate system that they are programmed in, 0 to the channel")
         .default(1.0).source("TF5200 channel parameters"), as OFFSETS_IN_SYSTEMS: Switch;
-    chan("P-CHAN-00100", "move_tool_offsets_directly", Raw::Boolean, "0: a new tool moves an axis with its next absolute word, 1: at once with D, which is not simulated")
+    chan("P-CHAN-00100", "move_tool_offsets_directly", Raw::Boolean, "0: a new tool moves an axis with its next absolute word, 1: at once with D")
         .default(0.0).source("TF5200 channel parameters"), as TOOL_OFFSETS_AT_ONCE: Switch;
     chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always go the shortest way, their first sign belongs to the position")
         .default(0.0).source("TF5200 channel parameters"), as SHORTEST_WAY: Switch;
@@ -95,7 +101,7 @@ parameters! {
     chan("P-CHAN-00056", "max_vb_override", Raw::Uns16, "largest override of --input; limits where the list gives it")
         .range(Bound::At(0.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").source("TF5200 channel parameters"), as MOST_OVERRIDE: Number;
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
-        .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"), as CENTRE_SHIFT: Number;
+        .range(Bound::Beyond(0.0), Bound::None).default(20000.0).unit("0.0001mm", "0.0001mm").below(Condition::CentreShiftZero, Correction::Default).source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
         .default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
     chan("P-CHAN-00062", "makro_def[i].nc_code", Raw::Code, "NC code of a macro that every program has, to the end of the line; \\\"NAME\\\" in it uses another one")
@@ -156,6 +162,8 @@ parameters! {
     chan("P-CHAN-00252", "final_prog_file", Raw::Text, "subroutine at program end"), as END_PROGRAM: Text;
     chan("P-CHAN-00259", "opt_contour_mode", Raw::Uns32, "smoother curvature at arcs in DEV contouring")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0);
+    chan("P-CHAN-00273", "disable_chamfers_roundings", Raw::Boolean, "1: no chamfers and roundings (G301, G302: 21718; #ANG, #CHR, #CHF, #RND: 21932)")
+        .default(0.0).source("TF5200 channel parameters"), as NO_CHAMFERS: Switch;
     chan("P-CHAN-00297", "mode_exact_stop_indp_axis", Raw::Uns16, "0: #WAIT INDP waits for set positions; 1: G60 waits for independent axes too, until they are in their windows; 2: #WAIT INDP waits for the windows of all axes")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as INDEPENDENT_STOP: Whole;
     chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
@@ -168,6 +176,12 @@ parameters! {
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_RADIAL_ACC: Number;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")
         .default(0.0), as CONTOURING_INCH: Switch;
+    chan("P-CHAN-00498", "range_check_prog_soft_limits", Raw::Boolean, "1: G98 and G99 stay within the software limits of the axis list")
+        .default(0.0).source("TF5200 channel parameters"), as LIMITS_BOUNDED: Switch;
+    chan("P-CHAN-00511", "configuration.decoder.macro_symbol_len", Raw::Uns16, "most characters of the name of a macro (20614)")
+        .range(Bound::Beyond(0.0), Bound::At(128.0)).default(30.0).source("TF5200 channel parameters"), as MACRO_NAME_LENGTH: Whole;
+    chan("P-CHAN-00512", "configuration.decoder.macro_nc_code_len", Raw::Uns16, "most characters of the text of a macro")
+        .range(Bound::Beyond(0.0), Bound::At(1024.0)).default(80.0).source("TF5200 channel parameters"), as MACRO_TEXT_LENGTH: Whole;
     chan("P-CHAN-00518", "configuration.decoder.msg_to_default", Raw::Word(&["STANDARD", "DISABLED", "WARNING", "ERROR"]), "#MSG to the diagnosis receiver: STANDARD, DISABLED, WARNING (22194), ERROR (22195)")
         .default_is(Default::Text("STANDARD")), as DIAGNOSIS_MESSAGES: Text;
     chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored");

@@ -20,6 +20,8 @@ pub enum ExprKind {
     Bool(bool),
     /// `PI`.
     Pi,
+    /// `R1`, the last radius of the program.
+    Radius,
     /// `"text"`, `\"` turned into `"`; may also be the use of a macro.
     Text(Box<str>),
     /// Parameter or variable.
@@ -138,7 +140,7 @@ functions! {
     Inv "INV", Not "NOT", Exist "EXIST", SizeOf "SIZEOF", IsString "IS_STRING", IsNumber "IS_NUMBER",
     Left "LEFT", Mid "MID", Right "RIGHT", Len "LEN", Ord "ORD", Find "FIND", Delete "DELETE", Insert "INSERT",
     Replace "REPLACE", IntToStr "INT_TO_STR", RealToStr "REAL_TO_STR", StrToInt "STR_TO_INT",
-    StrToReal "STR_TO_REAL",
+    StrToReal "STR_TO_REAL", MacroLength "MACRO_LENGTH", MacroContent "MACRO_CONTENT",
 }
 
 /// Something that holds a value and may be on the left of `=`.

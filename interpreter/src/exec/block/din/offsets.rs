@@ -2,18 +2,36 @@
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::groups::{self, Act, Group};
-use crate::exec::block::modal::Compensation;
+use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
 
+/// The group that G159 and G160 name.
+///
+/// Source: TF5200 diagnosis 251890315, 251894667 (20582, 20583), 251899019 (20584: no such group in the table). Assumption: of G159
+/// the pages print no ID for a group beyond the table, which has no offsets then.
 fn zero_group(g: &GWord) -> Outcome<u32> {
+    /// Source: TF5200 zero offsets, P-ZERO-00002.
+    const LAST: u32 = 96;
+    let by_axes = g.row.act == Act::ZeroGroupAxes;
     let value = g.value.unwrap_or_default();
-    crate::exec::values::number::whole(value, 0, 999).ok_or_else(|| {
-        let text = format!("zero-offset group {value} does not exist");
-        Fault::new(Condition::Range, text, g.span)
-    })
+    let wrong = |condition, text: String| {
+        Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Wrong, value, "-"))
+    };
+    let group = crate::exec::values::number::whole(value, 0, 999).ok_or_else(|| {
+        let condition =
+            if by_axes { Condition::MaskedGroupFormat } else { Condition::ZeroGroupFormat };
+        wrong(condition, format!("zero-offset group {value} is outside the data format"))
+    })?;
+    if by_axes && group > LAST {
+        let text = format!("there is no zero-offset group {group}, the last one is {LAST}");
+        return Err(wrong(Condition::MaskedGroup, text));
+    }
+    Ok(group)
 }
 
 fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
@@ -94,6 +112,43 @@ impl Decoder {
         self.report.keep(outcome);
     }
 
+    /// P-CHAN-00100 = 1: axes whose tool offset a D word changes move in its block, as if their coordinate were programmed absolutely.
+    ///
+    /// Source: TF5200 channel parameters 149123467. Assumption: an axis with a word of its own in the block follows that; arcs, threads
+    /// and functions that take the axis words are refused.
+    pub(super) fn tool_moves(
+        &mut self,
+        before: &AxisVec,
+        words: &mut Words<'_>,
+        takes_axes: Option<GWord>,
+    ) {
+        let with_tool = words.tool.filter(|_| self.machine.channel.tool_data_with_tool);
+        let Some((_, span)) = words.tool_data.or(with_tool) else { return };
+        let now = self.geometry.coordinates.tool_offsets();
+        let changed = (0..now.len()).filter(|axis| now[*axis].to_bits() != before[*axis].to_bits());
+        let moved: Vec<usize> = changed
+            .filter(|axis| words.axes.iter().all(|(programmed, _, _)| programmed != axis))
+            .collect();
+        if moved.is_empty() {
+            return;
+        }
+        let straight = matches!(self.path_mode(words), PathMode::Rapid | PathMode::Linear);
+        if takes_axes.is_some() || !straight {
+            let what = "D whose offsets move at once (P-CHAN-00100) in another block than a straight motion";
+            self.report.note(Fault::unsupported(what, span));
+            return;
+        }
+        if words.dimensions.is_empty() {
+            words.dimensions.push((0, self.modal.absolute));
+        }
+        words.dimensions.push((words.axes.len(), true));
+        for axis in moved {
+            let value =
+                self.geometry.coordinates.programmed(axis) / self.coordinate_unit(axis, true);
+            words.axes.push((axis, value, span));
+        }
+    }
+
     /// `#PSET X10`, `#PRESET X0`, `#PRESET`: true if the axis words of the block belong to one of them.
     pub(super) fn position_presets(&mut self, words: &Words<'_>) -> bool {
         let named = |h: &str| words.hashes.iter().find(|(hash, _, _)| &*hash.name == h);
@@ -126,6 +181,10 @@ impl Decoder {
             self.report.note(Fault::unsupported(what, *span));
             return true;
         }
+        if let Err(fault) = self.presets_fit(words, sets) {
+            self.report.note(fault);
+            return true;
+        }
         for (axis, value, _) in &words.axes {
             let value = sets.then(|| value * self.axis_unit(*axis));
             self.geometry.coordinates.preset_position(*axis, value);
@@ -138,6 +197,27 @@ impl Decoder {
             self.report.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
         }
         true
+    }
+
+    /// 20604 for a value of `#PSET` outside the data format, 20711 where the offset that it makes is (251955595, 252303755).
+    fn presets_fit(&self, words: &Words<'_>, sets: bool) -> Outcome<()> {
+        for (axis, value, span) in words.axes.iter().filter(|_| sets) {
+            let value_mm = value * self.axis_unit(*axis);
+            let offset_mm = self.geometry.coordinates.target()[*axis] - value_mm;
+            let (condition, what) = if value_mm.abs() > LARGEST_MM {
+                (Condition::PresetTooLarge, "the position")
+            } else if offset_mm.abs() > LARGEST_MM {
+                (Condition::PresetOffsetTooLarge, "the offset")
+            } else {
+                continue;
+            };
+            let text = format!(
+                "#PSET {}{value}: {what} is outside the data format",
+                self.names.name(*axis)
+            );
+            return Err(Fault::new(condition, text, *span));
+        }
+        Ok(())
     }
 
     /// G74 takes the position presets of its axes back, without axes of all (207101835).
@@ -153,17 +233,65 @@ impl Decoder {
     /// G98, G99: until the end of the program.
     fn software_limits(&mut self, g: &GWord, words: &Words<'_>, positive: bool) -> Outcome<()> {
         needs_axes(g, words)?;
-        for (axis, value, span) in &words.axes {
+        if self.geometry.coordinates.systems() > 0 {
+            let text =
+                format!("G{} in a coordinate system: limits are those of axes", g.row.number);
+            return Err(Fault::new(Condition::FunctionInSystem, text, g.span));
+        }
+        for (i, (axis, value, span)) in words.axes.iter().enumerate() {
+            let absolute = words.is_absolute(i, self.modal.absolute);
             let value_mm = value * self.axis_unit(*axis);
-            match &mut self.geometry.limits_mm[*axis] {
-                Some((_, high)) if positive => *high = value_mm,
-                Some((low, _)) => *low = value_mm,
-                None => {
-                    let text = format!("axis {} has no software limits", self.names.name(*axis));
-                    self.report.note(Fault::new(Condition::Ignored, text, *span));
-                }
+            let outcome = self.software_limit(*axis, positive, value_mm, absolute, *span);
+            self.report.keep(outcome);
+        }
+        Ok(())
+    }
+
+    /// A limit of an axis, with G91 counted from the present one. It stays on its side of the other limit, with P-CHAN-00498 = 1
+    /// also within those of the list.
+    ///
+    /// Source: TF5200 programming manual 206151179, 206157835; software limits 91641995, 91643531; channel parameters 1049532043.
+    fn software_limit(
+        &mut self,
+        axis: usize,
+        positive: bool,
+        value_mm: f64,
+        absolute: bool,
+        span: Span,
+    ) -> Outcome<()> {
+        let name = self.names.name(axis).to_owned();
+        let Some((low, high)) = self.geometry.limits_mm[axis] else {
+            let text = format!("axis {name} has no software limits");
+            return Err(Fault::new(Condition::Ignored, text, span));
+        };
+        let before = if positive { high } else { low };
+        let mut limit = if absolute { value_mm } else { before + value_mm };
+        let listed = self.machine.axes[axis].software_limits_mm();
+        if let (Some((lowest, highest)), true) = (listed, self.machine.channel.limits_bounded) {
+            let bound = if positive { limit.min(highest) } else { limit.max(lowest) };
+            if bound.to_bits() != limit.to_bits() {
+                let text =
+                    format!("the limit {limit} of axis {name} is beyond that of its list: {bound}");
+                let condition = if positive {
+                    Condition::PositiveLimitAboveList
+                } else {
+                    Condition::NegativeLimitBelowList
+                };
+                self.report.note(Fault::new(condition, text, span));
+                limit = bound;
             }
         }
+        let (low, high) = if positive { (low, limit) } else { (limit, high) };
+        if low >= high {
+            let text = format!("axis {name}: the limits {low} and {high} leave no room");
+            let condition = if positive {
+                Condition::PositiveLimitTooLow
+            } else {
+                Condition::NegativeLimitTooHigh
+            };
+            return Err(Fault::new(condition, text, span));
+        }
+        self.geometry.limits_mm[axis] = Some((low, high));
         Ok(())
     }
 

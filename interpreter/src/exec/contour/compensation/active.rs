@@ -94,8 +94,14 @@ impl Active {
         let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
         let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
         if !smooth && !outside {
-            let at = inner_corner(&last.side, &side, corner, distance)
-                .ok_or_else(|| too_tight(&motion))?;
+            let arcs = [&last.side, &side].iter().all(|side| matches!(side, Side::Arc { .. }));
+            let at = inner_corner(&last.side, &side, corner, distance).ok_or_else(|| {
+                if !arcs {
+                    return too_tight(&motion);
+                }
+                let text = "the tool is too large for the corner between two arcs";
+                Fault::new(Condition::ToolBetweenArcs, text, motion.span).in_block(motion.source)
+            })?;
             last.emit(at, plane, distance, out)?;
             emit_between(between, at, plane, out);
             return Ok(active(at, motion));

@@ -47,9 +47,22 @@ pub(super) fn straight(
     let path = LinePath::new(place(from), place(to), &template.block.dynamics.feed_axes)?;
     let mut motion = template.clone();
     motion.block.path = Path::Line(path);
-    motion.block.feed = template.feed_beside();
+    motion.block.feed = template.feed_behind();
     motion.events.clear();
     Some(Box::new(motion))
+}
+
+/// The same in front of a motion, whose E word belongs to its own end.
+pub(super) fn straight_before(
+    next: &Motion,
+    at: &AxisVec,
+    plane: [usize; 2],
+    from: Point,
+    to: Point,
+) -> Option<Box<Motion>> {
+    let mut template = next.clone();
+    template.block.end_velocity_mm_s = None;
+    straight(&template, at, plane, from, to)
 }
 
 /// The point at a distance to the left of a direction.
@@ -85,7 +98,7 @@ pub(super) fn corner_arc(
     let path = ArcPath::new(place(from), place(to), shape, feed_axes)?;
     let mut arc = before.clone();
     arc.block.path = Path::Arc(path);
-    arc.block.feed = before.feed_beside();
+    arc.block.feed = before.feed_behind();
     arc.engaged = Some(distance > 0.0);
     arc.events.clear();
     Some(Item::Motion(Box::new(arc)))

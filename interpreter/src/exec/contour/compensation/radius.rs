@@ -7,7 +7,7 @@
 //! perpendicular to the element after it.
 
 use super::active::{Active, at_contour};
-use super::corner::{above, inner_corner, straight};
+use super::corner::{above, inner_corner, straight, straight_before};
 use super::element::{Element, emit_between};
 use super::item::{Fallible, Item, too_tight};
 use crate::exec::contour::bottleneck::{Cut, Watch};
@@ -60,7 +60,7 @@ impl Active {
         let mut next = self.join(motion, side, out, cut)?;
         let from = next.last.start;
         let to = above(from, tangent_at(&side, from), distance - before);
-        let line = straight(&next.last.motion, &at, plane, from, to);
+        let line = straight_before(&next.last.motion, &at, plane, from, to);
         out.extend(line.map(|line| at_contour(line, distance)));
         next.distance = distance;
         next.last.start = to;

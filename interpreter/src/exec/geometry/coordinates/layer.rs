@@ -3,8 +3,11 @@
 //! Offsets that are programmed while a system is active lie in its axes, add to those below it, and go with it. A new system has
 //! none. Tool and measuring offsets belong to no system.
 //!
-//! Source: TF5200 programming manual 1086442763, offsets in the coordinate system; P-CHAN-00397 = 1. Assumption: an offset in a
-//! turned system points along the turned axes, as coordinates in it do.
+//! With P-CHAN-00397 = 0 that is true of the main axes alone: offsets of the others belong to the channel, whichever system is
+//! active while they are programmed.
+//!
+//! Source: TF5200 programming manual 1086442763, offsets in the coordinate system; channel parameters 149618059; zero offsets
+//! 15285108363 (P-ZERO-00001). Assumption: an offset in a turned system points along the turned axes, as coordinates in it do.
 
 use super::super::frame::Frame;
 use super::{Coordinates, OffsetKind};
@@ -12,7 +15,7 @@ use kontur_motion::axis::AxisVec;
 use std::collections::BTreeMap;
 
 /// A zero-offset group without entries.
-const NO_GROUP: u32 = u32::MAX;
+pub(super) const NO_GROUP: u32 = u32::MAX;
 
 /// A coordinate system and the offsets in it.
 #[derive(Clone, Debug)]
@@ -54,10 +57,29 @@ impl Coordinates {
         self.systems.last().unwrap_or(&self.lowest)
     }
 
-    /// Changes offsets of the innermost system.
-    fn change(&mut self, change: impl FnOnce(&mut Layer)) {
-        change(self.systems.last_mut().unwrap_or(&mut self.lowest));
+    /// Where the offsets of an axis are programmed: the innermost system, or the channel.
+    fn layer_of(&self, axis: usize) -> &Layer {
+        if self.is_of_channel(axis) { &self.lowest } else { self.layer() }
+    }
+
+    /// Changes offsets of an axis where they are programmed.
+    fn change(&mut self, axis: usize, change: impl FnOnce(&mut Layer)) {
+        let channel = self.is_of_channel(axis);
+        let innermost = self.systems.last_mut().filter(|_| !channel);
+        change(innermost.unwrap_or(&mut self.lowest));
         self.offsets_changed();
+    }
+
+    /// The offsets of the axis belong to the channel, not to a coordinate system.
+    pub(super) fn is_of_channel(&self, axis: usize) -> bool {
+        self.channel_group.is_some() && self.main_index(axis).is_none()
+    }
+
+    /// How zero offsets act, and the group at program start. `has_g53`: P-ZERO-00001; `in_systems`: P-CHAN-00397.
+    pub(in crate::exec) fn use_zero_groups(&mut self, has_g53: bool, in_systems: bool, start: u32) {
+        self.has_g53 = has_g53;
+        self.channel_group = (!in_systems).then_some(NO_GROUP);
+        self.select_zero_group(start, false);
     }
 
     /// Offsets in systems are part of the frame.
@@ -73,14 +95,12 @@ impl Coordinates {
         self.layer_zero(layer, axis) + layer.preset[axis] + layer.position_preset[axis]
     }
 
-    /// Offsets below all systems without those of these kinds.
-    pub(super) fn lowest_without(&self, kinds: &[OffsetKind], axis: usize) -> f64 {
+    /// Offsets of one layer without those of these kinds.
+    pub(super) fn layer_without(&self, layer: &Layer, kinds: &[OffsetKind], axis: usize) -> f64 {
         let without = |kind| kinds.contains(&kind);
-        let zero =
-            if without(OffsetKind::Zero) { 0.0 } else { self.layer_zero(&self.lowest, axis) };
-        let additive = if without(OffsetKind::Additive) { 0.0 } else { self.lowest.preset[axis] };
-        let preset =
-            if without(OffsetKind::Preset) { 0.0 } else { self.lowest.position_preset[axis] };
+        let zero = if without(OffsetKind::Zero) { 0.0 } else { self.layer_zero(layer, axis) };
+        let additive = if without(OffsetKind::Additive) { 0.0 } else { layer.preset[axis] };
+        let preset = if without(OffsetKind::Preset) { 0.0 } else { layer.position_preset[axis] };
         zero + additive + preset
     }
 
@@ -89,15 +109,20 @@ impl Coordinates {
         if let Some(written) = layer.zero_written.get(&axis) {
             return *written;
         }
-        if self.zero_table.is_empty() || self.zero_masked.contains(&(layer.zero_group, axis)) {
+        if self.zero_table.is_empty() {
             return 0.0;
         }
-        self.zero_entry(layer.zero_group, axis)
+        let of_channel = self.channel_group.filter(|_| self.main_index(axis).is_none());
+        let group = of_channel.unwrap_or(layer.zero_group);
+        if (group == 0 && !self.has_g53) || self.zero_masked.contains(&(group, axis)) {
+            return 0.0;
+        }
+        self.zero_entry(group, axis)
     }
 
-    /// Active zero offset in the innermost system.
+    /// Active zero offset where the offsets of the axis are programmed.
     pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
-        self.layer_zero(self.layer(), axis)
+        self.layer_zero(self.layer_of(axis), axis)
     }
 
     /// Entry of the zero-offset table.
@@ -113,11 +138,16 @@ impl Coordinates {
 
     /// G53 (group 0), G54 to G59; G159 is `by_value`.
     pub(in crate::exec) fn select_zero_group(&mut self, group: u32, by_value: bool) {
-        self.change(|layer| {
-            layer.zero_group = group;
-            layer.zero_group_by_value = by_value;
-            layer.zero_written.clear();
-        });
+        let layer = self.systems.last_mut().unwrap_or(&mut self.lowest);
+        layer.zero_group = group;
+        layer.zero_group_by_value = by_value;
+        layer.zero_written.clear();
+        if self.channel_group.is_some() {
+            self.channel_group = Some(group);
+            let main = self.main;
+            self.lowest.zero_written.retain(|axis, _| main.contains(&Some(*axis)));
+        }
+        self.offsets_changed();
     }
 
     /// Group in the innermost system, and whether G159 selected it.
@@ -128,7 +158,7 @@ impl Coordinates {
 
     /// `V.G.NP_AKT`: another zero offset in use; the table keeps its own.
     pub(in crate::exec) fn set_zero_offset(&mut self, axis: usize, value_mm: f64) {
-        self.change(|layer| {
+        self.change(axis, |layer| {
             layer.zero_written.insert(axis, value_mm);
         });
     }
@@ -149,7 +179,7 @@ impl Coordinates {
         if !self.systems.is_empty() {
             self.recompute_program();
             let here = self.program[axis];
-            self.change(|layer| match value_mm {
+            self.change(axis, |layer| match value_mm {
                 Some(value) => layer.position_preset[axis] += here - value,
                 None => layer.position_preset[axis] = 0.0,
             });
@@ -165,13 +195,13 @@ impl Coordinates {
         self.recompute_program();
     }
 
-    /// G92 offset in the innermost system.
+    /// G92 offset where the offsets of the axis are programmed.
     pub(in crate::exec) fn preset(&self, axis: usize) -> f64 {
-        self.layer().preset[axis]
+        self.layer_of(axis).preset[axis]
     }
 
     pub(in crate::exec) fn set_preset(&mut self, axis: usize, value_mm: f64) {
-        self.change(|layer| layer.preset[axis] = value_mm);
+        self.change(axis, |layer| layer.preset[axis] = value_mm);
     }
 
     /// Programmed distance of an axis from the turning centre in mm.

@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, temporary transition to the machine coordinate system.
 
 use super::super::frame::Frame;
-use super::layer::Layer;
+use super::layer::{Layer, NO_GROUP};
 use super::{Coordinates, Rotation};
 use kontur_motion::axis::AxisVec;
 
@@ -12,6 +12,7 @@ use kontur_motion::axis::AxisVec;
 pub(super) struct Suspended {
     applied: AxisVec,
     lowest: Layer,
+    channel_group: Option<u32>,
     systems: Vec<Layer>,
     measuring: AxisVec,
     mirrored: Vec<bool>,
@@ -45,6 +46,7 @@ impl Coordinates {
         self.suspended = Some(Box::new(Suspended {
             applied: std::mem::replace(&mut self.applied, zeros()),
             lowest: std::mem::replace(&mut self.lowest, Layer::new(Frame::IDENTITY, n)),
+            channel_group: self.channel_group,
             systems: std::mem::take(&mut self.systems),
             measuring: std::mem::replace(&mut self.measuring, zeros()),
             mirrored: std::mem::replace(&mut self.mirrored, vec![false; n]),
@@ -53,14 +55,17 @@ impl Coordinates {
             tool_aside: true,
         }));
         self.tool = zeros();
+        self.select_zero_group(NO_GROUP, false);
         self.frame_changed();
     }
 
     /// `#MCS OFF`; the offsets of the tool in use come back with [`set_tool`](Self::set_tool). False if it was not on.
     pub(in crate::exec) fn leave_machine(&mut self) -> bool {
         let Some(before) = self.suspended.take() else { return false };
-        let Suspended { applied, lowest, systems, measuring, mirrored, rotation, .. } = *before;
+        let Suspended { applied, lowest, channel_group, systems, .. } = *before;
+        let Suspended { measuring, mirrored, rotation, .. } = *before;
         (self.applied, self.lowest, self.systems) = (applied, lowest, systems);
+        self.channel_group = channel_group;
         (self.measuring, self.mirrored, self.rotation) = (measuring, mirrored, rotation);
         self.frame_changed();
         true

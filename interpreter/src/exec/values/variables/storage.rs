@@ -154,6 +154,12 @@ impl Variable {
     fn index(&self, subscripts: &[f64], owner: Owner, span: Span) -> Outcome<usize> {
         let (wrong_count, wrong_index) = match owner {
             Owner::Parameter => (Condition::ParameterUnknown, Condition::Range),
+            Owner::Variable if subscripts.is_empty() => {
+                (Condition::ArrayWithoutIndex, Condition::VariableIndex)
+            }
+            Owner::Variable if self.sizes.is_empty() => {
+                (Condition::NoArray, Condition::VariableIndex)
+            }
             Owner::Variable => (Condition::Range, Condition::VariableIndex),
         };
         if subscripts.len() != self.sizes.len() {

@@ -1,0 +1,5 @@
+; check: exit 1
+; error 20054 at 4:12
+N10 G00 X0 Y0 Z0
+N20 G02 X1 R1000000 F1000
+N1000 M30

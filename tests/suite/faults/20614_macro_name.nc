@@ -1,0 +1,4 @@
+; check: exit 1
+; error 20614 at 3:5
+N10 "THIS_MACRONAME_IS_STILL_TOO_LONG" = "X100 G01 F1000"
+M30

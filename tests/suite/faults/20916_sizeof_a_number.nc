@@ -1,0 +1,4 @@
+; check: exit 1
+; error 20916 at 3:13
+P1 = SIZEOF[5]
+M30

@@ -1,0 +1,5 @@
+; check: exit 1
+; error 21237 at 4:41
+G00 X0
+X[OSC ON 1ST_POS=0 2ND_POS=10 FEED=1000 NBR_OSC=0]
+M30

@@ -1,0 +1,9 @@
+; check: exit 1
+; error 90031 at 7:1
+V.G.WZ_AKT.R=4
+G90 G01 F1000 X0 Y0
+G41 X10 Y0
+G03 X15 Y5 I0 J5
+G03 X10 Y0 I0 J-5
+G40 G01 X-10
+M30

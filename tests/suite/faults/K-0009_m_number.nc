@@ -1,4 +1,0 @@
-; check: exit 1
-; error K-0009 at 3:1
-M70000
-M30
