@@ -24,9 +24,9 @@ mod threads;
 pub(super) mod wear;
 
 use self::angles::ContourLine;
+use super::block::collected::{GWord, Words};
 use super::block::groups::{Act, Group};
 use super::block::modal::{Compensation, Corners, FeedType, PathMode};
-use super::block::words::{GWord, Words};
 use super::contour::FeedCourse;
 use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};

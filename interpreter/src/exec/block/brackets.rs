@@ -3,8 +3,8 @@
 //!
 //! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21301, 21736, 21738, 21867.
 
+use super::collected::Words;
 use super::modes::weight_ratio;
-use super::words::Words;
 use crate::diag::Condition;
 use crate::exec::commands::keys::{arguments, between};
 use crate::exec::decoder::Decoder;

@@ -10,9 +10,9 @@
 //! position; the path stops at the end of this way, not after it.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::Compensation;
-use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::Function;

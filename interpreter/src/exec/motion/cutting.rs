@@ -10,9 +10,9 @@
 //! P-AXIS-00015; 20633, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
+use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::PathMode;
-use crate::exec::block::words::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{CuttingSpeed, Event};

@@ -3,14 +3,15 @@
 pub(in crate::exec) mod coupling;
 mod cutting;
 pub(in crate::exec) mod measuring;
+pub(in crate::exec) mod wear;
 
 use self::coupling::Couplings;
 use self::cutting::Cutting;
 use self::measuring::Measuring;
+use self::wear::OnlineCompensation;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
-use super::wear::OnlineCompensation;
 use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;

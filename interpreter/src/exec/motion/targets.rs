@@ -1,7 +1,7 @@
 //! Targets of a motion block: from its coordinate words to positions of the axes.
 
 use crate::diag::Condition;
-use crate::exec::block::words::Words;
+use crate::exec::block::collected::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};

@@ -5,7 +5,7 @@
 use super::executor::Executor;
 use super::state::{Level, ModalCycle, Passed};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
-use crate::exec::block::words::CycleCall;
+use crate::exec::block::collected::CycleCall;
 use crate::exec::fault::Fault;
 use crate::exec::options::Value;
 use crate::exec::step::EndReason;
