@@ -2,7 +2,8 @@
 //!
 //! Source: TF5200 online tool compensation, programming (213655947).
 
-use super::keys::{arguments, at_least, between};
+use super::keys::arguments;
+use super::range::{at_least, between};
 use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;

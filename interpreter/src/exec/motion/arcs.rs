@@ -1,6 +1,6 @@
 //! Centre, end and faults of a programmed arc.
 
-use super::PlaneImage;
+use super::plane::PlaneImage;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{Placed, Words};
 use crate::exec::block::groups::Group;
