@@ -316,7 +316,7 @@ pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Ve
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
-/// K-0075: P-CHAN-00100 = 1 (offsets of a tool move with its D word) and P-CHAN-00397 = 0 (systems without offsets of their own).
+/// K-0075: P-CHAN-00100 = 1 (offsets of a tool move with its D word) and P-CHAN-00397 = 0 (systems without separate offsets).
 pub(super) fn check_offsets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let at_once = (
         channel::TOOL_OFFSETS_AT_ONCE,

@@ -1,6 +1,6 @@
 //! What leaves the simulation in addition to its records: points to be measured against the contour, and messages.
 //!
-//! The simulation never looks at the deviation of its output, so measuring may lag behind it, on another thread.
+//! The simulation never looks at the deviation of its output, so it may be measured later, on another thread.
 
 use super::{Simulation, fault};
 use crate::diag::{Condition, Diagnostic, Severity};

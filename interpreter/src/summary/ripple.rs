@@ -218,7 +218,7 @@ mod tests {
         of_axes([false; 2], speeds, kinks, fed)
     }
 
-    /// Ripple of two axes that move at these speeds, beside one that stands still; the path turns by an angle in degrees in the
+    /// Ripple of two axes that move at these speeds, beside one at rest; the path turns by an angle in degrees in the
     /// cycles given.
     fn of_axes(
         rotary: [bool; 2],

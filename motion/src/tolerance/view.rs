@@ -32,7 +32,7 @@ pub(super) struct Mark {
 }
 
 impl Mark {
-    /// True if the path turns where it enters the block: a straight line may go on as another block.
+    /// True if the path turns where it enters the block: a straight line may continue as another block.
     pub(super) fn is_kink(&self) -> bool {
         self.jump > STRAIGHT
     }

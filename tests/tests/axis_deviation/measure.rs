@@ -145,7 +145,7 @@ fn interpolated(record: &CycleRecord) -> Point {
     [0, 1, 2].map(|i| record.axes[i].ipo)
 }
 
-/// No filter can be told from the unfiltered setpoints: they lie on the geometry that the test has drawn itself.
+/// No filter is visible in the unfiltered setpoints: they lie on the geometry that the test has drawn itself.
 pub(crate) fn off_contour(run: &Run, case: &Case) -> f64 {
     let pieces: Vec<&Piece> = case.blocks.iter().flat_map(|b| &b.1).collect();
     let every = 1 + run.records.len() / 200;

@@ -43,7 +43,7 @@ fn reversals(r: &mut Random, w: &mut Writer, scale: f64) {
     }
 }
 
-/// A filter for all axes, or one of its own for each.
+/// One filter for all axes, or a different one for each.
 fn filters(r: &mut Random, tolerance: f64, cycle_us: u32) -> (String, Vec<String>, usize) {
     if r.chance(0.6) {
         return filter(r, tolerance, cycle_us);

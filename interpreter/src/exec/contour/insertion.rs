@@ -4,8 +4,8 @@
 //! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
 //! transition.
 //!
-//! Assumption: without `#FRC` the feed is that of the motion behind, also rapid; the English page names that motion, an older
-//! German one the motion in front.
+//! Assumption: without `#FRC` the feed is that of the next motion, also rapid; the English page names that motion, an older
+//! German one the motion before.
 
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;

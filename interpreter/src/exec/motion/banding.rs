@@ -1,6 +1,6 @@
 //! Edge banding: G108 and an M function that waits for the signal of the probe (MNE_SNS).
 //!
-//! The M function stands in a motion. Where the probe signals on this motion, the path drives `V.G.RW` further, stops, waits
+//! The M function is in the block of a motion. Where the probe signals on this motion, the path drives `V.G.RW` further, stops, waits
 //! until the axes are in their windows, calls the function, and continues to the target. Nothing moves beyond the block
 //! before that. G108 ends with it.
 //!

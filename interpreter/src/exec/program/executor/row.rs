@@ -1,7 +1,7 @@
 //! Plain straight motions in a row: almost all of a long program.
 //!
 //! What the long way of a block looks for anew each time cannot have changed after a plain motion: macros, names, loops
-//! and levels change in other blocks only. So the next line is taken as it stands in the text; if it is anything but one
+//! and levels change in other blocks only. So the next line is taken as it is in the text; if it is anything but one
 //! more plain motion, nothing has happened and it goes the long way.
 
 use super::{Executor, State};
