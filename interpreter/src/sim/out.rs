@@ -10,7 +10,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::deviation::{Change, Meter};
 use kontur_motion::tolerance::Unkept;
 
-/// Messages of the program that are kept until somebody asks for them: without motion a loop gives millions at once.
+/// Messages of the program that are kept until they are taken: without motion a loop gives millions at once.
 pub(super) const MESSAGES_MAX: usize = 10_000;
 
 /// Points of consecutive cycles, and what they are measured to be.

@@ -133,7 +133,7 @@ impl Collector {
         for ((here, before), (_, rotary)) in here.zip(&mut self.position).zip(&self.axes) {
             let mut step = here - std::mem::replace(before, here);
             if *rotary && step.abs() > HALF_TURN_DEG {
-                // a modulo axis begins anew
+                // a modulo axis wraps around
                 step -= 2.0 * HALF_TURN_DEG.copysign(step);
             }
             squares[usize::from(*rotary)] += step * step;

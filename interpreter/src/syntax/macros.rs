@@ -60,7 +60,7 @@ pub(crate) fn expand<'m>(
         copy(raw, &line, at..range.start, &mut out);
         at = range.end;
         let start = out.text.len();
-        // a call without its blank stays one, so that the block says so
+        // a call without its blank is still a call, so that the message names it
         let quote = if is_call(&raw.text[..range.start]) { "\"" } else { "" };
         out.text.push_str(quote);
         let is_number = numbers(&raw.text[..range.start]);

@@ -8,7 +8,7 @@ use crate::timeline::{Entry, PathState, Reader};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
-/// Change of direction that is none.
+/// Change of direction that counts as 0.
 pub(super) const STRAIGHT: f64 = 1e-9;
 
 /// Rows of a buffer, in reaches of the kernels, from which on the old ones are given up.

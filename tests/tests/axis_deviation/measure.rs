@@ -97,7 +97,7 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
                     from_polyline(&point, &ends).iter().map(|c| c * c).sum::<f64>()
                 };
                 let least = (entered..left).map(line).fold(f64::INFINITY, f64::min).sqrt();
-                // a way back over the same points comes later
+                // a return over the same points comes later
                 let passes = |k: &usize| line(*k).sqrt() <= least + 1e-6;
                 let comes = (entered..left).find(passes).unwrap_or(entered);
                 // as long as the path rests there

@@ -1,6 +1,6 @@
 //! What a program means, worked out on its tree.
 //!
-//! Coordinates are affine maps that are put together anew for every word: offsets of the machine, then for each coordinate system
+//! Coordinates are affine maps that are composed for every word: offsets of the machine, then for each coordinate system
 //! its place, its rotation and its own offsets, then mirroring, then contour rotation. Nothing is kept but the position of the machine.
 
 use crate::map::{Map, UNIT};
@@ -72,7 +72,7 @@ pub struct Model<'a> {
     values: BTreeMap<String, f64>,
     /// V.L and V.CYC of the levels.
     local: Vec<BTreeMap<String, f64>>,
-    /// @P of the cycle in work.
+    /// @P of the current cycle.
     passed: Vec<Vec<f64>>,
     pub driven: Driven,
     /// A tool does not fit into an inner corner.

@@ -334,7 +334,7 @@ fn repeated_block_sequences() {
     assert_eq!(run.end, [2.0, 2.0, 5.0]);
     let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N10 ENDTAG]\nM30\n");
     assert_eq!(run.end, [2.0, 1.0, 0.0]);
-    // loops inside are left in order, and begin anew with every pass
+    // loops inside are left in order, and start again with every pass
     let run = clean(
         "G91 F1000\nN10 G01\n$FOR P1=1,2,1\nX1\n$ENDFOR\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=2]\nM30\n",
     );
