@@ -47,7 +47,7 @@ impl Ring {
         self.values[self.newest.wrapping_sub(delay as usize) & (self.values.len() - 1)]
     }
 
-    /// As if `x` had been the value for ever.
+    /// As if `x` had always been the value.
     pub fn fill(&mut self, x: f64) {
         self.values.fill(x);
     }

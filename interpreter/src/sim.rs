@@ -160,7 +160,7 @@ impl Simulation {
         !self.inputs.is_over()
     }
 
-    /// The records need no deviation from the contour: not a number stands for it, until a block demands a tolerance.
+    /// The records need no deviation from the contour: it is NaN until a block demands a tolerance.
     pub(crate) fn leave_out_deviation(&mut self) {
         self.planner.report_changes(false);
         let path_axes = self.path_axes();

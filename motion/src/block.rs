@@ -56,7 +56,7 @@ impl Slope {
     }
 }
 
-/// How fast the programmer wants the path to be.
+/// Speed of the path as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feed {
     /// G00: at least one axis at its rapid velocity.

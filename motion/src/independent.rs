@@ -177,7 +177,7 @@ impl IndependentMove {
     /// Override and feedhold from cycle `k` on; states before it are not asked for any more.
     ///
     /// The acceleration is brought to zero first. Where that leaves no way (close to the target, SIN2 within a ramp), the motion
-    /// continues and takes it over in a later cycle: call it in every one. A motion that brakes does not go on faster before
+    /// continues and takes it over in a later cycle: call it in every one. A motion that brakes does not accelerate before
     /// it has done so.
     pub fn steer(&mut self, k: u64, steering: Steering) {
         let Some((_, speeds)) = &self.limits else { return };

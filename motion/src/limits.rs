@@ -2,7 +2,7 @@
 //!
 //! On a path with one profile `s(t)` every axis follows `q_i(s)`: its velocity is `v |q_i'|`, its acceleration
 //! `|a q_i' + v^2 q_i''|`. Every limit below is a named function of the block alone; what happens between blocks
-//! stands in [`crate::junction`].
+//! is in [`crate::junction`].
 //!
 //! Called once per block, when it enters the queue ([`crate::queue::Queued::new`]).
 //!

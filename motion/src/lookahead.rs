@@ -111,8 +111,8 @@ pub fn plan(
     Ok(plan_again(blocks, (feeds, caps), forced, (v_start, a_start), end, None)?.spans)
 }
 
-/// As [`plan`], with what is left of a draft: of the same blocks, or of blocks of which the first ones are behind the start
-/// now ([`Draft::pass`]).
+/// As [`plan`], with what is left of a draft: of the same blocks, or of blocks of which the first ones are now before the
+/// start ([`Draft::pass`]).
 pub(crate) fn plan_again(
     blocks: &[Arc<Queued>],
     (feeds, caps): (&[Cap], &[Cap]),

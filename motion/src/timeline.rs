@@ -258,7 +258,7 @@ impl Entry {
             path.position(queued.offset + state.s_mm - (s_end - queued.length), &mut out.position);
             (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
             let top = self.feeds.get(i).unwrap_or(&queued.velocity);
-            // what is driven evenly behind a change of speed keeps the rounding of that change
+            // what is driven evenly after a change of speed keeps the rounding of that change
             out.limit = if state.a_mm_s2 > FLAT_MM_S2 {
                 self.why_up
             } else if state.a_mm_s2 < -FLAT_MM_S2 {

@@ -43,7 +43,7 @@
 //! half way on bent blocks.
 //!
 //! Bounded instead of measured: where the set point is certainly closer than the tolerance to the point of the contour that
-//! goes with it ([`bound`]); stretches of constant speed on one line, where one set point stands for all.
+//! goes with it ([`bound`]); stretches of constant speed on one line, where one set point represents all.
 //!
 //! Neither: the choice of who slows down. It keeps the tolerance, but is not an optimum; `motion/tests/promise.rs` compares it
 //! with the best even speed (`EVEN=1`).
@@ -111,8 +111,8 @@ use view::View;
 
 /// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
 const MARGIN_MM: f64 = 2e-7;
-/// How far beyond the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
-/// from a trace on which side of a sample a border lies.
+/// How far beyond the kernel a block may have been left and still count as within reach, in cycles: a trace does not show
+/// on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
 /// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
 const HELD: usize = 3;

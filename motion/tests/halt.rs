@@ -27,7 +27,7 @@ struct Driven {
     halt: Option<usize>,
 }
 
-/// Drives blocks; after cycle `k` the path is told to halt `distance_mm` further on in the block where it is.
+/// Drives blocks; after cycle `k` the path is ordered to halt `distance_mm` further on in the block where it is.
 fn drive(job: &Job, start: &[f64], blocks: &[Block], k: u64, distance_mm: f64) -> Driven {
     let mut planner = Planner::new(CycleTime::from_us(job.cycle_us).unwrap(), job.window, start);
     let mut blocks = blocks.iter().cloned();

@@ -105,7 +105,7 @@ fn stop_at_any_time() {
 }
 
 /// Override and feedhold at random times: continuous, inside the limits of the axis, at the target in the end, and never beyond it.
-/// A hold brings it to rest within its braking from full speed; a release lets it go on.
+/// A hold brings it to rest within its braking from full speed; a release lets it continue.
 #[test]
 fn steered_at_random_times() {
     let mut r = Random::from_state(20 + seed());

@@ -78,8 +78,8 @@ fn between_equal_lines_the_lowest_speed_is_at_the_kink() {
     }
 }
 
-/// Behind a kink that is passed with an acceleration, what is driven at the feed of the block is held by the feed: as long
-/// as its way takes at the feed, but for the ramps of both ends.
+/// After a kink that is passed with an acceleration, the time that counts for the feed is that of the way at the feed,
+/// except for the ramps of both ends.
 #[test]
 fn behind_a_kink_the_feed_is_the_reason_for_the_feed() {
     for kind in [Hsc, Trapez] {

@@ -161,7 +161,7 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
         while left < last && block(left) <= i {
             left += 1;
         }
-        // share of the block that is behind the path in the cycles in which it is on the block or rests at an end of it
+        // share of the block that the path has covered in the cycles in which it is on the block or rests at an end of it
         let along = [0, 1, 2].map(|c| w[1][c] - w[0][c]);
         let square = along.iter().map(|c| c * c).sum::<f64>();
         let share = |k: usize| {

@@ -66,7 +66,7 @@ fn off_the_slot(p: &[f64]) -> f64 {
 }
 
 /// `AX_DEV` on a slot of lines, a half circle and two corners, each piece cut into several blocks: the rest of an arc
-/// that a change of speed divides bends like the whole and has no corner of its own.
+/// that a change of speed divides bends like the whole and has no further corner.
 #[test]
 fn tolerance_with_events_on_arcs() {
     const TOLERANCE: f64 = 0.01;
@@ -113,7 +113,7 @@ fn tolerance_with_events_on_arcs() {
 
 /// X is filtered by two taps 20 cycles apart, Y later by 8 cycles: on a straight line the set point is beside it by the speed
 /// times the difference of both delays (2 cycles), but by three times as much 8 cycles after a sudden stop, when Y has
-/// arrived and half of X is still 12 to 20 cycles behind. So the feedhold, twice as hard as the planned braking, has to brake gently, and no tolerance is given up.
+/// arrived and half of X is still 12 to 20 cycles late. So the feedhold, twice as hard as the planned braking, has to brake gently, and no tolerance is given up.
 #[test]
 fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
     let job = Job::new(0.0, Step);

@@ -91,7 +91,7 @@ fn forms(case: &Case, r: &mut Random) -> [f64; 6] {
         split.push([0, 1, 2].map(|i| w[0][i] + u * (w[1][i] - w[0][i])));
         split.push(w[1]);
     }
-    // a filter that is not the same backwards does not leave the same behind
+    // a filter that is not symmetric in time does not give the same result backwards
     let even = case.guard.damping <= 0.0;
     let back = || case.time(&points.iter().rev().copied().collect(), 1.0, 1.0);
     [

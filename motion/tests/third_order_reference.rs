@@ -50,7 +50,7 @@ fn durations_and_end_states_of_the_reference() {
         }
         let phases =
             limits.fastest(&start, &target).unwrap_or_else(|error| panic!("{id}: {error}"));
-        // R26 starts in its target; the reference leaves it and comes back after 0.2 s
+        // R26 starts at its target; the reference leaves it and returns after 0.2 s
         let duration = if id == "R26" { 0.0 } else { number(13) };
         let own: f64 = phases.iter().map(|p| p.0).sum();
         assert!((own - duration).abs() < 1e-9, "{id}: {phases:?}");

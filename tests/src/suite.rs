@@ -105,7 +105,7 @@ pub fn call(
     }
     let output = command(args);
     let mut said = Vec::new();
-    // the sentence at the end of a refusal has no ID of its own
+    // the sentence at the end of a refusal has no ID
     let sentence = "{\"id\":null,\"severity\"";
     let is_message = |line: &&str| line.starts_with('{') && !line.starts_with(sentence);
     for line in output.err.lines().filter(is_message) {

@@ -112,7 +112,7 @@ pub fn run(data: &[u8]) {
 
 /// The interpolated positions of one cycle beside those of the next.
 struct Speeds {
-    /// Limit, and what a turn is of an axis that may count its turns anew.
+    /// Limit, and the length of a turn for an axis that may wrap around.
     axes: Vec<(f64, Option<f64>)>,
     cycle_s: f64,
     before: Vec<f64>,

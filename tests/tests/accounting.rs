@@ -77,7 +77,7 @@ fn places_in_subroutines_name_their_file() {
 /// A subroutine that only the moving machine opens has its name as well.
 #[test]
 fn a_file_that_the_check_did_not_see() {
-    // the check takes every axis for where it is told to be; the machine lags behind by some micrometres
+    // the check assumes every axis to be at its set position; the machine lags by some micrometres
     let text = "G01 X10 F6000\n$IF V.A.ACT_POS.X < 10\nL late.nc\n$ENDIF\nG01 X0\nM30\n";
     let folder = Folder::new(&[("part.nc", text), ("late.nc", "G60 G01 Y5\nM17\n")]);
     let trace = folder.path("a.parquet");

@@ -100,7 +100,7 @@ const touch = (target, name, pointerId, x, y) => {
   const at = target.getBoundingClientRect();
   target.dispatchEvent(new PointerEvent(name, { pointerId, pointerType: "touch", clientX: at.left + x, clientY: at.top + y, bubbles: true }));
 };
-// fingers that are none cannot be captured
+// fingers without a pointer cannot be captured
 Element.prototype.setPointerCapture = () => {};
 const pinch = target => {
   touch(target, "pointerdown", 11, 170, 100);

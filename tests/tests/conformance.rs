@@ -5,7 +5,7 @@
 //! without gaps (`A001` to `A120`). A row that is called reproduced or chosen must name a test that exists and that
 //! names the row in turn, in its documentation or its body.
 //!
-//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test conformance` writes `tests/conformance/README.md` anew.
+//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test conformance` rewrites `tests/conformance/README.md`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;

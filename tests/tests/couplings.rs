@@ -146,8 +146,8 @@ fn a_position_that_is_set_moves_nothing() {
     assert!(deviation(&with) > 0.02 && deviation(&with) <= 0.05, "{}", deviation(&with));
 }
 
-/// Directly behind a motion, while the axis still follows: its lag stays in the cycle in which the position changes, and dies away
-/// as it does without.
+/// Directly after a motion, while the axis still follows: its lag is unchanged in the cycle in which the position changes, and
+/// decays as it does without the change.
 #[test]
 fn a_position_that_is_set_leaves_the_lag() {
     let run = |command: &str| go(&[], &format!("G60 G01 X20 F8000\n{command}\nG04 0.1\n"));

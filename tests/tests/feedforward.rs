@@ -270,7 +270,7 @@ fn weights_return_with_an_exchange() {
 }
 
 /// The path rests, the axis does not yet after its filter, or moves alone: switching steps its command by the share times its
-/// speed, and K-0022 names that jump. Behind a standstill of both nothing is said.
+/// speed, and K-0022 names that jump. After a standstill of both there is no message.
 #[test]
 fn a_switch_behind_filters_is_told() {
     let guard = ["X.vib_guard.active=1", "X.vib_guard.mode=3", "X.vib_guard.freq=3"];

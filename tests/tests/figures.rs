@@ -277,7 +277,7 @@ fn slopes_of_one_move() {
     }
 }
 
-/// Every command of the list, as it stands there; those that [`figure`] measures run there.
+/// Every command of the list, as it is written there; those that [`figure`] measures run there.
 #[test]
 fn every_command_of_the_list_runs() {
     let list = std::fs::read_to_string(root().join("interpreter/cli/docs/figures.md")).unwrap();

@@ -115,8 +115,8 @@ fn sample(name: &str) -> String {
     std::fs::read_to_string(programs().join(name)).unwrap()
 }
 
-/// A bridge: the second drive takes the set positions of the first, v / Kv behind it with a gain of its own, and none of
-/// it is left under G135.
+/// A bridge: the second drive takes the set positions of the first. With a different gain it lags by v / Kv, and under G135
+/// not at all.
 #[test]
 fn the_sample_program_of_the_gantry() {
     let text = sample("gantry.nc");

@@ -216,7 +216,7 @@ fn under_override() {
     near(arrival("0", &late), 2.1);
 }
 
-/// An oscillation of 20 mm at 20 mm/s stands from 1 s to 2 s, and under half the override a way takes twice as long.
+/// An oscillation of 20 mm at 20 mm/s is held from 1 s to 2 s; at half the override a stroke takes twice as long.
 #[test]
 fn an_oscillation_under_feedhold_and_override() {
     let program = "%P\nX[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1200]\nG04 8\nX[OSC OFF]\nM30\n";

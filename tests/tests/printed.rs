@@ -12,7 +12,7 @@
 //!
 //! A program that runs is checked, too: `check` says nothing that the run does not.
 //!
-//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test printed` writes the table of the folder's README anew.
+//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test printed` rewrites the table of the folder's README.
 
 use kontur_tests::from_polyline;
 use kontur_tests::suite::{Head, Said, call, compare, files, folder, head, ledger, name};

@@ -230,7 +230,7 @@ fn additional_position() {
     near(last.reference, 1.0);
     near(last.act, 1.0);
     assert!(own_ids(&run).is_empty());
-    // off: the input has no effect, and says so
+    // off: the input has no effect, and a message says so
     let off = run_with_inputs(machine(&[]), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)]);
     assert_eq!(own_ids(&off), ["K-0077"]);
     assert!(off.axis(0, |a| a.add.abs() + a.act.abs()).iter().all(|x| *x <= 0.0));

@@ -264,7 +264,7 @@ fn clocks_and_rounded_times() {
     assert!(done.exit == Exit::Usage && done.err.contains("equal steps"), "{}", done.err);
 }
 
-/// A recording of every second or fourth row, copied digit by digit, is equal to the trace; a step of its own of 1 um is found.
+/// A recording of every second or fourth row, copied digit by digit, is equal to the trace; an added step of 1 um is found.
 #[test]
 fn a_recording_with_fewer_samples_is_compared_at_its_samples() {
     let bench = Bench::new();

@@ -118,7 +118,7 @@ fn spindles_are_shaped_by_their_lists() {
         "M3 S1000\nG04 0.5\nM30\n",
         &["S.filter_fir.type=1", "S.filter_fir.order=100", "S.filter_fir.enable=1"],
     );
-    // at constant speed behind by the mean delay, 50 cycles
+    // at constant speed late by the mean delay, 50 cycles
     let last = fir.records.last().unwrap();
     let behind = last.axes[SPINDLE].ipo - last.axes[SPINDLE].set;
     assert!((behind - 6000.0 * 0.050).abs() < 1e-6, "{behind}");

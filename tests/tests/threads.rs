@@ -342,7 +342,7 @@ fn the_last_speed_counts_for_tapping() {
     }
 }
 
-/// Z and the spindle are in the same place of the thread only behind the same filters and with the same lag: K-0112 where not,
+/// Z and the spindle are in the same place of the thread only after the same filters and with the same lag: K-0112 where not,
 /// and then Z is as far away as delay and lag say; the same entries in both are silent.
 #[test]
 fn tapping_behind_filters_and_lags() {

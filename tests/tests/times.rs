@@ -224,7 +224,7 @@ fn lines_never_go_back() {
     }
 }
 
-/// A single axis that moves on its own, after a dwell: its cycles are those of its own line.
+/// A single axis that moves alone, after a dwell: its cycles are counted for its own line.
 #[test]
 fn an_independent_motion_has_its_line() {
     let run =

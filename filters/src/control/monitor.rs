@@ -16,7 +16,7 @@
 //! };
 //! let mut monitor = LagMonitor::new(config, CycleTime::DEFAULT);
 //! monitor.start(0.0);
-//! // the axis stays behind by 10 % of the way: said once, when 1 mm is exceeded
+//! // the axis lags by 10 % of the way: reported once, when 1 mm is exceeded
 //! let path = (0..200).map(|k| 0.1 * f64::from(k));
 //! let faults = path.filter_map(|x| monitor.step(x, 0.9 * x, 50.0));
 //! assert_eq!(faults.count(), 1);

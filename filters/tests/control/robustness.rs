@@ -128,7 +128,7 @@ fn not_a_number_stands_still() {
     }
 }
 
-/// Reaction class 5: the axis keeps the place where it is, though the set position and its feedforward go on at 100 mm/s.
+/// Reaction class 5: the axis stays where it is, though the set position and its feedforward continue at 100 mm/s.
 #[test]
 fn halt_keeps_the_axis_where_it_is() {
     let mut config = AxisControlConfig::new(500.0, 1e4, 1e6);

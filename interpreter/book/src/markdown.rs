@@ -42,7 +42,7 @@ pub(crate) fn links(text: &str) -> Vec<String> {
         if line.starts_with("```") {
             fenced = !fenced;
         }
-        // what stands between backticks is not a link
+        // what is between backticks is not a link
         let plain: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
         if !fenced {
             let targets = plain.split("](").skip(1).filter_map(|rest| rest.split(')').next());

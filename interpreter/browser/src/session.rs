@@ -113,7 +113,7 @@ struct Explained {
     related: Vec<String>,
 }
 
-/// A request that is none.
+/// A request that is invalid.
 #[derive(Serialize)]
 struct Wrong {
     wrong: String,

@@ -1,9 +1,6 @@
-//! The file system behind the library's two doors: NC programs and parameter lists.
+//! NC programs in files, as the library reads them.
 
-use kontur_interpreter::machine::ListFiles;
-use kontur_interpreter::source::text::Text;
 use kontur_interpreter::source::{OpenError, Source, Sources};
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -19,11 +16,8 @@ pub(crate) const STANDARD_INPUT: &str = "<stdin>";
 /// Bytes of a program at most that comes through a pipe, 256 MiB (about ten million blocks): it is copied to a temporary
 /// file, where a program in a file is not.
 const MOST_PIPED_BYTES: u64 = 1 << 28;
-
-/// Bytes of a list at most, 16 MiB.
-const MOST_LIST_BYTES: u64 = 1 << 24;
-/// Most bytes of a file of a project, which holds far more than lists.
-const MOST_PROJECT_BYTES: u64 = 1 << 26;
+/// Bytes of a program at most that is held in memory to replace its words, 64 MiB.
+const MOST_HELD_BYTES: u64 = 1 << 26;
 
 /// NC programs in files: subroutines relative to the caller, then in the folders given; the program `-` is standard input.
 ///
@@ -205,7 +199,7 @@ impl ProgramFiles {
         loop {
             let count = source.read_at(text.len() as u64, &mut piece)?;
             text.extend_from_slice(&piece[..count]);
-            match (count, text.len() as u64 > MOST_PROJECT_BYTES) {
+            match (count, text.len() as u64 > MOST_HELD_BYTES) {
                 (0, _) => return Ok(text),
                 (_, true) => return Err(io::Error::other("more than 64 MiB, too long for that")),
                 _ => {}
@@ -349,55 +343,6 @@ fn in_other_case(place: &Path) -> Option<PathBuf> {
     let wanted = wanted.to_lowercase();
     let found = names.filter(|name| name.to_lowercase() == wanted).min()?;
     Some(place.with_file_name(found))
-}
-
-/// Parameter lists in files.
-#[derive(Clone, Debug, Default)]
-pub struct Lists {
-    read: RefCell<Vec<PathBuf>>,
-}
-
-impl Lists {
-    /// The lists that were read.
-    pub(crate) fn read_so_far(self) -> Vec<PathBuf> {
-        self.read.into_inner()
-    }
-}
-
-impl Lists {
-    /// The text of a file of a project, whose lines may have any length.
-    ///
-    /// # Errors
-    /// The system's, a file of more than 64 MiB, and text that is no UTF-8.
-    pub(crate) fn project(&self, path: &Path) -> io::Result<String> {
-        let file = regular(path)?;
-        self.read.borrow_mut().push(path.into());
-        let mut text = String::new();
-        file.take(MOST_PROJECT_BYTES + 1).read_to_string(&mut text)?;
-        if text.len() as u64 > MOST_PROJECT_BYTES {
-            return Err(io::Error::other("more than 64 MiB, too long for a project"));
-        }
-        Ok(text)
-    }
-}
-
-impl ListFiles for Lists {
-    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
-        let file = match regular(path.as_ref()) {
-            Ok(file) => file,
-            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(e) => return Err(e.to_string()),
-        };
-        self.read.borrow_mut().push(path.into());
-        let mut bytes = Vec::new();
-        Text::new(file)
-            .and_then(|text| text.take(MOST_LIST_BYTES + 1).read_to_end(&mut bytes))
-            .map_err(|e| e.to_string())?;
-        if bytes.len() as u64 > MOST_LIST_BYTES {
-            return Err("more than 16 MiB, too long for a list".to_owned());
-        }
-        Ok(Some(bytes))
-    }
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ mod error;
 pub mod explain;
 mod files;
 mod interrupt;
+mod lists;
 mod project;
 mod recorded;
 mod report;

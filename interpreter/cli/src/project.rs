@@ -1,7 +1,7 @@
 //! `-m` names a TwinCAT project: which files belong to it.
 
 use crate::error::OpenError;
-use crate::files::Lists;
+use crate::lists::Lists;
 use kontur_interpreter::diag::{Condition, Diagnostic};
 use kontur_interpreter::machine::project::Part;
 use std::fmt::Write as _;

@@ -220,7 +220,7 @@ fn scope(
     if channels.is_empty() { Err("no channel".to_owned()) } else { Ok(channels) }
 }
 
-/// A channel of TwinCAT Scope with its times as they stand in the file, and their unit in s: milliseconds, or ticks of file
+/// A channel of TwinCAT Scope with its times as they are in the file, and their unit in s: milliseconds, or ticks of file
 /// times where steps are that large. `step_s` is the sampling time of the header.
 ///
 /// A slow channel may share the times of a fast one; its samples are repeated until the next one then, and the first of each

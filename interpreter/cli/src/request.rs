@@ -1,6 +1,6 @@
 //! A request of the command line, and the library's job that carries it out: files, lists, options.
 //!
-//! The order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], which read everything anew.
+//! The order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], which read everything again.
 //!
 //! ```
 //! use kontur::request::Request;
@@ -20,7 +20,8 @@
 
 use crate::args::SimulationArgs;
 pub use crate::error::OpenError;
-use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
+use crate::files::{self, ProgramFiles, STANDARD_INPUT, is_standard};
+use crate::lists::Lists;
 use crate::project::{self, Place};
 use crate::words::{self, Word};
 use kontur_interpreter::diag::Diagnostic;

@@ -137,7 +137,7 @@ fn on_thread(name: &str, work: Work) -> bool {
     Builder::new().name(name.to_owned()).spawn(work).is_ok()
 }
 
-/// A run with somebody who looks on and may stop it.
+/// A run with an observer that may stop it.
 struct Watch<'a, F> {
     shown: Shown<'a>,
     console: &'a mut Console,

@@ -63,7 +63,7 @@ impl From<String> for Cell {
     }
 }
 
-/// A number by its bits: the text of a number need not come back to the same.
+/// A number by its bits: the text of a number need not give the same one again.
 mod bits {
     use serde::{Deserialize as _, Deserializer, Serializer};
 

@@ -30,7 +30,7 @@ pub mod vibration;
 
 use crate::args::TuneArgs;
 use crate::console::Console;
-use crate::files::Lists;
+use crate::lists::Lists;
 use crate::target::{keep_apart, write};
 use crate::{Error, Exit};
 use kontur_filters::analysis::tuning::VibrationBand;

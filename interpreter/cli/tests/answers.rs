@@ -169,7 +169,7 @@ fn tune_judges_the_choices_on_a_program() {
     let rows = |out: &str| -> Vec<String> {
         out.lines().skip_while(|l| !l.contains("machining time")).map(str::to_owned).collect()
     };
-    // words that are to be chosen give way, also where they are computed or stand in a subroutine
+    // words that are to be chosen are replaced, also where they are computed or are in a subroutine
     let plain = rows(&out);
     let computed = "#VIB GUARD ON [MODE=P1 FREQ=[P1*20] AX_DEV=0.02]";
     program(&square.replace("N10", &format!("P1=2\n{computed}\nN20")));
@@ -327,7 +327,7 @@ fn report_draws_signals_and_variants() {
     ] {
         assert_eq!(f.call(wrong).0, Exit::Usage, "{wrong:?}");
     }
-    // neither do more runs than can be told apart
+    // neither do more runs than can be distinguished
     for form in [&["-o", "@m.html"][..], &["--signals", "X_set_mm", "-o", "@m.svg"]] {
         let words = ["report", "@corner.nc", "--vary", "X.vib_guard.freq=20..36"];
         let (exit, _, err) = f.call(&[&words[..], form].concat());
@@ -358,7 +358,7 @@ fn signals_of_long_runs_have_a_bound() {
     let ten = "ipo,set,X_err_mm,Y_err_mm,Z_err_mm,contour_err_mm";
     assert!(words(ten, &["0..209", "--spectrum", "1..2"]));
     assert!(!words(ten, &["0..210", "--spectrum", "1..2"]));
-    // every line of ten spectra up to half of the sampling rate stands in its row
+    // every line of ten spectra up to half of the sampling rate is in its row
     assert!(words(ten, &["0..0.512", "--spectrum", "0..500"]));
     let rows: Vec<String> = f.read("a.csv").lines().map(str::to_owned).collect();
     assert_eq!(rows.len(), 1 + 2048 + 1, "8 * 512 points make a line for every second of them");

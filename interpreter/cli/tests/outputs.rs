@@ -196,7 +196,7 @@ fn a_signal_ends_a_run_with_whole_files() {
         } else {
             assert!(!parquet.exists());
             assert_eq!(names(f, ".").len(), 1, "the parts, and no file that is empty");
-            // what was in work when the kill came has another name
+            // what was being written at the time of the kill has another name
             let parts = names(f, ".a.parquet.").into_iter().find(|p| p.is_dir()).unwrap();
             let parts = names(&parts, "").into_iter();
             let whole: Vec<PathBuf> =

@@ -250,7 +250,7 @@ fn hostile_xml_ends_in_a_message() {
     }
 }
 
-/// The item of an axis or channel in a file of its own.
+/// The item of an axis or channel in a separate file.
 fn item(inside: &str) -> String {
     format!("<TcSmItem>{inside}</TcSmItem>")
 }
@@ -302,7 +302,7 @@ fn what_does_not_belong_to_the_project_is_left_out() {
     assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
     assert!(said.contains("Axis_0 (old).xti (not named by the project)"), "{said}");
     assert!(said.contains("`Q-Achse`") && said.contains("(switched off)"), "{said}");
-    // without references all of them are exported items: one number twice, others of their own
+    // without references all of them are exported items: one number twice, the others different
     fs::remove_file(folder.path("machine.tsproj")).unwrap();
     fs::write(folder.path("_Config/CNC/Rest.xti"), item(&format!("{others}{channel}"))).unwrap();
     let (exit, _, said) = run(&folder, "_Config");
@@ -364,7 +364,7 @@ fn names_and_places_of_the_axes() {
     assert!(said.contains("K-0141") && said.contains("UTF-8"), "{said}");
 }
 
-/// The folder of a solution, whose project has a folder of its own.
+/// The folder of a solution, whose project has a separate folder.
 #[test]
 fn a_solution_has_its_project_below() {
     let folder = folder();

@@ -17,6 +17,7 @@ mod messages;
 mod misc;
 mod path_limits;
 mod positions;
+pub(in crate::exec) mod range;
 mod row;
 mod shaping;
 mod signals;

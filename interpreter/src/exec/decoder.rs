@@ -53,7 +53,7 @@ pub(super) struct Decoder {
     pub(super) signals: Vec<Signal>,
     /// Syntax check: blocks with errors are carried out as far as possible.
     pub(super) checking: bool,
-    /// A motion of the block in work went out.
+    /// A motion of the current block has been passed on.
     pub(super) moved: bool,
     /// What the plain motions of a row share.
     pub(super) straight: Option<Box<Straight>>,

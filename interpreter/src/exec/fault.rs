@@ -9,7 +9,7 @@ use crate::syntax::ast::Span;
 pub(super) struct Fault {
     pub(super) diagnostic: Diagnostic,
     pub(super) span: Span,
-    /// Block of the span, if it is an earlier one than that in work.
+    /// Block of the span, if it is earlier than the current one.
     pub(super) origin: Option<SourceRef>,
 }
 

@@ -5,6 +5,7 @@ mod arcs;
 mod banding;
 mod coupling;
 mod cutting;
+mod dwell;
 pub(super) mod dynamics;
 mod feed;
 mod feed_course;
@@ -13,6 +14,7 @@ mod limits;
 mod measuring;
 mod oscillation;
 pub(super) mod overrides;
+mod plane;
 mod set_position;
 mod space;
 pub(super) mod spindles;
@@ -24,42 +26,21 @@ mod threads;
 pub(super) mod wear;
 
 use self::angles::ContourLine;
+use self::plane::InPlane;
+use super::block::collected::{GWord, Words};
 use super::block::groups::{Act, Group};
-use super::block::modal::{Compensation, Corners, FeedType, PathMode};
-use super::block::words::{GWord, Words};
+use super::block::modal::{Compensation, FeedType, PathMode};
 use super::contour::FeedCourse;
+use super::contour::Motion;
 use super::contour::insertion::{Insertion, Kind};
-use super::contour::{Compensated, Motion};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::step::Sync;
 use super::values::number::LARGEST_MM;
-use crate::diag::{Condition, ValueKind};
+use crate::diag::Condition;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed, SlopeKind};
-use kontur_motion::path::{LinePath, Path, Tilt};
-
-/// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
-const DWELL_MAX_S: f64 = 4294.967295;
-
-/// What a motion has to know of the active plane.
-struct InPlane {
-    /// Its axes.
-    plane: [usize; 2],
-    /// The coordinate system, if it lies askew to the axes.
-    tilt: Option<Box<Tilt>>,
-    compensation: Option<Compensated>,
-}
-
-/// The active plane in the frame.
-#[derive(Debug)]
-struct PlaneImage {
-    /// Indices of its main axes; with a tilt, those of the coordinate system.
-    main: [usize; 2],
-    keeps_sense: bool,
-    /// The frame, if the plane lies askew to the axes.
-    tilt: Option<Box<Tilt>>,
-}
+use kontur_motion::path::{LinePath, Path};
 
 /// The G60 of a block.
 fn exact_stop_once<'w>(words: &'w Words<'_>) -> Option<&'w GWord> {
@@ -175,49 +156,6 @@ impl Decoder {
         }
     }
 
-    fn dwell(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        let main = self.geometry.coordinates.main_axis(0);
-        let of_axis = words.axes.iter().find(|(axis, _, _)| Some(*axis) == main);
-        let revolutions = words.speeds.first();
-        let forms = [g.value.is_some(), of_axis.is_some(), revolutions.is_some()];
-        if forms.iter().filter(|f| **f).count() > 1 {
-            let text = "G04 with two times: write G04 2.5 or G04 X2.5";
-            return Err(Fault::new(Condition::DwellTwoTimes, text, g.span));
-        }
-        let (seconds, span) = if let Some(value) = g.value {
-            (value, g.span)
-        } else if let Some((_, value, span)) = of_axis {
-            (*value, *span)
-        } else if let Some((spindle, turns, span)) = revolutions {
-            let rpm = self.motion.spindles[*spindle].rpm.abs();
-            if rpm == 0.0 {
-                let text = "G04 S: the spindle has no speed";
-                return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));
-            }
-            (turns * 60.0 / rpm, *span)
-        } else if let Some((_, _, span)) = words.axes.first() {
-            let text = "G04: the time follows the first main axis";
-            return Err(Fault::new(Condition::DwellWrongAxis, text, *span));
-        } else {
-            return Err(Fault::new(Condition::Syntax, "G04 without a time", g.span));
-        };
-        let others: Vec<(usize, Span)> = words
-            .axes
-            .iter()
-            .filter(|(axis, _, _)| of_axis.is_none() || Some(*axis) != main)
-            .map(|(axis, _, span)| (*axis, *span))
-            .collect();
-        for (axis, span) in others {
-            let number = self.machine.axes[axis].number();
-            let name = self.names.name(axis).to_owned();
-            let text = format!("G04 with the further axis {name}, which does not move");
-            self.report.note(
-                Fault::new(Condition::DwellOtherAxes, text, span).with(|d| d.axis(number, name)),
-            );
-        }
-        self.dwell_for(seconds, Condition::DwellRange, span)
-    }
-
     /// True if braking to a lower feed may begin after the end of this block: G901 without G09 (source: TF5200
     /// programming manual, G08/G09/G900/G901).
     fn late_braking(&mut self, early_once: bool, span: Span) -> bool {
@@ -227,20 +165,6 @@ impl Decoder {
             self.report.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
         }
         late
-    }
-
-    /// Waits for a time at rest; `range`: the condition of a time outside its range.
-    pub(super) fn dwell_for(&mut self, seconds: f64, range: Condition, span: Span) -> Outcome<()> {
-        if !(0.0..=DWELL_MAX_S).contains(&seconds) {
-            let text = format!("dwell of {seconds} s is outside 0 to {DWELL_MAX_S} s");
-            return Err(Fault::new(range, text, span).with(|d| {
-                d.value(ValueKind::Wrong, seconds * 1e6, "us")
-                    .value(ValueKind::LowerLimit, 0.0, "us")
-                    .value(ValueKind::UpperLimit, DWELL_MAX_S * 1e6, "us")
-            }));
-        }
-        self.sync(Sync::Dwell { seconds });
-        Ok(())
     }
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
@@ -448,58 +372,6 @@ impl Decoder {
         for fault in self.limits_of_compensated() {
             self.report.note(Box::new(fault));
         }
-    }
-
-    /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
-    fn in_plane(&self, span: Span) -> Outcome<InPlane> {
-        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let compensated =
-            self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
-        let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
-        if compensated && tilt.is_some() && self.motion.wear.on && self.motion.wear.radius {
-            let what = "#OTC [RADIUS] in a plane askew to the axes";
-            return Err(Fault::unsupported(what, span));
-        }
-        let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
-            if compensated {
-                let text = "the plane of the tool radius compensation has no axis in the channel";
-                return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
-            }
-            return Ok(InPlane { plane: [0, 0], tilt, compensation: None });
-        };
-        let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
-        let radius = self.geometry.tools.active.radius_mm;
-        let compensation = compensated.then_some(Compensated {
-            distance_mm: if left { radius } else { -radius },
-            straight_corners: (self.modal.corners == Corners::Straight)
-                .then_some(self.modal.corner_stretch),
-            reverse: self.modal.turns_back,
-            perpendicular_change: self.modal.perpendicular_change,
-            selection: self.modal.selection,
-            engagement_radius_mm: self
-                .modal
-                .engagement_feed
-                .then_some(self.modal.engagement_radius_mm),
-        });
-        Ok(InPlane { plane: [first, second], tilt, compensation })
-    }
-
-    /// Where the frame puts the active plane.
-    fn image_of_plane(&self, span: Span) -> Outcome<PlaneImage> {
-        let [a, b, _] = self.modal.plane.main_axes();
-        let frame = self.geometry.coordinates.frame();
-        if let Some((main, keeps_sense)) = frame.image_of_plane(a, b) {
-            return Ok(PlaneImage { main, keeps_sense, tilt: None });
-        }
-        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
-            let text = "a coordinate system turned in space needs three main axes";
-            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
-        };
-        let (axes, origin) = ([x, y, z], self.geometry.coordinates.to_machine([0.0; 3]));
-        let t_mm = std::array::from_fn(|i| origin[i] - self.motion.independent.way[axes[i]]);
-        let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
-        Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
     }
 
     /// Chamfer or rounding in front of the next motion.

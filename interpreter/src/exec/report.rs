@@ -12,7 +12,7 @@ pub(super) struct Report {
     pub(super) source: SourceRef,
     /// Its first line, for conditions that name an earlier place.
     pub(super) location: Option<Location>,
-    /// Conditions of the block in work.
+    /// Conditions of the current block.
     faults: Vec<Fault>,
     /// Conditions without a place in a block.
     pub(super) unplaced: Vec<Diagnostic>,
@@ -21,7 +21,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Adds a condition of the block in work.
+    /// Adds a condition of the current block.
     pub(super) fn note(&mut self, fault: Box<Fault>) {
         self.faults.push(*fault);
     }
@@ -33,7 +33,7 @@ impl Report {
         }
     }
 
-    /// Adds several conditions of the block in work.
+    /// Adds several conditions of the current block.
     pub(super) fn extend(&mut self, faults: Vec<Fault>) {
         self.faults.extend(faults);
     }
@@ -43,7 +43,7 @@ impl Report {
         self.said.remove(key);
     }
 
-    /// Conditions of the block in work, handed over.
+    /// Conditions of the current block, handed over.
     pub(super) fn take_faults(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.faults)
     }

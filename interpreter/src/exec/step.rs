@@ -234,7 +234,7 @@ pub(crate) enum Event {
         master: usize,
         /// Way of the slave for a way of the master.
         ratio: f64,
-        /// Where the master stands, in mm (deg).
+        /// Where the master is, in mm (deg).
         master_mm: f64,
     },
     /// `#OTC ON`, or OFF with `None`.
@@ -336,7 +336,7 @@ pub(crate) enum SpindleState {
 /// motions so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct IndependentMotion {
-    /// Where the axis stands, in mm (deg).
+    /// Where the axis is, in mm (deg).
     pub from_mm: f64,
     /// Target in mm (deg).
     pub to_mm: f64,
@@ -349,7 +349,7 @@ pub(crate) struct IndependentMotion {
 /// Motion of an oscillating axis; it always ends at its second position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OscillatingMotion {
-    /// Where the axis stands, in mm (deg).
+    /// Where the axis is, in mm (deg).
     pub from_mm: f64,
     /// First and second reversal position in mm (deg), different ones.
     pub reversal_mm: [f64; 2],

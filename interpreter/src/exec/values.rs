@@ -14,7 +14,7 @@ pub(super) mod variables;
 use super::options::External;
 use std::collections::BTreeMap;
 use timers::Timers;
-use variables::Variables;
+use variables::scopes::Variables;
 
 /// What the room owns.
 #[derive(Debug)]

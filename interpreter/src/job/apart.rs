@@ -101,7 +101,7 @@ impl Apart {
         &self.stretches[0].records[self.taken - 1]
     }
 
-    /// Goes on to the next cycle, with the messages up to it; false if there are no more.
+    /// Advances to the next cycle, with the messages up to it; false if there are no more.
     pub(super) fn next_cycle(
         &mut self,
         simulation: &mut Simulation,

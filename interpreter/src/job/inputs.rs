@@ -78,7 +78,7 @@ struct InputFile<R> {
     /// Signal of every column after the time.
     columns: Vec<Signal>,
     line: u32,
-    /// Bytes in front of the line in work, and up to its end.
+    /// Bytes before the current line, and up to its end.
     offset: u64,
     end: u64,
     text: Arc<str>,
@@ -202,7 +202,7 @@ impl<R: Read> InputFile<R> {
         number.ok_or_else(|| self.wrong(at, field, &format!("`{field}` is no number")))
     }
 
-    /// A mistake in the line in work, `at` characters from its start.
+    /// A mistake in the current line, `at` characters from its start.
     fn wrong(&self, at: usize, marked: &str, text: &str) -> Problem {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let diagnostic = Diagnostic::new(Condition::InputFile, text).at(Location {

@@ -214,7 +214,7 @@ impl Run {
         Ok(())
     }
 
-    /// Goes on to the next cycle, with the messages up to it; false if there are no more.
+    /// Advances to the next cycle, with the messages up to it; false if there are no more.
     fn next_cycle(&mut self) -> bool {
         let Self { simulation, measuring, samples, raised, .. } = self;
         let computed = if let Some(apart) = &mut self.apart {

@@ -21,7 +21,7 @@ pub struct Override {
 }
 
 impl Override {
-    /// Target that stands for every path axis.
+    /// Target that means every path axis.
     pub(super) const EVERY_AXIS: &str = "*";
 
     /// Takes `TARGET.key=value` apart.

@@ -184,7 +184,7 @@ impl Simulation {
         }
     }
 
-    /// `X[SET_POSITION ..]`: the axis and its gantry slaves have new positions where they stand. Those of the path do not change.
+    /// `X[SET_POSITION ..]`: the axis and its gantry slaves get new positions without moving. Those of the path do not change.
     pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64) {
         for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
             if *driver == Driver::Path(axis) {

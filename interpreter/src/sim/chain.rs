@@ -109,7 +109,7 @@ impl AxisChain {
         (self.set, self.vel, self.acc) = (before.set, before.vel, before.acc);
     }
 
-    /// The place where the axis stands gets another position, `by_mm` further on.
+    /// The current place of the axis gets another position, `by_mm` further on.
     pub(crate) fn shift(&mut self, by_mm: f64) {
         self.set += by_mm;
         self.shaping.settle(self.set);

@@ -356,7 +356,7 @@ pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagn
     d
 }
 
-/// Tells that the set path, as it is output, leaves the contour by more than the plan had promised.
+/// The set path, as it is output, leaves the contour by more than the plan had promised.
 pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
     let Unkept { deviation_mm, tolerance_mm, .. } = *exceeded;
     let text = format!(

@@ -57,7 +57,7 @@ impl Oscillation {
 struct Coupling {
     master: usize,
     ratio: f64,
-    /// Where the master stood at the beginning.
+    /// Where the master was at the beginning.
     master_mm: f64,
     /// What the axis has gone with it.
     way_mm: f64,

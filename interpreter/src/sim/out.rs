@@ -1,6 +1,6 @@
 //! What leaves the simulation in addition to its records: points to be measured against the contour, and messages.
 //!
-//! The simulation never looks at the deviation of its output, so measuring may lag behind it, on another thread.
+//! The simulation never looks at the deviation of its output, so it may be measured later, on another thread.
 
 use super::{Simulation, fault};
 use crate::diag::{Condition, Diagnostic, Severity};
@@ -10,7 +10,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::deviation::{Change, Meter};
 use kontur_motion::tolerance::Unkept;
 
-/// Messages of the program that are kept until somebody asks for them: without motion a loop gives millions at once.
+/// Messages of the program that are kept until they are taken: without motion a loop gives millions at once.
 pub(super) const MESSAGES_MAX: usize = 10_000;
 
 /// Points of consecutive cycles, and what they are measured to be.

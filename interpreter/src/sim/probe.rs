@@ -3,7 +3,7 @@
 //! Assumption: the signal of `probe` latches the actual positions of the cycle in which it acts, that of `X_probe_mm` the
 //! positions at which the actual position of the axis passes it, with a straight line between two cycles. The path brakes
 //! as under feedhold, with the slope of its block. Measuring type 7 has no probe: its signal is the lag of an axis, which
-//! stands at a fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
+//! is at a fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
 
 use super::inputs::Inputs;
 use super::{Phase, Simulation};

@@ -126,7 +126,7 @@ pub(crate) fn brackets_are_complete(text: &str) -> bool {
     depth == 0
 }
 
-/// True if a character stands in a text, outside of its strings and comments.
+/// True if a text contains a character outside of its strings and comments.
 pub(crate) fn code_has(text: &str, byte: u8) -> bool {
     regions(text)
         .any(|(region, range)| region == Region::Code && text.as_bytes()[range].contains(&byte))

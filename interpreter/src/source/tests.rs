@@ -161,7 +161,7 @@ proptest! {
     }
 }
 
-/// Lines that are gone over, or taken as they stand, are the blocks that are read one by one.
+/// Lines that are skipped, or taken unchanged, are the blocks that are read one by one.
 #[test]
 fn lines_gone_over_are_blocks() {
     const PARTS: &[&str] = &[

@@ -133,7 +133,7 @@ impl Collector {
         for ((here, before), (_, rotary)) in here.zip(&mut self.position).zip(&self.axes) {
             let mut step = here - std::mem::replace(before, here);
             if *rotary && step.abs() > HALF_TURN_DEG {
-                // a modulo axis begins anew
+                // a modulo axis wraps around
                 step -= 2.0 * HALF_TURN_DEG.copysign(step);
             }
             squares[usize::from(*rotary)] += step * step;
@@ -218,7 +218,7 @@ mod tests {
         of_axes([false; 2], speeds, kinks, fed)
     }
 
-    /// Ripple of two axes that move at these speeds, beside one that stands still; the path turns by an angle in degrees in the
+    /// Ripple of two axes that move at these speeds, beside one at rest; the path turns by an angle in degrees in the
     /// cycles given.
     fn of_axes(
         rotary: [bool; 2],

@@ -63,7 +63,7 @@ pub(crate) fn expand<'m>(
         copy(raw, &line, at..at + before.len(), &mut out);
         at = range.end;
         let start = out.text.len();
-        // a call without its blank stays one, so that the block says so
+        // a call without its blank is still a call, so that the message names it
         let quote = if is_call(&raw.text[..range.start]) { "\"" } else { "" };
         out.text.push_str(quote);
         if let Err(wrong) = insert(text, is_number, 1, lookup, &mut out.text) {

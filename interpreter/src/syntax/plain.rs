@@ -175,7 +175,7 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<(PlainValue, usize)> {
     }
 }
 
-/// `Some` at the end, or before a letter that this file knows to begin a word of its own: whether it is one, the
+/// `Some` at the end, or before a letter that this file knows to begin a new word: whether it is one, the
 /// next step finds out. A value may follow a G function, an operator a value; a letter begins a new word, unless it begins
 /// a parameter, variable or function.
 fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {

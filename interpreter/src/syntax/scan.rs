@@ -7,7 +7,7 @@
 use super::ast::Span;
 use crate::source::regions::{self, Region, regions};
 
-/// Byte that stands in the masked text for every character of a configured name.
+/// Byte that replaces every character of a configured name in the masked text.
 pub(super) const MARK: u8 = 1;
 
 /// Stands in the masked text for a quote that is never closed.

@@ -123,7 +123,7 @@ impl Meter {
         }
     }
 
-    /// In place of [`Self::filtered`] in a cycle whose set point is the interpolated one.
+    /// Replaces [`Self::filtered`] in a cycle whose set point is the interpolated one.
     pub fn unfiltered(&mut self, k: u64, point: &[f64]) {
         self.gauge.unfiltered(&self.contour, k, point, self.least_mm());
         self.judge(k);

@@ -44,7 +44,7 @@ impl Draft {
         Self { spans, ..Self::default() }
     }
 
-    /// What is left when the first blocks are behind the start.
+    /// What is left when the first blocks are before the start.
     pub(crate) fn pass(&mut self, count: usize) {
         if count == 0 {
             return;

@@ -4,11 +4,12 @@
 //! five points on sub-intervals that are halved until the whole and the two halves agree; `s` is turned into `x` by
 //! Newton on the table of sub-intervals.
 
+mod nearest;
+
 use super::extremes;
-use super::piece::{self, Coefficients, Pace, PolyPiece, bend, section, slope, value};
+use super::piece::{self, Coefficients, Pace, PolyPiece, section, slope, value};
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// Agreement of the integral over a sub-interval with that over its halves, relative to the length of the curve.
@@ -19,8 +20,6 @@ const DEPTH: u32 = 12;
 const GUESS: f64 = 1e-4;
 /// Steps of Newton after which it searches instead.
 const STEPS: usize = 4;
-/// Samples per sub-interval in the search for the nearest point.
-const SAMPLES: usize = 8;
 
 /// What a curve leaves its ends by at least, in mm and in proportion to its position: less is rounding.
 const BEYOND: (f64, f64) = (1e-9, 1e-12);
@@ -49,31 +48,6 @@ struct Cell {
     radius: f64,
     /// Path length by the parameter in mm at both ends.
     rates: [f64; 2],
-}
-
-impl Cell {
-    /// Parameter of sample `k` of [`SAMPLES`].
-    fn sample(&self, k: usize) -> f64 {
-        self.from + (self.to - self.from) / SAMPLES as f64 * k as f64
-    }
-}
-
-/// Bound of the distance of a piece between two parameters from its point in the middle: the Taylor polynomial there has
-/// the values `sum a_k t^k` with `|t|` up to half the width.
-fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let of_axis = |c: &[f64; 6]| {
-        let mut a = *c;
-        // Horner once for each coefficient shifts the polynomial to the middle
-        for k in 0..a.len() {
-            for j in (k..a.len() - 1).rev() {
-                a[j] += middle * a[j + 1];
-            }
-        }
-        a[1..].iter().rev().fold(0.0, |sum, a| (sum + a.abs()) * half)
-    };
-    // rounding is far below the last part
-    piece.iter().map(of_axis).map(|r| r * r).sum::<f64>().sqrt() * (1.0 + 1e-9)
 }
 
 /// True if a position is outside a range by more than rounding.
@@ -171,7 +145,7 @@ impl PolyPath {
         path.find_extremes(&mut cells);
         let mut middles = vec![0.0; n * cells.len()];
         for (cell, middle) in cells.iter().zip(middles.chunks_exact_mut(n)) {
-            path.point(cell.piece, cell.sample(SAMPLES / 2), middle);
+            path.point(cell.piece, cell.middle(), middle);
         }
         path.middles = middles.into();
         path.cells = cells.into();
@@ -237,7 +211,7 @@ impl PolyPath {
             self.subdivide(piece, (from, mid), scale, depth + 1, cells);
             self.subdivide(piece, (mid, to), scale, depth + 1, cells);
         } else {
-            let radius = radius(&self.pieces[piece], from, to);
+            let radius = nearest::radius(&self.pieces[piece], from, to);
             let rates = [from, to].map(|x| self.rate(piece, x));
             cells.push(Cell { piece, from, to, s: self.length, bend: 0.0, radius, rates });
             self.length += whole;
@@ -396,108 +370,6 @@ impl PolyPath {
     pub(crate) fn bends(&self) -> impl Iterator<Item = (f64, f64)> {
         let ends = self.cells.iter().skip(1).map(|c| c.s).chain([self.length]);
         ends.zip(self.cells.iter().map(|c| c.bend))
-    }
-
-    pub(super) fn nearest(&self, point: &[f64]) -> f64 {
-        let (cell, x) = self.search(point);
-        let cell = &self.cells[cell];
-        cell.s + self.gauss(cell.piece, cell.from, x)
-    }
-
-    pub(super) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
-        let (i, x) = self.search(point);
-        let cell = &self.cells[i];
-        if i == 0 && x <= cell.from {
-            out.copy_from_slice(&self.start);
-        } else if i + 1 == self.cells.len() && x >= cell.to {
-            out.copy_from_slice(&self.end);
-        } else {
-            self.point(cell.piece, x, out);
-        }
-    }
-
-    /// Sub-interval and parameter of the nearest point.
-    fn search(&self, point: &[f64]) -> (usize, f64) {
-        let n = point.len();
-        let mut q = AxisVec::zeros(n);
-        let mut distance = |piece: usize, x: f64| -> f64 {
-            self.point(piece, x, &mut q);
-            q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
-        };
-        let step = |cell: &Cell| (cell.to - cell.from) / SAMPLES as f64;
-        // the middles tell which sub-intervals can hold the nearest sample: the others are further all over
-        let to_middle = |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
-        let middles: SmallVec<[f64; 64]> =
-            self.middles.chunks_exact(self.start.len()).map(to_middle).collect();
-        let within = middles.iter().copied().fold(f64::INFINITY, f64::min).sqrt() * (1.0 + 1e-9);
-        let mut best = (f64::INFINITY, 0, 0.0);
-        for (i, cell) in self.cells.iter().enumerate() {
-            let reach = within + cell.radius;
-            if middles[i] > reach * reach {
-                continue;
-            }
-            for k in 0..=SAMPLES {
-                let x = cell.sample(k);
-                let d = distance(cell.piece, x);
-                if d < best.0 {
-                    best = (d, i, x);
-                }
-            }
-        }
-        // a sample at the border of a sub-interval may have the nearest point in the next one
-        let (_, i, x) = best;
-        let mut nearest = (f64::INFINITY, i, x);
-        for j in i.saturating_sub(1)..(i + 2).min(self.cells.len()) {
-            let cell = &self.cells[j];
-            let step = step(cell);
-            let (low, high) = match j.cmp(&i) {
-                Ordering::Less => (cell.to - step, cell.to),
-                Ordering::Equal => ((x - step).max(cell.from), (x + step).min(cell.to)),
-                Ordering::Greater => (cell.from, cell.from + step),
-            };
-            let x = self.closest(cell.piece, point, low, high);
-            let d = distance(cell.piece, x);
-            if d < nearest.0 {
-                nearest = (d, j, x);
-            }
-        }
-        (nearest.1, nearest.2)
-    }
-
-    /// Zero of the derivative of the squared distance between two parameters, by bisection and Newton.
-    fn closest(&self, piece: usize, point: &[f64], low: f64, high: f64) -> f64 {
-        let slopes = |x: f64| -> (f64, f64) {
-            let (mut first, mut second) = (0.0, 0.0);
-            for (c, p) in self.pieces[piece].iter().zip(point) {
-                let (d0, d1, d2) = (value(c, x) - p, slope(c, x), bend(c, x));
-                first += d0 * d1;
-                second += d1 * d1 + d0 * d2;
-            }
-            (first, second)
-        };
-        if slopes(low).0 >= 0.0 {
-            return low;
-        }
-        if slopes(high).0 <= 0.0 {
-            return high;
-        }
-        let (mut low, mut high) = (low, high);
-        let mut x = 0.5 * (low + high);
-        for _ in 0..60 {
-            let (first, second) = slopes(x);
-            if first > 0.0 {
-                high = x;
-            } else {
-                low = x;
-            }
-            let newton = x - first / second;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - x).abs() <= 1e-15 {
-                return next;
-            }
-            x = next;
-        }
-        x
     }
 }
 

@@ -173,7 +173,7 @@ impl Planner {
     }
 
     /// True if a plan may start inside an entry: braking under G901 and what keeps a tolerance are planned as a whole, and
-    /// with STEP there is no ramp that would go on.
+    /// with STEP there is no ramp to continue.
     fn may_part(&self, entry: &Entry) -> bool {
         let whole = |q: &Queued| {
             q.block.late_braking || self.kernels.any() && q.block.tolerance.ax_dev_mm.is_some()

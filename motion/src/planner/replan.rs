@@ -385,7 +385,7 @@ fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
     cut(rest.collect(), into)
 }
 
-/// What lies behind `s` mm; a rest of a block that is rounding is none.
+/// What lies after `s` mm; a rest of a block no longer than rounding is dropped.
 fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     let mut gone = 0;
     while gone < blocks.len() && s >= blocks[gone].queued.length * (1.0 - SAME_LENGTH) {

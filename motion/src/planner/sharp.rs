@@ -3,7 +3,7 @@
 //! A block has one path velocity, that of its sharpest place. The curve of an Akima spline that goes there and back turns
 //! within micrometres: with one velocity the whole of it would be driven as slowly as its tip. Such a curve becomes
 //! several blocks of the same number, each with the velocity of its part. There is no limit where they meet: direction
-//! and curvature go on.
+//! and curvature are continuous.
 //!
 //! Curves whose parts would not save half of the time stay whole, so that a spline of ordinary bends has the one profile
 //! per block that its slope promises. So do blocks whose feed is defined over the whole of them (G194), and those with

@@ -156,7 +156,7 @@ mod tests {
 
     proptest! {
         /// What is clearly reached is never more than the reach itself, to the last bit; and what is a little more or less
-        /// than the reach is told apart.
+        /// than the reach is distinguished.
         #[test]
         fn what_is_clearly_reached_is_within_reach(
             sin2 in any::<bool>(),

@@ -124,7 +124,7 @@ impl Demands {
         self.foreseen = self.foreseen.min(at);
     }
 
-    /// Forgets the first blocks, which are final. The boundary behind them has only what is asked of it from now on.
+    /// Forgets the first blocks, which are final. The boundary after them has only what is asked of it from now on.
     pub(crate) fn pass(&mut self, blocks: usize) {
         self.cap.drain(..blocks);
         self.stop.drain(..blocks);

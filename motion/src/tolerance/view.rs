@@ -8,7 +8,7 @@ use crate::timeline::{Entry, PathState, Reader};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
-/// Change of direction that is none.
+/// Change of direction that counts as 0.
 pub(super) const STRAIGHT: f64 = 1e-9;
 
 /// Rows of a buffer, in reaches of the kernels, from which on the old ones are given up.
@@ -32,7 +32,7 @@ pub(super) struct Mark {
 }
 
 impl Mark {
-    /// True if the path turns where it enters the block: a straight line may go on as another block.
+    /// True if the path turns where it enters the block: a straight line may continue as another block.
     pub(super) fn is_kink(&self) -> bool {
         self.jump > STRAIGHT
     }

@@ -182,7 +182,7 @@ fn something_tiny_in_a_corner_changes_little() {
             assert_eq!(run.diagnostics, [], "{text}");
             (run.records.len(), text)
         });
-        // one more corner, which may have a rest of the length of the filter of its own
+        // one more corner, which may add a rest as long as the filter
         let rest = (1.5 / freq_hz / (1e-6 * f64::from(cycle_us))).ceil() as usize + 4;
         assert!(tiny.0 <= sharp.0 + rest, "{} cycles, {} with\n{}", sharp.0, tiny.0, tiny.1);
     }

@@ -97,7 +97,7 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
                     from_polyline(&point, &ends).iter().map(|c| c * c).sum::<f64>()
                 };
                 let least = (entered..left).map(line).fold(f64::INFINITY, f64::min).sqrt();
-                // a way back over the same points comes later
+                // a return over the same points comes later
                 let passes = |k: &usize| line(*k).sqrt() <= least + 1e-6;
                 let comes = (entered..left).find(passes).unwrap_or(entered);
                 // as long as the path rests there
@@ -145,7 +145,7 @@ fn interpolated(record: &CycleRecord) -> Point {
     [0, 1, 2].map(|i| record.axes[i].ipo)
 }
 
-/// No filter can be told from the unfiltered setpoints: they lie on the geometry that the test has drawn itself.
+/// No filter is visible in the unfiltered setpoints: they lie on the geometry that the test has drawn itself.
 pub(crate) fn off_contour(run: &Run, case: &Case) -> f64 {
     let pieces: Vec<&Piece> = case.blocks.iter().flat_map(|b| &b.1).collect();
     let every = 1 + run.records.len() / 200;

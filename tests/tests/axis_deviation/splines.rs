@@ -18,7 +18,7 @@ fn points(r: &mut Random) -> Vec<[f64; 2]> {
 }
 
 /// Largest component of the shortest vector from one row of points to the lines between those of another one; the part of it
-/// that counts begins so many samples before and ends so many behind.
+/// that counts begins so many samples before and ends so many after.
 fn furthest(points: &[Vec<f64>], lines: &[Vec<f64>], before: usize, behind: usize) -> f64 {
     let from = |k: usize| {
         let part = &lines[k.saturating_sub(before)..(k + behind + 1).min(lines.len())];

@@ -43,7 +43,7 @@ fn reversals(r: &mut Random, w: &mut Writer, scale: f64) {
     }
 }
 
-/// A filter for all axes, or one of its own for each.
+/// One filter for all axes, or a different one for each.
 fn filters(r: &mut Random, tolerance: f64, cycle_us: u32) -> (String, Vec<String>, usize) {
     if r.chance(0.6) {
         return filter(r, tolerance, cycle_us);
@@ -166,12 +166,12 @@ fn judge(wide: &Wide, run: &Run) -> Found {
         return Found { wrong: vec![format!("aborted: {}", said.join("; "))], ..Found::default() };
     }
     let unkept = run.diagnostics.iter().any(|d| d.id == Condition::AxDevNotKept);
-    // in front of a change the path may be too close to a corner to keep it, and says so
+    // before a change the path may be too close to a corner to keep it; a message says so
     if unkept && wide.inputs.is_empty() {
         wrong.push("K-0080".to_owned());
     }
     let off = off_contour(run, case);
-    // where the filter is off a corner lies between two set points wherever it pleases
+    // where the filter is off a corner lies anywhere between two set points
     let switched = case.text.contains(" OFF");
     let own = if switched { 0.0 } else { largest(run, |a| a.dev_both_ways) };
     let (leaves, k) = recomputed(run, case);

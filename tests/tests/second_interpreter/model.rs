@@ -1,6 +1,6 @@
 //! What a program means, worked out on its tree.
 //!
-//! Coordinates are affine maps that are put together anew for every word: offsets of the machine, then for each coordinate system
+//! Coordinates are affine maps that are composed for every word: offsets of the machine, then for each coordinate system
 //! its place, its rotation and its own offsets, then mirroring, then contour rotation. Nothing is kept but the position of the machine.
 
 use crate::map::{Map, UNIT};
@@ -51,7 +51,7 @@ pub struct Modal {
     mirrors: [bool; 2],
 }
 
-/// How statements go on.
+/// Where execution continues after a statement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Flow {
     On,
@@ -72,7 +72,7 @@ pub struct Model<'a> {
     values: BTreeMap<String, f64>,
     /// V.L and V.CYC of the levels.
     local: Vec<BTreeMap<String, f64>>,
-    /// @P of the cycle in work.
+    /// @P of the current cycle.
     passed: Vec<Vec<f64>>,
     pub driven: Driven,
     /// A tool does not fit into an inner corner.
@@ -90,7 +90,7 @@ pub fn axes_of(plane: u32) -> [usize; 3] {
     }
 }
 
-/// Where a coordinate system stands: shift, then turns about Z, Y and X.
+/// Placement of a coordinate system: shift, then turns about Z, Y and X.
 fn placed([x, y, z, a, b, c]: &[f64; 6]) -> Map {
     Map::shift([*x, *y, *z])
         .then_inner(&Map::turn(0, 1, *c))
@@ -263,7 +263,7 @@ impl<'a> Model<'a> {
                 let layers = systems.iter().map(|values| Layer::new(placed(values), NO_GROUP));
                 self.coordinates.layers.extend(layers.take(*selected));
             }
-            // it stands below all others
+            // it is below all others
             Statement::StackOff(..) => self.coordinates.layers.truncate(1),
             Statement::SystemOff(all) => {
                 let left = self.coordinates.layers.len() - 1;
@@ -289,7 +289,7 @@ impl<'a> Model<'a> {
                 self.passed.push(passed);
                 let (modal, group) = (self.modal.clone(), self.layer().group);
                 self.call(*number);
-                // P-CHAN-00210: G functions that stand alone go back to what they were
+                // P-CHAN-00210: G functions without values go back to what they were
                 if !self.layer().by_value {
                     self.select(group);
                 }

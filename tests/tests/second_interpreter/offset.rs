@@ -187,7 +187,7 @@ pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<
                 let t = direction(element, 1.0, plane);
                 let zero = [0.0; 3];
                 let u = place(zero, left_of([0.0; 2], t, distance));
-                // the tool goes on the way it came
+                // the tool leaves the way it came
                 let v = plus(zero, place(zero, t), contour.radius);
                 all.push(Piece::arc(element.number, end, [u, v], angle, zero));
             }

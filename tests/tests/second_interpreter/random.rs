@@ -8,13 +8,13 @@ use crate::model::axes_of;
 use crate::tree::{Expr, Function, Kind, Motion, Operator, Program, Statement, Subroutine, Word};
 use kontur_kit::Random;
 
-/// Where a statement stands.
+/// Where a statement is.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Subroutines with smaller numbers may be called.
     pub callable: usize,
     pub cycle: bool,
-    /// In a file of its own, from where local subroutines are not seen.
+    /// In a separate file, which does not see local subroutines.
     pub global: bool,
     pub depth: usize,
     pub breaks: bool,
@@ -70,7 +70,7 @@ impl Place {
         lowest: true,
     };
 
-    /// Systems of the caller, and those of its own.
+    /// Systems of the caller, and those of the subroutine.
     const SUBROUTINE: Self = Self { framed: 2, lowest: false, ..Self::TOP };
 
     fn deeper(self) -> Self {

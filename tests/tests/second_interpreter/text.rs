@@ -200,7 +200,7 @@ impl File {
         self.motion(&format!("\"MOTION {number}\""), &bare);
     }
 
-    /// Words in a block of their own, or in that of a motion.
+    /// Words in a separate block, or in that of a motion.
     fn switched(&mut self, words: &str, in_block: bool, motion: &Motion) {
         if in_block {
             self.motion(words, motion);

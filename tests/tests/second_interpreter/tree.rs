@@ -53,7 +53,7 @@ pub struct Word {
     pub value: Expr,
 }
 
-/// A motion block. What stands in `absolute`, `plane` and `group` is programmed in the same block.
+/// A motion block. The contents of `absolute`, `plane` and `group` are programmed in the same block.
 #[derive(Clone, Debug, Default)]
 pub struct Motion {
     pub number: usize,
@@ -88,7 +88,7 @@ pub struct Contour {
     /// G26 instead of G25.
     pub by_arcs: bool,
     pub radius: f64,
-    /// G41 or G42, and G40, stand in the blocks of the motions.
+    /// G41 or G42, and G40, are in the blocks of the motions.
     pub in_block: bool,
     pub approach: Motion,
     pub elements: Vec<Motion>,

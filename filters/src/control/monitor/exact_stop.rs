@@ -115,7 +115,7 @@ impl ExactStopMonitor {
 
     /// The path comes to a stop, for this axis at `target_mm`; to be called no later than right after the cycle in which the
     /// set position got there. An axis that has not moved since its last stop, and need not, has no new one; one that still
-    /// settles at this target goes on with its time, as a dwell behind an exact stop is no other stop.
+    /// settles at this target keeps its time, since a dwell after an exact stop is not another stop.
     pub fn expect(&mut self, target_mm: f64) {
         if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
             self.state = State::Approaching { target_mm };
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!((1..2000).find(|_| m.step(1.0, 0.94).is_some()), Some(200));
     }
 
-    /// Told again while it settles, as by a dwell or a block without way: t1 is when the set position got there.
+    /// Expected again while it settles, as by a dwell or a block without motion: t1 is when the set position got there.
     #[test]
     fn a_stop_told_again_keeps_its_time() {
         let mut m = monitor(Some(0.2));

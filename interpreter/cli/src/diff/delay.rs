@@ -1,7 +1,7 @@
 //! Is one trace only later than the other?
 //!
 //! Up to the first difference of a number both traces are the same. If from there on every row of one equals the row of the other
-//! that lies a fixed number of rows back, one only does later what the other does: it stood still for longer, at the start or
+//! a fixed number of rows earlier, one only does later what the other does: it was at rest for longer, at the start or
 //! between two motions. Numbers decide: a line added to a program shifts the numbers of all lines after it.
 
 use csv::ByteRecord;

@@ -282,7 +282,7 @@ impl Recording {
             bucket.pass = 0;
         }
         self.track.one_pass();
-        // a start that no path comes back to
+        // a start that no path returns to
         self.start = Some([f64::INFINITY; 3]);
         self.moved = true;
     }

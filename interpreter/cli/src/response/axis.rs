@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use crate::args::ResponseArgs;
 use crate::console::Console;
-use crate::files::Lists;
+use crate::lists::Lists;
 use crate::request::Request;
 use crate::target::keep_apart;
 use crate::{Error, run};

@@ -1,8 +1,9 @@
 //! What would help: the program runs again with one group of parameters a tenth better, and the times are compared line by line.
 
 use super::{Collector, Help, Reason, Times};
-use crate::files::{self, Lists};
+use crate::files;
 use crate::interrupt::Running;
+use crate::lists::Lists;
 use crate::request::Request;
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::machine::{Axis, Lever};
@@ -100,7 +101,7 @@ fn proposal(lever: Lever, axes: &[Axis], whose: &str) -> Option<Proposal> {
     })
 }
 
-/// Collects times until somebody interrupts.
+/// Collects times until it is interrupted.
 struct Watch(Collector);
 
 impl Sink for Watch {

@@ -173,7 +173,7 @@ mod tests {
         assert!(times.eq((0..5000).map(|k| format!("{}.{:03}000", k / 1000, k % 1000))));
     }
 
-    /// A run that is given up leaves no file behind.
+    /// A run that is given up leaves no file.
     #[test]
     fn what_is_dropped_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();

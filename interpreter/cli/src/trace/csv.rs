@@ -70,7 +70,7 @@ fn now() -> Instant {
     Instant::now()
 }
 
-/// A cell as CSV wants it: quoted only if it has to be.
+/// A cell as CSV requires it: quoted only if necessary.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", cell.replace('"', "\"\""))

@@ -47,7 +47,7 @@ fn push<const DECIMALS: usize>(out: &mut Vec<u8>, value: f64) {
     let scale = POWERS[DECIMALS] as f64;
     let product = value * scale;
     if product == 0.0 {
-        // what stands, and what is not in use
+        // an axis at rest, and a column that is not in use
         out.extend_from_slice(if DECIMALS > 0 { &ZERO[..DECIMALS + 2] } else { &ZERO[..1] });
     } else if product.abs() < EXACT_BELOW {
         push_scaled::<DECIMALS>(out, round_product(value, scale, product));

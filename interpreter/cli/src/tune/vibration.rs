@@ -111,8 +111,8 @@ pub struct Analysis {
     pub disagree: Option<(f64, f64)>,
 }
 
-/// Looks for vibrations in a record. Samples in `missing` were not recorded: what stands there (values between their
-/// neighbours) shows where decays begin and end, and is not fitted.
+/// Looks for vibrations in a record. Samples in `missing` were not recorded: the values there, interpolated between their
+/// neighbours, show where decays begin and end, and are not fitted.
 pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));

@@ -1,6 +1,6 @@
 //! Addresses of a block: axes, spindles, centre, feed, radius, tools, and everything else.
 
-use super::words::Words;
+use super::collected::Words;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -1,43 +1,18 @@
-//! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `X[M10]`, `S[M3 REV1000 M10]`,
-//! `S[G135 G136=80]`.
+//! Commands of axes in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `X[M10]`. Those of spindles are in [`spindle`].
 //!
-//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21301, 21736, 21738, 21867.
+//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); 21301, 21736.
 
-use super::modes::weight_ratio;
-use super::words::Words;
+mod spindle;
+
+use super::collected::Words;
 use crate::diag::Condition;
-use crate::exec::commands::keys::{arguments, between};
+use crate::exec::commands::keys::arguments;
+use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::dynamics::Weight;
-use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
-use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
-use std::mem::discriminant;
-
-/// Beginnings of further words of spindle brackets that the manual knows. Source: TF5200 programming manual, programming in
-/// spindle-specific syntax.
-const OTHER_WORDS: &[&str] = &[
-    "OVERRIDE",
-    "CALLAX",
-    "PUTAX",
-    "SYNC",
-    "LINK",
-    "FEED_LINK",
-    "TRANS",
-    "DYNAMIC",
-    "MC_",
-    "G74",
-    "G112",
-    "G131",
-    "G132",
-    "G133",
-    "G134",
-    "G230",
-    "G231",
-    "G233",
-];
+use crate::syntax::ast::{Bracket, Group, Item, ItemKind, Span};
 
 /// Words that belong to the functions of an axis and cannot come before them (21301).
 const OF_FUNCTIONS: &[&str] = &[
@@ -65,26 +40,6 @@ const OF_FUNCTIONS: &[&str] = &[
     "NBR_OSC",
     "OFFSET",
 ];
-
-/// What one item of a spindle bracket means.
-enum SpindleItem {
-    /// M3, M4, M5, M19.
-    Turn(u32),
-    /// REV=, SPEED=.
-    Speed(f64),
-    /// POS=.
-    Position(f64),
-    /// G130=.
-    Acceleration(f64),
-    /// G135, G137.
-    Feedforward(bool),
-    /// G136=.
-    Weight(f64),
-    /// M or H function of the user.
-    Function(Function),
-    /// G167.
-    FullOverride,
-}
 
 arguments! {
     /// Keys of `#OVERRIDE` and `X[OVERRIDE]`.
@@ -204,212 +159,6 @@ impl Decoder {
             Function::H(number) => self.contour.event(Event::HFunction { number, value: None }),
             Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => {}
         }
-    }
-
-    fn spindle_bracket(
-        &mut self,
-        spindle: usize,
-        bracket: &Bracket,
-        words: &Words<'_>,
-    ) -> Outcome<()> {
-        let group = &bracket.group;
-        let functions: Vec<_> = group.items.iter().filter_map(function).collect();
-        once(&functions, bracket, words)?;
-        let mut items = Vec::new();
-        let mut unknown = None;
-        for item in &group.items {
-            match self.spindle_item(item) {
-                _ if matches!(item.kind, ItemKind::Missing) => {}
-                Ok(known) => items.push((known, item.span)),
-                Err(fault) => unknown = unknown.or(Some(fault)),
-            }
-        }
-        let feedforward =
-            |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
-        let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
-        if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
-            return Err(Fault::new(
-                Condition::SpindleFeedforwardTwice,
-                "G136 twice for one spindle",
-                *span,
-            ));
-        }
-        let some = items.iter().find(|(i, _)| feedforward(i));
-        let other = items.iter().find(|(i, _)| !feedforward(i));
-        let weight = items.iter().find(|(i, _)| matches!(i, SpindleItem::Acceleration(_)));
-        if let (Some(_), Some((_, span))) = (some, weight) {
-            let text = "feedforward and G130 in one bracket exclude each other";
-            return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
-        }
-        if let (Some(_), Some((_, span))) = (some, other) {
-            let text = "feedforward needs a separate bracket, without other commands";
-            return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
-        }
-        for (i, (item, span)) in items.iter().enumerate() {
-            let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
-            let several = matches!(item, SpindleItem::Function(_));
-            // M3 and M4 are the direction of M19
-            let directs = |(other, _): &(SpindleItem, Span)| {
-                matches!(
-                    (item, other),
-                    (SpindleItem::Turn(19), SpindleItem::Turn(3 | 4))
-                        | (SpindleItem::Turn(3 | 4), SpindleItem::Turn(19))
-                )
-            };
-            if !several && items[..i].iter().any(|other| same(other) && !directs(other)) {
-                let text = "two words of a spindle bracket that set the same";
-                let condition = match item {
-                    SpindleItem::Turn(_) => Condition::SpindleMTwice,
-                    SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
-                    SpindleItem::Position(_) => Condition::SpindlePositionTwice,
-                    _ => Condition::DuplicateGroup,
-                };
-                return Err(Fault::new(condition, text, *span));
-            }
-        }
-        // M3 beside M4 is wrong whatever else there is (20155 prints an unknown word beside them)
-        if let Some(unknown) = unknown {
-            return Err(unknown);
-        }
-        let motion = |i: &SpindleItem| matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_));
-        let moves = items.iter().any(|(i, _)| motion(i));
-        let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
-        // one event for the whole bracket, in whatever order its words come: M3 is the direction of M19
-        items.sort_by_key(|(i, _)| match i {
-            SpindleItem::Turn(19) => 0,
-            SpindleItem::Turn(_) => 1,
-            _ => 2,
-        });
-        let positions = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(19)));
-        for (item, span) in items {
-            self.spindle_action(spindle, &item, positions, span)?;
-        }
-        let state = &self.motion.spindles[spindle];
-        if moves
-            && (turns || state.turning != Turning::Stopped)
-            && let Some(event) = state.motion_event()
-        {
-            self.contour.event(event);
-        }
-        self.spindle_warning(spindle, group.span);
-        Ok(())
-    }
-
-    fn spindle_item(&self, item: &Item) -> Outcome<SpindleItem> {
-        let unknown = |shown: &str| {
-            let text = format!("unknown word `{shown}` in a spindle bracket");
-            Fault::new(Condition::SpindleToken, text, item.span)
-        };
-        if let Some((function, _)) = function(item) {
-            return Ok(SpindleItem::Function(function));
-        }
-        let (word, value) = match &item.kind {
-            ItemKind::Flag(word) => match word.split_number() {
-                Some((name, number))
-                    if ["REV", "SPEED", "POS"].iter().any(|n| name.eq_ignore_ascii_case(n)) =>
-                {
-                    (name.to_ascii_uppercase(), Some(number))
-                }
-                _ => (word.text.to_ascii_uppercase(), None),
-            },
-            ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
-                (key.text.to_ascii_uppercase(), Some(self.number(expr)?))
-            }
-            ItemKind::Pair { key, .. } => return Err(unknown(&key.text)),
-            ItemKind::Value(_) | ItemKind::Target { .. } | ItemKind::Missing => {
-                return Err(unknown("value"));
-            }
-        };
-        Ok(match (word.as_str(), value) {
-            ("M3" | "M03", None) => SpindleItem::Turn(3),
-            ("M4" | "M04", None) => SpindleItem::Turn(4),
-            ("M5" | "M05", None) => SpindleItem::Turn(5),
-            ("M19", None) => SpindleItem::Turn(19),
-            ("REV" | "SPEED", Some(x)) => SpindleItem::Speed(x),
-            ("POS", Some(x)) => SpindleItem::Position(x),
-            ("G135", None) => SpindleItem::Feedforward(true),
-            ("G137", None) => SpindleItem::Feedforward(false),
-            ("G136", Some(x)) => SpindleItem::Weight(x),
-            ("G130", Some(x)) => SpindleItem::Acceleration(x),
-            // no override from outside acts on spindles
-            ("G167", None) => SpindleItem::FullOverride,
-            (other, _) if OTHER_WORDS.iter().any(|w| other.starts_with(w)) => {
-                let name = format!("{other} in a spindle bracket");
-                return Err(Fault::unsupported(name, item.span));
-            }
-            (other, _) => return Err(unknown(other)),
-        })
-    }
-
-    /// `positions`: the bracket contains M19.
-    fn spindle_action(
-        &mut self,
-        spindle: usize,
-        item: &SpindleItem,
-        positions: bool,
-        span: Span,
-    ) -> Outcome<()> {
-        match *item {
-            SpindleItem::Turn(number) => {
-                let state = &mut self.motion.spindles[spindle];
-                let directs =
-                    matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;
-                state.turning = if directs {
-                    state.turning.with_direction(number)
-                } else {
-                    Turning::of(number)
-                };
-                if let Some(index) = self.motion.spindles[spindle].index {
-                    self.takes_time(Function::Spindle { spindle: index, m: number });
-                }
-            }
-            SpindleItem::Function(function) => self.call_function(function),
-            SpindleItem::FullOverride => {}
-            SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
-                let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
-                let condition =
-                    if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
-                return Err(Fault::new(condition, text, span));
-            }
-            SpindleItem::Speed(rpm) => {
-                self.set_spindle_speed(spindle, rpm, span);
-                if let Some(index) = self.motion.spindles[spindle].index {
-                    self.takes_time(Function::Speed { spindle: index });
-                }
-            }
-            SpindleItem::Position(deg) => {
-                self.motion.spindles[spindle].angle_deg = deg;
-            }
-            SpindleItem::Acceleration(percent) => {
-                let ratio = weight_ratio(Weight::Acceleration, (percent, span))?;
-                if ratio == 0.0 {
-                    let text = "G130=0: the spindle would never reach its speed";
-                    return Err(Fault::new(Condition::Range, text, span));
-                }
-                self.motion.spindles[spindle].acceleration_ratio = ratio;
-                if let Some(event) = self.motion.spindles[spindle].acceleration_event() {
-                    self.contour.event(event);
-                }
-            }
-            SpindleItem::Feedforward(on) => {
-                self.motion.spindles[spindle].feedforward = on;
-                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-                    self.contour.event(event);
-                }
-            }
-            SpindleItem::Weight(percent) if percent < 0.0 => {
-                let text = format!("feedforward weight {percent} % is negative");
-                return Err(Fault::new(Condition::FeedforwardNegative, text, span));
-            }
-            SpindleItem::Weight(percent) => {
-                let percent = self.limited_weight(percent, span);
-                self.motion.spindles[spindle].weight_ratio = percent / 100.0;
-                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-                    self.contour.event(event);
-                }
-            }
-        }
-        Ok(())
     }
 }
 

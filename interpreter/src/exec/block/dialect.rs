@@ -1,6 +1,6 @@
 //! Words that other controls give another meaning: what this dialect means by them.
 
-use super::words::{Code, Words};
+use super::collected::{Code, Words};
 use crate::diag::{Condition, Id};
 use crate::exec::fault::Fault;
 use crate::syntax::ast::Span;

@@ -6,10 +6,10 @@
 mod functions;
 mod offsets;
 
+use super::collected::{CycleCall, GWord, Placed, Words};
 use super::groups::{Act, Group};
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane};
 use super::modes::weight_ratio;
-use super::words::{CycleCall, GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::axes::jog_speeds;
 use crate::exec::contour::insertion::Kind;

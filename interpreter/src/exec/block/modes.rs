@@ -1,8 +1,8 @@
 //! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
 
+use super::collected::{GWord, Placed, Words};
 use super::groups::{Act, Group};
 use super::modal::{Compensation, Selection};
-use super::words::{GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

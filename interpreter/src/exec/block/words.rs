@@ -3,10 +3,7 @@
 //! Assignments act while the words are collected, so that a value sees the assignments written before it. Everything
 //! else acts afterwards, in the order that [`super::din`] keeps.
 
-mod collected;
-
-pub(in crate::exec) use collected::{Code, CycleCall, GWord, Placed, Words};
-
+use super::collected::{Code, CycleCall, GWord, Words};
 use super::groups::{self, Act, Group, Row, ValueRule};
 use super::modal::Selection;
 use crate::diag::{Condition, ValueKind};

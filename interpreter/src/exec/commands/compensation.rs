@@ -2,7 +2,8 @@
 //!
 //! Source: TF5200 programming manual, programmable additional options of TRC.
 
-use super::keys::{arguments, at_least, between};
+use super::keys::arguments;
+use super::range::{at_least, between};
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::modal::Compensation;

@@ -1,11 +1,12 @@
 //! Keys of the brackets: one description per command, from which its arguments are read into a struct, checked, and
 //! explained.
 
+use super::range::Range;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
-use crate::exec::values::number::{as_number, is_whole};
+use crate::exec::values::number::as_number;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// The arguments of a command: a struct with one field per key, and the description of the keys.
@@ -76,81 +77,6 @@ pub(crate) enum KeyKind {
     Word,
     /// Nothing.
     Flag,
-}
-
-/// A range of numbers and the condition of those outside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Range {
-    low: f64,
-    high: f64,
-    /// The lower end does not belong to it.
-    open: bool,
-    /// Fractions do not belong to it.
-    whole: bool,
-    condition: Condition,
-}
-
-/// From `low` to `high`.
-pub(in crate::exec) const fn between(low: f64, high: f64) -> Range {
-    Range { low, high, open: false, whole: false, condition: Condition::Range }
-}
-
-/// From `low` upwards.
-pub(in crate::exec) const fn at_least(low: f64) -> Range {
-    between(low, f64::MAX)
-}
-
-/// Above 0.
-pub(in crate::exec) const fn above_zero() -> Range {
-    Range { open: true, ..at_least(0.0) }
-}
-
-/// Above 0, up to `high`.
-pub(in crate::exec) const fn above_zero_to(high: f64) -> Range {
-    Range { open: true, ..between(0.0, high) }
-}
-
-impl Range {
-    /// Another condition than 21296, K-RANGE in the bracket of an axis.
-    pub(in crate::exec) const fn or(self, condition: Condition) -> Self {
-        Self { condition, ..self }
-    }
-
-    /// Whole numbers alone.
-    pub(in crate::exec) const fn whole(self) -> Self {
-        Self { whole: true, ..self }
-    }
-
-    fn contains(&self, x: f64) -> bool {
-        (self.low..=self.high).contains(&x)
-            && !(self.open && x <= self.low)
-            && (!self.whole || is_whole(x))
-    }
-
-    /// For the message of a wrong value.
-    fn allowed(&self) -> String {
-        let Self { low, high, .. } = self;
-        if self.whole {
-            return format!("the whole numbers {low} to {high}");
-        }
-        match (self.open, *high < f64::MAX) {
-            (true, false) => format!("values above {low}"),
-            (true, true) => format!("values above {low}, up to {high}"),
-            (false, false) => format!("{low} upwards"),
-            (false, true) => format!("{low} to {high}"),
-        }
-    }
-
-    /// For `explain`.
-    fn short(&self) -> String {
-        let Self { low, high, .. } = self;
-        match (self.open, *high < f64::MAX) {
-            (true, false) => format!("above {low}"),
-            (true, true) => format!("above {low} to {high}"),
-            (false, false) => format!(">= {low}"),
-            (false, true) => format!("{low}..{high}"),
-        }
-    }
 }
 
 /// A key that a command knows.

@@ -2,7 +2,8 @@
 //!
 //! Source: TF5200 programming manual; 21232 for an unknown format.
 
-use super::keys::{arguments, between};
+use super::keys::arguments;
+use super::range::between;
 use super::row::{Call, Row};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::decoder::Decoder;
@@ -92,7 +93,7 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Replaces `%d`, `%f`, `%s` by the values in turn.
 fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Outcome<String> {
     let mut text = String::new();
-    // behind a comma a value is expected, which a list without any cannot tell from one without a comma
+    // a value is expected after a comma; an empty list looks the same with and without one
     let missing = if values.is_empty() { Condition::MessageValue } else { Condition::MessageCount };
     let mut values = values.iter();
     let mut chars = format.chars();

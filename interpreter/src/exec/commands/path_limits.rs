@@ -2,7 +2,8 @@
 //!
 //! Source: TF5200 programming manual.
 
-use super::keys::{above_zero, arguments};
+use super::keys::arguments;
+use super::range::above_zero;
 use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;

@@ -37,7 +37,7 @@ pub(crate) struct Row {
     pub(crate) related: &'static [&'static str],
     /// Most brackets after the name; what its function does not look at must not be written.
     brackets: usize,
-    /// Values may stand there without a bracket.
+    /// Values may follow the name without a bracket.
     values: bool,
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Source: TF5250 Vibration Guard; TF5200 FIR filter and axis filters (HSC).
 
-use super::keys::{above_zero_to, arguments, at_least, between};
+use super::keys::arguments;
+use super::range::{above_zero_to, at_least, between};
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;

@@ -2,7 +2,8 @@
 //!
 //! Source: TF5200 programming manual; 21629 for an unknown type.
 
-use super::keys::{arguments, between};
+use super::keys::arguments;
+use super::range::between;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;

@@ -5,7 +5,7 @@
 use super::keys::arguments;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::words::Words;
+use crate::exec::block::collected::Words;
 use crate::exec::contour::akima::Transition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -2,7 +2,8 @@
 //!
 //! Source: TF5200 programming manual, settings for turning functions.
 
-use super::keys::{arguments, between};
+use super::keys::arguments;
+use super::range::between;
 use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;

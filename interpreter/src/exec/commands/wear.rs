@@ -2,12 +2,13 @@
 //!
 //! Source: TF5200 online tool compensation, programming (213655947).
 
-use super::keys::{arguments, at_least, between};
+use super::keys::arguments;
+use super::range::{at_least, between};
 use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::wear::WearSource;
+use crate::exec::motion::state::wear::WearSource;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 

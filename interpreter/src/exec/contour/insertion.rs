@@ -4,8 +4,8 @@
 //! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
 //! transition.
 //!
-//! The feed is that of `#FRC`, else the E word of the motion in front (206811147). Assumption: without them it is that of the motion
-//! behind, also rapid; the English page names that motion, an older German one the motion in front.
+//! The feed is that of `#FRC`, else the E word of the motion before (206811147). Assumption: without them it is that of the next
+//! motion, also rapid; the English page names that motion, an older German one the motion before.
 
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;

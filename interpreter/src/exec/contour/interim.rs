@@ -1,5 +1,5 @@
-//! Corners of `#CONTOUR MODE [POS ..]`: their curves lead through a point of their own, and so leave the way that the ends of
-//! the motions bound. The curves of the other modes lie between the corner and its sides.
+//! Corners of `#CONTOUR MODE [POS ..]`: their curves lead through an interim point, and so leave the range between the ends
+//! of the motions. The curves of the other modes lie between the corner and its sides.
 //!
 //! A copy of what goes out goes through the stage that makes the curves, as it does again in front of the planner.
 
@@ -82,7 +82,7 @@ impl Interim {
                 }
             }
         }
-        // they are told in front of the planner
+        // they are reported before the planner
         drop(self.stage.take_notices());
         driven
     }

@@ -79,7 +79,7 @@ pub(in crate::exec) enum CornerFeed {
 }
 
 impl Motion {
-    /// Feed of an element that is inserted behind the motion: the E word of its block, if it has one.
+    /// Feed of an element that is inserted after the motion: the E word of its block, if it has one.
     ///
     /// Source: TF5200 programming manual 206811147. Assumption: E0 ends the block at rest and is no feed.
     pub(in crate::exec) fn feed_behind(&self) -> Feed {
@@ -89,7 +89,7 @@ impl Motion {
         }
     }
 
-    /// It is a step as it stands.
+    /// It is a step without further work.
     pub(super) fn is_complete(&self) -> bool {
         self.compensation.is_none()
             && self.tilt.is_none()
@@ -100,7 +100,7 @@ impl Motion {
     /// Feed of an element that is inserted beside the motion.
     ///
     /// Assumption: under G93, where F is the time of the programmed motion, its speed on the programmed way; an element with a time
-    /// of its own would almost stop the path at every corner.
+    /// assigned to it would almost stop the path at every corner.
     pub(super) fn feed_beside(&self) -> Feed {
         match self.block.feed {
             Feed::Duration(time_s) => Feed::PathVelocity(self.block.path.length() / time_s),
@@ -151,7 +151,7 @@ impl Motion {
 }
 
 /// Ends of a path in the coordinates of a tilt. What differs by rounding alone is made equal, so that an axis of the
-/// system that stands still does so exactly.
+/// system that is at rest is so exactly.
 pub(in crate::exec) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (AxisVec, AxisVec) {
     const ROUNDING_MM: f64 = 1e-9;
     let (start, mut end) = (tilt.local(start), tilt.local(end));

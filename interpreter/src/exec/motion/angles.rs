@@ -6,9 +6,9 @@
 //! Source: TF5200 programming manual, contour line programming; 21892, 21895, 21904, 21910.
 
 use crate::diag::Condition;
+use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
 use crate::exec::block::modal::PathMode;
-use crate::exec::block::words::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg};

@@ -1,10 +1,10 @@
 //! Centre, end and faults of a programmed arc.
 
-use super::PlaneImage;
+use super::plane::PlaneImage;
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::collected::{Placed, Words};
 use crate::exec::block::groups::Group;
 use crate::exec::block::modal::PathMode;
-use crate::exec::block::words::{Placed, Words};
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -1,6 +1,6 @@
 //! Edge banding: G108 and an M function that waits for the signal of the probe (MNE_SNS).
 //!
-//! The M function stands in a motion. Where the probe signals on this motion, the path drives `V.G.RW` further, stops, waits
+//! The M function is in the block of a motion. Where the probe signals on this motion, the path drives `V.G.RW` further, stops, waits
 //! until the axes are in their windows, calls the function, and continues to the target. Nothing moves beyond the block
 //! before that. G108 ends with it.
 //!
@@ -10,9 +10,9 @@
 //! position; the path stops at the end of this way, not after it.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::Compensation;
-use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::Function;

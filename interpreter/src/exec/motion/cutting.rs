@@ -1,6 +1,6 @@
 //! Turning with a constant cutting speed: G96, G97, G196.
 //!
-//! The simulation works the speed out anew in every cycle, from the distance of the tool to the turning centre; in rapid
+//! The simulation computes the speed in every cycle, from the distance of the tool to the turning centre; in rapid
 //! blocks the spindle keeps its speed. A feed per revolution (G95) follows it: a motion of the face turning axis is divided
 //! so that the speed changes by a hundredth from piece to piece.
 //!
@@ -10,9 +10,9 @@
 //! P-AXIS-00015; 20633, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
+use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::PathMode;
-use crate::exec::block::words::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{CuttingSpeed, Event};

@@ -1,8 +1,8 @@
 //! Feed and end velocity of a block.
 
 use crate::diag::Condition;
+use crate::exec::block::collected::Placed;
 use crate::exec::block::modal::{FeedType, PathMode};
-use crate::exec::block::words::Placed;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;

@@ -1,9 +1,9 @@
 //! Which feeds change along a motion (G13, G193, G293), and what cannot be combined with that.
 
 use crate::diag::Condition;
+use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
 use crate::exec::block::modal::{Compensation, FeedType};
-use crate::exec::block::words::Words;
 use crate::exec::contour::FeedCourse;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -9,7 +9,8 @@
 //! without its rests; the block after OSC OFF begins when the axis has stopped.
 
 use crate::diag::Condition;
-use crate::exec::commands::keys::{above_zero, arguments, at_least, between};
+use crate::exec::commands::keys::arguments;
+use crate::exec::commands::range::{above_zero, at_least, between};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};

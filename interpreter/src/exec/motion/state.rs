@@ -3,14 +3,15 @@
 pub(in crate::exec) mod coupling;
 mod cutting;
 pub(in crate::exec) mod measuring;
+pub(in crate::exec) mod wear;
 
 use self::coupling::Couplings;
 use self::cutting::Cutting;
 use self::measuring::Measuring;
+use self::wear::OnlineCompensation;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
-use super::wear::OnlineCompensation;
 use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
@@ -52,7 +53,7 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) contour_line: ContourLines,
     /// `#CORNER PARAM`.
     pub(in crate::exec) corner: Option<Corner>,
-    /// F word in force before the block in work.
+    /// F word in force before the current block.
     pub(in crate::exec) feed_before: Option<FeedWord>,
     /// G40 with G239: the tool is beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
@@ -146,7 +147,7 @@ pub(in crate::exec) struct Independent {
     pub(in crate::exec) way: AxisVec,
     /// Axes that may still be on their way: INDP_ASYN that nothing has joined.
     pub(super) open: Vec<usize>,
-    /// INDP_SYN of the block in work.
+    /// INDP_SYN of the current block.
     pub(super) synchronous: Vec<usize>,
 }
 

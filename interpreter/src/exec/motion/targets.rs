@@ -1,7 +1,7 @@
 //! Targets of a motion block: from its coordinate words to positions of the axes.
 
 use crate::diag::Condition;
-use crate::exec::block::words::Words;
+use crate::exec::block::collected::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
@@ -14,7 +14,7 @@ use kontur_motion::axis::AxisVec;
 type Targets = smallvec::SmallVec<[Target; 8]>;
 
 impl Decoder {
-    /// Takes the coordinate words over into the target; where the axes stood comes back.
+    /// Puts the coordinate words into the target; returns where the axes were.
     pub(super) fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
         for (axis, _, at) in &words.axes {
             self.moves_no_slave(*axis, *at)?;
@@ -75,7 +75,7 @@ impl Decoder {
             None => self.geometry.coordinates.program(targets.iter().copied()),
         }
         self.follow_masters();
-        // a slave stands on the path, also where the path begins
+        // a slave is on the path, also where the path begins
         for slave in self.motion.couplings.slaves() {
             start[slave] = self.geometry.coordinates.target()[slave];
         }

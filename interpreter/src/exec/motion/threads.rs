@@ -16,9 +16,9 @@
 //! 20007, 20032, 20635 to 20637, 21000, 21540.
 
 use crate::diag::{Condition, rounded};
+use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
 use crate::exec::block::modal::{Compensation, FeedType, PathMode};
-use crate::exec::block::words::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;

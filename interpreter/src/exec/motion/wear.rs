@@ -1,51 +1,14 @@
-//! Online tool compensation (`#OTC`): what a program has set, and what the simulation needs of it.
+//! Online tool compensation (`#OTC`): what the simulation needs of the setting.
 //!
 //! Source: TF5200 online tool compensation (213641867, 213655947, 213664139, 213718539, 213774347).
 
+use super::state::wear::WearSource;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{Event, WearSetting, WornPart};
 use crate::machine::ToolKind;
 use crate::syntax::ast::Span;
-
-/// Where the wear comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::exec) enum WearSource {
-    /// DISC: from outside.
-    Outside,
-    /// CONT: by the way that is driven.
-    Way,
-    /// AUTO: the sum.
-    Both,
-}
-
-/// What `#OTC` has set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) struct OnlineCompensation {
-    /// `#OTC ON`.
-    pub(in crate::exec) on: bool,
-    /// RADIUS; otherwise LENGTH.
-    pub(in crate::exec) radius: bool,
-    /// DISC, CONT, AUTO.
-    pub(in crate::exec) source: WearSource,
-    /// WEAR_CONST in mm of wear for a mm of way; `None`: that of the tool.
-    pub(in crate::exec) ratio: Option<f64>,
-    /// ACC_WEIGHT, above 0.
-    pub(in crate::exec) acceleration_ratio: f64,
-}
-
-impl Default for OnlineCompensation {
-    fn default() -> Self {
-        Self {
-            on: false,
-            radius: false,
-            source: WearSource::Both,
-            ratio: None,
-            acceleration_ratio: 1.0,
-        }
-    }
-}
 
 impl Decoder {
     /// Hands the setting over to the simulation: `#OTC ON`, or other tool data while it is on.

@@ -9,23 +9,9 @@
 //! Assumption: a system of `#CS` that the cycle leaves open, or closes, keeps the zero offset that it has; G69 in a cycle stays,
 //! as G68 has values.
 
+use super::state::BeforeCycle;
 use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
-
-/// State before a cycle.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct BeforeCycle {
-    modal: Modal,
-    systems: usize,
-    /// Zero-offset group, and whether G159 selected it.
-    zero_group: (u32, bool),
-    /// G135.
-    feedforward: bool,
-    /// G151.
-    spline: bool,
-    /// The same of the cycle around.
-    retains: bool,
-}
 
 impl Decoder {
     pub(super) fn enter_cycle(&mut self) -> BeforeCycle {

@@ -2,11 +2,12 @@
 
 use super::actual::needs_actual;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
+use super::unusable::{FileError, is_foreign};
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::step::Sync;
-use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
-use crate::syntax::ast::{Block, Body, LabelKind, Span};
+use crate::source::{BlockReader, Position, RawBlock, Sources};
+use crate::syntax::ast::{Block, LabelKind, Span};
 use crate::syntax::macros;
 use crate::syntax::{Parser, Plain, PlainFrame, PlainWord};
 use std::collections::BTreeMap;
@@ -95,77 +96,6 @@ pub(in crate::exec) struct Files {
     plain: Plain,
     /// File of a name as written in a program of a file.
     resolved: BTreeMap<(usize, Box<str>), usize>,
-}
-
-/// Why a file could not be opened.
-#[derive(Debug)]
-pub(in crate::exec) enum FileError {
-    Open(OpenError),
-    Read(io::Error),
-    /// Most of its text is not of the language; the name of the file.
-    Foreign(Arc<str>),
-}
-
-impl FileError {
-    /// K-0013 for a file that is called `name` in the program, with a hint.
-    pub(super) fn text(self, name: &str) -> (String, Option<String>) {
-        match self {
-            Self::Open(e) => {
-                let searched = format!("searched: {}", e.searched.join(", "));
-                let hint = if is_vendor_cycle(&e.name) {
-                    format!(
-                        "a cycle of the vendor's library, which is not part of kontur: copy it from the control; {searched}"
-                    )
-                } else {
-                    searched
-                };
-                (format!("{}: {}", e.name, e.reason), Some(hint))
-            }
-            Self::Read(e) => (format!("{name}: {e}"), None),
-            Self::Foreign(file) => {
-                let hint = format!("`check {file}` shows what is wrong with its lines");
-                (format!("{name}: most of its lines are no NC blocks"), Some(hint))
-            }
-        }
-    }
-}
-
-/// True for `SysDrill1.ecy` and the like: cycles of the drilling, milling and measuring libraries.
-fn is_vendor_cycle(name: &str) -> bool {
-    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
-    let head = file.get(..3).is_some_and(|head| head.eq_ignore_ascii_case("sys"));
-    let tail = file.rsplit_once('.').is_some_and(|(_, tail)| tail.eq_ignore_ascii_case("ecy"));
-    head && tail
-}
-
-/// Blocks of a called file by which it is judged.
-const JUDGED_MAX: u32 = 64;
-
-/// True if most blocks at the beginning of a file are not NC blocks: its text is not for messages.
-fn is_foreign(reader: &mut BlockReader, name: &Arc<str>, parser: &Parser) -> io::Result<bool> {
-    reader.seek(Position::START);
-    let (mut judged, mut wrong, mut comment) = (0, 0, false);
-    let mut found = Vec::new();
-    let is_wrong = |found: &mut Vec<Diagnostic>| found.drain(..).any(|d| d.is_error());
-    while judged < JUDGED_MAX {
-        let Some(raw) = reader.next_block()? else { break };
-        // of what is too long nothing is known
-        if raw.text.trim_ascii().is_empty() || raw.characters > BLOCK_LENGTH_MAX {
-            continue;
-        }
-        let block = parser.block(&raw, name, &mut found);
-        let mut fails = is_wrong(&mut found);
-        if let Body::Command(command) = &block.body {
-            comment = (comment || command.is("COMMENT BEGIN")) && !command.is("COMMENT END");
-        }
-        if fails && !comment {
-            parser.declaration(&raw, name, &mut found);
-            fails = is_wrong(&mut found);
-        }
-        judged += 1;
-        wrong += u32::from(fails && !comment);
-    }
-    Ok(2 * wrong > judged)
 }
 
 impl Files {

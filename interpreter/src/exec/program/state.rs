@@ -1,8 +1,8 @@
 //! State of a program from block to block: its levels with their control blocks, its calls, its known numbers.
 
-use super::cycle_end::BeforeCycle;
 use super::index::{EntryId, Index, Keyword, Labels};
 use super::info::ProgramInfo;
+use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
 use crate::machine::Channel;
 use crate::source::Position;
@@ -57,6 +57,21 @@ pub(super) struct Counter {
     pub(super) place: Place,
     pub(super) end: f64,
     pub(super) step: f64,
+}
+
+/// State before a cycle.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct BeforeCycle {
+    pub(super) modal: Modal,
+    pub(super) systems: usize,
+    /// Zero-offset group, and whether G159 selected it.
+    pub(super) zero_group: (u32, bool),
+    /// G135.
+    pub(super) feedforward: bool,
+    /// G151.
+    pub(super) spline: bool,
+    /// The same of the cycle around.
+    pub(super) retains: bool,
 }
 
 /// What calls own: subroutines that words call, and what is called after every block.

@@ -68,6 +68,6 @@ fn offsets_of_all_axes_are_set_at_once() {
         [10.0, 21.0, 32.0],
     );
     assert_end(&format!("{text}V.G.NP[3].ALL = 4\nG56 X0 Y0 Z0"), [4.0, 4.0, 4.0]);
-    // ALL is not a value of its own
+    // ALL is not a separate value
     assert!(!run("P1=V.G.NP[1].ALL\nM30\n").diagnostics.is_empty());
 }

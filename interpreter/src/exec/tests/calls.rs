@@ -334,7 +334,7 @@ fn repeated_block_sequences() {
     assert_eq!(run.end, [2.0, 2.0, 5.0]);
     let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N10 ENDTAG]\nM30\n");
     assert_eq!(run.end, [2.0, 1.0, 0.0]);
-    // loops inside are left in order, and begin anew with every pass
+    // loops inside are left in order, and start again with every pass
     let run = clean(
         "G91 F1000\nN10 G01\n$FOR P1=1,2,1\nX1\n$ENDFOR\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=2]\nM30\n",
     );
@@ -352,7 +352,7 @@ fn local_cycles_need_no_blank() {
     assert_eq!(run.end[0], 4.0);
 }
 
-/// G functions that stand alone are back at the end of a cycle, those with values or axes stay (P-CHAN-00210, 476043659).
+/// G functions without values are restored at the end of a cycle, those with values or axes stay (P-CHAN-00210, 476043659).
 #[test]
 fn what_a_cycle_changes() {
     let table = "V.G.NP[1].V.X=100\nV.G.NP[2].V.X=10\nF1000\nG54\n";
@@ -394,7 +394,7 @@ fn what_a_cycle_changes() {
     assert_eq!(x("P1=V.G.CYCLE_CHANGES_MODAL G92 XP1", "G55"), 101.0);
 }
 
-/// Source: channel parameters 476043659. G135 and G151 stand alone; G136 has axis names and stays.
+/// Source: channel parameters 476043659. G135 and G151 have no values; G136 has axis names and stays.
 #[test]
 fn the_end_of_a_cycle_gives_feedforward_and_splines_back() {
     let last = |before: &str, cycle: &str| {

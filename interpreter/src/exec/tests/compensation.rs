@@ -253,7 +253,7 @@ fn what_inside_corner_selection_does_not_allow() {
     let square = "G01 X0 Y0\nX20\nY20\nX0\nY0";
     let id = |text: &str| said(&format!("{TOOL}G00 X5 Y5\n{text}"));
     assert_eq!(id(&format!("G238 G41 {square}\nG40 X5 Y5")), [""; 0]);
-    // outside of the square the corner is none of the inside
+    // seen from outside of the square the corner is not an inner one
     assert_eq!(id(&format!("G238 G42 {square}\nG40 X5 Y5")), ["K-0115"]);
     assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nY20\nG40 X5 Y5"), ["K-0115"]);
     assert_eq!(id("G238 G41 G01 X0 Y0\nG02 I5\nG40 G01 X5 Y5"), ["K-0115"]);

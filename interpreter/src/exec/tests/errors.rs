@@ -367,17 +367,13 @@ fn brackets_and_values_that_a_command_does_not_take() {
     }
 }
 
-/// Axis exchanges as 20535, 20684, 21256 and 21260 print them: two axes of one name moved the second one, silently.
+/// Two axes of one name moved the second one, silently (21256). Other exchanges that are wrong are programs of the suite.
 #[test]
 fn axis_exchanges_are_checked() {
     for (text, id) in [
         ("#SET AX [X,1,0][X,2,1]", "21256"),
         ("#PUT AX [Z]\n#CALL AX [X,3,2]", "21256"),
-        ("#PUT AX [Z]\n#CALL AX [Z,3,0]", "21260"),
-        ("#CS ON [10,20,0,0,0,45]\n#PUT AX [X]", "20684"),
         ("#CS ADD [A][1]\n#CS SELECT [A]\n#SET AX [X,1,0]", "20684"),
-        ("G63 Z10 F1000 S100\n#SET AX [X,1,0]", "20535"),
-        ("#PUT AX [X]\nG41", "20136"),
     ] {
         let run = super::run(&format!("{text}\nM30\n"));
         assert_eq!(run.ids().last().map(String::as_str), Some(id), "{text}");
@@ -404,20 +400,14 @@ fn homing_takes_presets_back() {
     super::assert_near(&end("G74 Z1"), &[-80.0, -45.0, 0.0]);
 }
 
-/// Numbers that the pages of the mistakes print: 20032, 20083, 20637, 20721, 20995, 21167.
+/// Numbers that the pages of the mistakes print, beyond those of the suite: 20721, 20995.
 #[test]
 fn numbers_of_single_mistakes() {
     for (text, id) in [
-        ("D1 V.G.WZ_AKT.R=3", "20083"),
-        ("D1 V.G.WZ_AKT.L=3", "20738"),
-        ("G63 Z0 F100 S100", "20032"),
-        ("G63 G196 S1000 Z5 F100", "20637"),
         ("#MSG [\"%D %D\", 1]", "20721"),
         ("#MSG [\"%D\", 1, 2]", "20721"),
         ("#MSG [\"%D\", ]", "20726"),
-        ("#SIGNAL [ID=-1]", "20995"),
         ("#WAIT [ID=-1]", "20995"),
-        ("#TIMER START [ID=128]", "21167"),
     ] {
         let run = super::run(&format!("{text}\nM30\n"));
         assert!(run.ids().iter().any(|found| found == id), "{text}: {:?}", run.ids());

@@ -225,7 +225,7 @@ fn jumps_back_are_loops() {
         "P1=0 P2=0\n[A] P1=P1+1\n[B] P2=P2+1\n$IF P1<20 $GOTO [A]\n$IF P2<100 $GOTO [B]\nX P1 Y P2 F100\nM30\n",
     );
     assert_eq!(crossed.end[..2], [20.0, 100.0]);
-    // what a loop declares anew is read anew
+    // what a loop declares again is read again
     let macros = clean("P1=0\n\"M\" = \"1\"\n[A] P2=P2+\"M\" P1=P1+1\n\"M\" = \"10\"\n$IF P1<4 $GOTO [A]\nX P2 F100\nM30\n".replace("P1=0\n", "P1=0 P2=0\n").as_str());
     assert!((macros.end[0] - 31.0).abs() < 1e-12);
 }

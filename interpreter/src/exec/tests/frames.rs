@@ -137,7 +137,7 @@ fn offsets_belong_to_their_system() {
     assert_near(&end(&format!("G54\n{turned}G55\nX1 Y2")), &[97.0, 8.0, 0.0]);
     assert_near(&end(&format!("G54\n{turned}G53\nX1 Y2")), &[98.0, 1.0, 0.0]);
     assert_near(&end(&format!("G92 Y3\n{turned}G91 G92 X5\nG90 X1 Y2")), &[-2.0, 9.0, 0.0]);
-    // a system on a system with an offset: the second one stands where the offset leads
+    // a system on a system with an offset: the second one is placed where the offset leads
     let second = "#CS ON [10,0,0,0,0,90]\n";
     assert_near(&end(&format!("{turned}G92 X5\n{second}X1 Y2")), &[-1.0, 13.0, 0.0]);
     assert_near(&end(&format!("{turned}G92 X5\n{second}G92 Y4\nX1 Y2")), &[-1.0, 9.0, 0.0]);

@@ -22,7 +22,7 @@ fn frc_counts_as_the_f_word_does() {
     assert_eq!(rounded("G93 F2", "#FRC=3", "G01"), expected);
     let expected = [0.1, 0.05, 0.1].map(ShareOfMaximum);
     assert_eq!(rounded("G194 F10", "#FRC=5", "G01"), expected);
-    // also where the motion behind is rapid
+    // also if the next motion is rapid
     assert_eq!(rounded("F600", "#FRC=300", "G00"), [v(10.0), v(5.0), Rapid]);
     assert_eq!(rounded("F600", "", "G00"), [v(10.0), Rapid, Rapid]);
     assert_eq!(said("F600\nG01 X20\nG302 I5 #FRC=0\nG01 Y20")[0], "K-0009");
@@ -38,7 +38,7 @@ fn an_inserted_element_has_no_time_of_its_own() {
     assert_eq!(around[1..4], [Duration(2.0), v, Duration(2.0)]);
 }
 
-/// What compensation inserts has the feed of the motion in front of it, whatever comes behind: arcs and lines.
+/// What compensation inserts, arcs and lines, has the feed of the motion before it, whatever follows.
 #[test]
 fn corners_of_compensation_keep_the_feed_in_front() {
     let around = |corners: &str, behind: &str| {
@@ -51,7 +51,7 @@ fn corners_of_compensation_keep_the_feed_in_front() {
         assert_eq!(arc[1..3], [PathVelocity(20.0); 2], "{behind}");
         assert!(arc[3] != PathVelocity(20.0), "{behind}: {arc:?}");
     }
-    // G93 in front: 20 mm in 2 s, rapid behind
+    // G93 before: 20 mm in 2 s, rapid after
     let text = "V.G.WZ_AKT.R=1\nG26 G42 G01 F600 X10\nG93 Y20 F2\nG00 X-10\nG01 G94 G40 X0 Y-5";
     assert_eq!(feeds(text)[1..4], [Duration(2.0), PathVelocity(10.0), Rapid]);
 }

@@ -18,7 +18,7 @@ fn feed_types() {
     assert_eq!(feeds("G93 F5 G01 X1\nX2"), [Feed::Duration(5.0), Feed::Duration(5.0)]);
     assert_eq!(feeds("M03 S1200 G95 F1.5 X1"), [Feed::PathVelocity(30.0)]);
     assert_eq!(feeds("G194 F50 X1"), [Feed::ShareOfMaximum(0.5)]);
-    // each type remembers its F, G93 wants a new one
+    // each type remembers its F, G93 needs a new one
     assert_eq!(
         feeds("F600 X1\nG93 F2 X2\nG94 X3"),
         [Feed::PathVelocity(10.0), Feed::Duration(2.0), Feed::PathVelocity(10.0)]
@@ -452,7 +452,6 @@ fn signals_of_the_own_channel() {
         ("#SIGNAL [ID=1 CH=1]\n#WAIT [ID=1]", "K-0018"),
         ("#WAIT [ID=1 CH=2]", "K-0018"),
         ("#SIGNAL [ID=1 P[12]=1]", "21220"),
-        ("#SIGNAL [ID=-1]", "20995"),
         ("#SIGNAL [CH=1]", "21220"),
         ("$FOR P1=1,2000,1\n#SIGNAL [ID=P1]\n$ENDFOR", "K-0009"),
     ] {

@@ -30,7 +30,6 @@ fn actual_positions_into_variables() {
 #[test]
 fn wrong_requests() {
     for (text, id) in [
-        ("#GET CMDPOS [P1=X P2=Y]", "20186"),
         ("#GET CMDPOS [V.L.POS1 X]", "20186"),
         ("#GET CMDPOS [X]", "20186"),
         ("#GET CMDPOS", "20186"),

@@ -5,7 +5,7 @@
 //! at most [`storage::ELEMENTS_MAX`] elements, so that a program cannot exhaust memory.
 
 mod declare;
-mod scopes;
+pub(super) mod scopes;
 mod storage;
 
 use super::number::{as_number, whole};
@@ -16,8 +16,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::{Access, External, Value};
 use crate::exec::suggest;
 use crate::syntax::ast::{Expr, ParameterIndex, Place, PlaceKind, Segment, Span};
-pub(in crate::exec) use scopes::Variables;
-use scopes::{Class, class};
+use scopes::{Class, Variables, class};
 use smallvec::SmallVec;
 use storage::{Owner, Variable};
 

@@ -101,7 +101,7 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
 
 /// NC code goes to the end of the line: brackets and `#` belong to it.
 ///
-/// Assumption: a `#` behind a blank and before one, and `/*`, begin a comment of the list.
+/// Assumption: a `#` between blanks, and `/*`, begin a comment of the list.
 fn code(rest: &str) -> &str {
     let ends = |text: &str| text.chars().next_back().is_none_or(char::is_whitespace);
     let begins = |text: &str| text.chars().next().is_none_or(char::is_whitespace);

@@ -105,7 +105,7 @@ impl Turning {
             let state = change.profile.at(change.at_s);
             (state.v_mm_s, state.a_mm_s2)
         });
-        // where the acceleration leaves no way, the change under way goes on
+        // where the acceleration leaves no room, the current change continues
         if let Some(profile) = limits().change_of_speed(v, a, target_deg_s.abs()) {
             self.change = Some(Change { profile, target_deg_s, sense, at_s: 0.0 });
         }

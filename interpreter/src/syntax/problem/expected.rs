@@ -11,7 +11,7 @@ pub(super) const COMMA: &str = "`,`";
 pub(super) const OPERATOR: &str = "an operator";
 pub(super) const END: &str = "the end of the block";
 
-/// What could have stood there, in the order of likelihood and without repetition.
+/// What could have been meant, in the order of likelihood and without repetition.
 pub(super) fn expected(rules: &[Rule]) -> Vec<&'static str> {
     let mut words: Vec<(u8, &'static str)> =
         rules.iter().filter_map(|rule| user_word(*rule)).collect();

@@ -120,7 +120,7 @@ fn nothing_is_nearer_than_the_nearest_point() {
             assert!(apart <= 1e-7 * path.length(), "{apart} of {}", path.length());
         }
         for cell in path.cells.iter() {
-            path.point(cell.piece, cell.sample(SAMPLES / 2), &mut q);
+            path.point(cell.piece, cell.middle(), &mut q);
             let middle = q.clone();
             for k in 0..=50 {
                 path.point(

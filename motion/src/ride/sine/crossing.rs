@@ -158,7 +158,7 @@ impl Join<'_> {
         None
     }
 
-    /// As [`Self::closest`], with the hill from the last cut to the next one planned anew.
+    /// As [`Self::closest`], with the hill from the last cut to the next one planned again.
     fn hill(&self, cut: usize, v0: f64) -> Option<Connection> {
         let last = self.base.checked_sub(1).and_then(|last| self.out.get(last));
         let hill = Hill {

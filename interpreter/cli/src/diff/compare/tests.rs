@@ -99,7 +99,7 @@ fn a_longer_pause_is_a_delay_of_the_rest() {
     }
 }
 
-/// Two traces that differ at their very end stand still afterwards: no delay explains that.
+/// Two traces that differ at their very end are at rest afterwards: no delay explains that.
 #[test]
 fn a_standstill_is_no_delay() {
     let rows = |end: f64| -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use super::After;
 use crate::diag::{Condition, rounded};
-use crate::exec::block::words::{Code, Words};
+use crate::exec::block::collected::{Code, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;

@@ -37,7 +37,7 @@ impl Closed {
         Self { approach, distance, items: Vec::new() }
     }
 
-    /// A motion of the contour; it comes back if it is the one that leaves it.
+    /// A motion of the contour; it is returned if it is the one that leaves it.
     pub(super) fn gather(&mut self, motion: Box<Motion>) -> Fallible<Option<Box<Motion>>> {
         if motion.tilt != self.approach.tilt {
             let what = "a change of the coordinate system during tool radius compensation";

@@ -20,7 +20,7 @@ pub(super) const NO_GROUP: u32 = u32::MAX;
 /// A coordinate system and the offsets in it.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
-    /// Where it stands in the system below, with the offsets of that one.
+    /// Its place in the system below, with the offsets of that one.
     pub(super) system: Frame,
     /// The number that it is stored under; `None` without one.
     number: Option<u32>,

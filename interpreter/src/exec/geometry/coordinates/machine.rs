@@ -7,7 +7,7 @@ use super::layer::{Layer, NO_GROUP};
 use super::{Coordinates, Rotation};
 use kontur_motion::axis::AxisVec;
 
-/// Frames and offsets that come back with `#MCS OFF`.
+/// Frames and offsets that `#MCS OFF` restores.
 #[derive(Clone, Debug)]
 pub(super) struct Suspended {
     applied: AxisVec,
@@ -24,7 +24,7 @@ pub(super) struct Suspended {
 }
 
 impl Suspended {
-    /// Coordinate systems that come back.
+    /// Coordinate systems that are restored.
     pub(super) fn systems(&self) -> &[Layer] {
         &self.systems
     }

@@ -18,7 +18,7 @@ pub(in crate::exec) struct Pair {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::exec::motion) struct Follower {
     pub(in crate::exec::motion) pair: Pair,
-    /// Where both stood when the group was switched on.
+    /// Where both were when the group was switched on.
     pub(in crate::exec::motion) master_mm: f64,
     pub(in crate::exec::motion) slave_mm: f64,
     /// Way of the slave at that time.

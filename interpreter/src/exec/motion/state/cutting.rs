@@ -1,7 +1,7 @@
 //! Constant cutting speed in force.
 
+use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::words::Words;
 use crate::exec::step::CuttingSpeed;
 
 /// G96, G97 and G196 in force.

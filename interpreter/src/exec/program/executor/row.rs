@@ -1,7 +1,7 @@
 //! Plain straight motions in a row: almost all of a long program.
 //!
-//! What the long way of a block looks for anew each time cannot have changed after a plain motion: macros, names, loops
-//! and levels change in other blocks only. So the next line is taken as it stands in the text; if it is anything but one
+//! What the long way of a block looks up each time cannot have changed after a plain motion: macros, names, loops
+//! and levels change in other blocks only. So the next line is taken as it is in the text; if it is anything but one
 //! more plain motion, nothing has happened and it goes the long way.
 
 use super::{Executor, State};
@@ -68,7 +68,7 @@ impl Executor {
         decoder.moves_straight(words).then_some(Ahead { number, file, at, next })
     }
 
-    /// Counts the block and makes it the one in work; false if the program ends in front of it.
+    /// Counts the block and makes it the current one; false if the program ends before it.
     fn begin_straight(&mut self, &Ahead { number, file, at, next }: &Ahead) -> bool {
         let counted = self.count_block();
         if counted {

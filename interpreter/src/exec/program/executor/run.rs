@@ -104,7 +104,7 @@ impl Executor {
         std::mem::take(&mut self.decoder.calls.macros_changed) || names
     }
 
-    /// What stands in `#RT CYCLE` is not executed.
+    /// The contents of `#RT CYCLE` are not executed.
     fn behind_real_time_cycle(&mut self, entry: Option<EntryId>) {
         let (Some(id), Some(level)) = (entry, self.levels.last()) else { return };
         let entry = level.index.entry(id);

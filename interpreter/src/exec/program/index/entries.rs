@@ -137,7 +137,7 @@ impl Entries {
         })
     }
 
-    /// The statements of a group with the partners that are found by going over them, up to [`NEAR`] others behind.
+    /// The statements of a group with the partners that are found by scanning up to [`NEAR`] others after them.
     fn found(&self, group: usize) -> Vec<Entry> {
         let first = (group * GROUP) as EntryId;
         let mut entries: Vec<Entry> =

@@ -5,7 +5,7 @@ use integer_encoding::VarInt;
 /// What follows each other in a group: a reader finds its place at the beginning of one and continues from there.
 pub(super) const GROUP: usize = 16;
 
-/// Numbers behind each other, the small ones in one byte.
+/// Numbers in a row, the small ones in one byte.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bytes(Vec<u8>);
 

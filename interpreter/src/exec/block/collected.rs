@@ -72,7 +72,7 @@ pub(in crate::exec) struct Words<'b> {
 }
 
 impl Words<'_> {
-    /// True if the axis word in place `i` is absolute; `modal` is the dimension that the block leaves behind.
+    /// True if the axis word in place `i` is absolute; `modal` is the dimension in force after the block.
     pub(in crate::exec) fn is_absolute(&self, i: usize, modal: bool) -> bool {
         let last = self.dimensions.iter().rfind(|(place, _)| *place <= i);
         last.map_or(modal, |(_, absolute)| *absolute)

@@ -1,0 +1,82 @@
+//! What a motion knows of the active plane: its axes, its place in space, the compensation in it.
+
+use crate::diag::Condition;
+use crate::exec::block::modal::{Compensation, Corners};
+use crate::exec::contour::Compensated;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
+use kontur_motion::path::Tilt;
+
+/// What a motion has to know of the active plane.
+pub(super) struct InPlane {
+    /// Its axes.
+    pub(super) plane: [usize; 2],
+    /// The coordinate system, if it lies askew to the axes.
+    pub(super) tilt: Option<Box<Tilt>>,
+    pub(super) compensation: Option<Compensated>,
+}
+
+/// The active plane in the frame.
+#[derive(Debug)]
+pub(super) struct PlaneImage {
+    /// Indices of its main axes; with a tilt, those of the coordinate system.
+    pub(super) main: [usize; 2],
+    pub(super) keeps_sense: bool,
+    /// The frame, if the plane lies askew to the axes.
+    pub(super) tilt: Option<Box<Tilt>>,
+}
+
+impl Decoder {
+    /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
+    pub(super) fn in_plane(&self, span: Span) -> Outcome<InPlane> {
+        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
+        let compensated =
+            self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
+        let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
+        if compensated && tilt.is_some() && self.motion.wear.on && self.motion.wear.radius {
+            let what = "#OTC [RADIUS] in a plane askew to the axes";
+            return Err(Fault::unsupported(what, span));
+        }
+        let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
+            if compensated {
+                let text = "the plane of the tool radius compensation has no axis in the channel";
+                return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+            }
+            return Ok(InPlane { plane: [0, 0], tilt, compensation: None });
+        };
+        let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
+        let radius = self.geometry.tools.active.radius_mm;
+        let compensation = compensated.then_some(Compensated {
+            distance_mm: if left { radius } else { -radius },
+            straight_corners: (self.modal.corners == Corners::Straight)
+                .then_some(self.modal.corner_stretch),
+            reverse: self.modal.turns_back,
+            perpendicular_change: self.modal.perpendicular_change,
+            selection: self.modal.selection,
+            engagement_radius_mm: self
+                .modal
+                .engagement_feed
+                .then_some(self.modal.engagement_radius_mm),
+        });
+        Ok(InPlane { plane: [first, second], tilt, compensation })
+    }
+
+    /// Where the frame puts the active plane.
+    pub(super) fn image_of_plane(&self, span: Span) -> Outcome<PlaneImage> {
+        let [a, b, _] = self.modal.plane.main_axes();
+        let frame = self.geometry.coordinates.frame();
+        if let Some((main, keeps_sense)) = frame.image_of_plane(a, b) {
+            return Ok(PlaneImage { main, keeps_sense, tilt: None });
+        }
+        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
+        let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
+            let text = "a coordinate system turned in space needs three main axes";
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+        };
+        let (axes, origin) = ([x, y, z], self.geometry.coordinates.to_machine([0.0; 3]));
+        let t_mm = std::array::from_fn(|i| origin[i] - self.motion.independent.way[axes[i]]);
+        let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
+        Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
+    }
+}

@@ -1,0 +1,168 @@
+//! Program levels: how programs, subroutines and cycles begin and end.
+
+use super::executor::Executor;
+use super::state::{Level, Passed};
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
+use crate::exec::fault::Fault;
+use crate::exec::step::EndReason;
+use crate::source::Position;
+use crate::syntax::ast::Span;
+use std::sync::Arc;
+
+impl Executor {
+    /// Enters a program.
+    pub(in crate::exec) fn push_level(
+        &mut self,
+        file: usize,
+        section: usize,
+        cycle: Option<Passed>,
+    ) {
+        let index = Arc::clone(&self.files.file(file).index);
+        let part = &index.sections[section];
+        let (at, end) = (part.start, part.end);
+        let info = &mut self.decoder.calls.info;
+        info.file = Arc::clone(&self.files.file(file).name);
+        info.program = part.name.clone().unwrap_or_else(|| Arc::clone(&info.file));
+        let saved = cycle.map(|passed| {
+            self.decoder.values.variables.enter_cycle(passed);
+            Box::new(self.decoder.enter_cycle())
+        });
+        if !self.levels.is_empty() {
+            self.decoder.values.variables.enter_level();
+        }
+        self.levels.push(Level {
+            file,
+            section,
+            index,
+            at,
+            end,
+            frames: Vec::new(),
+            cycle: saved,
+            declarations: false,
+            cut: false,
+            again: None,
+            begin: Position::START,
+            passes: 0,
+        });
+        self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
+    }
+
+    /// Leaves a subroutine.
+    fn pop_level(&mut self) {
+        let Some(level) = self.levels.pop() else { return };
+        self.decoder.values.variables.leave_level();
+        if let Some(before) = level.cycle {
+            self.decoder.values.variables.leave_cycle();
+            self.decoder.leave_cycle(*before);
+        }
+        if let Some(level) = self.levels.last() {
+            let info = &mut self.decoder.calls.info;
+            info.file = Arc::clone(&self.files.file(level.file).name);
+            let name = level.index.sections[level.section].name.clone();
+            info.program = name.unwrap_or_else(|| Arc::clone(&info.file));
+        }
+        self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
+    }
+
+    /// The text of a level ends.
+    pub(in crate::exec) fn level_ends(&mut self) {
+        self.open_blocks();
+        if let Some(level) = self.levels.last_mut()
+            && level.passes > 0
+        {
+            level.passes -= 1;
+            level.at = level.begin;
+            return;
+        }
+        if self.levels.len() > 1 {
+            self.pop_level();
+            return;
+        }
+        let cut = self.levels.last().is_some_and(|level| level.cut);
+        if !cut && !self.end_program_called {
+            let text = "the main program ends without M30 or M02";
+            let mut diagnostic = Diagnostic::new(Condition::NoEnd, text);
+            diagnostic.source = self.here(Span::default());
+            self.report(diagnostic);
+        }
+        self.decoder.moved = false;
+        self.finish();
+        self.settle(false);
+    }
+
+    /// The main program is over: the program of P-CHAN-00252 runs, once, before the end.
+    fn finish(&mut self) {
+        if let (Some(name), false) =
+            (self.decoder.machine.channel.end_program.clone(), self.end_program_called)
+        {
+            self.end_program_called = true;
+            while self.levels.len() > 1 {
+                self.pop_level();
+            }
+            if let Some(main) = self.levels.last_mut() {
+                main.frames.clear();
+            }
+            self.skip_to_level_end();
+            self.call_of_list(&name, "P-CHAN-00252", Span::default());
+            return;
+        }
+        self.contouring_at_end();
+        self.decoder.banding_ends();
+        self.end(EndReason::Finished);
+    }
+
+    /// 20375: control blocks that were entered have no end.
+    fn open_blocks(&mut self) {
+        let Some(level) = self.levels.last() else { return };
+        let open: Vec<_> = level
+            .frames
+            .iter()
+            .filter(|f| level.index.entry(f.open).end.is_none())
+            .map(|f| (f.keyword, level.index.entry(f.open)))
+            .collect();
+        let Some((keyword, entry)) = open.first().copied() else { return };
+        let closer = keyword.closer().map_or("", super::index::Keyword::text);
+        let text = format!("{} is not closed by {closer}", keyword.text());
+        let diagnostic = Diagnostic::new(Condition::OpenControlAtEnd, text)
+            .value(ValueKind::Current, open.len() as f64, "-")
+            .value(ValueKind::State, keyword.text(), "-")
+            .value(ValueKind::Expected, closer, "-");
+        let location = self.place(entry.position, entry.span);
+        self.report(match location {
+            Some(location) => diagnostic.at(location),
+            None => diagnostic,
+        });
+    }
+
+    /// 120206.
+    fn contouring_at_end(&mut self) {
+        if self.decoder.modal.contouring {
+            let text = "the program ends with contouring on";
+            let mut diagnostic =
+                Diagnostic::new(Condition::ContouringAtEnd, text).severity(Severity::Warning);
+            diagnostic.source = self.here(Span::default());
+            self.report(diagnostic);
+        }
+    }
+
+    /// M02, M30.
+    pub(in crate::exec) fn program_end(&mut self) {
+        self.open_blocks();
+        if self.levels.len() > 1 {
+            let text = "M02 or M30 inside a subroutine ends the whole program";
+            let fault = Fault::new(Condition::Odd, text, Span::default()).warning();
+            self.decoder.report.note(fault);
+        }
+        self.finish();
+    }
+
+    /// M17, M29; at the main level the end of the program.
+    pub(in crate::exec) fn return_from_level(&mut self) {
+        self.open_blocks();
+        if self.levels.len() > 1 {
+            self.pop_level();
+        } else {
+            self.finish();
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The point of a curve that is nearest to another point: samples of the sub-intervals that can hold it, then bisection and
+//! Newton beside the best of them.
+
+use super::{Cell, PolyPath};
+use crate::axis::AxisVec;
+use crate::path::piece::{PolyPiece, bend, slope, value};
+use smallvec::SmallVec;
+use std::cmp::Ordering;
+
+/// Samples per sub-interval in the search for the nearest point.
+const SAMPLES: usize = 8;
+
+impl Cell {
+    /// Parameter of the sample in the middle.
+    pub(super) fn middle(&self) -> f64 {
+        self.sample(SAMPLES / 2)
+    }
+
+    /// Parameter of sample `k` of [`SAMPLES`].
+    fn sample(&self, k: usize) -> f64 {
+        self.from + (self.to - self.from) / SAMPLES as f64 * k as f64
+    }
+}
+
+/// Bound of the distance of a piece between two parameters from its point in the middle: the Taylor polynomial there has
+/// the values `sum a_k t^k` with `|t|` up to half the width.
+pub(super) fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let of_axis = |c: &[f64; 6]| {
+        let mut a = *c;
+        // Horner once for each coefficient shifts the polynomial to the middle
+        for k in 0..a.len() {
+            for j in (k..a.len() - 1).rev() {
+                a[j] += middle * a[j + 1];
+            }
+        }
+        a[1..].iter().rev().fold(0.0, |sum, a| (sum + a.abs()) * half)
+    };
+    // rounding is far below the last part
+    piece.iter().map(of_axis).map(|r| r * r).sum::<f64>().sqrt() * (1.0 + 1e-9)
+}
+
+impl PolyPath {
+    pub(in crate::path) fn nearest(&self, point: &[f64]) -> f64 {
+        let (cell, x) = self.search(point);
+        let cell = &self.cells[cell];
+        cell.s + self.gauss(cell.piece, cell.from, x)
+    }
+
+    pub(in crate::path) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
+        let (i, x) = self.search(point);
+        let cell = &self.cells[i];
+        if i == 0 && x <= cell.from {
+            out.copy_from_slice(&self.start);
+        } else if i + 1 == self.cells.len() && x >= cell.to {
+            out.copy_from_slice(&self.end);
+        } else {
+            self.point(cell.piece, x, out);
+        }
+    }
+
+    /// Sub-interval and parameter of the nearest point.
+    fn search(&self, point: &[f64]) -> (usize, f64) {
+        let n = point.len();
+        let mut q = AxisVec::zeros(n);
+        let mut distance = |piece: usize, x: f64| -> f64 {
+            self.point(piece, x, &mut q);
+            q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
+        };
+        let step = |cell: &Cell| (cell.to - cell.from) / SAMPLES as f64;
+        // only these sub-intervals can hold the nearest sample: every point of the others is further away
+        let to_middle = |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
+        let middles: SmallVec<[f64; 64]> =
+            self.middles.chunks_exact(self.start.len()).map(to_middle).collect();
+        let within = middles.iter().copied().fold(f64::INFINITY, f64::min).sqrt() * (1.0 + 1e-9);
+        let mut best = (f64::INFINITY, 0, 0.0);
+        for (i, cell) in self.cells.iter().enumerate() {
+            let reach = within + cell.radius;
+            if middles[i] > reach * reach {
+                continue;
+            }
+            for k in 0..=SAMPLES {
+                let x = cell.sample(k);
+                let d = distance(cell.piece, x);
+                if d < best.0 {
+                    best = (d, i, x);
+                }
+            }
+        }
+        // a sample at the border of a sub-interval may have the nearest point in the next one
+        let (_, i, x) = best;
+        let mut nearest = (f64::INFINITY, i, x);
+        for j in i.saturating_sub(1)..(i + 2).min(self.cells.len()) {
+            let cell = &self.cells[j];
+            let step = step(cell);
+            let (low, high) = match j.cmp(&i) {
+                Ordering::Less => (cell.to - step, cell.to),
+                Ordering::Equal => ((x - step).max(cell.from), (x + step).min(cell.to)),
+                Ordering::Greater => (cell.from, cell.from + step),
+            };
+            let x = self.closest(cell.piece, point, low, high);
+            let d = distance(cell.piece, x);
+            if d < nearest.0 {
+                nearest = (d, j, x);
+            }
+        }
+        (nearest.1, nearest.2)
+    }
+
+    /// Zero of the derivative of the squared distance between two parameters, by bisection and Newton.
+    fn closest(&self, piece: usize, point: &[f64], low: f64, high: f64) -> f64 {
+        let slopes = |x: f64| -> (f64, f64) {
+            let (mut first, mut second) = (0.0, 0.0);
+            for (c, p) in self.pieces[piece].iter().zip(point) {
+                let (d0, d1, d2) = (value(c, x) - p, slope(c, x), bend(c, x));
+                first += d0 * d1;
+                second += d1 * d1 + d0 * d2;
+            }
+            (first, second)
+        };
+        if slopes(low).0 >= 0.0 {
+            return low;
+        }
+        if slopes(high).0 <= 0.0 {
+            return high;
+        }
+        let (mut low, mut high) = (low, high);
+        let mut x = 0.5 * (low + high);
+        for _ in 0..60 {
+            let (first, second) = slopes(x);
+            if first > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
+            let newton = x - first / second;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - x).abs() <= 1e-15 {
+                return next;
+            }
+            x = next;
+        }
+        x
+    }
+}
