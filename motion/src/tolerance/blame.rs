@@ -311,7 +311,7 @@ impl View<'_> {
         let (oldest, newest) = (at(kernel.length()), at(0));
         let length = v.vector.iter().map(|c| c * c).sum::<f64>().sqrt();
         let toward: AxisVec = v.vector.iter().map(|c| c / length).collect();
-        let mut curvature = AxisVec::zeros(marks[first].point.len());
+        let mut curvature = AxisVec::zeros(marks[first].point().len());
         let mut parts = Vec::new();
         for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
             if m > first && mark.is_kink() {
