@@ -1,12 +1,9 @@
 //! The programmed contour that is still within reach of the filters, and the distance of a set point from it.
 
-mod ball;
-
 use crate::axis::AxisVec;
 use crate::junction::TANGENT;
 use crate::path::{LinePath, Path};
 use crate::queue::Queued;
-use ball::Ball;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -43,8 +40,6 @@ pub(crate) struct Passed {
     pub(crate) queued: Arc<Queued>,
     /// It may have been entered faster than its feed (G901).
     pub(crate) above_feed: bool,
-    /// Holds the whole path of the block.
-    ball: Ball,
 }
 
 impl Passed {
@@ -80,8 +75,7 @@ impl Contour {
                 before.queued.brakes_late_into(&queued)
             }
         });
-        let ball = Ball::around(&queued.block.path);
-        self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed, ball });
+        self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed });
     }
 
     /// The block added last.
@@ -193,7 +187,7 @@ impl Contour {
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
         let mut blocks: SmallVec<[Candidate<'_>; 16]> = SmallVec::new();
         for (i, passed) in all.clone().zip(self.blocks.range(all)) {
-            if passed.ball.may_be_within(&middle, within(least) + ROUNDING_MM) {
+            if passed.queued.ball.may_be_within(&middle, within(least) + ROUNDING_MM) {
                 let (distance, counts) = (far(passed), among.contains(&i));
                 if counts {
                     least = least.min(distance);

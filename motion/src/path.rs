@@ -21,6 +21,7 @@
 //! ```
 
 mod arc;
+mod ball;
 mod extremes;
 mod line;
 pub(crate) mod piece;
@@ -28,6 +29,7 @@ mod poly;
 mod tilted;
 
 pub use arc::{ArcPath, ArcShape};
+pub(crate) use ball::Ball;
 pub use line::LinePath;
 pub use piece::{Coefficients, PolyPiece};
 pub use poly::PolyPath;

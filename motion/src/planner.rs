@@ -33,6 +33,7 @@ mod extend;
 mod feedhold;
 mod halt;
 mod replan;
+mod rests;
 mod sharp;
 
 use crate::axis::AxisVec;

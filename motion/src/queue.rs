@@ -18,7 +18,7 @@ use crate::block::{Block, Feed, SlopeKind};
 use crate::cap::Cap;
 use crate::junction::Ends;
 use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
-use crate::path::Path;
+use crate::path::{Ball, Path};
 use crate::profile::SlopeLimits;
 use crate::realtime::Override;
 use kontur_filters::time::CycleTime;
@@ -49,6 +49,8 @@ pub struct Queued {
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
     pub bend: f64,
+    /// Holds the whole path of the block.
+    pub(crate) ball: Ball,
     /// The block continues after the end of this part of it.
     pub(crate) goes_on: bool,
 }
@@ -87,6 +89,7 @@ impl Queued {
             ceiling,
             slope: table.path_slope(&x),
             bend: x.second.iter().copied().fold(0.0, f64::max),
+            ball: Ball::around(&block.path),
             goes_on: false,
             block,
         }

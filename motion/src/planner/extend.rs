@@ -17,6 +17,20 @@ use std::sync::Arc;
 /// Parts in which a span of the last plan becomes final where there is no new one.
 const FALL_BACK_PARTS: usize = 8;
 
+/// What a search for a plan ends in.
+pub(super) enum Searched {
+    /// A plan that keeps the tolerance.
+    Kept(Vec<Entry>),
+    /// Blocks to be planned in parts, see [`Verdict::Divided`].
+    Divided(Vec<(usize, Vec<Arc<Queued>>)>),
+    /// A plan that does not keep it after too many rounds, and the largest excess.
+    GivenUp(Vec<Entry>, Unkept),
+    /// No speed leads from the start to rest.
+    Infeasible(Infeasible),
+    /// No plan ends early enough.
+    TooLate,
+}
+
 impl Planner {
     /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
@@ -37,35 +51,34 @@ impl Planner {
         self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; window.len() + 1];
         let last_window = last_blocks(&window, self.window);
-        let mut last: Option<Vec<Entry>> = None;
+        let rests = end != SpeedLimit::Lookahead;
+        let mut last = None;
         let (mut round, mut given_up) = (0, false);
         loop {
-            let mut entries = match self.plan.place(&window, &forced, (start, end), self.cycle) {
-                Ok(entries) => entries,
-                Err(e) => return self.fall_back().ok_or(e),
-            };
-            let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
-            recall(&mut entries, before, self.cycle);
-            let verdict = self.verdict(&mut entries, round);
-            round += 1;
-            match verdict {
-                Verdict::Kept => {}
-                Verdict::Divided(parts) => {
+            let ends = (start, end);
+            let searched = self.search(&window, &forced, ends, last, &mut round, f64::INFINITY);
+            let mut entries = match searched {
+                Searched::Kept(entries) if round > 1 && !given_up => {
+                    let front = if rests { window.len() } else { last_window };
+                    self.rest_instead(&window, &forced, ends, entries, front)
+                }
+                Searched::Kept(entries) => entries,
+                Searched::Divided(parts) => {
                     self.plan.divide(parts);
                     return Ok(());
                 }
-                Verdict::Tightened => {
-                    last = Some(entries);
-                    continue;
-                }
+                Searched::Infeasible(e) => return self.fall_back().ok_or(e),
                 // the plan before this one keeps the tolerance
-                Verdict::GivenUp(_) if self.fall_back().is_some() => return Ok(()),
-                Verdict::GivenUp(unkept) => {
+                Searched::GivenUp(..) | Searched::TooLate if self.fall_back().is_some() => {
+                    return Ok(());
+                }
+                Searched::GivenUp(entries, unkept) => {
                     self.give_up(unkept);
                     given_up = true;
+                    entries
                 }
-            }
-            let rests = end != SpeedLimit::Lookahead;
+                Searched::TooLate => return Ok(()),
+            };
             if !rests {
                 self.part(&mut entries, last_window);
             }
@@ -83,6 +96,39 @@ impl Planner {
                 self.plan.demands = Demands::default();
             }
             return Ok(());
+        }
+    }
+
+    /// Plans and examines, and again with what the examination asks for, until the tolerance is kept. `last` is the plan before, of
+    /// the same blocks (the reserve if there is none), and `round` counts the plans. Gives up where a plan ends at `too_late` (cycles) or later: what is asked for
+    /// makes it only slower.
+    pub(super) fn search(
+        &mut self,
+        window: &[Arc<Queued>],
+        forced: &[bool],
+        ends: (Moment, SpeedLimit),
+        mut last: Option<Vec<Entry>>,
+        round: &mut usize,
+        too_late: f64,
+    ) -> Searched {
+        loop {
+            let mut entries = match self.plan.place(window, forced, ends, self.cycle) {
+                Ok(entries) => entries,
+                Err(e) => return Searched::Infeasible(e),
+            };
+            if entries.last().is_some_and(|e| e.end.cycles(self.cycle) >= too_late) {
+                return Searched::TooLate;
+            }
+            let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
+            recall(&mut entries, before, self.cycle);
+            let verdict = self.verdict(&mut entries, *round);
+            *round += 1;
+            match verdict {
+                Verdict::Kept => return Searched::Kept(entries),
+                Verdict::Divided(parts) => return Searched::Divided(parts),
+                Verdict::Tightened => last = Some(entries),
+                Verdict::GivenUp(unkept) => return Searched::GivenUp(entries, unkept),
+            }
         }
     }
 
@@ -135,21 +181,12 @@ impl Planner {
             let window = self.plan.window();
             self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
-            let mut last = Vec::new();
-            let mut round = 0;
-            let parts = loop {
-                let ends = (self.plan.start.moment, SpeedLimit::Stop);
-                let mut entries = self.plan.place(&window, &forced, ends, self.cycle).ok()?;
-                recall(&mut entries, &last, self.cycle);
-                match self.verdict(&mut entries, round) {
-                    Verdict::Kept => return Some(entries),
-                    Verdict::Divided(parts) => break parts,
-                    Verdict::Tightened => round += 1,
-                    Verdict::GivenUp(_) => return None,
-                }
-                last = entries;
-            };
-            self.plan.divide(parts);
+            let ends = (self.plan.start.moment, SpeedLimit::Stop);
+            match self.search(&window, &forced, ends, Some(Vec::new()), &mut 0, f64::INFINITY) {
+                Searched::Kept(entries) => return Some(entries),
+                Searched::Divided(parts) => self.plan.divide(parts),
+                Searched::GivenUp(..) | Searched::Infeasible(_) | Searched::TooLate => return None,
+            }
         }
     }
 

@@ -19,6 +19,7 @@ use super::measure::{Record, Violation};
 use super::tighten::{PATIENCE, hurry};
 use super::view::{Mark, View};
 use crate::axis::AxisVec;
+use crate::contour::SAME_START_MM;
 
 /// Points at which a bend is looked at.
 const BEND_POINTS: u32 = 6;
@@ -167,7 +168,7 @@ impl View<'_> {
             free(p) && p.size > 0.0 && p.size >= ALIKE * largest && !(p.bend && p.size <= sharpest)
         };
         let alike: Vec<&Part> = parts.iter().filter(counts).collect();
-        let even = self.even_speed(v, record);
+        let even = self.even_speed(v, record, demands);
         let apart = even * length as f64 * trial.cycle.seconds();
         let isolated = |i: usize| -> bool {
             let p = alike[i];
@@ -210,7 +211,12 @@ impl View<'_> {
                 findings.corner[0] = findings.corner[0].max(excess);
             }
             if !waits || all {
-                shared.marks.extend(first..last);
+                // behind a long rest the filters hold nothing of the block in front of it
+                let held = record.s(oldest);
+                let is_left = |m: &usize| {
+                    marks.get(m + 1).is_some_and(|next| next.s_mm <= held + SAME_START_MM)
+                };
+                shared.marks.extend((first..last).filter(|m| !is_left(m)));
             }
         }
         self.share(&shared, even, v, record, demands, findings);
@@ -311,7 +317,7 @@ impl View<'_> {
         let (oldest, newest) = (at(kernel.length()), at(0));
         let length = v.vector.iter().map(|c| c * c).sum::<f64>().sqrt();
         let toward: AxisVec = v.vector.iter().map(|c| c / length).collect();
-        let mut curvature = AxisVec::zeros(marks[first].point.len());
+        let mut curvature = AxisVec::zeros(marks[first].point().len());
         let mut parts = Vec::new();
         for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
             if m > first && mark.is_kink() {
@@ -342,14 +348,26 @@ impl View<'_> {
 
     /// Speed in mm/s at which the stretch of a violation, run through evenly, keeps the tolerance; at most the highest one
     /// planned there.
-    fn even_speed(&self, v: &Violation, record: &Record) -> f64 {
-        let Self { trial, .. } = self;
+    fn even_speed(&self, v: &Violation, record: &Record, demands: &Demands) -> f64 {
+        let Self { trial, marks, .. } = self;
         let fastest_planned = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
         let longest = trial.kernels.longest();
         let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest_planned };
         let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
         let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
-        let evenly = Evenly { contour: &self.contour, kernels: trial.kernels, cycle: trial.cycle };
+        // a run through a corner says nothing where the path rests there until the filters have let go of it
+        let full = trial.kernels.length();
+        let long = |m: &&Mark| {
+            m.boundary.is_some_and(|b| demands.stop[b].is_some_and(|dwell| dwell >= full))
+        };
+        let rests = || marks.iter().filter(long).map(|m| m.s_mm);
+        let (oldest, newest) = (at(full) + SAME_START_MM, at(0) - SAME_START_MM);
+        let between = (
+            rests().filter(|s| *s <= oldest).fold(f64::NEG_INFINITY, f64::max),
+            rests().filter(|s| *s >= newest).fold(f64::INFINITY, f64::min),
+        );
+        let (contour, kernels, cycle) = (&self.contour, trial.kernels, trial.cycle);
+        let evenly = Evenly { contour, kernels, cycle, between };
         let aim = aim(v.tolerance_mm);
         let least = LEAST * fastest_planned;
         fastest(fastest_planned / f64::from(1 << DOUBLINGS), least, fastest_planned, |speed| {

@@ -58,7 +58,7 @@ impl<'a> Companion<'a> {
             for ((p, a), b) in self.point.iter_mut().zip(from.iter()).zip(set) {
                 *p = a + u * (b - a);
             }
-            largest = largest.max(distance(&self.point, &m.point));
+            largest = largest.max(distance(&self.point, m.point()));
         }
         let on = marks[..self.passed].last();
         let bends = on.into_iter().chain(ahead).filter(|m| m.queued.bend > 0.0);
@@ -94,13 +94,12 @@ mod tests {
         let (mut marks, mut contour, mut s_mm) = (Vec::new(), Contour::default(), 0.0);
         for (ends, i) in points.windows(2).zip(1..) {
             let block = block(i, ends[0], ends[1], 10.0);
-            let point = AxisVec::from_slice(&ends[0]);
             let length = block.path.length();
             let queued = Arc::new(Queued::new(block, CycleTime::from_us(1000).unwrap()));
             contour.enter(0.0, s_mm, Arc::clone(&queued));
             let (cycles, jump, axis) = (0.0, 1.0, 0);
             let (boundary, block) = (None, None);
-            marks.push(Mark { cycles, boundary, block, queued, s_mm, jump, axis, point });
+            marks.push(Mark { cycles, boundary, block, queued, s_mm, jump, axis, inside: None });
             s_mm += length;
         }
         (marks, contour)

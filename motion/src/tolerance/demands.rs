@@ -6,6 +6,7 @@ use crate::queue::Queued;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What the monitor asks of the blocks ahead, one entry per boundary or block of the window; it stays with them when the
@@ -88,25 +89,38 @@ impl Demands {
     ) {
         let known = self.feed.len();
         self.insert(known, window.len().saturating_sub(known), f64::INFINITY);
-        if !kernels.unequal {
-            return;
-        }
-        let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
         for (queued, feed) in window.iter().zip(&mut self.feed).skip(known) {
-            let Some(tolerance) = queued.block.tolerance.ax_dev_mm else { continue };
-            if !queued.block.path.is_straight() {
-                continue;
-            }
-            let u = &queued.ends.tangent_in;
-            let norm: f64 = u.iter().map(|c| c * c).sum();
-            let along: f64 =
-                u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
-            let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
-            let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
-            if speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length {
-                *feed = speed;
-            }
+            *feed = even_on_a_line(queued, kernels, cycle);
         }
+    }
+
+    /// Asks for rests as long as the filters are at the boundaries between some blocks, and at both ends of them, and for nothing
+    /// else there.
+    pub(crate) fn rest_over(
+        &mut self,
+        blocks: Range<usize>,
+        window: &[Arc<Queued>],
+        kernels: &Kernels,
+        cycle: CycleTime,
+    ) {
+        for b in blocks.clone() {
+            self.feed[b] = even_on_a_line(&window[b], kernels, cycle);
+            (self.acceleration[b], self.slower[b]) = (1.0, (0, 0.0));
+        }
+        for b in boundaries(&blocks, window) {
+            (self.repeats[b], self.tried[b]) = (0, None);
+            (self.cap[b], self.stop[b]) = (0.0, Some(kernels.length()));
+        }
+    }
+
+    /// True if [`Self::rest_over`] would ask for no rest that is not asked for already.
+    pub(crate) fn rests_over(
+        &self,
+        blocks: Range<usize>,
+        window: &[Arc<Queued>],
+        kernels: &Kernels,
+    ) -> bool {
+        boundaries(&blocks, window).all(|b| self.stop[b] == Some(kernels.length()))
     }
 
     /// Makes room for `count` blocks in front of block `at`, held to nothing but a speed.
@@ -153,4 +167,27 @@ impl Demands {
         };
         Cow::Owned(window.iter().zip(&self.acceleration).map(soften).collect())
     }
+}
+
+/// Boundaries inside a window that begin or end one of some blocks; not those between parts of a block.
+fn boundaries(blocks: &Range<usize>, window: &[Arc<Queued>]) -> impl Iterator<Item = usize> {
+    let inside = blocks.start.max(1)..=blocks.end.min(window.len() - 1);
+    inside.filter(|b| window[b - 1].block.seq != window[*b].block.seq)
+}
+
+/// Speed in mm/s that filters with different delays leave to a line long enough to be run through evenly; infinite for any other
+/// block.
+fn even_on_a_line(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
+    let straight = kernels.unequal && queued.block.path.is_straight();
+    let Some(tolerance) = queued.block.tolerance.ax_dev_mm.filter(|_| straight) else {
+        return f64::INFINITY;
+    };
+    let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
+    let u = &queued.ends.tangent_in;
+    let norm: f64 = u.iter().map(|c| c * c).sum();
+    let along: f64 = u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
+    let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
+    let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
+    let is_long = speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length;
+    if is_long { speed } else { f64::INFINITY }
 }

@@ -31,7 +31,7 @@ impl<'a> View<'a> {
         let cycle = go.saturating_sub(u64::from(dwell));
         let full = u64::from(self.trial.kernels.length());
         let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
-        let mut state = PathState::at_rest(&mark.point);
+        let mut state = PathState::at_rest(mark.point());
         let mut row = |k: u64| {
             self.state(k, &mut reader, &mut state);
             state.position.iter().copied().chain([state.s]).collect::<AxisVec>()
@@ -63,7 +63,7 @@ impl Rest<'_> {
             self.cycle as f64 - f64::from(full),
             (self.cycle + u64::from(self.dwell + full)) as f64,
         );
-        let n = self.mark.point.len();
+        let n = self.mark.point().len();
         let mut filtered = AxisVec::zeros(n + 1);
         let mut vector = AxisVec::zeros(n);
         let mut set = SetPath::starting(0, n);
@@ -77,7 +77,7 @@ impl Rest<'_> {
             set.push(point);
         }
         let mut out = Excursion::none(n);
-        set.misses(&self.mark.point, (0, set.end()), tolerance, &mut out);
+        set.misses(self.mark.point(), (0, set.end()), tolerance, &mut out);
         out.largest() <= within(tolerance)
     }
 

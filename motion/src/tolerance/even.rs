@@ -29,6 +29,8 @@ pub(super) struct Evenly<'a> {
     pub(super) contour: &'a Contour,
     pub(super) kernels: &'a Kernels,
     pub(super) cycle: CycleTime,
+    /// Path lengths that are not passed: the filters have let go of what is beyond.
+    pub(super) between: (f64, f64),
 }
 
 impl Evenly<'_> {
@@ -64,10 +66,12 @@ impl Evenly<'_> {
 
     /// Set point around path length `s`.
     fn set_point(&self, s: f64, speed: f64, out: &mut AxisVec) {
-        let Self { contour, kernels, cycle } = self;
+        let Self { contour, kernels, cycle, between } = self;
         let step = speed * cycle.seconds();
         let mut walk = contour.walk();
-        let place = |(weight, delay): &(f64, f64)| (*weight, s + step * (kernels.delay - delay));
+        let place = |(weight, delay): &(f64, f64)| {
+            (*weight, (s + step * (kernels.delay - delay)).clamp(between.0, between.1))
+        };
         // equal kernels share their taps
         if !kernels.unequal
             && let Some(coarse) = kernels.coarse.first()
@@ -162,7 +166,8 @@ pub(super) fn foresee(
         contour.enter(f64::INFINITY, end, Arc::clone(queued));
         end += queued.length;
     }
-    let evenly = Evenly { contour: &contour, kernels, cycle };
+    let between = (f64::NEG_INFINITY, f64::INFINITY);
+    let evenly = Evenly { contour: &contour, kernels, cycle, between };
     let [m1, reach] =
         [kernel.m1_cycles(), f64::from(kernel.length())].map(|cycles| cycles * cycle.seconds());
     let delay = kernel.delay_cycles() * cycle.seconds();

@@ -3,11 +3,12 @@
 use super::blame::Findings;
 use super::demands::Demands;
 use super::even::{foresee, foresees};
+use super::leaves::Left;
 use super::measure::{Record, Violation};
 use super::search::joined;
 use super::set_points::SetPoints;
 use super::view::View;
-use super::{Monitor, Trial, Unkept, Verdict};
+use super::{BORDER_CYCLES, Monitor, Trial, Unkept, Verdict};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Seen};
 use std::sync::Arc;
@@ -85,24 +86,37 @@ enum Depth {
 /// What of a plan exceeds the tolerance.
 struct Found {
     worst: Option<Unkept>,
-    /// Cycles of the violations.
-    exceeded: Vec<u64>,
+    /// Cycles of the violations, and whether something is missed there: at most one of each kind for half a kernel.
+    exceeded: Vec<(u64, bool)>,
+    /// Rows of set points that are not excused by the bound.
+    suspects: Vec<(u64, u64)>,
     depth: Depth,
 }
 
 impl Found {
     /// What is known of every entry of the plan.
     fn seen(&self, trial: &Trial<'_>) -> Vec<Seen> {
-        let reach = 2.0 * f64::from(trial.kernels.length()) + 4.0;
+        let length = f64::from(trial.kernels.length());
+        let beside = 0.5 * length + BORDER_CYCLES + 3.0;
         let seen = trial.plan.iter().map(|e| {
             let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
-            let near = |k: &u64| (from - reach..=to + reach).contains(&(*k as f64));
+            let near = |(k, missed): &(u64, bool)| {
+                let (before, behind) = if *missed {
+                    (2.0 * length + 4.0, 2.0 * length + 4.0)
+                } else {
+                    (beside, length + beside)
+                };
+                (from - before..=to + behind).contains(&(*k as f64))
+            };
             if self.exceeded.iter().any(near) {
                 return Seen::Nothing;
             }
             match (self.depth, e.seen) {
                 (Depth::Glance, Seen::Nothing) => Seen::Glanced,
-                (Depth::Leaves, Seen::Nothing | Seen::Glanced) => Seen::Stays(e.start),
+                (Depth::Leaves, Seen::Nothing | Seen::Glanced) => {
+                    let owes = trial.owes(e, &self.suspects);
+                    if owes { Seen::Stays(e.start) } else { Seen::Kept(e.start) }
+                }
                 (Depth::Misses, Seen::Nothing | Seen::Glanced) | (Depth::Moved, _) => {
                     Seen::Kept(e.start)
                 }
@@ -119,44 +133,52 @@ impl View<'_> {
     /// Looks at what has changed since the last examination, measures it one way and the other, and then what has moved in time;
     /// what exceeds ends it as a rule.
     fn examine(&self, round: usize, mut found: impl FnMut(&Violation, &Record)) -> Found {
-        let mut exceeded: Vec<u64> = Vec::new();
+        let mut exceeded = Vec::new();
         let mut found = |v: &Violation, record: &Record| {
-            exceeded.push(v.cycle);
+            exceeded.push((v.cycle, v.missed.is_some()));
             found(v, record);
         };
-        let of = |which: &dyn Fn(Seen) -> bool| self.trial.reached_by(|e| which(e.seen));
+        let trial = self.trial;
+        let is_new = |e: &Entry| matches!(e.seen, Seen::Nothing | Seen::Glanced);
         let patient = round < ROUNDS_OF_PATIENCE;
         let mut points = SetPoints::new(self);
         let mut depth = Depth::Glance;
         let mut worst = None;
+        let mut suspects = Vec::new();
         if patient {
-            worst = self.glance(&of(&|seen| seen == Seen::Nothing), &mut found);
+            worst = self.glance(&trial.shown_by(|e| e.seen == Seen::Nothing), &mut found);
         }
         if worst.is_none() {
             depth = Depth::Leaves;
-            let new = of(&|seen| matches!(seen, Seen::Nothing | Seen::Glanced));
-            worst = self.leaving(&new, &mut points, &mut found);
+            Left { worst, suspects } =
+                self.leaving(&trial.shown_by(is_new), &mut points, &mut found);
         }
         if worst.is_none() || !patient {
             depth = Depth::Misses;
-            let changed = of(&|seen| !matches!(seen, Seen::Kept(_)));
+            let changed = trial.missed_by(|e| match e.seen {
+                Seen::Nothing | Seen::Glanced => trial.owes(e, &suspects),
+                Seen::Stays(_) => true,
+                Seen::Kept(_) => false,
+            });
             let both =
                 [worst, self.missing(&changed, &mut points, &mut found)].into_iter().flatten();
             worst = both.max_by(|a, b| a.deviation_mm.total_cmp(&b.deviation_mm));
         }
         if worst.is_none() {
-            let moved = self.trial.reached_by(|e| match e.seen {
+            let is_moved = |e: &Entry| match e.seen {
                 Seen::Stays(at) | Seen::Kept(at) => !at.is_whole_cycles_from(e.start),
                 Seen::Nothing | Seen::Glanced => false,
-            });
-            worst = self.leaving(&moved, &mut points, &mut found);
+            };
+            let left = self.leaving(&trial.shown_by(is_moved), &mut points, &mut found);
+            worst = left.worst;
             // where one of them leaves the contour, what the others miss of it has not been measured at their new moments
             if worst.is_none() {
                 depth = Depth::Moved;
+                let moved = trial.missed_by(|e| is_moved(e) && trial.owes(e, &left.suspects));
                 worst = self.missing(&moved, &mut points, &mut found);
             }
         }
-        Found { worst, exceeded, depth }
+        Found { worst, exceeded, suspects, depth }
     }
 }
 
@@ -174,9 +196,26 @@ impl Trial<'_> {
         foresee(demands, &window, self.past, start, (self.kernels, self.cycle))
     }
 
-    /// Cycles still to come whose set points, or what they miss, depend on some entries.
-    fn reached_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
-        let reach = 2.0 * f64::from(self.kernels.length()) + 5.0;
+    /// Cycles still to come whose set points depend on some entries.
+    fn shown_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
+        self.reached_by(f64::from(self.kernels.length()) + BORDER_CYCLES + 3.0, which)
+    }
+
+    /// Cycles still to come in which it is known what set points that depend on some entries miss.
+    fn missed_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
+        self.reached_by(2.0 * f64::from(self.kernels.length()) + 5.0, which)
+    }
+
+    /// True if something of the contour that the filters hold together with an entry can be missed: a row of suspects lies
+    /// within reach.
+    fn owes(&self, entry: &Entry, suspects: &[(u64, u64)]) -> bool {
+        let reach = f64::from(self.kernels.length()) + BORDER_CYCLES + 1.0;
+        let [from, to] = [entry.start, entry.end].map(|m| m.cycles(self.cycle));
+        let first = suspects.partition_point(|row| (row.1 as f64) < from - reach);
+        suspects.get(first).is_some_and(|row| row.0 as f64 <= to + 2.0 * reach)
+    }
+
+    fn reached_by(&self, reach: f64, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
         let entries = self.timeline.entries().chain(self.plan).filter(|e| which(e));
         let cycles = entries.map(|e| {
             let [from, to] = [e.start, e.end].map(|m| m.cycles(self.cycle));

@@ -9,39 +9,52 @@ use super::view::View;
 use super::{BORDER_CYCLES, Unkept};
 use crate::deviation::{Excursion, SetPath};
 
-/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
-const DOUBT: f64 = 0.9;
+/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be: what is longer by less than
+/// `WARY` keeps the tolerance below it.
+const DOUBT: f64 = 0.94;
+
+/// What has been found of set points.
+#[derive(Default)]
+pub(super) struct Left {
+    /// The worst violation.
+    pub(super) worst: Option<Unkept>,
+    /// First and last cycle of each row of set points that the bound did not excuse, in order: only there, something of the
+    /// contour can be missed.
+    pub(super) suspects: Vec<(u64, u64)>,
+}
 
 impl View<'_> {
     /// Measures the set path in some cycles, ranges in order, and hands the worst violations, at most one for half a kernel,
-    /// to `found`; returns the worst of all.
+    /// to `found`.
     pub(super) fn leaving<'v>(
         &'v self,
         among: &[(u64, u64)],
         points: &mut SetPoints<'v>,
         mut found: impl FnMut(&Violation, &Record),
-    ) -> Option<Unkept> {
-        let mut worst: Option<Unkept> = None;
+    ) -> Left {
+        let mut left = Left::default();
         let n = points.axes();
         let mut companion = Companion::new(&self.marks, &self.contour, n);
         for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
             let first = self.first_for((from, to));
             let mut record = Record::starting(first);
             let mut set = SetPath::starting(first, n);
-            let mut harvest = Harvest::new(self, &mut worst, &mut found);
-            self.suspects((from, to), points, &mut companion, |k, points, suspect| {
-                record.push(points.s());
-                set.push(points.set());
-                if k >= from
-                    && suspect
-                    && let Some(v) = self.leaves_at(k, &set)
-                {
-                    harvest.take(v, &record);
-                }
-            });
+            let mut harvest = Harvest::new(self, &mut left.worst, &mut found);
+            let suspects =
+                self.suspects((from, to), points, &mut companion, |k, points, suspect| {
+                    record.push(points.s());
+                    set.push(points.set());
+                    if k >= from
+                        && suspect
+                        && let Some(v) = self.leaves_at(k, &set)
+                    {
+                        harvest.take(v, &record);
+                    }
+                });
             harvest.end(&record);
+            left.suspects.extend(suspects.cycles);
         }
-        worst
+        left
     }
 
     /// The violation on the way to the set point of cycle `k`, if it is one.

@@ -215,7 +215,7 @@ impl View<'_> {
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
                 if at > 0 && mark.is_kink() && suspects.way_at(mark.s_mm).is_some() {
-                    look(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
+                    look(mark.point(), all(mark.cycles), mark.cycles, mark.s_mm);
                 }
                 at += 1;
             }

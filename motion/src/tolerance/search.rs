@@ -20,7 +20,7 @@ const EVEN: f64 = 1e-7;
 #[derive(Default)]
 pub(super) struct Suspects {
     /// First and last cycle of each row of set points.
-    cycles: Vec<(u64, u64)>,
+    pub(super) cycles: Vec<(u64, u64)>,
     ways: Vec<Way>,
 }
 
@@ -83,8 +83,8 @@ impl View<'_> {
         points: &mut SetPoints<'v>,
         mut found: impl FnMut(&Violation, &Record),
     ) -> Option<Unkept> {
-        let leaves = self.leaving(among, points, &mut found);
-        leaves.or_else(|| self.missing(among, points, found))
+        let left = self.leaving(among, points, &mut found);
+        left.worst.or_else(|| self.missing(among, points, found))
     }
 
     /// Measures what of the contour is missed in some cycles; as [`Self::search`].
@@ -219,7 +219,7 @@ impl View<'_> {
         if !inside || !marks[m].queued.block.path.is_straight() {
             return false;
         }
-        let mut state = PathState::at_rest(&marks[m].point);
+        let mut state = PathState::at_rest(marks[m].point());
         let [from, to] = [first, last].map(|k| {
             self.state(k, reader, &mut state);
             state.s

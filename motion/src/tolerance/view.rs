@@ -27,14 +27,19 @@ pub(super) struct Mark {
     /// Largest jump of direction of an axis with a kernel, and that axis.
     pub(super) jump: f64,
     pub(super) axis: usize,
-    /// Where it is entered.
-    pub(super) point: AxisVec,
+    /// Where it is entered, if not at the start of its path.
+    pub(super) inside: Option<AxisVec>,
 }
 
 impl Mark {
     /// True if the path turns where it enters the block: a straight line may continue as another block.
     pub(super) fn is_kink(&self) -> bool {
         self.jump > STRAIGHT
+    }
+
+    /// Where it is entered.
+    pub(super) fn point(&self) -> &AxisVec {
+        self.inside.as_ref().unwrap_or_else(|| self.queued.block.path.start())
     }
 
     /// True if the path continues without a corner: it is the rest of the block before.
@@ -135,14 +140,16 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
             }
         }
         let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
-        let mut point = queued.block.path.start().clone();
-        if queued.offset > 0.0 {
-            queued.block.path.position(queued.offset, &mut point);
-        }
+        let path = &queued.block.path;
+        let inside = (queued.offset > 0.0).then(|| {
+            let mut point = path.start().clone();
+            path.position(queued.offset, &mut point);
+            point
+        });
         // at the start of the path itself only a wait is possible
         let boundary = block.filter(|b| *b > 0 || trial.at_rest);
         let queued = Arc::clone(queued);
-        out.push(Mark { cycles, boundary, block, queued, s_mm: s, jump, axis, point });
+        out.push(Mark { cycles, boundary, block, queued, s_mm: s, jump, axis, inside });
     };
     let now = trial.now as f64;
     for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {

@@ -67,8 +67,8 @@ fn an_arc_beside_a_corner() {
 }
 
 /// Random lines and arcs. An arc has a single speed limit, and it kept the one that was asked of it while the corner next to it
-/// was still too fast: 8 of 250 contours took up to twice as long as with rests. The search is not optimal: 15 of 1,000 still
-/// take longer, three of them by more than a tenth, at most by 30 %.
+/// was still too fast: 8 of 250 contours took up to twice as long as with rests, and 15 of 1,000 up to 30 % longer before a plan
+/// with rests was tried, too. The bound is for the cycles in which a plan with rests is not worth a search.
 #[test]
 fn lines_and_arcs() {
     let mut r = Random::new(seed());
@@ -100,7 +100,7 @@ fn lines_and_arcs() {
             "#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ={freq_hz} AX_DEV={tolerance}]\nF{feed}"
         );
         let [plain, rests] = cycles(&head, &motions, dwell(freq_hz));
-        let most = 1.4 * rests as f64;
+        let most = 1.01 * rests as f64;
         assert!(plain as f64 <= most, "{head} {motions:#?}: {plain} cycles, with rests {rests}");
     }
 }

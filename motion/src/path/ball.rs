@@ -1,11 +1,11 @@
 //! A ball around a path: a point far outside it need not be examined.
 
+use super::Path;
 use crate::axis::AxisVec;
-use crate::path::Path;
 
 /// Center and radius over all axes in mm; no point of the path lies outside.
 #[derive(Clone, Debug)]
-pub(super) struct Ball {
+pub(crate) struct Ball {
     center: AxisVec,
     /// Infinite where the extent of the path is not known in closed form.
     radius: f64,
@@ -13,7 +13,7 @@ pub(super) struct Ball {
 
 impl Ball {
     /// The ball around a line, an arc or, without bound, any other path.
-    pub(super) fn around(path: &Path) -> Self {
+    pub(crate) fn around(path: &Path) -> Self {
         let mut center = path.start().clone();
         let mut square = 0.0;
         if let Path::Line(_) = path {
@@ -39,7 +39,7 @@ impl Ball {
 
     /// False if no point of the path comes as near as `within_mm` to `point`.
     #[inline]
-    pub(super) fn may_be_within(&self, point: &[f64], within_mm: f64) -> bool {
+    pub(crate) fn may_be_within(&self, point: &[f64], within_mm: f64) -> bool {
         let n = point.len();
         let center = &self.center[..n];
         let mut square = 0.0;

@@ -1,0 +1,93 @@
+//! No plan is slower than one that rests.
+//!
+//! With rests as long as the filters are at both ends, a block depends on nothing but itself. The search for a plan knows only who
+//! is to blame for an excess; where causes overlap it can slow down a whole stretch that would be faster with rests. So, where
+//! the blocks of a stretch take longer than they would from rest to rest, a plan that rests there is searched for, and the one that
+//! ends earlier is taken.
+
+use super::Planner;
+use super::extend::Searched;
+use crate::cap::SpeedLimit;
+use crate::queue::Queued;
+use crate::timeline::{Entry, Moment};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Stretches tried in one plan.
+const TRIES: usize = 4;
+/// Cycles that rests have to save.
+const WORTH: f64 = 2.0;
+
+impl Planner {
+    /// The plan that is faster: `kept`, which keeps the tolerance, or one that rests on some stretch that begins in front of block
+    /// `front`.
+    pub(super) fn rest_instead(
+        &mut self,
+        window: &[Arc<Queued>],
+        forced: &[bool],
+        ends: (Moment, SpeedLimit),
+        mut kept: Vec<Entry>,
+        front: usize,
+    ) -> Vec<Entry> {
+        if !self.kernels.any() {
+            return kept;
+        }
+        let mut gains = self.gains(&kept);
+        for _ in 0..TRIES {
+            let Some(blocks) = best_stretch(&gains, front) else { break };
+            gains[blocks.clone()].fill(f64::NEG_INFINITY);
+            if self.plan.demands.rests_over(blocks.clone(), window, &self.kernels) {
+                continue;
+            }
+            let before = self.plan.demands.clone();
+            let end = |plan: &[Entry]| plan.last().map_or(0.0, |e| e.end.cycles(self.cycle));
+            let in_time = end(&kept) - WORTH;
+            self.plan.demands.rest_over(blocks, window, &self.kernels, self.cycle);
+            match self.search(window, forced, ends, Some(kept.clone()), &mut 1, in_time) {
+                Searched::Kept(rested) => kept = rested,
+                _ => self.plan.demands = before,
+            }
+        }
+        kept
+    }
+
+    /// Cycles that each block of a plan would save if the path rested in front of it until the filters have let go of what is
+    /// before, and at its end; what it loses is negative.
+    fn gains(&self, plan: &[Entry]) -> Vec<f64> {
+        let (cycle, wait) = (self.cycle, f64::from(self.kernels.length()));
+        let mut entered: Vec<f64> = Vec::new();
+        let mut blocks: Vec<&Queued> = Vec::new();
+        for (cycles, _, queued) in plan.iter().flat_map(|e| e.entries(cycle)) {
+            entered.push(cycles);
+            blocks.push(queued);
+        }
+        entered.extend(plan.last().map(|e| e.end.cycles(cycle)));
+        let gain = |(queued, at): (&&Queued, &[f64])| {
+            let takes = at[1] - at[0];
+            let speed = queued.velocity.v_mm_s;
+            let least = wait + queued.length / speed / cycle.seconds();
+            if takes <= least {
+                return takes - least;
+            }
+            let rested = queued.slope.plan(0.0, 0.0, speed, queued.length);
+            rested.map_or(0.0, |p| takes - wait - p.duration() / cycle.seconds())
+        };
+        blocks.iter().zip(entered.windows(2)).map(gain).collect()
+    }
+}
+
+/// The blocks in a row that save most together, the first of them in front of block `front`.
+fn best_stretch(gains: &[f64], front: usize) -> Option<Range<usize>> {
+    let (mut best, mut stretch) = (WORTH, None);
+    let (mut sum, mut from) = (0.0, 0);
+    for (i, gain) in gains.iter().enumerate() {
+        if sum <= 0.0 {
+            (sum, from) = (0.0, i);
+        }
+        sum += gain;
+        if sum > best && from < front {
+            (best, stretch) = (sum, Some(from..i + 1));
+        }
+    }
+    stretch
+}

@@ -1,0 +1,135 @@
+//! With `AX_DEV`, no plan is slower than one that rests at every corner until the filters have let go of it: that always keeps
+//! the tolerance.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod doc {
+    #![allow(unused_imports, unreachable_pub, dead_code, reason = "written for examples")]
+    include!("doc/axis.rs");
+}
+
+use doc::{Arc, AxisVec, Block, ChannelDynamics, Feed, LinePath, Path, axis};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::block::{Slope, SlopeKind, Tolerance};
+use kontur_motion::cap::SpeedLimit;
+use kontur_motion::path::{ArcPath, ArcShape};
+use kontur_motion::planner::{Next, Planner};
+use kontur_motion::tolerance::Kernels;
+
+/// A line to a point, or an arc with a centre and a swept angle in rad.
+#[derive(Clone, Copy)]
+enum Motion {
+    Line([f64; 2]),
+    Arc([f64; 2], [f64; 2], f64),
+}
+
+struct Case {
+    kind: SlopeKind,
+    feed_mm_s: f64,
+    ax_dev_mm: f64,
+    /// Mode and frequency in Hz of the guard of each axis.
+    guards: [(u8, f64); 2],
+    motions: Vec<Motion>,
+}
+
+impl Case {
+    fn kernels(&self) -> Kernels {
+        let guard = |(mode, freq_hz): (u8, f64)| {
+            let settings = VibGuardSettings { mode, freq_hz, damping: 0.1 };
+            Some(Arc::new(settings.kernel(CycleTime::DEFAULT).unwrap()))
+        };
+        Kernels::new(self.guards.map(guard).to_vec())
+    }
+
+    fn blocks(&self) -> Vec<Block> {
+        let dynamics = Arc::new(ChannelDynamics::new(vec![axis(); 2]));
+        let slope = Slope { kind: self.kind, ..Slope::default() };
+        let tolerance = Tolerance { ax_dev_mm: Some(self.ax_dev_mm), acc_fact: 1.0 };
+        let mut at = AxisVec::zeros(2);
+        let block = |(motion, seq): (&Motion, u64)| {
+            let (Motion::Line(end) | Motion::Arc(end, ..)) = motion;
+            let from = std::mem::replace(&mut at, AxisVec::from_slice(end));
+            let path = match *motion {
+                Motion::Line(_) => Path::Line(LinePath::new(from, at.clone(), &[true; 2]).unwrap()),
+                Motion::Arc(_, centre_mm, sweep_rad) => {
+                    let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad };
+                    Path::Arc(ArcPath::new(from, at.clone(), shape, &[true; 2]).unwrap())
+                }
+            };
+            let feed = Feed::PathVelocity(self.feed_mm_s);
+            Block { slope, tolerance, ..Block::new(seq, path, feed, Arc::clone(&dynamics)) }
+        };
+        self.motions.iter().zip(1..).map(block).collect()
+    }
+
+    /// Cycles of the contour; with rests, every block is planned alone and waits for the filters.
+    fn cycles(&self, rests: bool) -> u64 {
+        let mut planner = Planner::new(CycleTime::DEFAULT, 120, &[0.0; 2]);
+        let kernels = self.kernels();
+        let length = kernels.length();
+        planner.set_kernels(kernels, 0);
+        let mut blocks = self.blocks().into_iter();
+        if !rests {
+            blocks.by_ref().for_each(|block| planner.push(block));
+        }
+        loop {
+            planner.finish();
+            while planner.advance().unwrap() != Next::Rest {}
+            let Some(block) = blocks.next() else { break };
+            if planner.setpoint().k > 0 {
+                (0..length).for_each(|_| planner.hold(SpeedLimit::Stop));
+            }
+            planner.push(block);
+        }
+        assert!(planner.take_unkept().is_empty());
+        planner.setpoint().k
+    }
+}
+
+/// Two lines and two arcs (5956 cycles, with rests 4215), and two short lines in front of an arc (60788, with rests 3726): filters
+/// that differ between the axes made whole blocks crawl because of what happens at their ends.
+#[test]
+fn filters_that_differ() {
+    let cases = [
+        Case {
+            kind: SlopeKind::Hsc,
+            feed_mm_s: 517.0 / 60.0,
+            ax_dev_mm: 0.01,
+            guards: [(1, 80.0), (4, 30.0)],
+            motions: vec![
+                Motion::Line([3.0772, 0.8207]),
+                Motion::Line([2.6368, 8.6852]),
+                Motion::Arc(
+                    [3.194_906_582_522_628, 9.003_556_145_234_363],
+                    [2.831_380_402_907_233_6, 8.992_466_544_414_718],
+                    -4.117_373_902_294_325,
+                ),
+                Motion::Arc(
+                    [4.345_260_265_154_726, 9.149_599_581_684_37],
+                    [3.777_099_168_545_849, 9.021_316_305_963_323],
+                    3.333_159_668_784_183,
+                ),
+            ],
+        },
+        Case {
+            kind: SlopeKind::Sin2,
+            feed_mm_s: 2284.0 / 60.0,
+            ax_dev_mm: 0.01,
+            guards: [(3, 80.0), (1, 15.0)],
+            motions: vec![
+                Motion::Line([0.102, -0.0003]),
+                Motion::Line([1.4996, 0.3836]),
+                Motion::Arc(
+                    [2.235_060_618_983_289, -4.758_906_061_790_845],
+                    [2.193_089_027_158_829, -2.141_064_323_900_048],
+                    -3.393_635_054_613_586_7,
+                ),
+            ],
+        },
+    ];
+    for case in cases {
+        let [plain, rests] = [false, true].map(|rests| case.cycles(rests));
+        assert!(plain <= rests, "{plain} cycles, with rests {rests}");
+    }
+}
