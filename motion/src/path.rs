@@ -28,6 +28,7 @@ mod poly;
 mod tilted;
 
 pub use arc::{ArcPath, ArcShape};
+pub(crate) use line::Along;
 pub use line::LinePath;
 pub use piece::{Coefficients, PolyPiece};
 pub use poly::PolyPath;
