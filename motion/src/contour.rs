@@ -106,7 +106,10 @@ impl Contour {
 
     /// Forgets so many blocks.
     pub(crate) fn forget(&mut self, count: usize) {
-        self.blocks.drain(..count.min(self.blocks.len()));
+        // one at a time, mostly: a drain costs more than that
+        for _ in 0..count {
+            self.blocks.pop_front();
+        }
     }
 
     /// Takes out the blocks that are to be entered at `cycles` or later.
@@ -194,19 +197,17 @@ impl Contour {
             Some(all.start.midpoint(all.end)).filter(|i| all.contains(i) && among.contains(i));
         let guessed = guess.map_or(f64::INFINITY, |i| far(&self.blocks[i]));
         let mut most = within(guessed);
-        let first = all.start;
-        self.blocks.range(all).zip(first..).for_each(|(passed, i)| {
+        for (passed, i) in self.blocks.range(all.clone()).zip(all) {
             let is_guess = guess == Some(i);
-            if !is_guess && !passed.ball.may_be_within(middle, most + ROUNDING_MM) {
-                return;
+            if is_guess || passed.ball.may_be_within(middle, most + ROUNDING_MM) {
+                let distance = if is_guess { guessed } else { far(passed) };
+                let (block, counts) = (passed.queued.block.seq, among.contains(&i));
+                if counts {
+                    most = most.min(within(distance));
+                }
+                around.blocks.push(Candidate { passed, block, distance, counts });
             }
-            let (block, counts) = (passed.queued.block.seq, among.contains(&i));
-            let distance = if is_guess { guessed } else { far(passed) };
-            if counts {
-                most = most.min(within(distance));
-            }
-            around.blocks.push(Candidate { passed, block, distance, counts });
-        });
+        }
         around.blocks.retain(|b| b.distance <= most);
         around
     }
