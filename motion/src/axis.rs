@@ -40,10 +40,11 @@ impl AxisVec {
     /// `n` zeros.
     #[inline]
     pub fn zeros(n: usize) -> Self {
-        match [0.0; INLINE].get(..n) {
-            // by bytes
-            Some(zeros) => Self(SmallVec::from_slice(zeros)),
-            None => Self(SmallVec::from_elem(0.0, n)),
+        if n <= INLINE {
+            // the whole buffer, whose size is known, without a call
+            Self(SmallVec::from_buf_and_len([0.0; INLINE], n))
+        } else {
+            Self(SmallVec::from_elem(0.0, n))
         }
     }
 

@@ -100,7 +100,10 @@ impl Contour {
 
     /// Forgets so many blocks.
     pub(crate) fn forget(&mut self, count: usize) {
-        self.blocks.drain(..count.min(self.blocks.len()));
+        // one at a time, mostly: a drain costs more than that
+        for _ in 0..count {
+            self.blocks.pop_front();
+        }
     }
 
     /// Takes out the blocks that are to be entered at `cycles` or later.
@@ -172,31 +175,35 @@ impl Contour {
             all.end += 1;
         }
         all.end = if all.end == end { among.end } else { self.whole(all.end) };
-        let (mut middle, mut half) = (AxisVec::zeros(line.0.len()), 0.0);
+        let middle = &mut AxisVec::zeros(line.0.len())[..];
+        let mut half = 0.0;
         for ((m, a), b) in middle.iter_mut().zip(line.0).zip(line.1) {
             *m = 0.5 * (a + b);
             half += 0.25 * (b - a) * (b - a);
         }
         let half: f64 = f64::sqrt(half);
-        let mut vector = AxisVec::zeros(middle.len());
-        let mut far = |passed: &Passed| passed.vector_to(&middle, &mut vector).sqrt();
-        // a filter takes the set point half of its length back as a rule: that block leaves few of the others
-        let guess = all.start.midpoint(all.end);
-        let known = all.contains(&guess) && among.contains(&guess);
-        let mut least = if known { far(&self.blocks[guess]) } else { f64::INFINITY };
+        let mut around = Around { blocks: SmallVec::new(), half };
+        let vector = &mut AxisVec::zeros(middle.len())[..];
+        let mut far = |passed: &Passed| passed.vector_to(middle, vector).sqrt();
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
-        let mut blocks: SmallVec<[Candidate<'_>; 16]> = SmallVec::new();
-        for (i, passed) in all.clone().zip(self.blocks.range(all)) {
-            if passed.queued.ball.may_be_within(&middle, within(least) + ROUNDING_MM) {
-                let (distance, counts) = (far(passed), among.contains(&i));
+        // a filter takes the set point half of its length back as a rule: that block leaves few of the others
+        let guess =
+            Some(all.start.midpoint(all.end)).filter(|i| all.contains(i) && among.contains(i));
+        let guessed = guess.map_or(f64::INFINITY, |i| far(&self.blocks[i]));
+        let mut most = within(guessed);
+        for (passed, i) in self.blocks.range(all.clone()).zip(all) {
+            let is_guess = guess == Some(i);
+            if is_guess || passed.queued.ball.may_be_within(middle, most + ROUNDING_MM) {
+                let distance = if is_guess { guessed } else { far(passed) };
+                let (block, counts) = (passed.queued.block.seq, among.contains(&i));
                 if counts {
-                    least = least.min(distance);
+                    most = most.min(within(distance));
                 }
-                blocks.push(Candidate { passed, distance, counts });
+                around.blocks.push(Candidate { passed, block, distance, counts });
             }
         }
-        blocks.retain(|b| b.distance <= within(least));
-        Around { blocks, half }
+        around.blocks.retain(|b| b.distance <= most);
+        around
     }
 
     /// Numbers of the blocks that [`Self::nearest`] looks at.
@@ -221,9 +228,13 @@ impl Contour {
         vectors.iter().map(|(d, c)| c * fading(least, *d)).fold(0.0, f64::max)
     }
 
-    /// Moments in cycles and places of the kinks that were passed behind `from`, up to `to`.
-    pub(crate) fn kinks(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, AxisVec)> + '_ {
-        let end = self.blocks.partition_point(|b| b.cycles <= to);
+    /// Number of blocks that were entered up to a moment in cycles.
+    pub(crate) fn entered(&self, moment: f64) -> usize {
+        self.blocks.partition_point(|b| b.cycles <= moment)
+    }
+
+    /// Moments in cycles and places of the kinks between the first `end` blocks that were passed behind `from`.
+    pub(crate) fn kinks(&self, from: f64, end: usize) -> impl Iterator<Item = (f64, AxisVec)> + '_ {
         let mut first = end;
         while first > 1 && self.blocks[first - 1].cycles > from {
             first -= 1;
@@ -237,10 +248,9 @@ impl Contour {
         })
     }
 
-    /// True if the block interpolated at a moment bends.
-    pub(crate) fn is_bent(&self, moment: f64) -> bool {
-        let i = self.blocks.partition_point(|b| b.cycles <= moment);
-        i.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
+    /// True if the last of the first `end` blocks bends.
+    pub(crate) fn is_bent(&self, end: usize) -> bool {
+        end.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
     }
 
     /// Points of the contour near each other.
@@ -325,6 +335,8 @@ pub(crate) struct Around<'a> {
 
 struct Candidate<'a> {
     passed: &'a Passed,
+    /// Number of the block.
+    block: u64,
     /// From the middle of the line in mm.
     distance: f64,
     /// Within reach of the second moment without slack.
@@ -342,12 +354,20 @@ impl<'a> Around<'a> {
         nearest(self.blocks.iter().map(|b| b.passed), point, out)
     }
 
+    /// True if the slack adds no block: [`Self::nearest`] and [`Self::nearest_of_all`] are the same.
+    pub(crate) fn all_count(&self) -> bool {
+        self.blocks.iter().all(|b| b.counts)
+    }
+
     /// True if some other block can be nearer somewhere on the line: on the way of half the line, one comes nearer and the other
     /// goes away by that much at most.
     pub(crate) fn may_be_nearer_than(&self, nearest: &Nearest<'_>) -> bool {
-        let is = |b: &&Candidate<'_>| b.passed.queued.block.seq == nearest.block();
-        let own = self.blocks.iter().filter(is).map(|b| b.distance).fold(f64::INFINITY, f64::min);
-        self.blocks.iter().any(|b| !is(&b) && b.distance <= own + 2.0 * self.half)
+        let (mut own, mut other) = (f64::INFINITY, f64::INFINITY);
+        for b in &self.blocks {
+            let least = if b.block == nearest.block { &mut own } else { &mut other };
+            *least = least.min(b.distance);
+        }
+        other.is_finite() && other <= own + 2.0 * self.half
     }
 
     /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
@@ -377,17 +397,14 @@ impl<'a> Around<'a> {
 pub(crate) struct Nearest<'a> {
     /// Length of the vector in mm.
     pub(crate) distance: f64,
+    /// Programmed block, the same for all parts of it.
+    pub(crate) block: u64,
     passed: &'a Passed,
 }
 
-impl Nearest<'_> {
-    /// Programmed block, the same for all parts of it.
-    pub(crate) fn block(&self) -> u64 {
-        self.passed.queued.block.seq
-    }
-
+impl<'a> Nearest<'a> {
     /// Its path if it is a straight line.
-    pub(crate) fn line(&self) -> Option<&LinePath> {
+    pub(crate) fn line(&self) -> Option<&'a LinePath> {
         match &self.passed.queued.block.path {
             Path::Line(line) => Some(line),
             _ => None,
@@ -402,27 +419,29 @@ impl Nearest<'_> {
 
 /// Shortest vector from the paths of the blocks to a point; `None`, and no vector, if there are no blocks.
 fn nearest<'a>(
-    blocks: impl Iterator<Item = &'a Passed>,
+    mut blocks: impl Iterator<Item = &'a Passed>,
     point: &[f64],
     out: &mut [f64],
 ) -> Option<Nearest<'a>> {
-    let mut best: Option<(f64, &Passed)> = None;
-    let mut vector = AxisVec::zeros(point.len());
-    let mut before: Option<&Passed> = None;
+    let Some(first) = blocks.next() else {
+        out.fill(0.0);
+        return None;
+    };
+    let mut best = (first.vector_to(point, out), first);
+    let mut before = first;
+    let vector = &mut AxisVec::zeros(point.len())[..];
     for passed in blocks {
         // every path is searched over its whole length, so once is enough for its parts
-        if before.is_some_and(|b| b.is_part_of_the_same(passed)) {
+        if before.is_part_of_the_same(passed) {
             continue;
         }
-        before = Some(passed);
-        let square = passed.vector_to(point, &mut vector);
-        if best.is_none_or(|(least, _)| square < least) {
-            best = Some((square, passed));
-            out.copy_from_slice(&vector);
+        before = passed;
+        let square = passed.vector_to(point, vector);
+        if square < best.0 {
+            best = (square, passed);
+            out.copy_from_slice(vector);
         }
     }
-    if best.is_none() {
-        out.fill(0.0);
-    }
-    best.map(|(square, passed)| Nearest { distance: square.sqrt(), passed })
+    let (square, passed) = best;
+    Some(Nearest { distance: square.sqrt(), block: passed.queued.block.seq, passed })
 }

@@ -215,16 +215,18 @@ impl SetPath {
         // a first guess excuses most of the others: from one line to the next a distance falls by their length at most
         let guess = first.midpoint(last);
         let mut best = (self.to_line(guess, point).0, guess);
+        let mut alike = (1.0 + ALIKE) * best.0.sqrt();
         let mut near: SmallVec<[(u64, f64); 16]> = SmallVec::new();
         let mut k = first;
         while k < last {
             let d2 = self.to_line(k, point).0;
             if d2 < best.0 || d2 <= best.0 && k < best.1 {
                 best = (d2, k);
+                alike = (1.0 + ALIKE) * d2.sqrt();
             }
             near.push((k, d2));
             let ways = &self.ways[(k - self.first) as usize..];
-            let certain = ways[0] + d2.sqrt() - (1.0 + ALIKE) * best.0.sqrt() - ROUNDING_MM;
+            let certain = ways[0] + d2.sqrt() - alike - ROUNDING_MM;
             k += 1;
             k += ways[2..].iter().take_while(|way| **way < certain).count() as u64;
         }

@@ -30,6 +30,7 @@ mod tilted;
 
 pub use arc::{ArcPath, ArcShape};
 pub(crate) use ball::Ball;
+pub(crate) use line::Along;
 pub use line::LinePath;
 pub use piece::{Coefficients, PolyPiece};
 pub use poly::PolyPath;

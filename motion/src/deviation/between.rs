@@ -10,9 +10,9 @@
 use super::Excursion;
 use crate::axis::AxisVec;
 use crate::contour::{Around, Nearest, ROUNDING_MM};
-use crate::path::LinePath;
+use crate::path::Along;
 use crate::profile::roots::enclosed_root;
-use smallvec::{Array, SmallVec, smallvec};
+use smallvec::{Array, SmallVec};
 
 /// Points of one line that are looked at, at most: beyond that, blocks are so short that no distance is missed between them.
 const LOOKS: usize = 64;
@@ -31,63 +31,79 @@ pub(super) fn largest<'a>(
     now: Option<Nearest<'a>>,
     out: &mut Excursion,
 ) {
-    let mut vector = AxisVec::zeros(line.0.len());
     let Some(mut now) = now else { return };
+    let n = line.0.len();
+    let vector = &mut AxisVec::zeros(n)[..];
     let alone = now.line().is_some() && !around.may_be_nearer_than(&now);
-    let then = if alone { Some(now) } else { around.nearest_of_all(line.0, &mut vector) };
+    let then = if alone { Some(now) } else { around.nearest_of_all(line.0, vector) };
     let Some(then) = then else { return };
-    if then.block() != now.block()
-        && let Some(nearer) = around.nearest_of_all(line.1, &mut vector)
+    if then.block != now.block
+        && !around.all_count()
+        && let Some(nearer) = around.nearest_of_all(line.1, vector)
     {
-        out.take(&vector);
+        out.take(vector);
         now = nearer;
     }
-    let mut point = AxisVec::zeros(line.0.len());
-    let mut open: SmallVec<[(Foot<'a>, Foot<'a>); 8]> = smallvec![((0.0, then), (1.0, now))];
+    let point = &mut AxisVec::zeros(n)[..];
+    let other = &mut AxisVec::zeros(n)[..];
+    let mut open: SmallVec<[(Foot<'a>, Foot<'a>); 4]> = SmallVec::new();
+    open.push(((0.0, then), (1.0, now)));
     for _ in 0..LOOKS {
         let Some((low, high)) = open.pop() else { return };
-        let same = low.1.block() == high.1.block();
-        let mut places: SmallVec<[f64; 3]> = SmallVec::new();
-        if same {
-            let straight = low.1.line();
-            if straight.is_none() || around.may_be_nearer_than(&low.1) {
-                places.push(0.5 * (low.0 + high.0));
-            }
-            if let Some(straight) = straight {
-                push_between((low.0, high.0), straight.ends_along(line), &mut places);
+        if low.1.block == high.1.block {
+            for u in places(around, line, low, high) {
+                on_the_line(line, u, point);
+                let Some(found) = around.nearest_of_all(point, vector) else { return };
+                out.take(vector);
+                if found.block != low.1.block
+                    && low.1.vector_to(point, other) > found.distance + ROUNDING_MM
+                {
+                    open.extend([(low, (u, found)), ((u, found), high)]);
+                    break;
+                }
             }
         } else {
-            places.push(change(line, low, high));
-        }
-        for u in places {
-            on_the_line(line, u, &mut point);
-            let Some(found) = around.nearest_of_all(&point, &mut vector) else { return };
-            out.take(&vector);
-            if same && found.block() == low.1.block() {
-                continue;
-            }
-            let ends = if same { &[low][..] } else { &[low, high] };
+            let u = change(line, low, high);
+            on_the_line(line, u, point);
+            let Some(found) = around.nearest_of_all(point, vector) else { return };
+            out.take(vector);
             let near = found.distance + ROUNDING_MM;
-            let is_third = ends.iter().all(|end| end.1.vector_to(&point, &mut vector) > near);
-            if is_third {
+            let of_low = low.1.vector_to(point, vector);
+            let of_high = high.1.vector_to(point, other);
+            if of_low > near && of_high > near {
                 open.extend([(low, (u, found)), ((u, found), high)]);
-                break;
-            } else if !same {
+            } else {
                 // both are equally near
-                for end in ends {
-                    end.1.vector_to(&point, &mut vector);
-                    out.take(&vector);
-                }
+                out.take(vector);
+                out.take(other);
                 open.extend([(low, (u, low.1)), ((u, high.1), high)]);
             }
         }
     }
 }
 
+/// Where between two points of the line that are nearest to the same block another vector can be larger than at both of them.
+fn places(
+    around: &Around<'_>,
+    line: (&[f64], &[f64]),
+    low: Foot<'_>,
+    high: Foot<'_>,
+) -> SmallVec<[f64; 3]> {
+    let mut places = SmallVec::new();
+    let straight = low.1.line();
+    if straight.is_none() || around.may_be_nearer_than(&low.1) {
+        places.push(0.5 * (low.0 + high.0));
+    }
+    if let Some(straight) = straight {
+        push_between((low.0, high.0), straight.along(line).ends(), &mut places);
+    }
+    places
+}
+
 /// Where between two points of the line their nearest blocks are equally near.
 fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
     if let (Some(a), Some(b)) = (low.1.line(), high.1.line()) {
-        return change_of_lines(line, (low.0, a), (high.0, b));
+        return change_of_lines((low.0, a.along(line)), (high.0, b.along(line)));
     }
     let mut point = AxisVec::zeros(line.0.len());
     let mut vector = point.clone();
@@ -107,17 +123,17 @@ fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
 
 /// The same between straight blocks: between the places where a nearest point comes to an end of its block, the squares of
 /// both distances are parabolas.
-fn change_of_lines(line: (&[f64], &[f64]), low: (f64, &LinePath), high: (f64, &LinePath)) -> f64 {
+fn change_of_lines(low: (f64, Along<'_>), high: (f64, Along<'_>)) -> f64 {
     let mut borders: SmallVec<[f64; 6]> = SmallVec::new();
-    for block in [low.1, high.1] {
-        push_between((low.0, high.0), block.ends_along(line), &mut borders);
+    for block in [&low.1, &high.1] {
+        push_between((low.0, high.0), block.ends(), &mut borders);
     }
     borders.sort_unstable_by(f64::total_cmp);
     borders.push(high.0);
     let mut from = low.0;
     for to in borders {
         let at = 0.5 * (from + to);
-        let (a, b) = (low.1.square_along(line, at), high.1.square_along(line, at));
+        let (a, b) = (low.1.square(at), high.1.square(at));
         let (c0, c1, c2) = (a[0] - b[0], a[1] - b[1], a[2] - b[2]);
         let further = |u: f64| c0 + u * (c1 + u * c2);
         if further(from) >= 0.0 {

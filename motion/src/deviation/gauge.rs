@@ -83,12 +83,13 @@ impl Gauge {
     /// What of the contour was missed that the filters have let go in cycle `k`.
     fn let_go(&mut self, contour: &Contour, k: u64, least_mm: f64) {
         let passed = k as f64 - self.reach as f64 - 1.0;
-        for (moment, point) in contour.kinks(passed - 1.0, passed) {
+        let entered = contour.entered(passed);
+        for (moment, point) in contour.kinks(passed - 1.0, entered) {
             let first = moment.floor().max(0.0) as u64;
             self.miss(contour, k, &point, (first, first + self.reach + 2), least_mm);
         }
         if let Some(first) = k.checked_sub(self.reach + 1)
-            && (self.every || contour.is_bent(passed))
+            && (self.every || contour.is_bent(entered))
             && let Some(point) = self.path.get(first).map(AxisVec::from_slice)
         {
             self.miss(contour, k, &point, (first, k), least_mm);

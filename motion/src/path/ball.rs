@@ -40,11 +40,9 @@ impl Ball {
     /// False if no point of the path comes as near as `within_mm` to `point`.
     #[inline]
     pub(crate) fn may_be_within(&self, point: &[f64], within_mm: f64) -> bool {
-        let n = point.len();
-        let center = &self.center[..n];
         let mut square = 0.0;
-        for i in 0..n {
-            square += (center[i] - point[i]) * (center[i] - point[i]);
+        for (c, p) in self.center.iter().zip(point) {
+            square += (c - p) * (c - p);
         }
         let reach = within_mm + self.radius;
         square <= reach * reach

@@ -126,37 +126,11 @@ impl LinePath {
         self.foot(point).clamp(0.0, self.length)
     }
 
-    /// Where along a line (as a share of it) the nearest point of this path comes to its start and to its end: no order, and
-    /// shares outside the line, too.
-    pub(crate) fn ends_along(&self, (from, to): (&[f64], &[f64])) -> [f64; 2] {
-        let (from, to) = (self.foot(from), self.foot(to));
-        [(0.0 - from) / (to - from), (self.length - from) / (to - from)]
-    }
-
-    /// Coefficients of the square of the distance of `from + u * (to - from)` from this path: `c[0] + c[1] u + c[2] u^2` on
-    /// that stretch of u around `at` where the nearest point is inside of the path, or stays at one end of it.
-    pub(crate) fn square_along(&self, (from, to): (&[f64], &[f64]), at: f64) -> [f64; 3] {
-        let n = from.len();
-        let (foot_from, foot_to) = (self.foot(from), self.foot(to));
-        let foot = foot_from + at * (foot_to - foot_from);
-        let (end, along) = if foot <= 0.0 {
-            (&self.start, 0.0)
-        } else if foot >= self.length {
-            (&self.end, 0.0)
-        } else {
-            (&self.start, 1.0)
-        };
-        let (end, direction) = (&end[..n], &self.direction[..n]);
-        let (foot, way) = (along * foot_from, along * (foot_to - foot_from));
-        let mut c = [0.0; 3];
-        for i in 0..n {
-            let aside = (from[i] - end[i]) - foot * direction[i];
-            let change = (to[i] - from[i]) - way * direction[i];
-            c[0] += aside * aside;
-            c[1] += 2.0 * aside * change;
-            c[2] += change * change;
-        }
-        c
+    /// This path as it is seen from the points of another line.
+    #[inline]
+    pub(crate) fn along<'a>(&'a self, line: (&'a [f64], &'a [f64])) -> Along<'a> {
+        let from = self.foot(line.0);
+        Along { path: self, line, from, way: self.foot(line.1) - from }
     }
 
     /// Where the perpendicular from a point meets the line through start and end, in mm of path length.
@@ -169,5 +143,50 @@ impl LinePath {
             dot += (point[i] - start[i]) * direction[i];
         }
         dot / self.norm
+    }
+}
+
+/// A path and another line, see [`LinePath::along`].
+#[derive(Clone, Copy)]
+pub(crate) struct Along<'a> {
+    path: &'a LinePath,
+    line: (&'a [f64], &'a [f64]),
+    /// Foot of the perpendicular from the start of the line in mm of path length, and its way along the line.
+    from: f64,
+    way: f64,
+}
+
+impl Along<'_> {
+    /// Where along the line (as a share of it) the nearest point of the path comes to its start and to its end: no order, and
+    /// shares outside the line, too.
+    #[inline]
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        [(0.0 - self.from) / self.way, (self.path.length - self.from) / self.way]
+    }
+
+    /// Coefficients of the square of the distance of `from + u * (to - from)` from the path: `c[0] + c[1] u + c[2] u^2` on
+    /// that stretch of u around `at` where the nearest point is inside of the path, or stays at one end of it.
+    pub(crate) fn square(&self, at: f64) -> [f64; 3] {
+        let ((from, to), path) = (self.line, self.path);
+        let n = from.len();
+        let foot = self.from + at * self.way;
+        let (end, along) = if foot <= 0.0 {
+            (&path.start, 0.0)
+        } else if foot >= path.length {
+            (&path.end, 0.0)
+        } else {
+            (&path.start, 1.0)
+        };
+        let (end, direction) = (&end[..n], &path.direction[..n]);
+        let (foot, way) = (along * self.from, along * self.way);
+        let mut c = [0.0; 3];
+        for i in 0..n {
+            let aside = (from[i] - end[i]) - foot * direction[i];
+            let change = (to[i] - from[i]) - way * direction[i];
+            c[0] += aside * aside;
+            c[1] += 2.0 * aside * change;
+            c[2] += change * change;
+        }
+        c
     }
 }
