@@ -120,6 +120,30 @@ fn stops_suppress_contouring() {
     }
 }
 
+/// `#FLUSH CONTINUE` keeps the corner that it is in and stops nowhere: its corner is passed as that of G260, the next one is
+/// rounded. Source: TF5200 programming manual 207042443.
+#[test]
+fn flush_continue_keeps_its_corner() {
+    let drive = |first: &str, second: &str| {
+        run(
+            &format!(
+                "%S\nG90 G01 F600\n#CONTOUR MODE ON [PATH_DEV=0.1]\n{first}\nX20\n{second}\nG261 Y20\nX0\nG260\nM30\n"
+            ),
+            &[],
+        )
+    };
+    let (kept, sharp) = (drive("", "#FLUSH CONTINUE"), drive("G260", ""));
+    assert_eq!(kept.diagnostics, []);
+    let way = |run: &Run| run.set(2).iter().map(|p| p.to_vec()).collect::<Vec<_>>();
+    assert_eq!(way(&kept), way(&sharp));
+    let corner = |run: &Run, p: [f64; 2]| {
+        let e = from_polyline(&p, &way(run));
+        libm::hypot(e[0], e[1])
+    };
+    assert!((corner(&kept, [20.0, 20.0]) - 0.1).abs() < 1e-3);
+    assert!((corner(&drive("", ""), [20.0, 0.0]) - 0.1).abs() < 1e-3);
+}
+
 /// The records name the blocks in their order, each of them.
 #[test]
 fn lines_stay_in_order() {

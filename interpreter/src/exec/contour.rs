@@ -276,6 +276,13 @@ impl Contour {
         faults
     }
 
+    /// The corner after the last motion is not rounded.
+    pub(super) fn keep_corner(&mut self) {
+        if let Some(held) = &mut self.held {
+            held.block.contour = None;
+        }
+    }
+
     /// G40 (true), G41, G42.
     pub(super) fn deselect(&mut self, off: bool) {
         self.compensator.deselected = off;

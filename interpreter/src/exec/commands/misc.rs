@@ -16,7 +16,7 @@ use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
 pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
     .bare()
     .form("#FLUSH [CONTINUE|WAIT]")
-    .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known")
+    .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known, and the corner is not contoured")
     .example("#FLUSH WAIT");
 
 /// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
@@ -28,8 +28,8 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [] => decoder.sync(Sync::Stop),
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
-        // no stop while more blocks are known
-        [word] if word.is("CONTINUE") => {}
+        // no stop while more blocks are known; the corner is not contoured (207042443)
+        [word] if word.is("CONTINUE") => decoder.contour.keep_corner(),
         [word, ..] => return Err(call.unexpected(word)),
     }
     Ok(())
