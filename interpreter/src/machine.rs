@@ -38,7 +38,9 @@ mod transmission;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
-pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride, SpindleMoment};
+pub use channel::{
+    Acknowledged, ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride, SpindleMoment,
+};
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
 pub use levers::Lever;

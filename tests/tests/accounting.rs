@@ -183,6 +183,39 @@ fn durations_of_stops_and_ends() {
     assert_eq!(folder.summary(&[])["not_counted"].as_array().unwrap().len(), 0);
 }
 
+/// Where the path waits for M25 depends on its kind of synchronisation; N40 takes 0.75 s at its feed, so with MVS_SNS nothing is
+/// left of 0.5 s and 0.45 s of 1.2 s. Source: TF5200 M and H functions 285997195, 286004619.
+#[test]
+fn kinds_of_synchronisation() {
+    let text = "N20 G00 X25\nN30 X50\nN40 G01 F2000 X75 M25\nN50 X100\nM30\n";
+    let folder = Folder::new(&[("part.nc", text)]);
+    for (kind, us, wait_s, at) in [
+        ("NO_SYNCH", 500_000, 0.0, ""),
+        ("MOS", 500_000, 0.0, ""),
+        ("MVS_SVS", 500_000, 0.5, "50.0000000"),
+        ("MVS_SNS", 500_000, 0.0, ""),
+        ("MVS_SNS", 1_200_000, 0.45, "75.0000000"),
+        ("MNS_SNS", 500_000, 0.5, "75.0000000"),
+    ] {
+        let trace = folder.path("a.csv");
+        let kind = format!("channel.m_synch[25]={kind}");
+        let time = format!("channel.m_prozess_zeit[25]={us}");
+        let words = ["--set", &kind, "--set", &time, "--techno-times", "-o", &trace];
+        let summary = folder.summary(&[&words[..], &["--signals", "path,ipo"]].concat());
+        near(&summary["technology_s"], wait_s, 1e-9);
+        let text = std::fs::read_to_string(&trace).unwrap();
+        let mut rows = text.lines().map(|l| l.split(',').collect::<Vec<_>>());
+        let names = rows.next().unwrap();
+        let column = |name: &str| names.iter().position(|n| *n == name).unwrap();
+        let (v, x) = (column("v_mm_s"), column("X_ipo_mm"));
+        let stood: Vec<&str> =
+            rows.filter(|r| r[v].parse::<f64>().unwrap() == 0.0).map(|r| r[x]).collect();
+        let rests = |at: &&str| stood.iter().filter(|x| *x == at).count() > 100;
+        let rest = ["50.0000000", "75.0000000"].into_iter().find(rests).unwrap_or_default();
+        assert_eq!(rest, at, "{kind} {us}");
+    }
+}
+
 /// A function with a duration stops the path where it acts: M07 in front of its block, M05 after it. Its cycles are of its
 /// block.
 #[test]

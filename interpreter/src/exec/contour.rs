@@ -276,6 +276,12 @@ impl Contour {
         faults
     }
 
+    /// Time in s that the motion of a block takes at its feed; 0 if it has none.
+    pub(super) fn time_of_s(&self, block: SourceRef) -> f64 {
+        let held = self.held.as_ref().filter(|held| held.source == block);
+        held.map_or(0.0, |held| programmed_time_s(&held.block))
+    }
+
     /// The corner after the last motion is not rounded.
     pub(super) fn keep_corner(&mut self) {
         if let Some(held) = &mut self.held {

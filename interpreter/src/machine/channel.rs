@@ -9,9 +9,6 @@ use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimit
 use kontur_motion::realtime::OverrideMode;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// MNE_SNS of P-CHAN-00041.
-const AT_SIGNAL: u32 = 0x20;
-
 /// How many blocks the planner looks ahead (P-STUP-00070, P-STUP-00071).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LookAhead {
@@ -141,6 +138,10 @@ pub struct Channel {
     pub g_groups: BTreeMap<u32, u32>,
     /// Durations of M functions in s (P-CHAN-00040).
     pub m_durations_s: BTreeMap<u32, f64>,
+    /// When the path waits for M functions, where the list says so (P-CHAN-00041).
+    pub m_waits: BTreeMap<u32, Acknowledged>,
+    /// The same for H functions (P-CHAN-00027).
+    pub h_waits: BTreeMap<u32, Acknowledged>,
     /// M functions that wait for the signal of edge banding (P-CHAN-00041 with MNE_SNS).
     pub m_at_signal: BTreeSet<u32>,
     /// Durations of H functions in s (P-CHAN-00026).
@@ -217,6 +218,39 @@ pub enum SpindleMoment {
     AfterMotion,
 }
 
+/// Until when a function that takes time has to be acknowledged.
+///
+/// Source: TF5200 M and H functions 285997195, 286004619; P-CHAN-00041.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acknowledged {
+    /// NO_SYNCH, MOS and kinds that only inform: the path does not wait.
+    Never,
+    /// MVS_SVS: before the motion of the block. Assumption: also the kinds whose place the simulation does not know (MVS_SLM,
+    /// MVS_SLP, MEP_SVS, MET_SVS, MNE_SNS without edge banding).
+    BeforeMotion,
+    /// MVS_SNS: called before the motion of the block, the path waits at its end for what is left.
+    DuringMotion,
+    /// MNS_SNS: called after the motion.
+    AfterMotion,
+}
+
+impl Acknowledged {
+    fn of(bits: u32) -> Self {
+        let is = |kind: u32| bits & kind != 0;
+        if is(of::BEFORE_MOTION) {
+            Self::BeforeMotion
+        } else if is(of::DURING_MOTION) {
+            Self::DuringMotion
+        } else if is(of::BEHIND_MOTION) {
+            Self::AfterMotion
+        } else if is(of::ELSEWHERE) {
+            Self::BeforeMotion
+        } else {
+            Self::Never
+        }
+    }
+}
+
 /// For which functions of a spindle the path waits, until its speed, rest or position is reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SpindleWaits {
@@ -239,7 +273,8 @@ impl SpindleWaits {
             if bits & of::BEFORE_MOTION != 0 {
                 return Some(SpindleMoment::BeforeMotion);
             }
-            (bits & of::AFTER_MOTION != 0).then_some(SpindleMoment::AfterMotion)
+            (bits & (of::DURING_MOTION | of::BEHIND_MOTION) != 0)
+                .then_some(SpindleMoment::AfterMotion)
         };
         Self {
             m3: moment(of::SPINDLE_M3_SYNCHRONISATION),
@@ -289,6 +324,10 @@ impl Channel {
         let table = |array: Param<Optional>| -> BTreeMap<u32, f64> {
             let listed = p.settings().filter(|(_, s)| s.row.key == array.place().row.key);
             listed.filter_map(|(i, _)| Some((i[0], p.get(array.at(i[0]))?))).collect()
+        };
+        let waits = |array: Param<Optional>| -> BTreeMap<u32, Acknowledged> {
+            let kinds = table(array).into_iter();
+            kinds.filter_map(|(i, bits)| Some((i, Acknowledged::of(whole(bits)?)))).collect()
         };
         Self {
             slope: slope(choice(of::SLOPE)),
@@ -352,9 +391,11 @@ impl Channel {
                 .filter_map(|(group, g)| Some((group, whole(g)?)))
                 .collect(),
             m_durations_s: table(of::M_DURATION),
+            m_waits: waits(of::M_SYNCHRONISATION),
+            h_waits: waits(of::H_SYNCHRONISATION),
             m_at_signal: table(of::M_SYNCHRONISATION)
                 .into_iter()
-                .filter_map(|(m, kind)| (whole(kind)? & AT_SIGNAL != 0).then_some(m))
+                .filter_map(|(m, kind)| (whole(kind)? & of::AT_SIGNAL != 0).then_some(m))
                 .collect(),
             h_durations_s: table(of::H_DURATION),
             spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),

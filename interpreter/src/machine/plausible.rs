@@ -318,13 +318,10 @@ pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Ve
 
 /// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 and 00027 say.
 pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let waiting = ["MVS_SVS", "MVS_SNS", "MNS_SNS", "MVS_SLM", "MVS_SLP", "MEP_SVS", "MET_SVS"];
-    let waiting = channel::SYNCHRONISATION
-        .iter()
-        .filter(|(name, _)| waiting.contains(name))
-        .fold(0, |all, (_, bits)| all | bits);
     // for its spindles the path does wait
-    let simulated = channel::BEFORE_MOTION | channel::AFTER_MOTION;
+    let simulated = channel::BEFORE_MOTION | channel::DURING_MOTION | channel::BEHIND_MOTION;
+    // edge banding has its own messages
+    let waiting = simulated | channel::ELSEWHERE & !channel::AT_SIGNAL;
     let durations = [
         (channel::M_SYNCHRONISATION, channel::M_DURATION),
         (channel::H_SYNCHRONISATION, channel::H_DURATION),

@@ -17,7 +17,7 @@ use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::SourceRef;
-use crate::machine::{Channel, Machine, SpindleMoment};
+use crate::machine::{Acknowledged, Channel, Machine, SpindleMoment};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{
@@ -210,8 +210,8 @@ pub(in crate::exec) enum Function {
 pub(in crate::exec) struct Technology {
     /// Declared durations are waited for.
     pub(super) counted: bool,
-    /// Time in s that is still to be waited.
-    pub(super) pending_s: f64,
+    /// Functions that are still to be waited for: time in s and when.
+    pub(super) pending: Vec<(f64, Acknowledged)>,
     /// Spindles that the path has still to wait for.
     pub(super) spindles: Vec<(usize, SpindleMoment)>,
     pub(super) named: BTreeSet<Function>,

@@ -6,13 +6,23 @@
 use super::state::Function;
 use crate::exec::decoder::Decoder;
 use crate::exec::step::{Event, SpindleState, Sync};
-use crate::machine::{Channel, SpindleMoment};
+use crate::machine::{Acknowledged, Channel, SpindleMoment};
 
 impl Decoder {
     /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
     pub(in crate::exec) fn takes_time(&mut self, function: Function) {
-        // Assumption: the functions of a block go to the machine together, so the longest decides
-        self.technology.pending_s = self.technology.pending_s.max(self.counted_time_s(function));
+        let channel = &self.machine.channel;
+        // Assumption: what the list says nothing about is waited for before the motion
+        let until = match function {
+            Function::M(number) => channel.m_waits.get(&number).copied(),
+            Function::H(number) => channel.h_waits.get(&number).copied(),
+            Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => None,
+        };
+        let until = until.unwrap_or(Acknowledged::BeforeMotion);
+        let seconds = self.counted_time_s(function);
+        if seconds > 0.0 {
+            self.technology.pending.push((seconds, until));
+        }
         self.technology.spindles.extend(waited_for(&self.machine.channel, function));
     }
 
@@ -61,7 +71,23 @@ impl Decoder {
                 self.technology.spindles.push((spindle, moment));
             }
         }
-        let seconds = std::mem::take(&mut self.technology.pending_s);
+        // Assumption: the functions of a block go to the machine together, so the longest decides
+        let mut seconds = 0.0_f64;
+        let pending = std::mem::take(&mut self.technology.pending);
+        for (time_s, until) in pending {
+            match (until, now) {
+                (Acknowledged::Never, _) => {}
+                (Acknowledged::BeforeMotion, _)
+                | (Acknowledged::AfterMotion, SpindleMoment::AfterMotion) => {
+                    seconds = seconds.max(time_s);
+                }
+                // Assumption: the motion takes the time of its feed
+                (Acknowledged::DuringMotion, SpindleMoment::AfterMotion) => {
+                    seconds = seconds.max(time_s - self.contour.time_of_s(self.report.source));
+                }
+                (_, SpindleMoment::BeforeMotion) => self.technology.pending.push((time_s, until)),
+            }
+        }
         if seconds > 0.0 {
             self.sync(Sync::Technology { seconds });
         }

@@ -30,8 +30,17 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
 /// Bits of [`SYNCHRONISATION`] that let the path wait before the motion of the block: MVS_SVS.
 pub(crate) const BEFORE_MOTION: u32 = 0x2;
 
-/// Those that let it wait after the motion: MVS_SNS, MNS_SNS.
-pub(crate) const AFTER_MOTION: u32 = 0x4 | 0x8;
+/// MVS_SNS: called before the motion, waited for after it.
+pub(crate) const DURING_MOTION: u32 = 0x4;
+
+/// MNS_SNS: called and waited for after the motion.
+pub(crate) const BEHIND_MOTION: u32 = 0x8;
+
+/// MNE_SNS: called by the signal of edge banding.
+pub(crate) const AT_SIGNAL: u32 = 0x20;
+
+/// Those that let it wait at another place: MNE_SNS, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS.
+pub(crate) const ELSEWHERE: u32 = AT_SIGNAL | 0x4000 | 0x8000 | 0x100_0000 | 0x200_0000;
 
 /// Overrides of rapid blocks (P-CHAN-00181).
 const RAPID_OVERRIDES: &[(&str, u32)] =
@@ -70,9 +79,9 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
-    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; only MNE_SNS acts here, with G108: all others are acknowledged at once")
+    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; MNE_SNS acts with G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; all are acknowledged at once here")
+    chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
     chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
         .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
