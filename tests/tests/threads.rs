@@ -189,7 +189,7 @@ fn a_chain_of_threads() {
         ("G33 Z-10 K1\nG33 Z-20 X5", "K-0019"),
         ("G33 Z-10 K1\nS200\nG33 Z-20", "K-0019"),
         ("#TURN [TAPPING_ACT_POS=1]", "K-0019"),
-        ("#TURN [THREAD_CHAIN=0.5]", "K-0009"),
+        ("#TURN [THREAD_CHAIN=0.5]", "21296"),
         ("#TURN [THREAD_CHIAN=1]", "21220"),
         ("#TURN", "21220"),
     ] {

@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, list of commands.
 
-pub(in crate::exec) mod axes;
+mod axes;
 mod compensation;
 mod contour;
 mod corner;
@@ -186,7 +186,7 @@ const ROWS: &[Row] = &[
     unsupported("AT"),
     unsupported("SYNC IN"),
     unsupported("SYNC OUT"),
-    run("SET TIP", axes::set_tip),
+    unsupported("SET TIP"),
     splines::SPLINE,
     splines::SPLINE_TYPE,
     splines::SET_SPLINE,

@@ -1,5 +1,6 @@
 ; run: exit 0
-; warning 120567 at 3:1
+; warning 120567 at 4:1
+; warning K-0101 at 4:1
 G61 X10 F1000
 #FGROUP [X]
 X20 Y10

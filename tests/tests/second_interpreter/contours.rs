@@ -3,7 +3,7 @@
 use crate::expressions::decimal;
 use crate::model::axes_of;
 use crate::random::{Place, Writer};
-use crate::tree::{Contour, Expr, Insert, Motion, Statement, Word};
+use crate::tree::{Contour, Expr, Insert, Motion, Statement, Way, Word};
 
 /// Where a contour is, and where it goes to.
 struct Pen {
@@ -21,7 +21,12 @@ impl Writer<'_> {
         let mut all = vec![Statement::Plane(plane), Statement::AbsoluteCentres(false)];
         all.push(self.whole_move());
         let pen = &mut Pen { plane, heading_deg: self.random.between(-180.0, 180.0) };
-        match self.random.below(4) {
+        match self.random.below(5) {
+            // not in turned or mirrored systems
+            4 if place.lowest => {
+                all.insert(0, Statement::Mirror(20));
+                all.push(self.spline());
+            }
             0 => all.extend(self.contour_lines(plane)),
             1 => {
                 let size = rounded(self.random.between(0.1, 1.5));
@@ -31,7 +36,7 @@ impl Writer<'_> {
                 self.bend(pen, 120.0);
                 all.push(Statement::Corner(kind, size, [first, self.element(pen, 2.0, 0.0)]));
             }
-            _ => all.extend(self.compensated(pen)),
+            _ => all.extend(self.compensated(pen, place)),
         }
         all
     }
@@ -81,7 +86,7 @@ impl Writer<'_> {
         motion
     }
 
-    fn compensated(&mut self, pen: &mut Pen) -> Vec<Statement> {
+    fn compensated(&mut self, pen: &mut Pen, place: Place) -> Vec<Statement> {
         let radius = rounded(self.random.between(0.2, 2.0));
         let line = |writer: &mut Self, pen: &Pen| {
             let [a, b, _] = axes_of(pen.plane);
@@ -102,7 +107,19 @@ impl Writer<'_> {
                 self.bend(pen, 110.0);
             }
         }
+        // G239 is refused in planes askew to the axes
+        let last = if place.lowest { Way::Stays } else { Way::Lines };
+        let way = self.random.pick(&[Way::Lines, Way::Perpendicular, last]);
+        // a line within the contour leads to another radius
+        let within = 1..elements.len().max(2) - 1;
+        let straight = within.rev().find(|i| elements[*i].path == Some(1));
+        let changes = way != Way::Perpendicular && self.random.chance(0.4);
+        let change = straight
+            .filter(|_| changes)
+            .map(|i| (i, rounded(radius * self.random.between(0.3, 1.2))));
         let contour = Contour {
+            way,
+            change,
             left: self.random.chance(0.5),
             by_arcs: self.random.chance(0.5),
             radius,
@@ -112,6 +129,22 @@ impl Writer<'_> {
             exit: line(self, pen),
         };
         vec![Statement::Compensated(contour)]
+    }
+
+    /// Points of a spline, far enough from one another, as increments or absolutely.
+    fn spline(&mut self) -> Statement {
+        let count = 1 + self.random.below(6);
+        let motions = (0..count).map(|_| {
+            let word = |axis| {
+                let way = self.random.between(1.0, 9.0);
+                let way = rounded(if self.random.chance(0.5) { way } else { -way });
+                Word { axis, value: Expr::Number(way) }
+            };
+            let words = [0, 1, 2].map(word).to_vec();
+            let absolute = Some(self.random.chance(0.3));
+            Motion { number: self.number(), path: Some(1), absolute, words, ..Motion::default() }
+        });
+        Statement::Spline(motions.collect())
     }
 
     fn contour_lines(&mut self, plane: u32) -> Vec<Statement> {

@@ -15,6 +15,7 @@ mod motions;
 mod offset;
 mod path;
 mod random;
+mod spline;
 mod text;
 mod tree;
 
@@ -35,8 +36,12 @@ const MOTIONS_MAX: usize = 150;
 /// Positions and path lengths agree to this, in mm.
 const NEAR: f64 = 1e-6;
 
-/// Axes that reach everywhere: positions are not what the programs are about.
-const SETTINGS: &[&str] = &["X,Y,Z.kenngr.swe_neg=-100000000", "X,Y,Z.kenngr.swe_pos=100000000"];
+/// Axes that reach everywhere, and room for the texts of macros: neither is what the programs are about.
+const SETTINGS: &[&str] = &[
+    "X,Y,Z.kenngr.swe_neg=-100000000",
+    "X,Y,Z.kenngr.swe_pos=100000000",
+    "channel.configuration.decoder.macro_nc_code_len=1024",
+];
 
 #[test]
 fn random_programs_mean_the_same() {

@@ -201,6 +201,7 @@ impl<'a> Model<'a> {
             }
             Statement::Move(_)
             | Statement::Compensated(_)
+            | Statement::Spline(_)
             | Statement::Corner(..)
             | Statement::TwoAngles(..)
             | Statement::Suppressed(_) => self.motions(statement),

@@ -3,7 +3,8 @@
 use crate::model::{Model, axes_of};
 use crate::offset;
 use crate::path::{Piece, Point};
-use crate::tree::{Contour, Motion, Statement};
+use crate::spline;
+use crate::tree::{Contour, Motion, Statement, Way};
 use std::f64::consts::TAU;
 
 impl Model<'_> {
@@ -15,9 +16,22 @@ impl Model<'_> {
             }
             Statement::Compensated(contour) => {
                 let pieces = self.contour(contour);
-                let way = offset::compensated(contour, &pieces, axes_of(self.modal.plane));
+                let plane = axes_of(self.modal.plane);
+                let way = offset::compensated(contour, &pieces, plane);
                 self.narrow |= way.is_none();
-                self.drive(&way.unwrap_or_default());
+                let way = way.unwrap_or_default();
+                self.drive(&way);
+                if let (Way::Stays, Some(last)) = (contour.way, way.last()) {
+                    self.machine = self.map().of(last.at(1.0));
+                }
+                if contour.way != Way::Lines {
+                    let exit = self.motion(&contour.exit);
+                    self.drive(&[exit]);
+                }
+            }
+            Statement::Spline(motions) => {
+                let lines: Vec<Piece> = motions.iter().map(|motion| self.motion(motion)).collect();
+                self.drive(&spline::akima(&lines));
             }
             Statement::Corner(kind, size, [first, second]) => {
                 let pieces = [self.motion(first), self.motion(second)];
@@ -66,7 +80,8 @@ impl Model<'_> {
     }
 
     fn contour(&mut self, contour: &Contour) -> Vec<Piece> {
-        let all = [&contour.approach].into_iter().chain(&contour.elements).chain([&contour.exit]);
+        let exit = Some(&contour.exit).filter(|_| contour.way == Way::Lines);
+        let all = [&contour.approach].into_iter().chain(&contour.elements).chain(exit);
         all.map(|motion| self.motion(motion)).collect()
     }
 

@@ -3,7 +3,7 @@
 //! Intersections are found by Newton's method over the shares of both elements.
 
 use crate::path::{Piece, Point, dot, plus};
-use crate::tree::{Contour, Insert};
+use crate::tree::{Contour, Insert, Way};
 
 /// The plane of a contour: first, second and third axis.
 pub type Plane = [usize; 3];
@@ -130,22 +130,76 @@ fn corner(before: &Piece, after: &Piece, distance: f64, contour: &Contour, plane
     Corner::Lines(contour.radius * libm::tan(angle / 2.0).min(1.0))
 }
 
-/// The way of the tool's centre: approach, contour, exit, all in the plane but for the third axis; `None` where the tool does not
-/// fit between two elements.
+/// A place with other coordinates in the plane.
+fn placed(at: Point, p: [f64; 2], [a, b, _]: Plane) -> Point {
+    let mut at = at;
+    (at[a], at[b]) = (p[0], p[1]);
+    at
+}
+
+/// The point perpendicular above an end of an element.
+fn above(element: &Piece, share: f64, distance: f64, plane: Plane) -> Point {
+    let p = flat(element.at(share), plane);
+    let p = left_of(p, direction(element, share, plane), distance);
+    placed(element.at(share), p, plane)
+}
+
+/// The way of the tool's centre: approach, contour and, where the program knows it (G139), exit, all in the plane but for the third
+/// axis; `None` where the tool does not fit between two elements.
 pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<Vec<Piece>> {
-    let [a, b, _] = plane;
-    let distance = if contour.left { contour.radius } else { -contour.radius };
+    let side = |radius: f64| if contour.left { radius } else { -radius };
+    let distance = side(contour.radius);
     let (approach, rest) = pieces.split_first().unwrap();
-    let (exit, elements) = rest.split_last().unwrap();
-    let place = |at: Point, p: [f64; 2]| {
-        let mut at = at;
-        (at[a], at[b]) = (p[0], p[1]);
-        at
+    let (exit, elements) = match contour.way {
+        Way::Lines => rest.split_last().map(|(exit, elements)| (Some(exit), elements)).unwrap(),
+        Way::Perpendicular | Way::Stays => (None, rest),
     };
-    let first = &elements[0];
-    let above = left_of(flat(first.at(0.0), plane), direction(first, 0.0, plane), distance);
-    let start = approach.at(0.0);
-    let mut all = vec![Piece::line(approach.number, start, place(approach.at(1.0), above))];
+    let (first, last) = (&elements[0], elements.last().unwrap());
+    let start = above(first, 0.0, distance, plane);
+    let mut all = if contour.way == Way::Perpendicular {
+        let up = Piece::line(first.number, first.at(0.0), start);
+        vec![approach.clone(), up]
+    } else {
+        vec![Piece::line(
+            approach.number,
+            approach.at(0.0),
+            placed(approach.at(1.0), flat(start, plane), plane),
+        )]
+    };
+    let mut end = distance;
+    match contour.change {
+        None => all.extend(parallels(contour, elements, distance, plane)?),
+        Some((i, radius)) => {
+            // the line between the two parts leads from one distance to the other
+            let (before, after) = (&elements[..i], &elements[i + 1..]);
+            end = side(radius);
+            let from = above(before.last().unwrap(), 1.0, distance, plane);
+            let to = above(&after[0], 0.0, end, plane);
+            let to = placed(elements[i].at(1.0), flat(to, plane), plane);
+            all.extend(parallels(contour, before, distance, plane)?);
+            all.push(Piece::line(elements[i].number, from, to));
+            let other = Contour { radius, ..contour.clone() };
+            all.extend(parallels(&other, after, end, plane)?);
+        }
+    }
+    let stop = above(last, 1.0, end, plane);
+    match (contour.way, exit) {
+        (Way::Perpendicular, _) => all.push(Piece::line(last.number, stop, last.at(1.0))),
+        (_, Some(exit)) => all.push(Piece::line(exit.number, stop, exit.at(1.0))),
+        (_, None) => {}
+    }
+    Some(all)
+}
+
+/// Parallels of elements that follow one another, with what is inserted at their corners.
+fn parallels(
+    contour: &Contour,
+    elements: &[Piece],
+    distance: f64,
+    plane: Plane,
+) -> Option<Vec<Piece>> {
+    let mut all = Vec::new();
+    let place = |at: Point, p: [f64; 2]| placed(at, p, plane);
     let mut from = 0.0;
     for (i, element) in elements.iter().enumerate() {
         let end = element.at(1.0);
@@ -195,9 +249,6 @@ pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<
             Some(Corner::Smooth) | None => {}
         }
     }
-    let last = elements.last().unwrap();
-    let above = left_of(flat(last.at(1.0), plane), direction(last, 1.0, plane), distance);
-    all.push(Piece::line(exit.number, place(last.at(1.0), above), exit.at(1.0)));
     Some(all)
 }
 

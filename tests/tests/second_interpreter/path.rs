@@ -1,6 +1,7 @@
-//! Lines, arcs and helices of the model, by their lengths.
+//! Lines, arcs, helices and cubics of the model, by their lengths.
 
 use crate::map::Map;
+use crate::spline::Cubic;
 
 pub type Point = [f64; 3];
 
@@ -26,6 +27,8 @@ pub struct Piece {
     pub v: Point,
     pub angle: f64,
     pub rise: Point,
+    /// A curve in place of all that.
+    pub cubic: Option<Box<Cubic>>,
     pub length: f64,
 }
 
@@ -33,17 +36,28 @@ impl Piece {
     pub fn line(number: usize, from: Point, to: Point) -> Self {
         let rise = plus(to, from, -1.0);
         let zero = [0.0; 3];
-        Self { number, centre: from, u: zero, v: zero, angle: 0.0, rise, length: norm(rise) }
+        let (cubic, length) = (None, norm(rise));
+        Self { number, centre: from, u: zero, v: zero, angle: 0.0, rise, cubic, length }
     }
 
     /// An arc about a centre from `centre + u` towards `v`, which is as long as `u` and perpendicular to it.
     pub fn arc(number: usize, centre: Point, [u, v]: [Point; 2], angle: f64, rise: Point) -> Self {
         let length = (dot(u, u) * angle * angle + dot(rise, rise)).sqrt();
-        Self { number, centre, u, v, angle, rise, length }
+        Self { number, centre, u, v, angle, rise, cubic: None, length }
+    }
+
+    pub fn cubic(number: usize, cubic: Cubic) -> Self {
+        let (from, to, length) = (cubic.at(0.0), cubic.at(1.0), cubic.length());
+        Self { cubic: Some(Box::new(cubic)), length, ..Self::line(number, from, to) }
     }
 
     /// Through a rigid motion or a mirroring.
     pub fn moved(&self, map: &Map) -> Self {
+        if let Some(cubic) = &self.cubic {
+            let [at, b, c, d] = cubic.coefficients;
+            let [b, c, d] = [b, c, d].map(|v| map.direction(v));
+            return Self::cubic(self.number, Cubic::new([map.of(at), b, c, d]));
+        }
         Self {
             centre: map.of(self.centre),
             u: map.direction(self.u),
@@ -55,6 +69,9 @@ impl Piece {
 
     /// Where the path is at this share of the piece.
     pub fn at(&self, share: f64) -> Point {
+        if let Some(cubic) = &self.cubic {
+            return cubic.at_length(share * self.length);
+        }
         let (s, c) = libm::sincos(self.angle * share);
         plus(plus(plus(self.centre, self.u, c), self.v, s), self.rise, share)
     }

@@ -1,7 +1,7 @@
 //! A program as the control reads it.
 
 use crate::tree::{
-    Expr, Function, Insert, Kind, Motion, Operator, Program, Statement, Subroutine, Word,
+    Expr, Function, Insert, Kind, Motion, Operator, Program, Statement, Subroutine, Way, Word,
 };
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -76,12 +76,36 @@ impl File {
             Statement::Compensated(contour) => {
                 self.line(&format!("V.G.WZ_AKT.R={}", contour.radius));
                 let side = if contour.left { "G41" } else { "G42" };
-                let on = format!("{side} {}", if contour.by_arcs { "G26" } else { "G25" });
-                self.switched(&on, contour.in_block, &contour.approach);
-                for element in &contour.elements {
-                    self.motion("", element);
+                let way = match contour.way {
+                    Way::Lines => "G139",
+                    Way::Perpendicular => "G237",
+                    Way::Stays => "G239",
+                };
+                let on = format!("{side} {} {way}", if contour.by_arcs { "G26" } else { "G25" });
+                let perpendicular = contour.way == Way::Perpendicular;
+                if perpendicular {
+                    self.motion("", &contour.approach);
+                } else {
+                    self.switched(&on, contour.in_block, &contour.approach);
+                }
+                for (i, element) in contour.elements.iter().enumerate() {
+                    if let Some((_, radius)) = contour.change.filter(|(at, _)| *at == i) {
+                        self.line(&format!("V.G.WZ_AKT.R={radius}"));
+                    }
+                    if perpendicular && i == 0 {
+                        self.switched(&on, contour.in_block, element);
+                    } else {
+                        self.motion("", element);
+                    }
                 }
                 self.switched("G40", contour.in_block, &contour.exit);
+            }
+            Statement::Spline(motions) => {
+                self.line("G151");
+                for motion in motions {
+                    self.motion("", motion);
+                }
+                self.line("G150");
             }
             Statement::Corner(kind, size, [first, second]) => {
                 self.motion("", first);

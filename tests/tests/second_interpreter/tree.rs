@@ -80,14 +80,28 @@ pub enum Insert {
     Rounding,
 }
 
+/// How the tool comes to a contour and leaves it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// G139: with the line in front of the contour and the line behind it.
+    Lines,
+    /// G237: perpendicular to the contour; the lines are those of the program.
+    Perpendicular,
+    /// G239: as G139, but it stays at the end, and the program goes on from there.
+    Stays,
+}
+
 /// A contour under tool radius compensation.
 #[derive(Clone, Debug)]
 pub struct Contour {
+    pub way: Way,
     /// G41.
     pub left: bool,
     /// G26 instead of G25.
     pub by_arcs: bool,
     pub radius: f64,
+    /// Another radius from this element on, a line, which leads to it.
+    pub change: Option<(usize, f64)>,
     /// G41 or G42, and G40, are in the blocks of the motions.
     pub in_block: bool,
     pub approach: Motion,
@@ -104,6 +118,8 @@ pub enum Statement {
     Array(String, Vec<f64>),
     Move(Motion),
     Compensated(Contour),
+    /// G151, motions, G150.
+    Spline(Vec<Motion>),
     /// Two motions with a chamfer or a rounding of a size.
     Corner(Insert, f64, [Motion; 2]),
     /// Two contour lines by two angles and the end of the second one.

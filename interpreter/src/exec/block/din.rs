@@ -11,7 +11,6 @@ use super::groups::{Act, Group};
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane};
 use super::modes::weight_ratio;
 use crate::diag::{Condition, ValueKind};
-use crate::exec::commands::axes::jog_speeds;
 use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -370,11 +369,6 @@ impl Decoder {
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
-                "SET TIP" => {
-                    let speeds = hash.bracket.as_ref().map_or(0, |group| group.items.len());
-                    self.report.note(jog_speeds(speeds, *span));
-                    continue;
-                }
                 other => {
                     self.report.note(Fault::unsupported(format!("#{other}"), *span));
                     continue;

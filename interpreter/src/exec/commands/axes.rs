@@ -358,19 +358,3 @@ fn full_feedforward_of_all(decoder: &mut Decoder) {
     let all: Vec<usize> = (0..decoder.machine.axes.len()).collect();
     full_feedforward(decoder, &all);
 }
-
-/// `#SET TIP [1000, 2000, 3000]`.
-pub(super) fn set_tip(_: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    let speeds = call.command.groups.first().map_or(0, |group| group.items.len());
-    Err(jog_speeds(speeds, call.span()))
-}
-
-/// Speeds of manual mode, which is not simulated; 20490 for more than three (251755403).
-pub(in crate::exec) fn jog_speeds(speeds: usize, span: Span) -> Box<Fault> {
-    const MOST: usize = 3;
-    if speeds <= MOST {
-        return Fault::unsupported("#SET TIP", span);
-    }
-    let text = format!("#SET TIP has {speeds} values, at most {MOST}");
-    Fault::new(Condition::JogStages, text, span)
-}

@@ -323,7 +323,7 @@ fn options_of_compensation() {
     for (text, id) in [
         ("#TRC [KERF_MASKING=0 TANGENTIAL_LIMIT=3 ONLINE=0 SPLIT_OFF]", None),
         ("#TRC [SPLIT AX=X PRE DIST_SEG1=5 FEED_SEG1=100]", Some("K-0019")),
-        ("#TRC [REVERSE=0.5]", Some("K-0009")),
+        ("#TRC [REVERSE=0.5]", Some("21296")),
         ("#TRC [REVERSE=1 STRETCH_FACTOR=9 GEN_CIR_BLOCK_IN_CORNER=0]", None),
         ("#TRC [STRETCH_FACTOR=0.5]", Some("22007")),
         ("#TRC [GEN_CIR_BLOCK_IN_CORNER=1]", Some("K-0019")),

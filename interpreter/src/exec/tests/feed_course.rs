@@ -106,7 +106,7 @@ fn the_feed_is_interpolated_over_path_and_time() {
 #[test]
 fn what_does_not_go_with_it() {
     for (text, ids) in [
-        ("#CORNER PARAM [DIST=0 UNIT=PERCENT FEED=50]\n", &["K-0009"][..]),
+        ("#CORNER PARAM [DIST=0 UNIT=PERCENT FEED=50]\n", &["21296"][..]),
         ("#CORNER PARAM [DIST=1 UNIT=PART FEED=50]\n", &["21220"]),
         ("#CORNER PARAM [DIST=1 FEED=50]\n", &["21220"]),
         ("#SET CORNER PARAM [10, 2, 50]\n", &["K-0009"]),

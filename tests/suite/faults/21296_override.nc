@@ -1,4 +1,4 @@
 ; check: exit 1
-; error K-0009 at 3:12
+; error 21296 at 3:12
 #OVERRIDE [FEED_FACT=300]
 M30

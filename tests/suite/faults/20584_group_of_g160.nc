@@ -1,0 +1,5 @@
+; check: exit 1
+; error 20584 at 4:5
+N10 G00 X0 Y0 Z0
+N20 G160=500 X1 Y1 Z0
+N1000 M30

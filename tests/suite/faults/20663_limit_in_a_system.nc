@@ -1,0 +1,7 @@
+; check: exit 1
+; error 20663 at 5:5
+N10 G00 X0 Y0 Z0
+N20 #CS ON[10,20,0,0,0,45]
+N30 G98 X-500 Y-800
+N100 #CS OFF
+N1000 M30

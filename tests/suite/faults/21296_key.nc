@@ -1,0 +1,4 @@
+; check: exit 1
+; error 21296 at 3:33
+#CONTOUR MODE [DEV PATH_DEV=0.1 REMAIN_PART=300]
+M30

@@ -1,0 +1,9 @@
+; check: exit 1
+; error 90047 at 7:1
+V.G.WZ_AKT.R=2
+G41 G01 F1000 X10 Y10
+X30
+V.G.WZ_AKT.R=3
+G03 X40 Y20 I0 J10
+G40 G01 X0
+M30
