@@ -270,22 +270,23 @@ fn negative_weights_keep_the_tolerance_too() {
     }
 }
 
-/// The output is judged by what the filters really gave: set points `aside_mm` beside a straight line.
-fn told_of_output(aside_mm: f64) -> Vec<Unkept> {
+/// What is told of set points that something moves, on a contour of straight lines with a tolerance of 0.01 mm.
+fn told_of_output(points: &[[f64; 2]], moved: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Unkept> {
     let job = guarded(Job::new(1.0, Trapez), 1, 40.0, 0.1, Some(0.01));
     let cycle = CycleTime::from_us(job.cycle_us).unwrap();
     let mut planner = Planner::new(cycle, job.window, &[0.0; 2]);
     let kernel = job.kernel.clone().map(Arc::new);
     planner.set_kernels(Kernels::new(vec![kernel; 2]), 0);
-    let ends = [[0.0; 2], [20.0, 0.0]].map(|p| AxisVec::from_slice(&p));
-    let [from, to] = ends;
-    planner.push(job.block(7, Path::Line(LinePath::new(from, to, &[]).unwrap()), 50.0));
+    for (seq, ends) in (7..).zip(points.windows(2)) {
+        let [from, to] = [0, 1].map(|i| AxisVec::from_slice(&ends[i]));
+        planner.push(job.block(seq, Path::Line(LinePath::new(from, to, &[]).unwrap()), 50.0));
+    }
     planner.finish();
     let (mut meter, mut told) = (Meter::default(), Vec::new());
     while planner.advance().unwrap() == Next::Setpoint {
         planner.take_changes().for_each(|change| meter.take(change));
         let at = planner.setpoint();
-        let set = [at.position[0], aside_mm];
+        let set = moved([at.position[0], at.position[1]]);
         meter.filtered(at.k, &set, &at.position, &mut [0.0; 2]);
         told.extend(meter.take_exceeded());
     }
@@ -293,11 +294,24 @@ fn told_of_output(aside_mm: f64) -> Vec<Unkept> {
     told
 }
 
+/// The output is judged by what the filters really gave: set points beside a straight line.
 #[test]
 fn an_excess_that_the_plan_does_not_see_is_told_once() {
-    assert_eq!(told_of_output(0.0099), []);
-    let told = told_of_output(0.0125);
+    let aside = |mm: f64| told_of_output(&[[0.0; 2], [20.0, 0.0]], |p| [p[0], mm]);
+    assert_eq!(aside(0.0099), []);
+    let told = aside(0.0125);
     let [excess] = told[..] else { panic!("{told:?}") };
     assert_eq!((excess.seq, excess.tolerance_mm), (7, 0.01));
     assert!((excess.deviation_mm - 0.0125).abs() < 1e-12, "{excess:?}");
+}
+
+/// Set points that turn back before the tip of a needle are on the contour all the time: only the tip is missed.
+#[test]
+fn a_corner_that_the_output_never_reaches_is_told() {
+    let back = |x: f64| told_of_output(&[[0.0; 2], [10.0, 0.0], [0.0; 2]], |p| [p[0].min(x), p[1]]);
+    assert_eq!(back(9.9901), []);
+    let told = back(9.97);
+    let [excess] = told[..] else { panic!("{told:?}") };
+    kontur_kit::near(excess.tolerance_mm, 0.01, 0.0);
+    kontur_kit::near(excess.deviation_mm, 0.03, 1e-12);
 }

@@ -1,6 +1,7 @@
-//! Programs that the vendor's public pages print, in own words with the numbers of the page.
+//! Programs that the vendor's public pages print, in own words with the numbers of the page, and what other programs do.
 //!
-//! Every file of `tests/suite/printed` is one test. Its head is that of `suite/faults`, with three kinds of lines more:
+//! Every file of `tests/suite/printed` and of `tests/suite/behaviour` is one test. Its head is that of `suite/faults`, with
+//! further kinds of lines; those of `behaviour` have no page, and a comment says what they show:
 //!
 //! ```text
 //! ; run --set X.getriebe[0].kv=1000: exit 0
@@ -80,18 +81,18 @@ fn agrees((exit, ahead): (u8, Vec<Said>), said: &[Said]) -> Result<(), Failed> {
 
 fn program(path: &Path) -> Result<(), Failed> {
     let head = head(&std::fs::read_to_string(path)?)?;
-    let (own, home) = (name(path), folder("printed"));
+    let (own, home) = (name(path), path.parent().ok_or("no folder")?);
     let place = tempfile::tempdir()?;
     let trace = place.path().join("trace.csv");
     let [output, signals, groups] = ["-o", "--signals", "time,set"].map(OsString::from);
     let more = [output, trace.clone().into(), signals, groups];
-    let (exit, said) = call("run", path, &head.options, &more, &home)?;
+    let (exit, said) = call("run", path, &head.options, &more, home)?;
     compare(&own, &head, exit, &said)?;
     if head.what == "check" {
-        let (exit, said) = call("check", path, &head.options, &[], &home)?;
+        let (exit, said) = call("check", path, &head.options, &[], home)?;
         return Ok(compare(&own, &head, exit, &said)?);
     }
-    let ahead = call("check", path, &head.options, &[], &home)?;
+    let ahead = call("check", path, &head.options, &[], home)?;
     agrees(ahead, &said)?;
     let set = set_positions(&trace)?;
     for line in &head.other {
@@ -164,7 +165,8 @@ fn table() -> Result<(), Failed> {
 fn main() {
     let arguments = Arguments::from_args();
     let mut trials = vec![Trial::test("the_table_of_the_folder", table)];
-    for path in files(&folder("printed"), "nc") {
+    let programs = ["printed", "behaviour"].map(|set| files(&folder(set), "nc"));
+    for path in programs.into_iter().flatten() {
         trials.push(Trial::test(name(&path), move || program(&path)));
     }
     libtest_mimic::run(&arguments, trials).exit();

@@ -10,14 +10,7 @@ fn with(main: &str, name: &str, sub: &str) -> Run {
 }
 
 #[test]
-fn local_subroutines() {
-    let square = "%L SQUARE\nN10 G91 G01 X1\nN20 Y1\nN30 X-1\nN40 Y-1\nN50 G90\nN60 M17\n%MAIN\nN10 G00 X0 Y0 F2000\nN20 LL SQUARE\nN30 M30\n";
-    let run = clean(square);
-    assert_eq!(run.ends().len(), 4);
-    assert_eq!(run.end, [0.0, 0.0, 0.0]);
-    // words of the block first; M17 may be missing
-    let run = clean("%L UP\nG91 Z1 F100\nG90\n%MAIN\nZ5 F100 LL UP\nM30\n");
-    assert_eq!(run.end, [0.0, 0.0, 6.0]);
+fn a_local_subroutine_of_another_name() {
     let run = super::run("%L SIDE\nX1\n%MAIN\nLL SIDES\nM30\n");
     assert_eq!(run.ids(), ["K-0014"]);
     assert!(run.diagnostics[0].hint.as_deref().unwrap().contains("SIDE"));
@@ -272,35 +265,12 @@ fn other_capital_letters_than_the_files_get_a_note() {
     assert_eq!((run.ids(), run.end[0]), (vec!["K-0109".to_owned()], 1.0));
 }
 
-/// The blocks from one number to another, the last one included, as a subroutine: in this program or in another one.
+/// A sequence of blocks of another program. Those of the same one are programs of the suite.
 #[test]
-fn block_sequences() {
-    let run = clean(
-        "G91 F1000\nN10 G01 X1\nN20 Y1\n/N30 Z1\nN40 X10\nL SEQUENCE [N10 N30]\nL SEQUENCE [N40]\nM30\n",
-    );
-    assert_eq!(run.end, [22.0, 2.0, 2.0]);
-    let run = clean("G91 F1000\nN10 G01 X1\n$FOR P1=1,3,1\nL SEQUENCE [N10 N10]\n$ENDFOR\nM30\n");
-    assert_eq!(run.end[0], 4.0);
+fn block_sequences_of_another_file() {
     let sub = "X100\nN5 X1\nN6 Y2\nN7 Z3\nM17\n";
-    let run = with(
-        "G01 F1000\nL SEQUENCE [NAME=\"sub.nc\" N5 N6]\nL SEQUENCE [N7 N8]\nM30\nN7 X7\nN8 Y8\n",
-        "sub.nc",
-        sub,
-    );
-    assert_eq!(run.end, [7.0, 8.0, 0.0]);
-    assert!(run.ids().is_empty(), "{:?}", run.ids());
-    // whole structures inside, and the end of the program
-    let run = clean("G91 F1000\nN10 $IF 1 == 1\nX1\n$ENDIF\nN20 Y1\nL SEQUENCE [N10 N20]\nM30\n");
-    assert_eq!(run.end, [2.0, 2.0, 0.0]);
-    let run = super::run("N10 L SEQUENCE [N10]\nM30\n");
-    assert_eq!(run.ids(), ["20360"]);
-    // a number inside a comment is text
-    let run = clean(
-        "G91 G01 F1000\n#COMMENT BEGIN\nN10 X100\n#COMMENT END\nN10 X1\nL SEQUENCE [N10]\nM30\n",
-    );
-    assert_eq!(run.end[0], 2.0);
-    let hidden = "#COMMENT BEGIN\nN10 X100\n#COMMENT END\nL SEQUENCE [N10]\nM30\n";
-    assert_eq!(super::run(hidden).ids(), ["K-0015"]);
+    let run = with("G01 F1000\nL SEQUENCE [NAME=\"sub.nc\" N5 N6]\nM30\n", "sub.nc", sub);
+    assert_eq!((run.ids(), run.end), (vec![], vec![1.0, 2.0, 0.0]));
 }
 
 /// Of several blocks with a number the first one counts, in whatever order the numbers are written.
@@ -320,36 +290,6 @@ fn sequences_begin_at_the_first_block_of_their_number() {
         ));
         assert_eq!(run.end, [0.0, first as f64, 0.0], "{seed}: N{wanted}");
     }
-}
-
-/// REPEAT: so many passes in all; ENDTAG: the call ends the sequence too, whichever end comes first.
-#[test]
-fn repeated_block_sequences() {
-    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=3]\nM30\n");
-    assert_eq!(run.end, [4.0, 4.0, 0.0]);
-    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 REPEAT3 ENDTAG]\nZ5\nM30\n");
-    assert_eq!(run.end, [4.0, 4.0, 5.0]);
-    // N40 comes after the call: the call is the end; N10 in front of it: N10 is
-    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N40 ENDTAG]\nN40 Z5\nM30\n");
-    assert_eq!(run.end, [2.0, 2.0, 5.0]);
-    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N10 ENDTAG]\nM30\n");
-    assert_eq!(run.end, [2.0, 1.0, 0.0]);
-    // loops inside are left in order, and start again with every pass
-    let run = clean(
-        "G91 F1000\nN10 G01\n$FOR P1=1,2,1\nX1\n$ENDFOR\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=2]\nM30\n",
-    );
-    assert_eq!(run.end, [6.0, 3.0, 0.0]);
-    let missing = super::run("L SEQUENCE [N10 ENDTAG]\nN10 G01 X1 F100\nM30\n");
-    assert_eq!(missing.ids()[0], "K-0015");
-    assert_eq!(super::run("N10 P1=1\nL SEQUENCE [N10 REPEAT=0]\nM30\n").ids()[0], "K-0009");
-}
-
-/// A call without a blank (`LLCYCLE[..]`) is one, as `LCYCLE[..]` is.
-#[test]
-fn local_cycles_need_no_blank() {
-    let run =
-        super::clean("%L CYC\nG91 G01 X@P1 F1000\nM17\n%MAIN\nLLCYCLE[NAME=CYC @P1=4]\nM30\n");
-    assert_eq!(run.end[0], 4.0);
 }
 
 /// G functions without values are restored at the end of a cycle, those with values or axes stay (P-CHAN-00210, 476043659).

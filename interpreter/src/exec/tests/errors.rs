@@ -389,17 +389,6 @@ fn axis_exchanges_are_checked() {
     }
 }
 
-/// A position preset ends with homing (207101835): the offset stayed, and X0 was 80 mm away.
-#[test]
-fn homing_takes_presets_back() {
-    let end = |text: &str| {
-        super::run(&format!("F6000 G01 X20 Y5\n#PSET X100 Y50\nX110\n{text}\nX0 Y0\nM30\n")).end
-    };
-    super::assert_near(&end("G74 X1"), &[0.0, -45.0, 0.0]);
-    super::assert_near(&end("G74"), &[0.0, 0.0, 0.0]);
-    super::assert_near(&end("G74 Z1"), &[-80.0, -45.0, 0.0]);
-}
-
 /// Numbers that the pages of the mistakes print, beyond those of the suite: 20721, 20995.
 #[test]
 fn numbers_of_single_mistakes() {

@@ -1,0 +1,8 @@
+; run: exit 0
+; end X4
+%L CYC
+G91 G01 X@P1 F1000
+M17
+%MAIN
+LLCYCLE[NAME=CYC @P1=4]
+M30

@@ -1,0 +1,8 @@
+; run: exit 0
+; end X4
+G91 F1000
+N10 G01 X1
+$FOR P1=1,3,1
+L SEQUENCE [N10 N10]
+$ENDFOR
+M30

@@ -1,0 +1,7 @@
+; check: exit 1
+; error K-0015 at 6:13
+#COMMENT BEGIN
+N10 X100
+#COMMENT END
+L SEQUENCE [N10]
+M30

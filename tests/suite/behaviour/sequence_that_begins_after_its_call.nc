@@ -1,0 +1,5 @@
+; check: exit 1
+; error K-0015 at 3:17
+L SEQUENCE [N10 ENDTAG]
+N10 G01 X1 F100
+M30

@@ -1,0 +1,9 @@
+; run: exit 0
+; end X4 Y4 Z5
+(ENDTAG: the call ends it)
+G91 F1000
+N10 G01 X1
+N20 Y1
+L SEQUENCE [N10 REPEAT3 ENDTAG]
+Z5
+M30
