@@ -359,6 +359,9 @@ fn tapping_behind_filters_and_lags() {
     let path = ["X", "Y", "Z"];
     let all = ["X", "Y", "Z", "S"];
     let half = ["getriebe[0].kv=2500"];
+    let by_speed =
+        ["dyn_kv_active=1", "kv1=2500", "kv2=2500"].map(|e| format!("getriebe[0].dyn_kv.{e}"));
+    let by_speed = by_speed.each_ref().map(String::as_str);
     // S600 and 1.5 mm: 15 mm/s; kv 25/s instead of 50/s are 20 ms more
     for (settings, before, told, actual_mm) in [
         (of(&path, &low_pass), "", true, None),
@@ -367,6 +370,8 @@ fn tapping_behind_filters_and_lags() {
         (of(&all, &guard), "", false, Some(0.0)),
         (of(&["Z"], &half), "", true, Some(0.3)),
         (of(&["Z", "S"], &half), "", false, Some(0.0)),
+        (of(&["Z"], &by_speed), "", true, Some(0.3)),
+        (of(&["Z", "S"], &by_speed), "", false, Some(0.0)),
         (vec![], "G135\n", true, Some(0.3)),
         (vec![], "G135\nS[G135]\n", false, Some(0.0)),
         (vec![], "", false, Some(0.0)),

@@ -129,7 +129,10 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
 ///
 /// Source: TF5200 gantry operation, page 285697291: dynamics that have to be the same. Assumption: a slave has the software limits of its master (the pages say that it takes its set positions).
 fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
-    let lags = |on: bool| (slave.lag_s(on, 1.0) - master.lag_s(on, 1.0)).abs() > 1e-9;
+    let speed_mm_s = master.dynamics().v_max_mm_s;
+    let lags = |on: bool| {
+        (slave.lag_s(speed_mm_s, on, 1.0) - master.lag_s(speed_mm_s, on, 1.0)).abs() > 1e-9
+    };
     if lags(true) && !lags(false) {
         let place = axis_drive::FEEDFORWARD;
         let what = format!("feedforward of the gantry slave is not that of {}", master.name());

@@ -104,12 +104,12 @@ impl Axis {
         filters::preset(self, cycle)
     }
 
-    /// Time in s by which the actual position follows the set position at constant speed, with feedforward in this state of
-    /// G135 and G136: the part of the speed that is not fed forward, by the gain kv.
-    pub(crate) fn lag_s(&self, feedforward_on: bool, weight_ratio: f64) -> f64 {
+    /// Time in s by which the actual position follows the set position at a constant speed in mm/s, with feedforward in this
+    /// state of G135 and G136: the part of the speed that is not fed forward, by the gain kv.
+    pub(crate) fn lag_s(&self, speed_mm_s: f64, feedforward_on: bool, weight_ratio: f64) -> f64 {
         let config = control::config(self, &mut Vec::new());
         let fed = config.feedforward.velocity_share(feedforward_on, weight_ratio);
-        (1.0 - fed) / self.kv_1_s()
+        (1.0 - fed) / config.position.gain_at(speed_mm_s)
     }
 
     /// Mean delay of the standard filters that the list switches on, in cycles.

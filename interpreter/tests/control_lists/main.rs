@@ -257,6 +257,41 @@ fn additive_speed_and_the_place_of_the_loop() {
     }
 }
 
+/// P-AXIS-00244 switches the gain that depends on speed: the lag at a constant speed is that speed by the gain in force. SERCOS
+/// and CANopen drives have it only with the loop in the control.
+#[test]
+fn dynamic_kv_needs_its_switch() {
+    let kv = |values: [u32; 4]| {
+        let keys = ["kv1", "v1", "kv2", "v2"];
+        let of = |(key, value)| format!("X.getriebe[0].dyn_kv.{key}={value}");
+        keys.into_iter().zip(values).map(of).collect::<Vec<_>>().join(" ")
+    };
+    let (on, off) =
+        ("X.getriebe[0].dyn_kv.dyn_kv_active=1", "X.getriebe[0].dyn_kv.dyn_kv_active=0");
+    let falling = kv([4000, 10_000, 3000, 200_000]);
+    let rising = kv([4000, 50_000, 10_000, 250_000]);
+    let flat = kv([2000, 10_000, 2000, 200_000]);
+    // the drive that follows at once leaves nothing but the law of the controller
+    let bus = |drive: u32| format!("{flat} {on} X.kenngr.antr_typ={drive}");
+    for (settings, gain_1_s, said) in [
+        (String::new(), 50.0, &[][..]),
+        (on.to_owned(), 10.0, &[]),
+        (format!("{falling} {off}"), 50.0, &[]),
+        (falling.clone(), 50.0, &["K-0075"]),
+        (format!("{falling} {on}"), 40.0 - 10.0 * 90.0 / 190.0, &[]),
+        (format!("{rising} {on}"), 40.0 + 60.0 * 50.0 / 200.0, &[]),
+        (format!("{flat} {on}"), 20.0, &[]),
+        (bus(3), 20.0, &["K-0079"]),
+        (bus(2), 50.0, &["K-0079", "K-0075"]),
+        (bus(8), 50.0, &["K-0079", "K-0075"]),
+        (format!("{} X.antr.operation_mode=CNC_POSITION_CONTROL", bus(2)), 20.0, &[]),
+    ] {
+        assert_eq!(ids(&settings), said, "{settings}");
+        let out = last(&settings, 0.0);
+        near(out.reference_mm - out.act_mm, 100.0 / gain_1_s, 0.02 / gain_1_s);
+    }
+}
+
 /// P-AXIS-00395: an axis that is pushed aside at rest gets no command inside the dead band; at most the window, and not
 /// with a loop closed in the drive.
 #[test]

@@ -295,7 +295,7 @@ impl Decoder {
         if self.report.failed() && !self.checking {
             return Ok(());
         }
-        if let Some(text) = self.apart_from_spindle(&block.path, spindle) {
+        if let Some(text) = self.apart_from_spindle(&block.path, spindle, feed_mm_s, rpm) {
             self.report.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
         }
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
@@ -309,7 +309,13 @@ impl Decoder {
     }
 
     /// What keeps an axis of a thread and its spindle from being at the same place of it: other filters, another lag.
-    fn apart_from_spindle(&self, path: &Path, spindle: usize) -> Option<String> {
+    fn apart_from_spindle(
+        &self,
+        path: &Path,
+        spindle: usize,
+        feed_mm_s: f64,
+        rpm: f64,
+    ) -> Option<String> {
         let (cycle, turning) = (self.machine.cycle, &self.machine.spindles[spindle]);
         let of_spindle = self.shaping.setup.spindles.get(spindle)?.kernel.as_deref();
         let ms = |kernel: Option<&Kernel>, axis: &Axis| {
@@ -317,10 +323,10 @@ impl Decoder {
             (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
         };
         let main = &self.motion.spindles[0];
-        let spindle_lag_s = turning.lag_s(main.feedforward, main.weight_ratio);
+        let spindle_lag_s = turning.lag_s(6.0 * rpm, main.feedforward, main.weight_ratio);
         let feedforward = &self.motion.feedforward;
-        let moves = |i: &usize| (path.end()[*i] - path.start()[*i]).abs() > 0.0;
-        (0..self.machine.axes.len()).filter(moves).find_map(|i| {
+        let way_mm = |i: usize| path.end()[i] - path.start()[i];
+        (0..self.machine.axes.len()).filter(|i| way_mm(*i).abs() > 0.0).find_map(|i| {
             let axis = &self.machine.axes[i];
             let kernel = self.shaping.setup.axes[i].kernel.as_deref();
             let [own, of_other] = [ms(kernel, axis), ms(of_spindle, turning)];
@@ -330,7 +336,8 @@ impl Decoder {
                     "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not together in the thread"
                 ));
             }
-            let lag_s = axis.lag_s(feedforward.on, feedforward.weight_ratios[i]);
+            let speed_mm_s = feed_mm_s * way_mm(i) / path.length();
+            let lag_s = axis.lag_s(speed_mm_s, feedforward.on, feedforward.weight_ratios[i]);
             ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
                 format!(
                     "tapping while {name} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",

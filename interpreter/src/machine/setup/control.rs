@@ -241,22 +241,61 @@ fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop
     PositionLoop::Drive
 }
 
-/// Assumption: the gain depends on speed if its two values differ; the manual names no switch.
 fn position(axis: &Axis, v_max_mm_s: f64, diagnostics: &mut Vec<Diagnostic>) -> PositionConfig {
-    let dynamic_kv = DynamicKv {
-        v1_mm_s: axis.get(axis_control::GAIN_SPEED_1),
-        kv1_per_s: axis.get(axis_control::GAIN_1),
-        v2_mm_s: axis.get(axis_control::GAIN_SPEED_2),
-        kv2_per_s: axis.get(axis_control::GAIN_2),
-    };
+    let closed_in = position_loop(axis, diagnostics);
     PositionConfig {
         kv_per_s: axis.kv_1_s(),
-        dynamic_kv: Some(dynamic_kv).filter(|d| (d.kv1_per_s - d.kv2_per_s).abs() > 0.0),
+        dynamic_kv: dynamic_kv(axis, closed_in, diagnostics),
         v_max_mm_s,
         v_excess_ratio: axis.get(axis_control::SPEED_EXCESS),
         dead_band_mm: axis.get(axis_control::DEAD_BAND),
-        closed_in: position_loop(axis, diagnostics),
+        closed_in,
     }
+}
+
+/// The gain that depends on speed, `None` unless P-AXIS-00244 switches it on.
+///
+/// Source: TF5200 axis parameters, pages 117792395 and 117789195: SERCOS and CANopen drives have it only while the control
+/// closes the loop. Assumption: values without the switch, which no list of the engineering tool has, are a mistake; with the
+/// switch at 0 they are prepared.
+fn dynamic_kv(
+    axis: &Axis,
+    closed_in: PositionLoop,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<DynamicKv> {
+    let switch = axis_control::GAIN_BY_SPEED;
+    let values = [
+        axis_control::GAIN_1,
+        axis_control::GAIN_SPEED_1,
+        axis_control::GAIN_2,
+        axis_control::GAIN_SPEED_2,
+    ];
+    let mut without_effect = |place: Place, what: &str, hint: &str| {
+        let effect = "the gain is that of kv (P-AXIS-00099)";
+        diagnostics
+            .push(issues::about(axis, Condition::ListNoEffect, place, what, effect).hint(hint));
+    };
+    if !axis.get(switch) {
+        let written = values.iter().find(|value| axis.set_by(**value).is_some());
+        if let Some(value) = written.filter(|_| axis.set_by(switch).is_none()) {
+            without_effect(
+                value.place(),
+                "dynamic kv that nothing switches on",
+                "getriebe[0].dyn_kv.dyn_kv_active 1 switches it on, 0 says that it is meant to be off",
+            );
+        }
+        return None;
+    }
+    if closed_in == PositionLoop::Drive && matches!(axis.get(axis_general::DRIVE), 2 | 8) {
+        without_effect(
+            switch.place(),
+            "dynamic kv of a drive that closes the position loop",
+            "CNC_POSITION_CONTROL (P-AXIS-00320) closes the loop in the control",
+        );
+        return None;
+    }
+    let [kv1_per_s, v1_mm_s, kv2_per_s, v2_mm_s] = values.map(|value| axis.get(value));
+    Some(DynamicKv { v1_mm_s, kv1_per_s, v2_mm_s, kv2_per_s })
 }
 
 /// Direct if the list configures a second measuring system or `kontur.lis` says so.
