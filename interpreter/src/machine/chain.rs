@@ -272,6 +272,7 @@ impl Chain<'_> {
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
         plausible::check(&mut settled.tools, cycle, None, diagnostics);
         plausible::check(&mut settled.zero, cycle, None, diagnostics);
+        plausible::check_feed_unit(&mut settled.channel, diagnostics);
         plausible::check_presets(&settled.channel, diagnostics);
         plausible::check_rapid_override(&settled.channel, diagnostics);
         plausible::check_synchronisation(&settled.channel, diagnostics);
