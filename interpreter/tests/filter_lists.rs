@@ -106,7 +106,6 @@ fn a_filter_acts_on_its_axis() {
     assert_eq!(counts(&set("X", "enable=1 order=4")), [1, 0, 0, 0]);
     assert_eq!(counts(&set("S", "enable=1 order=4")), [0, 0, 0, 1]);
     assert_eq!(counts(&set("X", "enable=0 order=4")), [0; 4]);
-    assert_eq!(counts(&set("X", "enable=1 order=0")), [0; 4]);
     let mut rotary = set("Z", "enable=1 order=4");
     rotary.push("Z.kenngr.achs_typ=ACHSTYP_ROTATOR".to_owned());
     assert_eq!(counts(&rotary), [0, 0, 1, 0]);
@@ -189,7 +188,7 @@ fn filter_of_the_additional_interface() {
         (format!("filter[0].enable=1 {pt2}"), "", false, false),
         (format!("enable=1 {pt2}"), "", true, false),
         (format!("{on} {pt2}"), "", true, true),
-        (format!("{on} {pt2} filter[0].order=0"), "", true, false),
+        (format!("{on} {pt2} filter[0].order=0"), "K-0075", true, false),
         (format!("{on} {pt2} filter[0].order=1"), "", true, true),
         (format!("{on} {pt2} filter[0].type=PT1"), "", true, true),
         (format!("{on} {pt2} filter[0].type=PT1 filter[0].order=7"), "", true, true),
@@ -207,6 +206,26 @@ fn filter_of_the_additional_interface() {
         assert_eq!(ids.join(" "), id, "{entries}");
         assert_eq!((is_on, filter.is_some()), (interface, filtered), "{entries}");
     }
+}
+
+/// A filter that the list switches on and gives no order is off (page 118178059), and that is said; HSC needs no switch, and a
+/// filter that is off no order.
+#[test]
+fn a_filter_without_order_is_named() {
+    for kind in
+        ["LOWPASS", "HIGHPASS", "BANDSTOP", "ALLPASS prototype=BESSEL", "PT1", "PT2", "TIME_DELAY"]
+    {
+        for order in ["", "order=0"] {
+            let (mut chain, ids) = x(&format!("enable=1 type={kind} {order}"));
+            assert_eq!(ids, ["K-0075"], "{kind}");
+            let out = ramp(&mut chain);
+            assert!(
+                out.iter().zip(0..).all(|(y, n)| (y - 0.1 * f64::from(n.min(100))).abs() < 1e-12)
+            );
+        }
+        assert_eq!(x(&format!("type={kind}")).1, none(), "{kind}");
+    }
+    assert!(!hsc("enable=1 type=8 order=0 time_constant=20000").1.contains(&"K-0075".to_owned()));
 }
 
 /// Up to three filters in series. Conformance: A011.

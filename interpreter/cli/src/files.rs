@@ -333,7 +333,7 @@ impl Sources for ProgramFiles {
 }
 
 /// The file of a folder whose name differs from the wanted one in capital letters only; of several the first by name.
-fn in_other_case(place: &Path) -> Option<PathBuf> {
+pub(crate) fn in_other_case(place: &Path) -> Option<PathBuf> {
     /// Files of a folder that are looked at.
     const LOOKED_AT: usize = 100_000;
     let wanted = place.file_name()?.to_str()?;

@@ -1,6 +1,6 @@
 //! Parameter lists in files, as the library reads them.
 
-use crate::files::regular;
+use crate::files::{in_other_case, regular};
 use kontur_interpreter::machine::ListFiles;
 use kontur_interpreter::source::text::Text;
 use std::cell::RefCell;
@@ -56,5 +56,9 @@ impl ListFiles for Lists {
             return Err("more than 16 MiB, too long for a list".to_owned());
         }
         Ok(Some(bytes))
+    }
+
+    fn in_other_case(&self, path: &str) -> Option<String> {
+        in_other_case(path.as_ref())?.to_str().map(str::to_owned)
     }
 }

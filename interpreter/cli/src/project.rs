@@ -1,6 +1,7 @@
 //! `-m` names a TwinCAT project: which files belong to it.
 
 use crate::error::OpenError;
+use crate::files::in_other_case;
 use crate::lists::Lists;
 use kontur_interpreter::diag::{Condition, Diagnostic};
 use kontur_interpreter::machine::project::Part;
@@ -44,6 +45,9 @@ impl Place {
         }
         let start_up = named.join(START_UP);
         if start_up.exists() {
+            return Ok(Self::StartUp(start_up));
+        }
+        if let Some(start_up) = in_other_case(&start_up) {
             return Ok(Self::StartUp(start_up));
         }
         let mut projects = files(named, 1, "tsproj")?;

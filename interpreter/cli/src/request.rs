@@ -139,9 +139,10 @@ impl Request {
     /// # Errors
     /// [`OpenError`] if a setting is wrong or the lists are refused.
     pub fn machine(&self, lists: &Lists) -> Result<(Machine, Vec<Diagnostic>), OpenError> {
+        let (settings, cycle_us, strict) = (&self.settings, self.cycle_us, self.strict);
+        let given = MachineLists { files: None, settings, cycle_us, strict };
         let load = |files: Option<(&dyn ListFiles, &str)>| {
-            let (settings, cycle_us, strict) = (&self.settings, self.cycle_us, self.strict);
-            MachineLists { files, settings, cycle_us, strict }.load().map_err(OpenError::Lists)
+            MachineLists { files, ..given }.load().map_err(OpenError::Lists)
         };
         match self.machine.as_deref().map(Place::of).transpose()? {
             None => load(None),
@@ -149,8 +150,8 @@ impl Request {
             Some(Place::Project { name, paths }) => {
                 paths.iter().try_for_each(|path| utf8(path).map(|_| ()))?;
                 let parts = project::parts(paths, lists)?;
-                let project =
-                    Project::read(lists, utf8(&name)?, &parts).map_err(OpenError::Lists)?;
+                let project = Project::read(lists, utf8(&name)?, &parts, given.sets_cycle())
+                    .map_err(OpenError::Lists)?;
                 let said = |more| project.said().iter().cloned().chain(more).collect();
                 match load(Some((&project, project.start_up()))) {
                     Ok((machine, warnings)) => Ok((machine, said(warnings))),

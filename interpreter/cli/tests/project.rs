@@ -120,6 +120,7 @@ fn a_project_moves_as_its_lists_do() {
             "{said}"
         );
         assert!(said.contains("X (1), Y (2), Z (3)") && said.contains("not read: VeD"), "{said}");
+        assert!(said.contains("and the spindles S (4)"), "{said}");
     }
 }
 
@@ -145,6 +146,7 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     let (exit, trace, said) = run(&folder, "_Config");
     assert_eq!(exit, Exit::Finished, "{said}");
     assert!(said.contains("no GEO task with a cycle"), "{said}");
+    assert!(said.contains("warning[K-0140]") && said.contains("1000 us is assumed"), "{said}");
     // kontur.lis is not in that folder: other drives, the same set positions
     let column = |text: &str, name: &str| -> Vec<String> {
         let at = text.lines().next().unwrap().split(',').position(|c| c == name).unwrap();
@@ -336,6 +338,116 @@ fn the_cycle_of_the_task() {
         assert!((step(&trace) - want_s).abs() < 1e-9, "{units}: {}", step(&trace));
         assert!(said.contains(words) && !said.contains("kontur.lis:"), "{said}");
     }
+}
+
+/// A run does not take a cycle that nobody named without a warning; whoever names one is not warned.
+#[test]
+fn a_cycle_that_is_assumed_is_a_warning() {
+    let folder = folder();
+    let own = fs::read_to_string(folder.path("kontur.lis")).unwrap();
+    let with = |task: &str| {
+        let inside = format!("{task}{}{}", all_axes(), channel(&list("channel.lis")));
+        fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    };
+    let said = |more: &[&str]| {
+        let words = ["check", "@part.nc", "-m", "@machine.tsproj", "--deny", "warnings"];
+        let (exit, _, said) = folder.call(&[&words, more].concat());
+        (exit == Exit::Finished, said)
+    };
+    for task in [TASK.replace("10000", "12345"), TASK.replace("GEO", "XYZ")] {
+        with(&task);
+        let (passed, text) = said(&[]);
+        assert!(!passed && text.contains("warning[K-0140]"), "{text}");
+        assert!(text.contains("1000 us is assumed"), "{text}");
+        for more in [&["--cycle-us", "1000"][..], &["--set", "Kontur.cycle_time_us=2000"]] {
+            let (passed, text) = said(more);
+            assert!(passed && !text.contains("assumed"), "{text}");
+        }
+        // of a list with the line ends of an old Mac as well, and in capital letters
+        fs::write(
+            folder.path("KONTUR.LIS"),
+            format!("{own}kontur.cycle_time_us 2000\nEnde\n").replace('\n', "\r"),
+        )
+        .unwrap();
+        fs::remove_file(folder.path("kontur.lis")).unwrap();
+        let (passed, text) = said(&[]);
+        assert!(passed && !text.contains("assumed"), "{text}");
+        fs::remove_file(folder.path("KONTUR.LIS")).unwrap();
+        fs::write(folder.path("kontur.lis"), &own).unwrap();
+    }
+    with(TASK);
+    let (passed, text) = said(&[]);
+    assert!(passed && !text.contains("assumed"), "{text}");
+}
+
+/// A part that the project names and that was not copied is named in a warning; a terminal, or an axis that is switched off,
+/// is not missed.
+#[test]
+fn a_missing_part_is_named() {
+    let folder = folder();
+    let parts = folder.path("_Config/CNC");
+    fs::create_dir_all(&parts).unwrap();
+    let axes =
+        ["X", "Y", "Z"].map(|name| axis(name, &format!("{}.lis", name.to_lowercase()), (1, 0)));
+    for (i, (text, place)) in axes.iter().zip(0..).enumerate() {
+        let index = format!("<DefaultIndex>{place}</DefaultIndex>");
+        let text = item(&text.replace("<DefaultIndex>0</DefaultIndex>", &index));
+        fs::write(parts.join(format!("Axis_{}.xti", i + 1)), text).unwrap();
+    }
+    let named =
+        [1, 2, 3].map(|i| format!("<Axis File=\"CNC\\AXIS_{i}.xti\" Id=\"{i}\"/>")).concat();
+    let others = "<Axis File=\"Off.xti\" Disabled=\"true\"/><Box File=\"Terminal 1.xti\"/>";
+    let inside = format!(
+        "{TASK}{named}{others}{}{}",
+        axis("", "s.lis", (1, 3)),
+        channel(&list("channel.lis"))
+    );
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let (exit, trace, said) = run(&folder, "machine.tsproj");
+    assert_eq!((exit, trace), (Exit::Finished, expected()), "{said}");
+    assert!(!said.contains("not there"), "{said}");
+    fs::remove_file(parts.join("Axis_2.xti")).unwrap();
+    let (_, _, said) = folder.call(&["check", "@part.nc", "-m", "@machine.tsproj"]);
+    assert!(said.contains("warning[K-0140]"), "{said}");
+    assert!(said.contains("not there: CNC\\AXIS_2.xti;"), "{said}");
+    fs::remove_file(parts.join("Axis_1.xti")).unwrap();
+    fs::remove_file(parts.join("Axis_3.xti")).unwrap();
+    let (_, _, said) = folder.call(&["check", "@part.nc", "-m", "@machine.tsproj"]);
+    assert!(
+        said.contains("not there: CNC\\AXIS_1.xti, CNC\\AXIS_2.xti, CNC\\AXIS_3.xti"),
+        "{said}"
+    );
+}
+
+/// Names of lists in other capital letters, as copies from Windows have them: the same machine, with a note for each.
+#[test]
+fn names_of_lists_in_other_capital_letters() {
+    let expected = expected();
+    let folder = folder();
+    let machine = folder.path("copy");
+    fs::create_dir(&machine).unwrap();
+    for (name, copy) in [
+        ("hochlauf.lis", "Hochlauf.lis"),
+        ("channel.lis", "Channel.LIS"),
+        ("axes.lis", "axes.lis"),
+        ("x.lis", "X.LIS"),
+        ("y.lis", "y.lis"),
+        ("z.lis", "z.lis"),
+        ("s.lis", "s.lis"),
+        ("kontur.lis", "KONTUR.lis"),
+    ] {
+        fs::write(machine.join(copy), list(name)).unwrap();
+    }
+    let (exit, trace, said) = run(&folder, "copy");
+    assert_eq!((exit, trace), (Exit::Finished, expected), "{said}");
+    for note in ["channel.lis is Channel.LIS", "x.lis is X.LIS", "kontur.lis is KONTUR.lis"] {
+        assert!(said.contains("note[K-0109]") && said.contains(note), "{note}: {said}");
+    }
+    assert!(!said.contains("y.lis is"), "{said}");
+    // none at all is none
+    fs::remove_file(machine.join("X.LIS")).unwrap();
+    let (exit, _, said) = run(&folder, "copy");
+    assert!(exit == Exit::Usage && said.contains("x.lis` cannot be read"), "{said}");
 }
 
 /// Names and places of the axes: none at all, and places that are left empty.

@@ -38,6 +38,12 @@ impl fmt::Debug for MachineLists<'_> {
 }
 
 impl MachineLists<'_> {
+    /// The settings or `cycle_us` give the cycle, whatever the lists say.
+    pub fn sets_cycle(&self) -> bool {
+        let mut settings = self.settings.iter().filter_map(|text| Override::parse(text).ok());
+        self.cycle_us.is_some() || settings.any(|setting| setting.sets_cycle())
+    }
+
     /// The machine, and the warnings of its lists.
     ///
     /// # Errors

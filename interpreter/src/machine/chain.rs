@@ -1,7 +1,7 @@
 //! From the start-up list to settled parameters: defaults, default list, specific list, overrides, range checks.
 
 use super::axis::{AxisKind, kind_of, logical_number};
-use super::lists::{self, List, ListFiles};
+use super::lists::{self, Found, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
 use super::plausible;
@@ -101,8 +101,8 @@ impl Chain<'_> {
 
     /// Reads a list that must exist; `at` is the place that names it.
     fn read(&mut self, kind: ListKind, path: &str, at: Option<Location>) -> Option<List> {
-        let reason = match self.files.read(path) {
-            Ok(Some(bytes)) => return Some(lists::read(kind, path, &bytes, &mut self.diagnostics)),
+        let reason = match lists::find(self.files, path) {
+            Ok(Some(found)) => return Some(self.list(kind, path, &found, at)),
             Ok(None) => "there is no such file".to_owned(),
             Err(reason) => reason,
         };
@@ -111,6 +111,20 @@ impl Chain<'_> {
         diagnostic.source = at;
         self.diagnostics.push(diagnostic);
         None
+    }
+
+    /// The list in a file, with a note where the file has the name in other letters: not every file system finds it.
+    fn list(&mut self, kind: ListKind, path: &str, found: &Found, at: Option<Location>) -> List {
+        let Some(other) = &found.other_case else {
+            return lists::read(kind, path, &found.bytes, &mut self.diagnostics);
+        };
+        let last = |path: &str| path.rsplit(SEPARATORS).next().unwrap_or_default().to_owned();
+        let text =
+            format!("{} is {}: other capital letters than the file's", last(path), last(other));
+        let mut note = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
+        note.source = at;
+        self.diagnostics.push(note.hint("not every file system finds it under this name"));
+        lists::read(kind, other, &found.bytes, &mut self.diagnostics)
     }
 
     /// Reads the list that a text entry of the start-up list names; an absent entry is not an error.
@@ -170,11 +184,9 @@ impl Chain<'_> {
         }
         let mut own = Parameters::new(ListKind::Kontur);
         let path = self.path(OWN_LIST);
-        match self.files.read(&path) {
+        match lists::find(self.files, &path) {
             Ok(None) => {}
-            Ok(Some(bytes)) => {
-                own.apply(&lists::read(ListKind::Kontur, &path, &bytes, &mut self.diagnostics));
-            }
+            Ok(Some(found)) => own.apply(&self.list(ListKind::Kontur, &path, &found, None)),
             Err(reason) => {
                 let message = format!("list `{path}` cannot be read: {reason}");
                 self.diagnostics.push(Diagnostic::new(Condition::NoFile, message));
@@ -272,6 +284,7 @@ impl Chain<'_> {
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
         plausible::check(&mut settled.tools, cycle, None, diagnostics);
         plausible::check(&mut settled.zero, cycle, None, diagnostics);
+        plausible::check_feed_unit(&mut settled.channel, diagnostics);
         plausible::check_presets(&settled.channel, diagnostics);
         plausible::check_rapid_override(&settled.channel, diagnostics);
         plausible::check_synchronisation(&settled.channel, diagnostics);

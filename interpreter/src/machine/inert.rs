@@ -9,19 +9,31 @@ use crate::diag::{AxisRef, Condition, Diagnostic};
 
 /// ID, and what happens in its place.
 ///
-/// Source: TF5200 axis, channel and start-up parameters.
+/// Source: TF5200 axis, channel and start-up parameters, axis compensation, friction compensation.
 const INERT: &[(&str, &str)] = &[
+    ("P-AXIS-00021", "a reversal moves the drive by no backlash (P-AXIS-00103)"),
+    ("P-AXIS-00047", "no cross compensation is added to the set position"),
+    ("P-AXIS-00174", "no plane compensation is added to the set position"),
+    ("P-AXIS-00175", "no leadscrew error is added to the set position"),
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
+    ("P-AXIS-00231", "the command for the drive keeps its sign"),
+    ("P-AXIS-00271", "no temperature compensation is added to the set position"),
+    ("P-AXIS-00431", "the limits of the axis do not depend on the length of a motion"),
+    ("P-AXIS-00438", "lr_param.add_interface.filter[0] filters the additional interface"),
     (
         "P-AXIS-00520",
         "set positions are checked against the software limits only during preparation",
     ),
+    ("P-AXIS-00522", "no friction is compensated"),
+    ("P-AXIS-00789", "no crosstalk of another axis is compensated"),
     ("P-AXIS-00833", "the drive applies no weight to the velocity feedforward"),
     (
         "P-STUP-00018",
         "programs and subroutines are looked for next to the main program and in the folders of --path",
     ),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
+    ("P-CHAN-00190", "the limits do not depend on the length of a motion"),
+    ("P-CHAN-00230", "the limits do not depend on the radius of an arc"),
     ("P-CHAN-00259", "contouring rounds arcs as with 0"),
 ];
 
@@ -34,11 +46,12 @@ pub(super) fn check(
     for (indices, setting) in parameters.settings() {
         let row = setting.row;
         let Some((_, instead)) = INERT.iter().find(|(id, _)| *id == row.id) else { continue };
+        // a switch without a printed default is off
         let default = match row.default {
-            Default::Number(x) => Some(Value::Number(x)),
-            _ => None,
+            Default::Number(x) => x,
+            _ => 0.0,
         };
-        if default.as_ref() == Some(&setting.value) {
+        if setting.value == Value::Number(default) {
             continue;
         }
         let key = with_indices(row.key, indices);

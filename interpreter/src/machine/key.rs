@@ -63,11 +63,27 @@ impl Key {
     /// The row of the key in a list and its indices; `None` for an unknown key or an index beyond the array.
     pub(crate) fn resolve(&self, list: ListKind) -> Option<(&'static Row, Indices)> {
         let row = table::by_key(list, &self.shape)?;
+        let indices = self.two_indices();
+        beyond(row.key, indices).is_none().then_some((row, indices))
+    }
+
+    /// Its indices, 0 where it has fewer than two.
+    fn two_indices(&self) -> Indices {
         let mut indices = [0; 2];
         for (slot, index) in indices.iter_mut().zip(&self.indices) {
             *slot = *index;
         }
-        within(row.key, indices).then_some((row, indices))
+        indices
+    }
+
+    /// What is wrong with a known key whose index lies beyond its array: `index 4 of getriebe is outside 0 to 3`.
+    pub(crate) fn beyond(&self, list: ListKind) -> Option<String> {
+        let row = table::by_key(list, &self.shape)?;
+        let (array, index, size) = beyond(row.key, self.two_indices())?;
+        Some(match size {
+            1 => format!("index {index} of {array}, only 0 exists"),
+            _ => format!("index {index} of {array} is outside 0 to {}", size - 1),
+        })
     }
 }
 
@@ -92,10 +108,12 @@ const SIZES: &[(&str, u32)] = &[
     ("configuration.channel", 12),
 ];
 
-fn within(key: &str, indices: Indices) -> bool {
+/// The first array of a key whose index lies beyond its end: its name, the index, its size.
+fn beyond(key: &str, indices: Indices) -> Option<(&str, u32, u32)> {
     let brackets = key.char_indices().filter(|(_, c)| *c == '[').map(|(at, _)| at);
-    brackets.zip(indices).all(|(at, index)| {
-        SIZES.iter().find(|(array, _)| *array == &key[..at]).is_none_or(|(_, size)| index < *size)
+    brackets.zip(indices).find_map(|(at, index)| {
+        let (_, size) = SIZES.iter().find(|(array, _)| *array == &key[..at])?;
+        (index >= *size).then_some((&key[..at], index, *size))
     })
 }
 

@@ -35,6 +35,31 @@ pub trait ListFiles {
     /// # Errors
     /// The reason in words if the file exists but cannot be read.
     fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String>;
+
+    /// The path of a file whose name differs from that of `path` in capital letters only; called where there is no file
+    /// `path`. Without such names nothing is found.
+    fn in_other_case(&self, _path: &str) -> Option<String> {
+        None
+    }
+}
+
+/// A file as [`ListFiles`] has it, under the name of its path or else one in other capital letters.
+pub(super) struct Found {
+    pub(super) bytes: Vec<u8>,
+    /// The path under which it was found, if that is not the one that was asked for.
+    pub(super) other_case: Option<String>,
+}
+
+/// Reads a file of the control, whose file system does not distinguish capital letters.
+///
+/// # Errors
+/// As [`ListFiles::read`].
+pub(super) fn find(files: &dyn ListFiles, path: &str) -> Result<Option<Found>, String> {
+    if let Some(bytes) = files.read(path)? {
+        return Ok(Some(Found { bytes, other_case: None }));
+    }
+    let Some(other) = files.in_other_case(path) else { return Ok(None) };
+    Ok(files.read(&other)?.map(|bytes| Found { bytes, other_case: Some(other) }))
 }
 
 /// One entry of a list.
@@ -160,7 +185,16 @@ impl Reader<'_> {
             return;
         };
         let Some((row, indices)) = key.resolve(self.kind) else {
-            self.unknown.entry(key.shape).or_insert((0, key_at)).0 += 1;
+            if let Some(beyond) = key.beyond(self.kind) {
+                let message = format!("`{word}` is ignored: {beyond}");
+                self.say(
+                    Diagnostic::new(Condition::ListKeyUnknown, message)
+                        .value(ValueKind::Identification, 1, "-")
+                        .at(key_at),
+                );
+            } else {
+                self.unknown.entry(key.shape).or_insert((0, key_at)).0 += 1;
+            }
             return;
         };
         if key.empty_index {

@@ -3,7 +3,7 @@
 use super::key::Key;
 use super::lists::parameter;
 use super::parameters::Parameters;
-use super::table::{self, Indices, ListKind, Row};
+use super::table::{self, Indices, ListKind, Row, kontur};
 use super::value;
 use crate::diag::{Condition, Diagnostic, Location};
 
@@ -70,7 +70,7 @@ impl Override {
 
     /// The parameter that is set, if the key is one.
     pub fn parameter(&self) -> Option<&'static Row> {
-        let kind = match self.target.as_str() {
+        let kind = match self.target.to_ascii_lowercase().as_str() {
             "channel" => ListKind::Channel,
             "start_up" => ListKind::StartUp,
             "kontur" => ListKind::Kontur,
@@ -81,18 +81,24 @@ impl Override {
         self.resolve(kind).ok().map(|(row, _)| row)
     }
 
+    /// It sets the cycle (`kontur.cycle_time_us`).
+    pub(crate) fn sets_cycle(&self) -> bool {
+        self.parameter() == Some(kontur::CYCLE_TIME.place().row)
+    }
+
     fn resolve(&self, kind: ListKind) -> Result<(&'static Row, Indices), Box<Diagnostic>> {
         let key = Key::parse(&self.key);
         if let Some(found) = key.as_ref().and_then(|key| key.resolve(kind)) {
             return Ok(found);
         }
-        let message = format!("`{}` is no parameter of {}", self.key, self.target);
-        let mut diagnostic =
-            Diagnostic::new(Condition::Setting, message).at(self.location(&self.key));
+        let say =
+            |message| Diagnostic::new(Condition::Setting, message).at(self.location(&self.key));
+        if let Some(beyond) = key.as_ref().and_then(|key| key.beyond(kind)) {
+            return Err(Box::new(say(format!("`{}`: {beyond}", self.key))));
+        }
+        let mut diagnostic = say(format!("`{}` is no parameter of {}", self.key, self.target));
         let shape = key.map_or_else(|| self.key.clone(), |key| key.shape);
-        if table::by_key(kind, &shape).is_some() {
-            diagnostic = diagnostic.hint("the index is beyond the end of the array");
-        } else if let Some(near) = table::suggestions(Some(kind), &shape).first() {
+        if let Some(near) = table::suggestions(Some(kind), &shape).first() {
             diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
         }
         Err(Box::new(diagnostic))

@@ -301,6 +301,25 @@ pub(super) fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagn
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
+/// K-0070: P-CHAN-00108 knows two units.
+///
+/// Assumption: any other value becomes 100, as the page says of 0; it names no unit for the values between the two.
+pub(super) fn check_feed_unit(parameters: &mut Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let place = channel::FEED_UNIT.place();
+    let Some(setting) = parameters.set_by(place).cloned() else { return };
+    let Some(value) = setting.value.number() else { return };
+    if [0.1_f64, 100.0, -1.0].iter().any(|unit| unit.total_cmp(&value).is_eq()) {
+        return;
+    }
+    let text = format!("{place}: {value} is neither 100 (mm/min) nor 0.1 (m/min), 100 is used");
+    let diagnostic = Diagnostic::new(Condition::ListRange, text)
+        .value(ValueKind::Wrong, value, "-")
+        .value(ValueKind::Corrected, 100.0, "-")
+        .corrected(100.0);
+    parameters.set(place.row, place.indices, Value::Number(100.0), setting.at.clone());
+    diagnostics.push(finish(diagnostic, place.row, setting.at, None));
+}
+
 /// K-0075: ACTIVE_EXTENDED of P-CHAN-00181 acts as ACTIVE.
 pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let Some(setting) = parameters.set_by(channel::RAPID_OVERRIDE) else { return };

@@ -28,7 +28,7 @@
 //! getriebe[0].kv 2000
 //! ]]></AchsMds></Axis><Channel><SdaMds/></Channel></P>";
 //! let part = Part { name: "machine.tsproj".to_owned(), text: text.to_owned() };
-//! let project = Project::read(&NoFiles, "machine.tsproj", &[part]).unwrap();
+//! let project = Project::read(&NoFiles, "machine.tsproj", &[part], true).unwrap();
 //! let (machine, _) = Machine::load(&project, project.start_up(), &[]).unwrap();
 //! assert_eq!(machine.axes[0].name(), "X");
 //! ```
@@ -43,6 +43,7 @@ use super::table::{ListKind, channel as of, kontur as own};
 use crate::diag::{Condition, Diagnostic, Severity};
 pub use content::Part;
 use content::{Content, ListText};
+use kontur_filters::time::CycleTime;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
 
@@ -67,11 +68,15 @@ impl ListFiles for Project<'_> {
             None => self.files.read(path),
         }
     }
+
+    fn in_other_case(&self, path: &str) -> Option<String> {
+        self.files.in_other_case(path)
+    }
 }
 
 impl<'a> Project<'a> {
     /// Takes the lists out of the parts. `name` is the path by which messages call the project; beside it `files` may have a
-    /// `kontur.lis`.
+    /// `kontur.lis`. `cycle_given`: the cycle is set over all lists, so that the project need not have one.
     ///
     /// # Errors
     /// K-0141 for a part that is not XML, for a project without axes or channel of a CNC or without a name of an axis, and for
@@ -80,6 +85,7 @@ impl<'a> Project<'a> {
         files: &'a dyn ListFiles,
         name: &str,
         parts: &[Part],
+        cycle_given: bool,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut content = Content::default();
         let wrong: Vec<Diagnostic> =
@@ -96,13 +102,29 @@ impl<'a> Project<'a> {
                 "channel list (SdaMds)"
             };
             let mut message = format!("{start_up} and its parts hold no {missing} of a CNC");
+            let named = content.missing();
+            if !named.is_empty() {
+                let _ = write!(message, "; named and not there: {}", named.join(", "));
+            }
             if !left_out.is_empty() {
                 let _ = write!(message, "; left out: {}", left_out.join(", "));
             }
             return Err(vec![Diagnostic::new(Condition::ProjectWrong, message)]);
         }
         let mut project = Self { files, start_up, lists: BTreeMap::new(), said: Vec::new() };
-        project.fill(content, &left_out)?;
+        let missing = content.missing();
+        if !missing.is_empty() {
+            let message = format!(
+                "named by {} and not there: {}; the machine lacks what is in it",
+                project.start_up,
+                missing.join(", ")
+            );
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            project
+                .said
+                .push(said.hint("copy the folder _Config of the project with all its files"));
+        }
+        project.fill(content, &left_out, cycle_given)?;
         Ok(project)
     }
 
@@ -136,7 +158,12 @@ impl<'a> Project<'a> {
         beside(&self.start_up, name)
     }
 
-    fn fill(&mut self, mut content: Content, left_out: &[String]) -> Result<(), Vec<Diagnostic>> {
+    fn fill(
+        &mut self,
+        mut content: Content,
+        left_out: &[String],
+        cycle_given: bool,
+    ) -> Result<(), Vec<Diagnostic>> {
         let mut note = String::new();
         let defaults =
             content.axis_defaults.as_ref().map(|list| parameters(ListKind::Axis, &[list]));
@@ -211,20 +238,7 @@ impl<'a> Project<'a> {
         start_up.replace(&own, &entries);
         self.lists.insert(self.start_up.clone(), start_up.placed());
 
-        match content.cycle_100ns {
-            Some(units) if units % 10 == 0 => {
-                let us = units / 10;
-                let _ = write!(note, "; cycle {us} us of the GEO task{}", self.cycle(us));
-            }
-            Some(units) => {
-                let us = f64::from(units) / 10.0;
-                let _ = write!(
-                    note,
-                    "; the cycle {us} us of the GEO task is no whole number of microseconds: kontur.lis or --cycle-us says it"
-                );
-            }
-            None => note.push_str("; no GEO task with a cycle: kontur.lis or --cycle-us says it"),
-        }
+        note.push_str(&self.cycle(content.cycle_100ns, cycle_given));
         if !left_out.is_empty() {
             let _ = write!(note, "; left out: {}", left_out.join(", "));
         }
@@ -233,6 +247,15 @@ impl<'a> Project<'a> {
         }
         let list: Vec<String> =
             named.iter().map(|(name, number)| format!("{name} ({number})")).collect();
+        let spindles: Vec<String> = (0..16)
+            .map_while(|i| {
+                let number = channel.listed(of::SPINDLE_NUMBER.at(i))?;
+                Some(format!("{} ({number})", channel.get(of::SPINDLE_NAME.at(i))?))
+            })
+            .collect();
+        if !spindles.is_empty() {
+            note.insert_str(0, &format!(" and the spindles {}", spindles.join(", ")));
+        }
         let message = format!(
             "machine of {}: {} axis lists, channel `{}` with {}{note}",
             self.start_up,
@@ -334,22 +357,42 @@ impl<'a> Project<'a> {
         named
     }
 
-    /// Enters the cycle into `kontur.lis`, unless the file next to the project has one; returns the result.
-    fn cycle(&mut self, us: u32) -> &'static str {
+    /// Enters the cycle of the project, in units of 100 ns, into `kontur.lis`, unless the file next to the project has one;
+    /// returns what becomes of it, and warns where the run would use a cycle that nobody named.
+    fn cycle(&mut self, units_100ns: Option<u32>, given: bool) -> String {
         let path = self.path(OWN_LIST);
-        let real = match self.files.read(&path) {
-            Ok(Some(bytes)) => String::from_utf8_lossy(&bytes).into_owned(),
+        let real = match lists::find(self.files, &path) {
+            Ok(Some(found)) => String::from_utf8_lossy(&found.bytes).into_owned(),
             Ok(None) => String::new(),
             // the chain reads it again and says why it cannot be read
-            Err(_) => return "",
+            Err(_) => return String::new(),
         };
-        let mut list = ListText::of(real);
-        if parameters(ListKind::Kontur, &[&list]).set_by(own::CYCLE_TIME.place()).is_some() {
-            return ", replaced by that of kontur.lis";
+        let mut list = ListText::of(&real);
+        let listed =
+            parameters(ListKind::Kontur, &[&list]).set_by(own::CYCLE_TIME.place()).is_some();
+        let replaced = if listed { ", replaced by that of kontur.lis" } else { "" };
+        let why = match units_100ns {
+            Some(units) if units % 10 == 0 => {
+                let us = units / 10;
+                if !listed {
+                    list.enter(&format!("kontur.cycle_time_us {us}"));
+                    self.lists.insert(path, list.text);
+                }
+                return format!("; cycle {us} us of the GEO task{replaced}");
+            }
+            Some(units) => format!(
+                "the cycle {} us of the GEO task is no whole number of microseconds",
+                f64::from(units) / 10.0
+            ),
+            None => "no GEO task with a cycle".to_owned(),
+        };
+        if !listed && !given {
+            let message = format!("{why}: {} us is assumed", CycleTime::DEFAULT.us());
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            let hint = "write kontur.cycle_time_us into the kontur.lis next to the project, or use --cycle-us";
+            self.said.push(said.hint(hint));
         }
-        list.enter(&format!("kontur.cycle_time_us {us}"));
-        self.lists.insert(path, list.text);
-        ""
+        format!("; {why}{replaced}")
     }
 }
 

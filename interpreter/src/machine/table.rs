@@ -12,6 +12,7 @@
 //! assert_eq!((kv.key, kv.list), ("getriebe[i].kv", ListKind::Axis));
 //! ```
 
+pub(super) mod axis_compensation;
 pub(super) mod axis_control;
 pub(super) mod axis_drive;
 pub(super) mod axis_dynamics;

@@ -255,11 +255,21 @@ fn overrides_that_name_nothing_are_errors() {
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
         ("X.vorsteuer.jerk_fact_nom=1", "did you mean `vorsteuer.jerk_fact_num`?"),
         ("X.kv=1", "did you mean `getriebe[i].kv`?"),
-        ("X.filter[7].order=1", "the index is beyond the end of the array"),
     ] {
         let errors = files.load(&[text]).unwrap_err();
         assert_eq!(errors.iter().map(|d| d.id).collect::<Vec<_>>(), [Condition::Setting], "{text}");
         assert_eq!(errors[0].hint.as_deref(), Some(hint), "{text}");
+    }
+    for (text, beyond) in [
+        ("X.filter[7].order=1", "`filter[7].order`: index 7 of filter is outside 0 to 2"),
+        (
+            "channel.gruppe[1].achs_anzahl=1",
+            "`gruppe[1].achs_anzahl`: index 1 of gruppe, only 0 exists",
+        ),
+    ] {
+        let errors = files.load(&[text]).unwrap_err();
+        assert_eq!(errors[0].text, beyond);
+        assert_ne!(errors[0].hint.as_deref().map(|hint| hint.contains("did you mean")), Some(true));
     }
     let errors = files.load(&["X.getriebe[0].kv=fast"]).unwrap_err();
     assert_eq!(errors[0].id, Condition::Setting);

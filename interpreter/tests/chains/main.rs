@@ -368,6 +368,7 @@ fn settings_of_the_controller() {
             "X.getriebe[0].slep_time_const=2000",
             "X.getriebe[0].pos_lag_mon_error_delay_time=3000",
             "X.getriebe[0].position_settling_time=0",
+            "X.getriebe[0].dyn_kv.dyn_kv_active=1",
             "X.getriebe[0].dyn_kv.kv1=2000",
             "X.getriebe[0].dyn_kv.kv2=7000",
             "X.getriebe[0].dyn_kv.v1=10000",

@@ -14,23 +14,29 @@ pub(super) struct Line<'a> {
     utf8: bool,
 }
 
-/// Lines of a file; LF and CR LF end a line, a byte order mark is skipped, what is no UTF-8 is read as Latin-1.
+/// Lines of a file; LF, CR LF and CR end a line as in programs, a byte order mark is skipped, what is no UTF-8 is read as
+/// Latin-1.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
     let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
     let bytes = &bytes[mark..];
     let utf8 = std::str::from_utf8(bytes).is_ok();
     let mut offset = mark as u64;
     let mut number = 0;
-    bytes.split(|b| *b == b'\n').map(move |line| {
+    let mut rest = Some(bytes);
+    std::iter::from_fn(move || {
+        let from = rest?;
+        let end = memchr::memchr2(b'\n', b'\r', from).unwrap_or(from.len());
+        let (line, behind) = from.split_at(end);
+        let mark = if behind.starts_with(b"\r\n") { 2 } else { 1 };
+        rest = behind.get(mark..);
         let start = offset;
-        offset += line.len() as u64 + 1;
+        offset += (end + mark) as u64;
         number += 1;
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
         let text = match std::str::from_utf8(line) {
             Ok(text) if utf8 => Cow::Borrowed(text),
             _ => Cow::Owned(line.iter().map(|b| char::from(*b)).collect()),
         };
-        Line { text, number, offset: start, utf8 }
+        Some(Line { text, number, offset: start, utf8 })
     })
 }
 
@@ -82,8 +88,9 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     }
     if let Raw::Flags(names) = raw {
         let value = flags(rest);
-        // a further flag that nothing joins is not meant as a comment
-        let next = rest[value.len()..].split_whitespace().next();
+        // a further flag that nothing joins is not meant as a comment; behind a number its name is one, as in the vendor's lists
+        let is_number = value.starts_with(|c: char| c.is_ascii_digit());
+        let next = rest[value.len()..].split_whitespace().next().filter(|_| !is_number);
         let flag = |word: &&str| {
             names
                 .iter()
@@ -180,6 +187,8 @@ mod tests {
         assert_eq!(names("(only a remark)"), None);
         let both = value(Raw::Flags(&[("VEL", 1), ("ACC", 2)]), "VEL ACC");
         assert_eq!(both, Parts { value: Some("VEL"), dropped: Some("ACC") });
+        let number = value(Raw::Flags(&[("VEL", 1)]), "0x00000001     VEL  (speed");
+        assert_eq!(number, Parts { value: Some("0x00000001"), dropped: None });
         let remark = value(Raw::Flags(&[("VEL", 1)]), "VEL and more");
         assert_eq!(remark, Parts { value: Some("VEL"), dropped: None });
         assert_eq!(names("VEL |ACC  # both"), Some("VEL |ACC"));
@@ -195,6 +204,16 @@ mod tests {
         let at = all[1].location(&"f".into(), part);
         assert_eq!((at.line, at.column, at.length), (2, 8, 1));
         assert_eq!(bytes[usize::try_from(at.offset).unwrap()], b'5');
+        // every end of line, each alone and the last one missing
+        let bytes = b"a 1\nb 2\r\nc 3\rd 4\r\re 5";
+        let text = |line: &Line<'_>| line.text.clone().into_owned();
+        let all: Vec<Line<'_>> = lines(bytes).collect();
+        let texts: Vec<String> = all.iter().map(text).collect();
+        assert_eq!(texts, ["a 1", "b 2", "c 3", "d 4", "", "e 5"]);
+        let last = all[5].location(&"f".into(), &all[5].text);
+        assert_eq!((last.line, bytes[usize::try_from(last.offset).unwrap()]), (6, b'e'));
+        let ends: Vec<String> = lines(b"a\r\n").map(|line| text(&line)).collect();
+        assert_eq!(ends, ["a", ""]);
         // the same in Latin-1: one byte per character
         let bytes = b"a \xfc  5";
         let line = lines(bytes).next().unwrap();

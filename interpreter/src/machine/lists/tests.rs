@@ -89,6 +89,22 @@ fn every_rule_has_its_message() {
     assert_eq!(value(&list, "final_prog_file"), Some(Value::Text("a b".to_owned())));
 }
 
+/// A list is the same with every end of line: each entry is read, none is taken for the comment of the one before.
+#[test]
+fn ends_of_lines() {
+    let text =
+        "kopf.achs_nr 1\ngetriebe[0].kv 10000\n# getriebe[0].kv 1\nlr_param.nothing 1\nEnde\n";
+    let facts = |end: &str| {
+        let (list, said) = read_text(ListKind::Axis, &text.replace('\n', end));
+        (facts(&list), said.iter().map(|d| d.source.as_ref().unwrap().line).collect::<Vec<_>>())
+    };
+    let expected = facts("\n");
+    assert_eq!((expected.0.len(), &*expected.1), (2, &[4][..]));
+    for end in ["\r\n", "\r"] {
+        assert_eq!(facts(end), expected, "{end:?}");
+    }
+}
+
 /// Conformance: F081.
 #[test]
 fn unknown_keys_are_counted_and_named_once() {
@@ -102,6 +118,25 @@ fn unknown_keys_are_counted_and_named_once() {
     assert_eq!(diagnostics[0].hint.as_deref(), Some("did you mean `vorsteuer.jerk_fact_num`?"));
     assert!(diagnostics[1].text.starts_with("40 unknown element(s)"), "{}", diagnostics[1].text);
     assert!(diagnostics[1].text.ends_with("and 8 more"), "{}", diagnostics[1].text);
+}
+
+/// An index beyond its array is no misspelt key: the message names the index and the array, not the key itself again.
+#[test]
+fn an_index_beyond_its_array_is_named() {
+    for (line, text) in [
+        ("getriebe[4].kv 1", "`getriebe[4].kv` is ignored: index 4 of getriebe is outside 0 to 3"),
+        (
+            "Filter[3].enable 1",
+            "`Filter[3].enable` is ignored: index 3 of filter is outside 0 to 2",
+        ),
+    ] {
+        let (list, said) = read_text(ListKind::Axis, line);
+        assert_eq!((ids(&said), list.entries.len()), (vec!["1001119".to_owned()], 0));
+        assert_eq!(said[0].text, text);
+        assert!(!said[0].hint.as_deref().unwrap_or_default().contains("did you mean"));
+    }
+    let (list, said) = read_text(ListKind::Axis, "getriebe[3].kv 1");
+    assert_eq!((ids(&said).len(), list.entries.len()), (0, 1));
 }
 
 /// A list of many mistakes of one kind has few messages, the last of which counts the others.
@@ -196,10 +231,11 @@ proptest! {
     }
 
     #[test]
-    fn places_lie_in_the_file(text in "[ -~\n\u{e4}]{0,200}") {
+    fn places_lie_in_the_file(text in "([ -~\n\u{e4}]|\r\n?){0,200}") {
         let (_, diagnostics) = read_text(ListKind::Axis, &text);
         for at in diagnostics.iter().filter_map(|d| d.source.as_ref()) {
-            let line = text.split('\n').nth(at.line as usize - 1).unwrap();
+            let line = text.replace("\r\n", "\n").replace('\r', "\n");
+            let line = line.split('\n').nth(at.line as usize - 1).unwrap();
             prop_assert_eq!(line, &*at.text);
             prop_assert!(at.column as usize + at.length as usize <= line.chars().count() + 2);
             prop_assert!(at.offset <= text.len() as u64);

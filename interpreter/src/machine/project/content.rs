@@ -3,6 +3,7 @@
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::chain::SEPARATORS;
 use roxmltree::{Document, Node, ParsingOptions};
+use std::collections::BTreeSet;
 
 /// Elements and texts of one file: with more it is nothing that an engineering tool has written.
 const NODES_MAX: u32 = 1_000_000;
@@ -37,8 +38,9 @@ pub(super) struct ListText {
 }
 
 impl ListText {
-    /// A list in a separate file.
-    pub(super) fn of(text: String) -> Self {
+    /// A list in a separate file, which may have any end of line.
+    pub(super) fn of(text: &str) -> Self {
+        let text = text.replace("\r\n", "\n").replace('\r', "\n");
         Self { text, ..Self::default() }
     }
 
@@ -122,12 +124,19 @@ pub(super) struct Content {
     pub(super) cycle_100ns: Option<u32>,
     /// Items that are in separate files.
     references: Vec<Reference>,
+    /// The files that were read, by their last names.
+    files: BTreeSet<String>,
 }
 
 /// An item that the project names with the file that holds it.
 #[derive(Clone, Debug)]
 struct Reference {
+    /// The last name of its file in lower case.
     file: String,
+    /// The file as the project names it.
+    written: String,
+    /// It is an axis, a channel or all of a CNC, and not a terminal or a program of the PLC.
+    of_cnc: bool,
     id: Option<u32>,
     disabled: bool,
 }
@@ -147,10 +156,18 @@ impl Content {
         let options = ParsingOptions { nodes_limit: NODES_MAX, ..ParsingOptions::default() };
         let document =
             Document::parse_with_options(text, options).map_err(|e| no_xml(part, text, &e))?;
+        self.files.insert(file_name(&part.name));
         for node in document.descendants().filter(Node::is_element) {
             if let Some(file) = node.attribute("File") {
-                let (id, disabled) = (number(node, "Id"), is_disabled(node));
-                self.references.push(Reference { file: file_name(file), id, disabled });
+                self.references.push(Reference {
+                    file: file_name(file),
+                    written: file.to_owned(),
+                    of_cnc: ["axis", "channel", "cnc"]
+                        .iter()
+                        .any(|tag| node.tag_name().name().eq_ignore_ascii_case(tag)),
+                    id: number(node, "Id"),
+                    disabled: is_disabled(node),
+                });
             }
             match node.tag_name().name() {
                 "AchsMds" if self.axes.len() == AXES_MAX => {
@@ -213,6 +230,15 @@ impl Content {
         self.channels.retain(|_| channels.next().unwrap_or(true));
         self.channels.sort_by_key(|channel| channel.id.unwrap_or(u32::MAX));
         left_out
+    }
+
+    /// Files of axes and channels that the project names, has not switched off, and that are not among those that were read.
+    pub(super) fn missing(&self) -> Vec<&str> {
+        self.references
+            .iter()
+            .filter(|r| r.of_cnc && !r.disabled && !self.files.contains(&r.file))
+            .map(|r| r.written.as_str())
+            .collect()
     }
 
     /// The cycle of the interpolator's task, which the tool keeps in units of 100 ns.

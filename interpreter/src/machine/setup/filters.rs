@@ -115,11 +115,23 @@ fn entry(
             default.prototype
         }
     };
+    let order = axis.get(keys.order);
+    let is_hsc =
+        prototype == ListedPrototype::Hsc || matches!(listed_type, Some(ListedType::Hsc(_)));
+    if enable && order == 0 && !is_hsc {
+        let place = [keys.order.place(), keys.enable.place()];
+        let place = place[usize::from(axis.set_by(keys.order).is_none())];
+        let (what, effect) = ("filter that is switched on with the order 0", "the filter is off");
+        diagnostics.push(
+            issues::about(axis, Condition::ListNoEffect, place, what, effect)
+                .hint("it needs an order above 0: 1 for PT1, 2 for PT2, any for TIME_DELAY"),
+        );
+    }
     FilterEntry {
         enable,
         listed_type,
         prototype,
-        order: axis.get(keys.order),
+        order,
         f_hz: axis.get(keys.frequency),
         q: axis.get(keys.quality),
         share_ratio: axis.get(keys.share),

@@ -49,6 +49,18 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(10000.0).unit("us", "us").below(Condition::ShortestRampTime, Correction::Limit), as SHORTEST_RAMP: Number;
     axis("P-AXIS-00202", "getriebe[i].beschl_kennlinie.typ", Raw::Uns32, "spindle acceleration curve 0 none 1 hyperbola 2 polynomial 3 asynchronous drive")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).axes("S");
+    axis("P-AXIS-00007", "getriebe[i].beschl_kennlinie.a_konst", Raw::Uns32, "acceleration below P-AXIS-00130, curves 1 and 2; not simulated")
+        .default(0.0).unit("-", "deg/s2").axes("S");
+    axis("P-AXIS-00010", "getriebe[i].beschl_kennlinie.a_min", Raw::Real64, "least acceleration of the curve; not simulated")
+        .unit("-", "deg/s2").axes("S");
+    axis("P-AXIS-00130", "getriebe[i].beschl_kennlinie.n_grenz", Raw::Uns32, "speed at which curves 1 and 2 begin to fall; not simulated")
+        .default(0.0).unit("-", "0.001deg/s").axes("S");
+    axis("P-AXIS-00240", "getriebe[i].beschl_kennlinie.a_max", Raw::Real64, "acceleration below P-AXIS-00241, curve 3; not simulated")
+        .default(0.0).unit("-", "deg/s2").axes("S");
+    axis("P-AXIS-00241", "getriebe[i].beschl_kennlinie.n1", Raw::Real64, "speed above which curve 3 falls with 1/n; not simulated")
+        .default(0.0).unit("-", "0.001deg/s").axes("S");
+    axis("P-AXIS-00242", "getriebe[i].beschl_kennlinie.n2", Raw::Real64, "speed above which curve 3 falls with 1/n2; not simulated")
+        .default(0.0).unit("-", "0.001deg/s").axes("S");
     axis("P-AXIS-00208", "", Raw::Uns32, "not found in any public document; read and ignored");
     axis("P-AXIS-00209", "getriebe[i].vb_eilgang", Raw::Uns32, "rapid speed G00")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00212")).default(166666.0).unit("um/s", "0.001deg/s"), as RAPID_SPEED: Number;

@@ -135,8 +135,8 @@ parameters! {
         .default(0.0), as OWN_FEEDHOLD: Switch;
     chan("P-CHAN-00099", "prog_start.feedrate", Raw::Real64, "F at program start; 0 means F must be programmed (20008)")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as FEED: Number;
-    chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "100 mm/min, 0.1 m/min; 0 warns and becomes 100")
-        .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default), as FEED_UNIT: Number;
+    chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "unit of the F word: 100 mm/min, 0.1 m/min; -1 is 100 too, any other value warns and becomes 100")
+        .range(Bound::At(0.1), Bound::At(100.0)).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default), as FEED_UNIT: Number;
     chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials")
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
@@ -160,6 +160,10 @@ parameters! {
         .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
     chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED that of feed, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE its own, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
+    chan("P-CHAN-00190", "dynamic_weighting_active", Raw::Uns32, "limits depend on the length of a motion: 0 never, 1 in G00, 2 in G01, 3 in both; not simulated")
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0);
+    chan("P-CHAN-00230", "curve_dynamic_weighting_active", Raw::Boolean, "limits depend on the radius of an arc; not simulated")
+        .default(0.0);
     chan("P-CHAN-00208", "vector.deceleration", Raw::Real64, "path deceleration limit")
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_DEC: Number;
     chan("P-CHAN-00210", "cycle_changes_modal", Raw::Boolean, "1: G functions, centres and feed of a cycle remain active after its end")

@@ -1,8 +1,8 @@
 //! Finding rows: by key, by ID, and the nearest ones to a misspelt key.
 
 use super::{
-    ListKind, Row, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general, axis_guard,
-    channel, kontur, start_up, tool, zero,
+    ListKind, Row, axis_compensation, axis_control, axis_drive, axis_dynamics, axis_filters,
+    axis_general, axis_guard, channel, kontur, start_up, tool, zero,
 };
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -17,6 +17,7 @@ const FAMILIES: &[&[Row]] = &[
     axis_drive::ROWS,
     axis_filters::ROWS,
     axis_guard::ROWS,
+    axis_compensation::ROWS,
     tool::ROWS,
     zero::ROWS,
     kontur::ROWS,
@@ -88,11 +89,19 @@ pub(crate) fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
     BY_SHAPE.get(&shape)?.iter().find(|r| r.list == list).copied()
 }
 
-/// Keys that differ from `shape` by at most two letters, best first.
+/// Letters of a last name from which on two of them may be wrong: with fewer it would be another word (`lose` and `load`).
+const LONG_NAME: usize = 6;
+
+/// Keys that differ from `shape` by at most two letters, best first; by at most one if their last names are short.
 pub(crate) fn misspelt(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
     let wanted = shape.to_ascii_lowercase();
-    let mut near: Vec<(usize, &'static str)> =
-        keys(list).filter_map(|key| Some((edit_distance(&plain(key), &wanted, 2)?, key))).collect();
+    let differs = |key: &'static str| {
+        let plain = plain(key);
+        let (own, other) = (last_name(&plain), last_name(&wanted));
+        let most = if own == other || own.len().min(other.len()) >= LONG_NAME { 2 } else { 1 };
+        Some((edit_distance(&plain, &wanted, most)?, key))
+    };
+    let mut near: Vec<(usize, &'static str)> = keys(list).filter_map(differs).collect();
     near.sort_by_key(|(distance, _)| *distance);
     near.into_iter().map(|(_, key)| key).collect()
 }
@@ -101,13 +110,17 @@ pub(crate) fn misspelt(list: Option<ListKind>, shape: &str) -> Vec<&'static str>
 /// (`getriebe[i].kv` for `kv`).
 pub(crate) fn suggestions(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
     let wanted = shape.to_ascii_lowercase();
-    let last = |s: &str| s.rsplit('.').next().unwrap_or_default().to_owned();
     let mut found = misspelt(list, shape);
     if found.is_empty() && !wanted.is_empty() {
-        found = keys(list).filter(|key| last(&plain(key)) == last(&wanted)).collect();
+        found = keys(list).filter(|key| last_name(&plain(key)) == last_name(&wanted)).collect();
     }
     found.truncate(3);
     found
+}
+
+/// The part of a key behind its last dot.
+fn last_name(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or_default()
 }
 
 fn keys(list: Option<ListKind>) -> impl Iterator<Item = &'static str> {
@@ -196,6 +209,16 @@ mod tests {
         ] {
             assert_eq!(by_key(ListKind::Axis, printed), None);
             assert_eq!(suggestions(Some(ListKind::Axis), printed).first(), Some(&meant));
+        }
+    }
+
+    /// Two wrong letters of a short name make another word, so nothing is proposed.
+    #[test]
+    fn other_words_are_not_proposed() {
+        assert_eq!(misspelt(Some(ListKind::Axis), "getriebe[].losee"), ["getriebe[i].lose"]);
+        for other in ["getriebe[].lope", "getriebe[].nix", "getriebe[].live"] {
+            let found = misspelt(Some(ListKind::Axis), other);
+            assert!(!found.contains(&"getriebe[i].load"), "{other}: {found:?}");
         }
     }
 
