@@ -92,7 +92,9 @@ pub struct Splining {
     run: VecDeque<Edge>,
     /// Edges at the front that have their curves as if every corner of the run were rounded.
     curved: usize,
-    /// Edges at the front of which it is known whether the corner at their start is rounded.
+    /// Edges at the front of which the corner at their start has been compared with its spline.
+    compared: usize,
+    /// Edges at the front of which it is known whether that corner is rounded.
     judged: usize,
     /// Edges at the front that have been put out.
     done: usize,
@@ -112,6 +114,7 @@ impl Splining {
             fairing: Fairing::default(),
             run: VecDeque::new(),
             curved: 0,
+            compared: 0,
             judged: 0,
             done: 0,
             from_start: false,
@@ -194,7 +197,7 @@ impl Splining {
         self.to_end = true;
         self.advance(kernel_active);
         self.run.clear();
-        (self.curved, self.judged, self.done) = (0, 0, 0);
+        (self.curved, self.compared, self.judged, self.done) = (0, 0, 0, 0);
         (self.from_start, self.to_end) = (false, false);
     }
 
@@ -207,8 +210,14 @@ impl Splining {
             self.run[self.curved].curves = self.curves(self.curved, &span);
             self.curved += 1;
         }
-        while self.judged < self.curved {
-            if self.judged > 0 && !self.is_worth(self.judged, kernel_active) {
+        while self.compared < self.curved {
+            let slower = self.compared > 0 && !self.is_worth(self.compared, kernel_active);
+            self.run[self.compared].corner.slower = slower;
+            self.compared += 1;
+        }
+        while self.judged < decided(AHEAD - 1, self.compared) {
+            let Corner { e, slower, .. } = self.run[self.judged].corner;
+            if slower && (e.is_some() || self.gains_as_end(self.judged, kernel_active)) {
                 self.run[self.judged].corner.sharp = true;
                 let seq = self.run[self.judged - 1].block.seq;
                 self.notices.push(Notice { seq, reason: NoContour::Slower });
@@ -232,12 +241,11 @@ impl Splining {
         }
     }
 
-    /// Those of them between the corners next to the edge that stay sharp, one more of them given.
-    fn between_sharp(&self, edge: usize, span: &Span, also: Option<usize>) -> Span {
-        let is_sharp = |i: &usize| self.run[*i].corner.sharp || also == Some(*i);
+    /// Those of them between the sharp corners next to the edge.
+    fn between(edge: usize, span: &Span, is_sharp: impl Fn(&usize) -> bool) -> Span {
         let (start, end) = (span.edges.start, span.edges.end);
-        let before = (start..=edge).rev().find(is_sharp);
-        let after = (edge + 1..end).find(is_sharp);
+        let before = (start..=edge).rev().find(&is_sharp);
+        let after = (edge + 1..end).find(&is_sharp);
         Span {
             edges: before.unwrap_or(start)..after.unwrap_or(end),
             from_start: before.is_some() || span.from_start,
@@ -250,7 +258,7 @@ impl Splining {
         let edge = self.done;
         let mut curves = std::mem::take(&mut self.run[edge].curves);
         let whole = self.span(edge);
-        let span = self.between_sharp(edge, &whole, None);
+        let span = Self::between(edge, &whole, |i| self.run[*i].corner.sharp);
         if span != whole {
             curves = self.curves(edge, &span);
         }
@@ -275,7 +283,8 @@ impl Splining {
         if self.done > BEHIND {
             self.run.pop_front();
             self.from_start = false;
-            for count in [&mut self.curved, &mut self.judged, &mut self.done] {
+            let Self { curved, compared, judged, done, .. } = self;
+            for count in [curved, compared, judged, done] {
                 *count -= 1;
             }
         }

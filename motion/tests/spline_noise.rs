@@ -208,7 +208,8 @@ fn the_whole_stays_within_the_tolerance() {
     assert!(used > 0.9);
 }
 
-/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path.
+/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path. Where a corner takes as long with the
+/// spline as without, to a hundredth, the reversed one may be decided the other way: that changes two edges to either side.
 #[test]
 fn the_path_is_the_same_seen_otherwise() {
     let job = machine(3);
@@ -219,12 +220,18 @@ fn the_path_is_the_same_seen_otherwise() {
         let path = |p: &[Vec<f64>]| traced(&splined(&job, settings, p, 50.0), edges, 6);
         let want = path(&points);
         let same = |got: &[Vec<Vec<f64>>], what: &str| {
+            let mut others = Vec::new();
             for (i, (p, q)) in want.iter().zip(got).enumerate() {
                 for (p, q) in p.iter().zip(q) {
                     let off = p.iter().zip(q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                    assert!(off < 1e-6, "{seed} {what} edge {i}: {off}");
+                    let undecided = what == "reversed" && off < 2.0 * settings.path_dev_mm;
+                    assert!(off < 1e-6 || undecided, "{seed} {what} edge {i}: {off}");
+                    others.extend((off >= 1e-6).then_some(i));
                 }
             }
+            others.dedup();
+            println!("{seed} {what}: {} of {edges} edges", others.len());
+            assert!(50 * others.len() <= edges, "{seed} {what}: edges {others:?}");
         };
         let each = |p: &[Vec<f64>], f: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Vec<f64>> {
             p.iter().map(|p| f(p)).collect()

@@ -33,12 +33,15 @@ pub(super) struct Corner {
     pub(super) reach: f64,
     /// Control points at `e` and `2 e` on either side.
     pub(super) e: Option<f64>,
-    /// The spline ends here: with it, the corner would take longer.
+    /// The spline takes longer than the sharp corner.
+    pub(super) slower: bool,
+    /// The spline ends here.
     pub(super) sharp: bool,
 }
 
 impl Corner {
-    pub(super) const FREE: Self = Self { reach: f64::INFINITY, e: None, sharp: false };
+    pub(super) const FREE: Self =
+        Self { reach: f64::INFINITY, e: None, slower: false, sharp: false };
 }
 
 impl Edge {

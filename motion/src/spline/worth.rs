@@ -1,8 +1,9 @@
 //! Whether the spline at a corner takes no longer than the corner itself.
 //!
 //! Each corner is judged for itself, with the spline as if all other corners were rounded. Corners with control points of
-//! their own do not depend on each other. At the others an end of the spline bends it more at the corners next to it: these
-//! stay sharp only if that, too, is faster.
+//! their own do not depend on each other: that decides. At the others an end of the spline bends it more at the corners next to
+//! it: these stay sharp only if that, too, is faster, beside corners of the first kind as they have been decided. So a contour
+//! and the reversed one have the same corners, but for those that take as long either way.
 
 use super::Splining;
 use super::edge::{Curve, Edge};
@@ -25,36 +26,50 @@ impl Splining {
         // beyond its own control points the spline is the edge
         let reach = |edge: &Edge| to.corner.e.map_or(0.5 * edge.length, |e| 2.0 * e);
         let (pre_mm, post_mm) = (reach(from), reach(to));
-        let mut parts: Vec<Part> = near(from.curves.iter().rev(), pre_mm).collect();
-        parts.reverse();
-        parts.extend(near(to.curves.iter(), post_mm));
-        let passage = Passage { from: a, bridged: &[], to: b, cycle: self.cycle, kernel_active };
-        if passage.is_worth(&parts, pre_mm, post_mm) {
-            return true;
-        }
-        if to.corner.e.is_some() {
-            return false;
-        }
-        // an end of the spline bends it more next to it
-        let edges = [corner - 1, corner];
-        let round = edges.map(|edge| self.parts(edge, None)).concat();
-        let [before, after] = edges.map(|edge| self.parts(edge, Some(corner)));
-        let kink = Part { length_mm: 0.0, v_mm_s: passage.sharp_mm_s() };
-        let sharp = [before, vec![kink], after].concat();
-        (1.0 - GAIN) * passage.time_s(&round) <= passage.time_s(&sharp)
+        let mut around: Vec<Part> = near(from.curves.iter().rev(), pre_mm).collect();
+        around.reverse();
+        around.extend(near(to.curves.iter(), post_mm));
+        self.passage(corner, kernel_active).is_worth(&around, pre_mm, post_mm)
     }
 
-    /// The spline over an edge, between the sharp corners known so far and one more.
-    fn parts(&self, edge: usize, also: Option<usize>) -> Vec<Part> {
-        let curves = self.curves(edge, &self.between_sharp(edge, &self.span(edge), also));
-        let edge = &self.run[edge];
-        if curves.is_empty() {
-            let speeds = PathSpeeds::of(&edge.block, &PathExtremes::of(&edge.block.path));
-            let v_mm_s = speeds.limited(speeds.programmed_mm_s).v_mm_s;
-            return vec![Part { length_mm: edge.length, v_mm_s }];
-        }
-        curves.iter().map(|c| Part { length_mm: c.path.length(), v_mm_s: c.v_mm_s }).collect()
+    /// True if it saves time that the spline ends at the start of an edge: that bends it more next to it.
+    pub(super) fn gains_as_end(&self, corner: usize, kernel_active: bool) -> bool {
+        let passage = self.passage(corner, kernel_active);
+        let time_with = |and: Option<usize>| {
+            let is_sharp = |i: &usize| {
+                let corner = &self.run[*i].corner;
+                corner.slower && corner.e.is_some() || and == Some(*i)
+            };
+            let [before, after] = [corner - 1, corner].map(|edge| {
+                let whole = self.span(edge);
+                let span = Self::between(edge, &whole, is_sharp);
+                let edge_at = &self.run[edge];
+                if span == whole {
+                    parts(edge_at, &edge_at.curves)
+                } else {
+                    parts(edge_at, &self.curves(edge, &span))
+                }
+            });
+            let kink = Part { length_mm: 0.0, v_mm_s: passage.sharp_mm_s() };
+            passage.time_s(&[before, and.map(|_| kink).into_iter().collect(), after].concat())
+        };
+        time_with(Some(corner)) < (1.0 - GAIN) * time_with(None)
     }
+
+    fn passage(&self, corner: usize, kernel_active: bool) -> Passage<'_> {
+        let (from, to) = (&self.run[corner - 1].block, &self.run[corner].block);
+        Passage { from, bridged: &[], to, cycle: self.cycle, kernel_active }
+    }
+}
+
+/// The spline over an edge; without one the edge itself.
+fn parts(edge: &Edge, curves: &[Curve]) -> Vec<Part> {
+    if curves.is_empty() {
+        let speeds = PathSpeeds::of(&edge.block, &PathExtremes::of(&edge.block.path));
+        let v_mm_s = speeds.limited(speeds.programmed_mm_s).v_mm_s;
+        return vec![Part { length_mm: edge.length, v_mm_s }];
+    }
+    curves.iter().map(|c| Part { length_mm: c.path.length(), v_mm_s: c.v_mm_s }).collect()
 }
 
 /// The parts of curves within a distance from the first one's start.

@@ -176,7 +176,7 @@ fn offsets_are_suppressed_within_systems() {
         &[-5.0, 0.0, 0.0],
     );
     // one axis of a turned system moves along its own direction
-    let one = "#ROTATION ON [ANGLE=30]\nG92 X50\n#SUPPRESS OFFSETS X5 Y7\n#SUPPRESS OFFSETS X6";
+    let one = "\n#ROTATION ON [ANGLE=30]\nG92 X50\n#SUPPRESS OFFSETS X5 Y7\n#SUPPRESS OFFSETS X6";
     assert_near(&last(one), &[6.0 * c - 7.0 * s, 6.0 * s + 7.0 * c, 0.0]);
 }
 

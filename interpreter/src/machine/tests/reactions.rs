@@ -15,7 +15,7 @@ fn numbers_that_do_not_fit_together() {
                    gruppe[0].achse[1].bezeichnung";
     assert_eq!(
         broken("m/lists/channel.lis", &format!("{channel} Y\ngruppe[0].achse[1].log_achs_nr 1\n")),
-        ["K-0031"]
+        ["20423"]
     );
     assert_eq!(
         broken("m/lists/channel.lis", &format!("{channel} x\ngruppe[0].achse[1].log_achs_nr 7\n")),
