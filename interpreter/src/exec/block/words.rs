@@ -209,8 +209,8 @@ impl Decoder {
 
     /// The name and the text of a macro are not too long (P-CHAN-00511, 00512).
     ///
-    /// Assumption: the pages print an ID for the name alone; a text beyond its limit is K-RANGE.
-    fn macro_fits(&self, name: &str, text: &str, span: Span) -> Outcome<()> {
+    /// Assumption: the pages print an ID for the name alone; a text beyond its limit runs, with the warning K-RANGE.
+    fn macro_fits(&mut self, name: &str, text: &str, span: Span) -> Outcome<()> {
         let channel = &self.machine.channel;
         for (what, written, most, condition, parameter) in [
             ("name", name, channel.macro_name_length, Condition::MacroNameLength, "P-CHAN-00511"),
@@ -220,8 +220,12 @@ impl Decoder {
             if length > most as usize {
                 let text =
                     format!("the {what} of the macro has {length} characters, at most {most}");
-                return Err(Fault::new(condition, text, span)
-                    .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter)));
+                let fault = Fault::new(condition, text, span)
+                    .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter));
+                if condition != Condition::Range {
+                    return Err(fault);
+                }
+                self.report.note(fault.warning());
             }
         }
         Ok(())

@@ -199,3 +199,12 @@ fn the_path_waits_for_spindles_where_the_list_says_so() {
     assert_eq!(order(&["channel.spindel[0].m5_synch=MNS_SNS"]), "XXS.");
     assert_eq!(order(&["channel.spindel[0].m3_synch=MOS"]), "XX.");
 }
+
+/// The pages print no ID for a text of a macro beyond P-CHAN-00512, 80 characters by default: it runs with a warning.
+#[test]
+fn long_texts_of_macros_run() {
+    let long = format!("X5 ({})", "a".repeat(80));
+    let run = run(&format!("G01 F1000\n\"M\"=\"{long}\"\n\"M\"\nM30\n"));
+    assert_eq!(run.ids(), ["K-0009"]);
+    assert_near(run.ends().last().unwrap(), &[5.0, 0.0, 0.0]);
+}
