@@ -66,6 +66,8 @@ use std::ops::Range;
 
 /// Edges after the present one that decide its piece.
 const AHEAD: usize = 5;
+/// Rounds in which corners are judged ([`worth`]).
+const ROUNDS: usize = 2;
 /// Edges before the present one that decide its piece.
 const BEHIND: usize = 3;
 /// Part of an edge that `e` takes at most, so that the control points added at both ends stay in order. Below a quarter,
@@ -94,8 +96,8 @@ pub struct Splining {
     curved: usize,
     /// Edges at the front of which the corner at their start has been compared with its spline.
     compared: usize,
-    /// Edges at the front of which it is known whether that corner is rounded.
-    judged: usize,
+    /// Edges at the front whose corner has been judged in each of the rounds after that.
+    judged: [usize; ROUNDS],
     /// Edges at the front that have been put out.
     done: usize,
     /// The first edge in the buffer is the first of the run.
@@ -115,7 +117,7 @@ impl Splining {
             run: VecDeque::new(),
             curved: 0,
             compared: 0,
-            judged: 0,
+            judged: [0; ROUNDS],
             done: 0,
             from_start: false,
             to_end: false,
@@ -197,7 +199,7 @@ impl Splining {
         self.to_end = true;
         self.advance(kernel_active);
         self.run.clear();
-        (self.curved, self.compared, self.judged, self.done) = (0, 0, 0, 0);
+        (self.curved, self.compared, self.judged, self.done) = (0, 0, [0; ROUNDS], 0);
         (self.from_start, self.to_end) = (false, false);
     }
 
@@ -212,19 +214,23 @@ impl Splining {
         }
         while self.compared < self.curved {
             let slower = self.compared > 0 && !self.is_worth(self.compared, kernel_active);
-            self.run[self.compared].corner.slower = slower;
+            let corner = &mut self.run[self.compared].corner;
+            corner.slower = slower;
+            corner.sharp_since = (slower && corner.e.is_some()).then_some(0);
             self.compared += 1;
         }
-        while self.judged < decided(AHEAD - 1, self.compared) {
-            let Corner { e, slower, .. } = self.run[self.judged].corner;
-            if slower && (e.is_some() || self.gains_as_end(self.judged, kernel_active)) {
-                self.run[self.judged].corner.sharp = true;
-                let seq = self.run[self.judged - 1].block.seq;
-                self.notices.push(Notice { seq, reason: NoContour::Slower });
+        let mut known = self.compared;
+        for round in 1..=ROUNDS {
+            for at in self.judged[round - 1]..decided(AHEAD - 1, known) {
+                let Corner { slower, sharp_since, .. } = self.run[at].corner;
+                if slower && sharp_since.is_none() && self.gains_as_end(at, round, kernel_active) {
+                    self.run[at].corner.sharp_since = Some(round);
+                }
+                self.judged[round - 1] = at + 1;
             }
-            self.judged += 1;
+            known = self.judged[round - 1];
         }
-        while self.done < decided(AHEAD - 1, self.judged) {
+        while self.done < decided(AHEAD - 1, self.judged[ROUNDS - 1]) {
             self.put_out();
         }
     }
@@ -256,9 +262,13 @@ impl Splining {
     /// Puts out the piece of the next edge.
     fn put_out(&mut self) {
         let edge = self.done;
+        if self.run[edge].corner.sharp_since.is_some() {
+            let seq = self.run[edge - 1].block.seq;
+            self.notices.push(Notice { seq, reason: NoContour::Slower });
+        }
         let mut curves = std::mem::take(&mut self.run[edge].curves);
         let whole = self.span(edge);
-        let span = Self::between(edge, &whole, |i| self.run[*i].corner.sharp);
+        let span = Self::between(edge, &whole, |i| self.run[*i].corner.sharp_since.is_some());
         if span != whole {
             curves = self.curves(edge, &span);
         }
@@ -284,7 +294,7 @@ impl Splining {
             self.run.pop_front();
             self.from_start = false;
             let Self { curved, compared, judged, done, .. } = self;
-            for count in [curved, compared, judged, done] {
+            for count in [curved, compared, done].into_iter().chain(judged) {
                 *count -= 1;
             }
         }

@@ -34,7 +34,7 @@ fn splined_and_sharp(
         let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
         let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
         out.extend(stage.push(block, false));
-        assert!(out.last().map_or(0, |b| b.seq) as usize + 783 > i, "the buffer is bounded");
+        assert!(out.last().map_or(0, |b| b.seq) as usize + 791 > i, "the buffer is bounded");
     }
     out.extend(stage.flush(false));
     let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();

@@ -35,13 +35,13 @@ pub(super) struct Corner {
     pub(super) e: Option<f64>,
     /// The spline takes longer than the sharp corner.
     pub(super) slower: bool,
-    /// The spline ends here.
-    pub(super) sharp: bool,
+    /// The spline ends here, since this round of the decision.
+    pub(super) sharp_since: Option<usize>,
 }
 
 impl Corner {
     pub(super) const FREE: Self =
-        Self { reach: f64::INFINITY, e: None, slower: false, sharp: false };
+        Self { reach: f64::INFINITY, e: None, slower: false, sharp_since: None };
 }
 
 impl Edge {

@@ -2,8 +2,9 @@
 //!
 //! Each corner is judged for itself, with the spline as if all other corners were rounded. Corners with control points of
 //! their own do not depend on each other: that decides. At the others an end of the spline bends it more at the corners next to
-//! it: these stay sharp only if that, too, is faster, beside corners of the first kind as they have been decided. So a contour
-//! and the reversed one have the same corners, but for those that take as long either way.
+//! it: these stay sharp only if that, too, is faster, beside the corners that have been found sharp before. There are rounds of
+//! this, as an end may pay beside another one; each round sees what the ones before it have found. So a contour and the reversed one
+//! have the same corners, but for those that take as long either way.
 
 use super::Splining;
 use super::edge::{Curve, Edge};
@@ -33,13 +34,12 @@ impl Splining {
     }
 
     /// True if it saves time that the spline ends at the start of an edge: that bends it more next to it.
-    pub(super) fn gains_as_end(&self, corner: usize, kernel_active: bool) -> bool {
+    pub(super) fn gains_as_end(&self, corner: usize, round: usize, kernel_active: bool) -> bool {
         let passage = self.passage(corner, kernel_active);
         let time_with = |and: Option<usize>| {
-            let is_sharp = |i: &usize| {
-                let corner = &self.run[*i].corner;
-                corner.slower && corner.e.is_some() || and == Some(*i)
-            };
+            let known =
+                |i: usize| self.run[i].corner.sharp_since.is_some_and(|since| since < round);
+            let is_sharp = |i: &usize| known(*i) || and == Some(*i);
             let [before, after] = [corner - 1, corner].map(|edge| {
                 let whole = self.span(edge);
                 let span = Self::between(edge, &whole, is_sharp);
