@@ -38,9 +38,8 @@ mod transmission;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
-pub use channel::{
-    Acknowledged, ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride, SpindleMoment,
-};
+pub use channel::functions::{Acknowledged, SpindleMoment};
+pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
 pub use levers::Lever;

@@ -1,10 +1,13 @@
 //! The channel: start values of a program and limits of the path.
 
+pub(super) mod functions;
+
 use super::parameters::{Parameters, Setting};
 use super::table::Indices;
 use super::table::channel as of;
 use super::table::param::{Number, Optional, Param, Text, Whole, whole};
 use super::table::start_up as from;
+use functions::{Acknowledged, SpindleDurations, SpindleWaits};
 use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 use kontur_motion::realtime::OverrideMode;
 use std::collections::{BTreeMap, BTreeSet};
@@ -206,115 +209,6 @@ const CYCLE_PROGRAMS: [Param<Text>; 10] = [
 
 /// Spindles of a channel list.
 const SPINDLES: u32 = 16;
-
-/// When the path waits for a spindle that has been told something.
-///
-/// Source: TF5200 M and H functions 286059787; P-CHAN-00041.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpindleMoment {
-    /// MVS_SVS: before the motion of the block.
-    BeforeMotion,
-    /// MVS_SNS, MNS_SNS: after it.
-    AfterMotion,
-}
-
-/// Until when a function that takes time has to be acknowledged.
-///
-/// Source: TF5200 M and H functions 285997195, 286004619; P-CHAN-00041.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Acknowledged {
-    /// NO_SYNCH, MOS and kinds that only inform: the path does not wait.
-    Never,
-    /// MVS_SVS: before the motion of the block. Assumption: also the kinds whose place the simulation does not know (MVS_SLM,
-    /// MVS_SLP, MEP_SVS, MET_SVS, MNE_SNS without edge banding).
-    BeforeMotion,
-    /// MVS_SNS: called before the motion of the block, the path waits at its end for what is left.
-    DuringMotion,
-    /// MNS_SNS: called after the motion.
-    AfterMotion,
-}
-
-impl Acknowledged {
-    fn of(bits: u32) -> Self {
-        let is = |kind: u32| bits & kind != 0;
-        if is(of::BEFORE_MOTION) {
-            Self::BeforeMotion
-        } else if is(of::DURING_MOTION) {
-            Self::DuringMotion
-        } else if is(of::BEHIND_MOTION) {
-            Self::AfterMotion
-        } else if is(of::ELSEWHERE) {
-            Self::BeforeMotion
-        } else {
-            Self::Never
-        }
-    }
-}
-
-/// For which functions of a spindle the path waits, until its speed, rest or position is reached.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SpindleWaits {
-    /// M03 (P-CHAN-00045).
-    pub m3: Option<SpindleMoment>,
-    /// M04 (P-CHAN-00047).
-    pub m4: Option<SpindleMoment>,
-    /// M05 (P-CHAN-00049).
-    pub m5: Option<SpindleMoment>,
-    /// M19 (P-CHAN-00043).
-    pub m19: Option<SpindleMoment>,
-    /// S word (P-CHAN-00081).
-    pub speed: Option<SpindleMoment>,
-}
-
-impl SpindleWaits {
-    fn of(parameters: &Parameters, spindle: u32) -> Self {
-        let moment = |array: Param<Optional>| {
-            let bits = parameters.get(array.at(spindle)).and_then(whole)?;
-            if bits & of::BEFORE_MOTION != 0 {
-                return Some(SpindleMoment::BeforeMotion);
-            }
-            (bits & (of::DURING_MOTION | of::BEHIND_MOTION) != 0)
-                .then_some(SpindleMoment::AfterMotion)
-        };
-        Self {
-            m3: moment(of::SPINDLE_M3_SYNCHRONISATION),
-            m4: moment(of::SPINDLE_M4_SYNCHRONISATION),
-            m5: moment(of::SPINDLE_M5_SYNCHRONISATION),
-            m19: moment(of::SPINDLE_M19_SYNCHRONISATION),
-            speed: moment(of::SPINDLE_SPEED_SYNCHRONISATION),
-        }
-    }
-}
-
-/// Durations of the functions of a spindle in s, where the list declares them above 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpindleDurations {
-    /// M03 (P-CHAN-00044).
-    pub m3: Option<f64>,
-    /// M04 (P-CHAN-00046).
-    pub m4: Option<f64>,
-    /// M05 (P-CHAN-00048).
-    pub m5: Option<f64>,
-    /// M19 (P-CHAN-00042).
-    pub m19: Option<f64>,
-    /// S word (P-CHAN-00080).
-    pub speed: Option<f64>,
-}
-
-impl SpindleDurations {
-    fn of(parameters: &Parameters, spindle: u32) -> Self {
-        let declared = |array: Param<Optional>| {
-            parameters.get(array.at(spindle)).filter(|duration_s| *duration_s > 0.0)
-        };
-        Self {
-            m3: declared(of::SPINDLE_M3_DURATION),
-            m4: declared(of::SPINDLE_M4_DURATION),
-            m5: declared(of::SPINDLE_M5_DURATION),
-            m19: declared(of::SPINDLE_M19_DURATION),
-            speed: declared(of::SPINDLE_SPEED_DURATION),
-        }
-    }
-}
 
 impl Channel {
     pub(super) fn new(parameters: Parameters, start_up: Parameters, feed_axes: Vec<bool>) -> Self {
