@@ -456,6 +456,7 @@ conditions! {
     DecelerationZero = Vendor 120034: Warning None 1 2, "deceleration weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00002";
     SplineTransition = Vendor 120097: Error ProgramAbort 6 0, "unknown transition of an Akima spline", cause "#SET ASPLINE MODE [9, 1]", hint "1 automatic, 2 tangential, 3 by a vector";
     SplineEndTangent = Vendor 120100: Error ProgramAbort 6 0, "target tangent of an Akima spline without direction", cause "#AKIMA ENDVECTOR X0 Y0", hint "write a component other than 0";
+    FlushInSpline = Vendor 120102: Error ProgramAbort 3 0, "flush while a spline is active", cause "#FLUSH WAIT after #HSC ON [BSPLINE]", hint "write #HSC OFF before it";
     SplineWithoutMotion = Vendor 120112: Error ProgramAbort 6 0, "no motion before a spline with a tangential start", cause "#AKIMA TRANS [START=TANGENTIAL] before the first motion", hint "write a motion before G151, or START=AUTO";
     PathDevTooSmall = Vendor 120129: Error ProgramAbort 3 0, "PATH_DEV below the minimum", hint "write 0.0001 mm or more";
     CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";

@@ -19,8 +19,20 @@ pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
     .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known, and the corner is not contoured")
     .example("#FLUSH WAIT");
 
+/// 120102: a B-spline ends nowhere but at its own commands.
+///
+/// Source: TF5200 programming manual 207042443, diagnosis 264284811.
+pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    if decoder.contour.hsc.on && !decoder.contour.hsc.rounds_corners {
+        let text = format!("{} while #HSC [BSPLINE] is active", call.title());
+        return Err(Fault::new(Condition::FlushInSpline, text, call.span()));
+    }
+    Ok(())
+}
+
 /// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
 fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    may_flush(decoder, call)?;
     if decoder.motion.contour_line.is_open() {
         let text = "#FLUSH between the two blocks of a contour line (#ANG)";
         return Err(Fault::new(Condition::FlushInContourLine, text, call.span()));
@@ -43,6 +55,7 @@ pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
 
 /// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AXNR=2]`; the axes also without `AX=`.
 fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    may_flush(decoder, call)?;
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
         let text = "#CHANNEL INIT needs [CMDPOS] or [ACTPOS]";
