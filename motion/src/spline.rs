@@ -318,13 +318,7 @@ impl Splining {
         } else {
             polygon.joint(polygon.last)
         };
-        // a stop at every transition (G116) means those of the program
-        let groups = if block.dynamics.stop_at_transitions {
-            vec![(pieces, f64::INFINITY)]
-        } else {
-            pace::groups(block, pieces)
-        };
-        let mut groups = groups.into_iter();
+        let mut groups = pace::groups(block, pieces).into_iter();
         let mut out = Vec::with_capacity(groups.len());
         while let Some((pieces, v_mm_s)) = groups.next() {
             let here = match pieces.last() {

@@ -118,10 +118,14 @@ impl Passage<'_> {
     /// True if the curve in `parts` takes no longer than the sharp corner; `pre_mm` and
     /// `post_mm` are its corner distances.
     pub(crate) fn is_worth(&self, parts: &[Part], pre_mm: f64, post_mm: f64) -> bool {
+        // where the path stops (G116) a curve only takes a stop more
+        if self.to.dynamics.stop_at_transitions {
+            return false;
+        }
         let slowest = slowest(parts);
         let sides = self.sides();
-        // only the programmed feed of one of the blocks limits the curve
-        if sides.iter().any(|side| slowest >= side.v_mm_s) {
+        // only the programmed feeds limit the curve
+        if sides.iter().all(|side| slowest >= side.v_mm_s) {
             return true;
         }
         let v = self.sharp_mm_s().min(sides[0].v_mm_s).min(sides[1].v_mm_s);

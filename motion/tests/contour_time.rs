@@ -17,13 +17,12 @@ use kontur_motion::block::{Block, ContourMode, ContourSettings, SlopeKind};
 use kontur_motion::contouring::Contouring;
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use std::sync::Arc;
 
 const CYCLE_US: u32 = 1000;
 const CYCLE_S: f64 = 1e-3;
 /// Ramps that a hill of the speed may take longer than without ramps.
 const HILL_RAMPS: f64 = 1.17;
-/// Feeds of the blocks of a contour in a row, as parts of the largest.
-const SLOWER: [f64; 3] = [1.0, 0.3, 0.8];
 /// Part by which a run may get longer with the tolerance.
 const LONGER: f64 = 0.01;
 
@@ -72,16 +71,20 @@ fn job(dynamics: AxisDynamics, kind: SlopeKind) -> Job {
     job
 }
 
-fn feed_of(block: usize, feed: f64) -> f64 {
-    feed * SLOWER[block % SLOWER.len()]
+/// Blocks whose feeds are taken in turn.
+fn programmed<'a>(
+    job: &'a Job,
+    paths: &'a [Path],
+    feeds: &'a [f64],
+) -> impl Iterator<Item = Block> + 'a {
+    let feeds = feeds.iter().cycle();
+    (0..).zip(paths).zip(feeds).map(|((i, path), feed)| job.block(i, path.clone(), *feed))
 }
 
-fn rounded(job: &Job, paths: &[Path], mode: ContourMode, feed: f64) -> Vec<Block> {
-    let settings = ContourSettings { mode, ..ContourSettings::default() };
+fn rounded(job: &Job, paths: &[Path], settings: ContourSettings, feeds: &[f64]) -> Vec<Block> {
     let mut stage = Contouring::new(CycleTime::from_us(CYCLE_US).unwrap());
     let mut out = Vec::new();
-    for (i, path) in paths.iter().enumerate() {
-        let block = job.block(i as u64, path.clone(), feed_of(i, feed));
+    for block in programmed(job, paths, feeds) {
         out.extend(stage.push(Block { contour: Some(settings), ..block }, false));
     }
     out.extend(stage.flush());
@@ -161,7 +164,8 @@ fn a_larger_tolerance_never_lengthens_and_nothing_crawls() {
             let mut before: Option<(f64, f64)> = None;
             for mode in tolerances.iter().map(|eps| rounding(*eps)) {
                 let job = job(a, kind);
-                let blocks = rounded(&job, &paths, mode, feed);
+                let settings = ContourSettings { mode, ..ContourSettings::default() };
+                let blocks = rounded(&job, &paths, settings, &[feed, 0.3 * feed, 0.8 * feed]);
                 let (least, hills) = bound(&blocks, &a);
                 let out = job.run(paths[0].start(), blocks.into_iter());
                 let time = (out.len() - 1) as f64 * CYCLE_S;
@@ -202,7 +206,8 @@ fn chords(r: &mut Random) -> Vec<Path> {
     points.windows(2).filter_map(line).collect()
 }
 
-/// A contour with rounded corners takes no longer than the sharp one, up to a cycle at every corner and 3 %: whether a curve
+/// A contour with rounded corners takes no longer than the sharp one, whatever the feeds of its blocks, also with a constant speed in
+/// the curves and stops at every transition (G116), up to a cycle at every corner and 3 %: whether a curve
 /// is worth it is judged at one corner alone.
 #[test]
 fn rounding_costs_no_time() {
@@ -212,21 +217,26 @@ fn rounding_costs_no_time() {
         let paths = if r.chance(0.6) { chords(&mut r) } else { contour(&mut r) };
         let a = limits(&mut r);
         let feed = r.log(5.0, 500.0);
+        let feeds = r.pick(&[[1.0; 3], [1.0, 0.3, 0.8], [1.0, 0.003, 0.5]]).map(|part| part * feed);
         let eps = r.log(1e-3, 1.0);
         let mode = r.pick(&[
             ContourMode::Dev { path_dev_mm: eps },
             ContourMode::Dist { pre_mm: eps, post_mm: eps },
+            ContourMode::Dist { pre_mm: eps, post_mm: 0.2 * eps },
         ]);
+        let constant_velocity = r.chance(0.2);
+        let settings = ContourSettings { mode, constant_velocity, ..ContourSettings::default() };
+        let stops = r.chance(0.1);
         for kind in [Trapez, Sin2, Hsc] {
-            let job = job(a, kind);
+            let mut job = job(a, kind);
+            Arc::make_mut(&mut job.dynamics).stop_at_transitions = stops;
             let cycles = |blocks: Vec<Block>| job.run(paths[0].start(), blocks.into_iter()).len();
-            let sharp = (0..)
-                .zip(&paths)
-                .map(|(i, path)| job.block(i as u64, path.clone(), feed_of(i, feed)));
-            let (sharp, round) =
-                (cycles(sharp.collect()), cycles(rounded(&job, &paths, mode, feed)));
-            let name =
-                format!("{program} {kind:?} {mode:?} at {feed} mm/s, {} corners", paths.len() - 1);
+            let sharp = cycles(programmed(&job, &paths, &feeds).collect());
+            let round = cycles(rounded(&job, &paths, settings, &feeds));
+            let corners = paths.len() - 1;
+            let name = format!(
+                "{program} {kind:?} {settings:?} at {feeds:?} mm/s, stops {stops}, {corners} corners"
+            );
             let most = sharp + paths.len() + sharp * 3 / 100;
             assert!(round <= most, "{name}: {round} cycles, {sharp} sharp");
         }

@@ -375,6 +375,25 @@ fn a_larger_tolerance_costs_nothing() {
     }
 }
 
+/// Where the path stops at every transition (G116), the edges stay straight.
+#[test]
+fn stops_at_transitions_leave_the_polygon() {
+    let mut dynamics = (*channel(vec![axis(1.0); 2])).clone();
+    dynamics.stop_at_transitions = true;
+    let job = Job { dynamics: Arc::new(dynamics), ..Job::new(1.0, Hsc) };
+    let points = polygon(ROUGH, 7, 40);
+    for path_dev_mm in [0.0, 0.001, 0.2] {
+        let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+        let blocks = splined(&job, settings, &points, 50.0);
+        let edges = blocks.iter().zip(&points).zip(&points[1..]);
+        assert!(edges.into_iter().all(|((block, from), to)| {
+            block.path.is_straight()
+                && block.path.start()[..] == from[..]
+                && block.path.end()[..] == to[..]
+        }));
+    }
+}
+
 /// A spline takes no longer than its polygon, but by the 1 % that a corner judged for itself may cost. `COUNT` raises the number of
 /// polygons.
 #[test]

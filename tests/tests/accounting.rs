@@ -203,6 +203,9 @@ fn kinds_of_synchronisation() {
         let words = ["--set", &kind, "--set", &time, "--techno-times", "-o", &trace];
         let summary = folder.summary(&[&words[..], &["--signals", "path,ipo"]].concat());
         near(&summary["technology_s"], wait_s, 1e-9);
+        // without the option, what the control would wait for is named
+        let named = folder.summary(&words[..4])["not_counted"].as_array().unwrap().len();
+        assert_eq!(named, usize::from(!kind.ends_with("NO_SYNCH") && !kind.ends_with("MOS")));
         let text = std::fs::read_to_string(&trace).unwrap();
         let mut rows = text.lines().map(|l| l.split(',').collect::<Vec<_>>());
         let names = rows.next().unwrap();

@@ -94,7 +94,9 @@ pub(super) fn turn(a: &Edge, b: &Edge) -> Turn {
 
 /// Judges the corner between two edges of a run; `None` where the spline ends.
 pub(super) fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
-    if a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
+    // where the path stops (G116) a spline only bends what could be straight
+    let stops = b.block.dynamics.stop_at_transitions;
+    if stops || a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
         return None;
     }
     let Turn { jump, angle_rad: angle, track } = turn(a, b);

@@ -21,7 +21,7 @@ impl Splining {
         let (a, b) = (&from.block, &to.block);
         // only the planner knows the speed of a sharp corner under AX_DEV; an end speed is programmed explicitly
         let monitored = [a, b].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
-        if monitored || a.end_velocity_mm_s.is_some() || a.dynamics.stop_at_transitions {
+        if monitored || a.end_velocity_mm_s.is_some() {
             return true;
         }
         // beyond its own control points the spline is the edge

@@ -19,6 +19,9 @@ impl Decoder {
             Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => None,
         };
         let until = until.unwrap_or(Acknowledged::BeforeMotion);
+        if until == Acknowledged::Never {
+            return;
+        }
         let seconds = self.counted_time_s(function);
         if seconds > 0.0 {
             self.technology.pending.push((seconds, until));
