@@ -45,6 +45,7 @@ use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
+use totals::{Programmed, Progress};
 use wait::{AwaitedMark, Parts, Wait};
 use wear::Wear;
 
@@ -67,6 +68,7 @@ enum Phase {
 struct Underway {
     seq: u64,
     source: SourceRef,
+    programmed: Programmed,
     motion: Motion,
     /// Where it ends as it is programmed.
     target: AxisVec,
@@ -146,6 +148,7 @@ pub(crate) struct Simulation {
     /// Axes that a fault has stopped, and where.
     frozen: Vec<Option<f64>>,
     messages: Messages,
+    progress: Progress,
     totals: Totals,
 }
 
@@ -192,7 +195,8 @@ impl Simulation {
 
     /// What no record holds; complete when there are no more cycles.
     pub(crate) fn totals(&self) -> Totals {
-        Totals { blocks: self.executor.blocks(), ..self.totals.clone() }
+        let (blocks, ideal_duration_s) = self.progress.up_to(self.record.path.s_mm);
+        Totals { blocks, ideal_duration_s, ..self.totals.clone() }
     }
 
     /// The cycle computed last, or the state at time zero; its deviation is still to be measured.
@@ -311,12 +315,20 @@ impl Simulation {
     }
 
     fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
-        self.totals.count(&block);
+        let programmed = Programmed::new(&block, self.executor.blocks());
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         let motion = Motion::of(&block);
         let (seq, target) = (block.seq, block.path.end().clone());
         let bands = events.iter().any(|event| matches!(event, Event::Banding(_)));
-        self.underway.push_back(Underway { seq, source, motion, target, jerk_limited, events });
+        self.underway.push_back(Underway {
+            seq,
+            source,
+            programmed,
+            motion,
+            target,
+            jerk_limited,
+            events,
+        });
         self.smoothing.push(block, &mut self.planner);
         if bands {
             self.smoothing.flush(&mut self.planner);
@@ -342,6 +354,7 @@ impl Simulation {
             self.pull();
             return;
         };
+        self.progress.complete(self.executor.blocks());
         self.waits_at = source;
         let k = self.planner.setpoint().k;
         for event in events {

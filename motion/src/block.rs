@@ -44,15 +44,19 @@ pub struct Slope {
     pub kind: SlopeKind,
     /// `NO_OPT=0`: profile planned across block limits.
     pub optimised: bool,
-    /// P-CHAN-00349 = 1: constant ramp time instead of constant jerk (never in rapid blocks).
+    /// P-CHAN-00349 = 1: constant ramp time instead of constant jerk, with TRAPEZ and SIN2, never in rapid blocks.
     pub constant_ramp_time: bool,
 }
 
 impl Slope {
     /// True if the profile of a block may run on across its ends with a non-zero acceleration.
     pub(crate) fn plans_across(self) -> bool {
-        let scales = self.optimised || !self.constant_ramp_time;
-        self.kind == SlopeKind::Hsc || self.kind != SlopeKind::Step && scales
+        self.kind != SlopeKind::Step && (self.optimised || !self.keeps_ramp_times())
+    }
+
+    /// True if a small change of speed of a feed block takes whole ramp times, too.
+    pub(crate) fn keeps_ramp_times(self) -> bool {
+        self.constant_ramp_time && matches!(self.kind, SlopeKind::Trapez | SlopeKind::Sin2)
     }
 }
 

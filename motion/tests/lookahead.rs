@@ -124,3 +124,15 @@ fn a_rise_that_goes_on_in_the_next_window_keeps_its_reason() {
         }
     }
 }
+
+/// P-CHAN-00349 = 1 is a mode of TRAPEZ and SIN2: a move of 1 mm with ramps of 50 ms takes 0.2 s there and, at constant jerk,
+/// 0.116960710 s (T3c and T3 of the worked examples); HSC and G00 do not know the mode.
+#[test]
+fn constant_ramp_times_belong_to_trapez_and_sin2() {
+    for (kind, cycles) in [(Trapez, 200), (Sin2, 200), (Hsc, 117)] {
+        let mut job = Job::new(1.0, kind);
+        job.slope.constant_ramp_time = true;
+        let out = job.drive(&[&[0.0, 0.0], &[1.0, 0.0]], &[66.666_667]);
+        assert_eq!(out.len() - 1, cycles, "{kind:?}");
+    }
+}

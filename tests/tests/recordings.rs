@@ -286,3 +286,75 @@ fn a_recording_with_fewer_samples_is_compared_at_its_samples() {
         }
     }
 }
+
+/// A run ends while its axis still creeps into its window. A coarse recording of it is equal whatever the phase of its samples,
+/// although the last rows lie between two of them; one that ends two samples earlier is not.
+#[test]
+fn the_phase_of_the_samples_does_not_matter() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    std::fs::write(path("part.nc"), "N10 G01 X10 F6000\nN20 Y10\nM30\n").unwrap();
+    let words = ["run", &path("part.nc"), "-o", &path("part.csv"), "--signals", "Y_act_mm"];
+    assert_eq!(command(words).exit, Exit::Finished);
+    let trace = std::fs::read_to_string(path("part.csv")).unwrap();
+    let y: Vec<&str> = trace.lines().skip(1).map(|line| line.rsplit(',').next().unwrap()).collect();
+    let end = y.len() - 1;
+    assert!((y[end].parse::<f64>().unwrap() - y[end - 2].parse::<f64>().unwrap()).abs() > 1e-3);
+    for each in [2, 3, 4, 10] {
+        for lead in 20..20 + each {
+            for short in [false, true] {
+                let last = if short { end + lead - 2 * each } else { end + lead + 3 * each };
+                let mut text = String::from("t_s,y\n");
+                for k in (0..=last).step_by(each) {
+                    let _ = writeln!(
+                        text,
+                        "{:.3},{}",
+                        k as f64 * 1e-3,
+                        y[k.saturating_sub(lead).min(end)]
+                    );
+                }
+                std::fs::write(path("coarse.csv"), text).unwrap();
+                let words = ["diff", &path("part.nc"), &path("coarse.csv"), "--map", "Y_act_mm=y"];
+                let said = command(words);
+                let expected = if short { Exit::Aborted } else { Exit::Finished };
+                assert_eq!(said.exit, expected, "{each} {lead} {short}: {}", said.out);
+            }
+        }
+    }
+}
+
+/// Thirty turns of a circle, recorded from the second, third or fifth second on: one shift makes every row equal, others are
+/// whole turns aside and differ only where the motion begins or ends.
+#[test]
+fn a_motion_that_repeats_itself_is_not_shifted_by_a_turn() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let turns = "G03 I-10 X10 Y0\n".repeat(30);
+    std::fs::write(path("part.nc"), format!("G01 X10 F6000\n{turns}M30\n")).unwrap();
+    let columns = "X_act_mm,Y_act_mm";
+    let words = ["run", &path("part.nc"), "-o", &path("part.csv"), "--signals", columns];
+    assert_eq!(command(words).exit, Exit::Finished);
+    let trace = std::fs::read_to_string(path("part.csv")).unwrap();
+    let rows: Vec<&str> =
+        trace.lines().skip(1).map(|line| line.splitn(4, ',').last().unwrap()).collect();
+    for begin in [1000, 2000, 3000, 5000] {
+        let mut text = String::from("t_s,x,y\n");
+        for (k, row) in rows[begin..].iter().enumerate() {
+            let _ = writeln!(text, "{:.3},{row}", k as f64 * 1e-3);
+        }
+        std::fs::write(path("scope.csv"), text).unwrap();
+        let maps = ["--map", "X_act_mm=x", "--map", "Y_act_mm=y"];
+        let mut words = vec!["diff", "--format", "json"];
+        let files = [path("part.csv"), path("scope.csv")];
+        words.extend(files.iter().map(String::as_str));
+        words.extend(maps);
+        let done = command(words);
+        let found: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+        near(&found["result"]["shift_cycles"], -(begin as f64), 1e-3);
+        for pair in 0..2 {
+            assert_eq!(found["result"]["pairs"][pair]["different"], 0, "{begin}: {found}");
+        }
+        // the trace moves before the recording begins
+        assert_eq!(done.exit, Exit::Aborted);
+    }
+}

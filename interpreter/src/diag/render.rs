@@ -100,7 +100,10 @@ fn notes(d: &Diagnostic) -> Vec<Message<'static>> {
         notes.push(note(format!("corrected to {}", datum(corrected, "-"))));
     }
     let row = condition::row(d.id);
-    if d.severity == Severity::Error {
+    // a warning that is an error here ends what its caller does, of which its row knows nothing
+    if d.severity == Severity::Error
+        && (row.severity == Severity::Error || row.reaction != condition::Reaction::None)
+    {
         notes.push(note(format!(
             "reaction {}: {}; remedy {}: {}",
             row.reaction.class(),

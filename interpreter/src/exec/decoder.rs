@@ -193,14 +193,27 @@ impl Decoder {
             self.report.note(fault.hint("write it into the axis list"));
             return Ok(());
         }
-        if let Err(reason) = machine.axes[axis].set(key, value) {
-            let text = format!("axis {}: {reason}", machine.axes[axis].name());
-            return Err(Fault::new(Condition::TokenUnknown, text, span));
+        let cycle = machine.cycle;
+        let changed = &mut machine.axes[axis];
+        let limits_mm = changed.software_limits_mm();
+        let corrected =
+            changed.change(key, value, self.report.location.clone(), cycle).map_err(|reason| {
+                let text = format!("axis {}: {reason}", changed.name());
+                Fault::new(Condition::TokenUnknown, text, span)
+            })?;
+        for diagnostic in corrected {
+            // also of what the list says and the new value no longer permits
+            self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
-        let number = machine.axes[axis].number();
+        if changed.software_limits_mm() != limits_mm {
+            // also over what G98 and G99 have set
+            self.geometry.limits_mm[axis] = changed.software_limits_mm();
+        }
+        let number = changed.number();
         self.motion.dynamics_changed();
-        self.sync(Sync::MachineData { axis: number });
+        // first: a kernel is replaced when the axes have stood for as long as it remembers
         self.update_shaping(span);
+        self.sync(Sync::MachineData { axis: number });
         Ok(())
     }
 

@@ -3,11 +3,14 @@
 use super::key::Key;
 use super::parameters::Kind;
 use super::parameters::{Parameters, Setting};
+use super::plausible;
 use super::table::param::{Number, Param, Place};
 use super::table::{
     Indices, ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general,
 };
 use super::value;
+use crate::diag::{AxisRef, Diagnostic, Location};
+use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::realtime::OverrideRatios;
 
@@ -311,17 +314,34 @@ impl Axis {
         })
     }
 
-    /// Puts a value over the list, as `#MACHINE DATA` does at run time; the executor owns the machine it changes.
+    /// Puts a value over the list, as `#MACHINE DATA` at the place `at` does; the executor owns the machine it changes. Ranges are those
+    /// of the list: what is corrected with the new value, and was not before, is returned.
     ///
     /// # Errors
     /// What is wrong with key or value; the axis is unchanged.
-    pub fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
+    pub(crate) fn change(
+        &mut self,
+        key: &str,
+        value: &str,
+        at: Option<Location>,
+        cycle: CycleTime,
+    ) -> Result<Vec<Diagnostic>, String> {
         let found = Key::parse(key).and_then(|k| k.resolve(ListKind::Axis));
         let (row, indices) = found.ok_or_else(|| format!("`{key}` is no parameter of an axis"))?;
         let value = value::read(row.raw, value).map_err(|bad| format!("{key}: {}", bad.reason))?;
-        self.parameters.set(row, indices, value, None);
+        let axis = AxisRef { number: self.number, name: self.name.clone() };
+        let check = |parameters: &mut Parameters| {
+            let mut found = Vec::new();
+            plausible::check(parameters, cycle, Some(&axis), &mut found);
+            found
+        };
+        // what switches a function off is found again, and was reported with the list
+        let known = check(&mut self.parameters.clone());
+        self.parameters.set(row, indices, value, at);
+        let mut found = check(&mut self.parameters);
+        found.retain(|diagnostic| !known.contains(diagnostic));
         self.software_limits_mm = self.listed_software_limits_mm();
-        Ok(())
+        Ok(found)
     }
 }
 

@@ -14,6 +14,8 @@ use kontur_filters::time::CycleTime;
 
 /// What separates the folders of a path, on either system.
 pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
+/// What helps where a list exists and cannot be read.
+const UNREADABLE: &str = "a list is a text file in UTF-8 or Latin-1 that you may read";
 /// Name of kontur's list, next to the start-up list.
 pub(super) const OWN_LIST: &str = "kontur.lis";
 
@@ -55,6 +57,12 @@ pub(super) fn beside(start_up: &str, named: &str) -> String {
         }
         _ => named,
     }
+}
+
+/// K-0013 for a list.
+fn unreadable(path: &str, reason: &str, hint: &str) -> Diagnostic {
+    let text = format!("list `{path}` cannot be read: {reason}");
+    Diagnostic::new(Condition::NoFile, text).hint(hint)
 }
 
 /// What begins a path that Windows takes as it is: with backslashes alone, and without `.` and `..`. Programs that resolve a
@@ -101,13 +109,19 @@ impl Chain<'_> {
 
     /// Reads a list that must exist; `at` is the place that names it.
     fn read(&mut self, kind: ListKind, path: &str, at: Option<Location>) -> Option<List> {
-        let reason = match lists::find(self.files, path) {
+        let (reason, hint) = match lists::find(self.files, path) {
             Ok(Some(found)) => return Some(self.list(kind, path, &found, at)),
-            Ok(None) => "there is no such file".to_owned(),
-            Err(reason) => reason,
+            Ok(None) if at.is_some() => (
+                "there is no such file".to_owned(),
+                "a name counts from the folder of the start-up list",
+            ),
+            Ok(None) => (
+                "there is no such file".to_owned(),
+                "-m takes a folder with a start-up list, the list itself or a TwinCAT project",
+            ),
+            Err(reason) => (reason, UNREADABLE),
         };
-        let mut diagnostic =
-            Diagnostic::new(Condition::NoFile, format!("list `{path}` cannot be read: {reason}"));
+        let mut diagnostic = unreadable(path, &reason, hint);
         diagnostic.source = at;
         self.diagnostics.push(diagnostic);
         None
@@ -188,8 +202,7 @@ impl Chain<'_> {
             Ok(None) => {}
             Ok(Some(found)) => own.apply(&self.list(ListKind::Kontur, &path, &found, None)),
             Err(reason) => {
-                let message = format!("list `{path}` cannot be read: {reason}");
-                self.diagnostics.push(Diagnostic::new(Condition::NoFile, message));
+                self.diagnostics.push(unreadable(&path, &reason, UNREADABLE));
             }
         }
         self.override_list(&mut own, "kontur", overrides);

@@ -55,6 +55,7 @@ impl Simulation {
         let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
         while self.underway.front().is_some_and(|u| u.seq <= seq) {
             if let Some(block) = self.underway.pop_front() {
+                self.progress.begin(block.programmed, self.record.path.s_mm);
                 self.current = block.source;
                 self.motion = block.motion;
                 for (record, driver) in self.record.axes.iter_mut().zip(&self.drivers) {

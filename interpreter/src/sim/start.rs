@@ -6,7 +6,7 @@ use super::independent::IndependentAxes;
 use super::inputs::Inputs;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
-use super::totals::Totals;
+use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use super::{Messages, Phase, Simulation, fault};
 use crate::diag::Diagnostic;
@@ -86,6 +86,7 @@ impl Simulation {
             planned: start[..n].iter().copied().collect(),
             max_cycles,
             messages: Messages { own: diagnostics, ..Messages::default() },
+            progress: Progress::default(),
             machine,
             cycle,
             executor,

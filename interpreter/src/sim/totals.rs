@@ -46,6 +46,63 @@ impl Stops {
     }
 }
 
+/// A motion as it was programmed, for what is counted of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Programmed {
+    length_mm: f64,
+    ideal_s: f64,
+    /// Blocks of the program up to it.
+    blocks: u64,
+}
+
+impl Programmed {
+    /// A motion that comes from the program as the last of so many blocks.
+    pub(super) fn new(block: &Block, blocks: u64) -> Self {
+        let length_mm = block.path.length();
+        let ideal_s = match block.feed {
+            Feed::PathVelocity(v) => length_mm / v,
+            Feed::Duration(t) => t,
+            Feed::Rapid => slowest_s(block, |axis| axis.v_rapid_mm_s),
+            Feed::ShareOfMaximum(share) => slowest_s(block, |axis| share * axis.v_max_mm_s),
+        };
+        Self { length_mm, ideal_s, blocks }
+    }
+}
+
+/// How far the path has come in what was programmed: the look-ahead takes more from the program than a run that is stopped
+/// drives.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Progress {
+    /// Of the motions before the current one.
+    done: Programmed,
+    current: Programmed,
+    /// Path length at which the current one began.
+    from_mm: f64,
+}
+
+impl Progress {
+    /// A motion begins at a path length; the ones before it are complete.
+    pub(super) fn begin(&mut self, motion: Programmed, s_mm: f64) {
+        self.complete(self.current.blocks);
+        (self.current, self.from_mm) = (motion, s_mm);
+    }
+
+    /// Everything up to so many blocks of the program has been executed.
+    pub(super) fn complete(&mut self, blocks: u64) {
+        self.done.ideal_s += self.current.ideal_s;
+        self.done.blocks = blocks;
+        self.current = Programmed { blocks, ..Programmed::default() };
+    }
+
+    /// Blocks, and the ideal time in s, up to a path length.
+    pub(super) fn up_to(&self, s_mm: f64) -> (u64, f64) {
+        let Self { done, current, from_mm } = self;
+        let share = (s_mm - from_mm) / current.length_mm;
+        let part_s = if share > 0.0 { current.ideal_s * share.min(1.0) } else { 0.0 };
+        (current.blocks.max(done.blocks), done.ideal_s + part_s)
+    }
+}
+
 /// What is known when the last cycle has been computed and what no record holds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Totals {
@@ -55,10 +112,11 @@ pub struct Totals {
     pub input_failed: bool,
     /// Exact stops.
     pub stops: Stops,
-    /// Blocks executed.
+    /// Blocks executed, in a run that was stopped those up to the motion in which it was.
     pub blocks: u64,
     /// Path length / programmed feed of the feed blocks, the way of the slowest axis at its rapid speed of the rapid ones,
-    /// in s: without ramps, corners and limits. Dwells and technology times are not in it.
+    /// in s: without ramps, corners and limits. Dwells and technology times are not in it. Of a motion in which the run was
+    /// stopped its share of the path counts.
     pub ideal_duration_s: f64,
     /// What the duration does not contain (M functions, tool changes, spindle run-up).
     pub not_counted: Vec<String>,
@@ -84,16 +142,6 @@ impl Totals {
                 self.guards.push((axis, settings));
             }
         }
-    }
-
-    /// Adds a motion.
-    pub(super) fn count(&mut self, block: &Block) {
-        self.ideal_duration_s += match block.feed {
-            Feed::PathVelocity(v) => block.path.length() / v,
-            Feed::Duration(t) => t,
-            Feed::Rapid => slowest_s(block, |axis| axis.v_rapid_mm_s),
-            Feed::ShareOfMaximum(share) => slowest_s(block, |axis| share * axis.v_max_mm_s),
-        };
     }
 
     /// Notes an event that moves nothing; a message of the program comes back as a note for the log.

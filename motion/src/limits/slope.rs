@@ -104,7 +104,7 @@ impl SlopeTable {
             let path = if k < 2 { acc } else { dec };
             path / weakest[self.jerks[k]].min(vector_jerk)
         };
-        let constant_ramp_time = self.slope.constant_ramp_time && !self.rapid;
+        let constant_ramp_time = self.slope.keeps_ramp_times() && !self.rapid;
         let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
         SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
     }

@@ -14,6 +14,7 @@ use crate::args::{Pairing, Tolerance};
 use crate::recorded::{self, DropOut};
 use serde::Serialize;
 use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Drop-outs that the text names one by one.
@@ -149,9 +150,8 @@ fn pair(
         trace_goes_on: false,
         recording_goes_on: false,
     };
-    let (mut edges, mut size): (Option<[usize; 2]>, f64) = (None, tolerance);
+    let mut size = tolerance;
     for (row, a, b) in rows(times_s, a, recorded, shift_s) {
-        edges = Some([edges.map_or(row, |e| e[0]), row]);
         if (b - a).abs() <= tolerance {
             continue;
         }
@@ -164,17 +164,34 @@ fn pair(
             (size, outcome.worst) = ((b - a).abs(), at());
         }
     }
-    let Some([first, last]) = edges else { return outcome };
-    let leaves = |values: &[f64], from: f64| values.iter().any(|x| (x - from).abs() > tolerance);
-    outcome.trace_goes_on = leaves(&a[..first], a[first]) || leaves(&a[last + 1..], a[last]);
-    let begin_s = times_s[0];
-    let place = |row: usize| recorded.place(times_s[row] - begin_s + shift_s);
-    let values = &recorded.values;
-    let (head, tail) = (place(first).floor().max(0.0) as usize, place(last).ceil() as usize);
-    let (head, tail) = (head.min(values.len() - 1), tail.min(values.len() - 1));
-    outcome.recording_goes_on =
-        leaves(&values[..head], values[head]) || leaves(&values[tail + 1..], values[tail]);
+    if found.rows > 0 {
+        let leaves = |values: &[f64], at: f64| values.iter().any(|x| (x - at).abs() > tolerance);
+        let [rows, samples] = common(times_s, recorded, shift_s);
+        let b = &recorded.values;
+        let goes_on = |x: &[f64], common: RangeInclusive<usize>| {
+            let (first, last) = (*common.start(), *common.end());
+            leaves(&x[..first], x[first]) || leaves(&x[last + 1..], x[last])
+        };
+        outcome.trace_goes_on = goes_on(a, rows);
+        outcome.recording_goes_on = goes_on(b, samples);
+    }
     outcome
+}
+
+/// The rows and the samples of the time that both signals have, and of one interval more at either end: the one that begins or ends
+/// earlier says nothing of what lies between its end and the sample that would be next.
+fn common(times_s: &[f64], recorded: &Recorded, shift_s: f64) -> [RangeInclusive<usize>; 2] {
+    let (rows, samples) = (times_s.len() - 1, recorded.values.len() - 1);
+    let place = |row: usize| recorded.place(times_s[row] - times_s[0] + shift_s);
+    let (first, last) = (place(0), place(rows));
+    let cycle = (last - first) / rows as f64;
+    let interval = cycle.max(1.0) + 1e-6;
+    let row = |at: f64| ((at - first) / cycle).clamp(0.0, rows as f64);
+    let sample = |at: f64| at.clamp(0.0, samples as f64);
+    [
+        row(-interval).ceil() as usize..=row(samples as f64 + interval).floor() as usize,
+        sample(first - interval).ceil() as usize..=sample(last + interval).floor() as usize,
+    ]
 }
 
 /// Columns that a comparison needs.

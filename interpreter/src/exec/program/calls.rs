@@ -107,10 +107,7 @@ impl Executor {
             Err(error) => {
                 let (text, hint) = error.text(path);
                 let fault = Fault::new(Condition::NoFile, format!("subroutine {text}"), span);
-                self.decoder.report.note(match hint {
-                    Some(hint) => fault.hint(hint),
-                    None => fault,
-                });
+                self.decoder.report.note(fault.hint(hint));
                 None
             }
         }

@@ -176,8 +176,7 @@ impl Executor {
             }
             Err(error) => {
                 let (text, hint) = error.text(name);
-                let mut diagnostic = Diagnostic::new(Condition::NoFile, text);
-                diagnostic.hint = hint.or(diagnostic.hint);
+                let diagnostic = Diagnostic::new(Condition::NoFile, text).hint(hint);
                 let diagnostic = match (self.levels.is_empty(), self.here(Span::default())) {
                     (false, Some(location)) => diagnostic.at(location),
                     _ => diagnostic,

@@ -17,8 +17,8 @@ pub(in crate::exec) enum FileError {
 }
 
 impl FileError {
-    /// K-0013 for a file that is called `name` in the program, with a hint.
-    pub(super) fn text(self, name: &str) -> (String, Option<String>) {
+    /// K-0013 for a file that is called `name` in the program: its text and hint.
+    pub(super) fn text(self, name: &str) -> (String, String) {
         match self {
             Self::Open(e) => {
                 let searched = format!("searched: {}", e.searched.join(", "));
@@ -29,12 +29,14 @@ impl FileError {
                 } else {
                     searched
                 };
-                (format!("{}: {}", e.name, e.reason), Some(hint))
+                (format!("{}: {}", e.name, e.reason), hint)
             }
-            Self::Read(e) => (format!("{name}: {e}"), None),
+            Self::Read(e) => {
+                (format!("{name}: {e}"), "a program is a text file in UTF-8 or Latin-1".to_owned())
+            }
             Self::Foreign(file) => {
                 let hint = format!("`check {file}` shows what is wrong with its lines");
-                (format!("{name}: most of its lines are no NC blocks"), Some(hint))
+                (format!("{name}: most of its lines are no NC blocks"), hint)
             }
         }
     }

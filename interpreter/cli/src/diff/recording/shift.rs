@@ -9,10 +9,22 @@ const GOLDEN_STEPS: usize = 21;
 const SLIDE_CYCLES: usize = 50;
 /// A shift between two cycles is taken if it lowers the difference to this part.
 const BETTER: f64 = 0.95;
+/// A motion that repeats itself correlates at many shifts: those count whose correlation is this part of the best one.
+const NEAR_BEST: f64 = 0.8;
+/// So many of them at most are compared.
+const CANDIDATES: usize = 32;
 
 /// Cycles by which the recording begins earlier, in whole cycles unless a part of one fits better.
 pub(super) fn find(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
-    fine_shift(trace, recorded, cycle_s, coarse_shift(trace, recorded, cycle_s))
+    let misfit = |shift_cycles: f64| -> f64 {
+        let pairs = trace.columns.iter().zip(recorded);
+        pairs.map(|(a, r)| statistics(&trace.times_s, a, r, shift_cycles * cycle_s).rms).sum()
+    };
+    let candidates = coarse_shifts(trace, recorded, cycle_s);
+    let fits = candidates.iter().map(|shift| (*shift, misfit(*shift)));
+    // the first of equal ones correlates best
+    let best = fits.reduce(|a, b| if b.1 < a.1 { b } else { a });
+    fine_shift(&misfit, best.map_or(0.0, |(shift, _)| shift.round()))
 }
 
 /// Median step of the times.
@@ -33,10 +45,11 @@ fn speeds(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values.windows(2).map(step).collect()
 }
 
-/// Whole cycles by which the recording begins earlier, where the speeds correlate best over all pairs.
+/// Cycles by which the recording may begin earlier: where the speeds correlate best over all pairs, and where they do so
+/// nearly as well, the best first.
 ///
 /// Of every pair both signals count by their energy, so that a fast axis does not drown the others.
-fn coarse_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
+fn coarse_shifts(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> Vec<f64> {
     let rows = trace.times_s.len();
     let longest =
         recorded.iter().map(|r| (r.end_s() / cycle_s) as usize + 1).max().unwrap_or_default();
@@ -72,10 +85,22 @@ fn coarse_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
     }
     let done = back.process(&mut product, &mut correlation);
     debug_assert!(done.is_ok());
-    // the first of equal ones: signals that are constant are not shifted
-    let best = correlation.iter().enumerate().reduce(|a, b| if b.1 > a.1 { b } else { a });
-    let place = best.map_or(0, |(i, _)| i);
-    if place > longest { place as f64 - length as f64 } else { place as f64 }
+    let highest = correlation.iter().copied().fold(0.0, f64::max);
+    let at = |i: usize| correlation[i % length];
+    let is_peak = |i: &usize| {
+        at(*i) >= NEAR_BEST * highest && at(*i) > at(i + length - 1) && at(*i) >= at(i + 1)
+    };
+    let mut peaks: Vec<usize> = (0..length).filter(is_peak).collect();
+    peaks.sort_by(|a, b| at(*b).total_cmp(&at(*a)));
+    peaks.truncate(CANDIDATES);
+    let shift = |i: usize| {
+        // the parabola through the peak and its neighbours
+        let (before, after) = (at(i + length - 1), at(i + 1));
+        let part = 0.5 * (before - after) / (before - 2.0 * at(i) + after);
+        let place = i as f64 + if part.is_finite() { part } else { 0.0 };
+        if i > longest { place - length as f64 } else { place }
+    };
+    peaks.into_iter().map(shift).collect()
 }
 
 /// The whole number of cycles near another one at which the misfit is least: a channel that begins in the midst of the motion
@@ -94,12 +119,8 @@ fn slide(from: f64, misfit: &impl Fn(f64) -> f64) -> f64 {
 }
 
 /// The same with a part of a cycle, if that fits better than the whole number.
-fn fine_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64, whole: f64) -> f64 {
-    let misfit = |shift_cycles: f64| -> f64 {
-        let pairs = trace.columns.iter().zip(recorded);
-        pairs.map(|(a, r)| statistics(&trace.times_s, a, r, shift_cycles * cycle_s).rms).sum()
-    };
-    let whole = slide(whole, &misfit);
+fn fine_shift(misfit: &impl Fn(f64) -> f64, whole: f64) -> f64 {
+    let whole = slide(whole, misfit);
     // golden section: near the best fit the misfit has one minimum
     let ratio = 0.5 * (libm::sqrt(5.0) - 1.0);
     let (mut low, mut high) = (whole - 1.0, whole + 1.0);
