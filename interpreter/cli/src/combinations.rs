@@ -52,7 +52,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
 }
 
 /// External variables (`V.E.NAME`) vary like list parameters: a program reads them.
-const EXTERNAL: &str = "V.E.";
+pub(crate) const EXTERNAL: &str = "V.E.";
 
 /// The value of each parameter in one combination; what takes that of a name has the name's.
 pub(crate) fn values(vary: &[Vary], combination: &[usize]) -> Vec<String> {

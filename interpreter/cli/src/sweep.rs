@@ -101,6 +101,10 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let without = idle(&args.vary, &combinations, &rows.cells);
     // a shard does not know the rows of the others
     let part = if args.shard.is_some() { "in this part " } else { "" };
+    for name in unmeasured(args, &rows) {
+        let text = format!("--amplitude {name}: no run lasts until the end of this window");
+        console.say(Severity::Warning, &text);
+    }
     for key in &without {
         console.say(Severity::Note, &format!("{key}: {part}{NO_DIFFERENCE}"));
     }
@@ -137,14 +141,37 @@ fn idle<'v>(vary: &'v [Vary], combinations: &[Vec<usize>], rows: &[Vec<Cell>]) -
     if !rows.iter().any(|row| is_finished(vary, row)) {
         return Vec::new();
     }
-    // results that are missing are the same, too
+    // what is missing in every row says nothing; in some rows it is a result like any other
+    let first = vary.len() + columns::STATE.len();
+    let told: Vec<usize> =
+        (first..rows[0].len()).filter(|c| rows.iter().any(|row| is_there(&row[*c]))).collect();
+    if told.is_empty() {
+        return Vec::new();
+    }
     let result = |cell: &Cell| match cell.number() {
         Some(x) => (Some(x).filter(|x| x.is_finite()), String::new()),
         None => (None, cell.text()),
     };
+    let state = vary.len()..first;
+    let columns = || state.clone().chain(told.iter().copied());
     let results: Vec<Vec<_>> =
-        rows.iter().map(|row| row[vary.len()..].iter().map(result).collect()).collect();
+        rows.iter().map(|row| columns().map(|c| result(&row[c])).collect()).collect();
     without_effect(vary, combinations, &results).iter().map(|v| v.key.as_str()).collect()
+}
+
+/// A result that a run has: text, or a number.
+fn is_there(cell: &Cell) -> bool {
+    cell.number().is_none_or(f64::is_finite)
+}
+
+/// Amplitudes whose window no run reaches.
+fn unmeasured<'a>(args: &'a SweepArgs, rows: &Rows) -> Vec<&'a str> {
+    let missing = |name: &str| {
+        let column = rows.header.iter().position(|header| header == name);
+        column.is_some_and(|c| rows.cells.iter().all(|row| !is_there(&row[c])))
+    };
+    let names = args.amplitude.iter().map(|amplitude| amplitude.text.as_str());
+    names.filter(|name| !rows.cells.is_empty() && missing(name)).collect()
 }
 
 /// The file has this ending.
@@ -400,6 +427,13 @@ fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
     let mut wanted = Vec::new();
     for amplitude in &args.amplitude {
         let column = amplitude.column(facts).map_err(Failure::usage)?;
+        let highest_hz = 0.5 / cycle_s;
+        if amplitude.band_hz.0 >= highest_hz {
+            let text = &amplitude.text;
+            return Err(Failure::usage(format!(
+                "--amplitude {text}: a cycle of {cycle_s} s shows up to {highest_hz} Hz"
+            )));
+        }
         wanted.push(Wanted { amplitude, column, samples: Vec::new() });
     }
     let mut collected = Collected { summary: Collector::new(facts), cycle_s, wanted };

@@ -92,7 +92,9 @@ impl MachineLists<'_> {
 
 /// K-LIST-DUP for settings that a later one replaces.
 fn given_twice(settings: &[String]) -> impl Iterator<Item = Diagnostic> {
-    let key = |setting: &String| setting.split('=').next().unwrap_or_default().trim().to_owned();
+    let key = |setting: &String| {
+        setting.split('=').next().unwrap_or_default().trim().replace("[]", "[0]")
+    };
     let keys: Vec<String> = settings.iter().map(key).collect();
     (1..keys.len()).filter_map(move |i| {
         let twice = keys[..i].iter().any(|other| other.eq_ignore_ascii_case(&keys[i]));

@@ -252,8 +252,9 @@ impl Chain<'_> {
 
     fn override_list(&mut self, parameters: &mut Parameters, target: &str, overrides: &[Override]) {
         for wanted in overrides.iter().filter(|o| o.target().eq_ignore_ascii_case(target)) {
-            if let Err(diagnostic) = wanted.apply(parameters) {
-                self.diagnostics.push(*diagnostic);
+            match wanted.apply(parameters) {
+                Ok(()) => self.diagnostics.extend(wanted.empty_index()),
+                Err(diagnostic) => self.diagnostics.push(*diagnostic),
             }
         }
     }
@@ -284,6 +285,7 @@ impl Chain<'_> {
                     break;
                 }
             }
+            self.diagnostics.extend(wanted.empty_index());
         }
     }
 

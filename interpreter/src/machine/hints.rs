@@ -5,7 +5,7 @@
 use super::table::param::{Number, Param, Place};
 use super::table::{axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
 use super::{Axis, Machine, issues};
-use crate::diag::{Condition, Diagnostic};
+use crate::diag::{Condition, Diagnostic, rounded};
 
 /// Global weight of the feedforward that is recommended (P-AXIS-00228 / P-AXIS-00229).
 const WEIGHT_RATIO: (f64, f64) = (0.7, 1.0);
@@ -59,7 +59,7 @@ fn weight(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let (low, high) = WEIGHT_RATIO;
     let recommended = ratio <= 0.0 || (low..=high).contains(&ratio);
     if weight.iter().any(|param| listed(axis, *param)) && !recommended {
-        let what = format!("global weight {ratio} of the feedforward");
+        let what = format!("global weight {} of the feedforward", rounded(ratio));
         let advice = format!("{low} to {high} is recommended, above {high} the axis leads");
         diagnostics.push(issues::about(axis, Condition::ListAdvice, weight[0], &what, &advice));
     }

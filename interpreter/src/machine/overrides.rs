@@ -68,6 +68,13 @@ impl Override {
         Ok(())
     }
 
+    /// K-0029 if an index is left out: it reads as 0, as in a list.
+    pub(super) fn empty_index(&self) -> Option<Diagnostic> {
+        let is_empty = Key::parse(&self.key).is_some_and(|key| key.empty_index);
+        let text = format!("empty index in `{}`, read as 0", self.key);
+        is_empty.then(|| Diagnostic::new(Condition::ListIndex, text).at(self.location(&self.key)))
+    }
+
     /// The parameter that is set, if the key is one.
     pub fn parameter(&self) -> Option<&'static Row> {
         let kind = match self.target.to_ascii_lowercase().as_str() {
@@ -99,7 +106,11 @@ impl Override {
         let mut diagnostic = say(format!("`{}` is no parameter of {}", self.key, self.target));
         let shape = key.map_or_else(|| self.key.clone(), |key| key.shape);
         if let Some(near) = table::suggestions(Some(kind), &shape).first() {
-            diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
+            diagnostic = diagnostic.hint(if *near == self.key {
+                format!("write numbers as indices of `{near}`")
+            } else {
+                format!("did you mean `{near}`?")
+            });
         }
         Err(Box::new(diagnostic))
     }

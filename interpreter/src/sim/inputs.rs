@@ -3,7 +3,7 @@
 //! A value holds until the next one of its signal. It acts on an axis from the first cycle on that is not earlier than
 //! its time; the path follows its contour unchanged up to that cycle and bends from there.
 
-use crate::diag::{Condition, Diagnostic};
+use crate::diag::{Condition, Diagnostic, rounded};
 use crate::machine::{Axis, AxisKind, Machine, RapidOverride};
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::control::plant::PlantModel;
@@ -270,7 +270,7 @@ impl Inputs {
         if ratio <= listed.unwrap_or(1.0) || !self.told.insert(Condition::OverrideLimited) {
             return None;
         }
-        let [asked, most] = [ratio, listed.unwrap_or(1.0)].map(|r| 100.0 * r);
+        let [asked, most] = [ratio, listed.unwrap_or(1.0)].map(|r| rounded(100.0 * r));
         let text = match listed {
             Some(_) => format!("override of {asked} % limited to {most} %"),
             None => {

@@ -1,6 +1,7 @@
 //! Options that every command with a simulation has.
 
 use super::values::setting;
+use crate::combinations::EXTERNAL;
 use clap::ValueEnum;
 use kontur_interpreter::job::Stop;
 use std::path::PathBuf;
@@ -87,14 +88,17 @@ pub struct SimulationArgs {
     pub stop: Stop,
 }
 
-/// `NAME=VALUE`.
+/// `NAME=VALUE`, the name with or without the `V.E.` of the program.
 fn external(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.trim().is_empty() => {
-            Ok((name.trim().to_owned(), value.to_owned()))
-        }
-        _ => Err("NAME=VALUE is expected".to_owned()),
-    }
+    let expected = || "NAME=VALUE is expected".to_owned();
+    let (name, value) = text.split_once('=').ok_or_else(expected)?;
+    let name = name.trim();
+    let after = |prefix: &str| {
+        let is_prefix = |head: &str| head.eq_ignore_ascii_case(prefix);
+        name.get(..prefix.len()).is_some_and(is_prefix).then(|| &name[prefix.len()..])
+    };
+    let name = after(EXTERNAL).unwrap_or(name);
+    if name.is_empty() { Err(expected()) } else { Ok((name.to_owned(), value.to_owned())) }
 }
 
 /// `X10`, `X=10`, `X1=10`: an axis name that ends in a digit needs the equals sign.

@@ -7,7 +7,7 @@ use crate::table::Cell;
 use kontur_interpreter::summary::Summary;
 
 /// The columns of every row after its parameters.
-const STATE: [&str; 3] = ["state", "error", "warnings"];
+pub(super) const STATE: [&str; 3] = ["state", "error", "warnings"];
 
 /// The row of a run under its header: parameters, state, ID of the first error, number of warnings, and the results that
 /// were asked for.

@@ -248,13 +248,13 @@ fn of_decay(
     let density = detect::density(&fit.residual(&used), used.rate_hz);
     let found = fit.vibrations(&used, density);
     let peak = |v: &Vibration| v.amplitude / v.decay.value.max(1e-9);
-    let mut modes: Vec<&Vibration> = found
-        .iter()
-        .filter(|v| decays(v, used.seconds()) && v.damping.value < MOST_DAMPING)
-        .filter(|v| v.freq.value > range_hz.0 && v.freq.value < range_hz.1)
-        .collect();
+    let inside = |v: &&Vibration| v.freq.value > range_hz.0 && v.freq.value < range_hz.1;
+    let decaying = || found.iter().filter(|v| decays(v, used.seconds())).filter(inside);
+    // beside a transient what is left of it, or the digits of the file, are no vibrations
+    let highest = decaying().map(peak).fold(f64::MIN_POSITIVE, f64::max);
+    let mut modes: Vec<&Vibration> =
+        decaying().filter(|v| v.damping.value < MOST_DAMPING).collect();
     modes.sort_by(|a, b| peak(b).total_cmp(&peak(a)));
-    let highest = modes.first().map_or(1.0, |v| peak(v));
     let lasting =
         found.iter().filter(|v| !decays(v, used.seconds()) && v.damping.value < MOST_DAMPING);
     Analysis {

@@ -4,7 +4,7 @@ use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::contour::programmed_time_s;
 use crate::exec::options::{GuardCommands, Options};
-use crate::exec::step::{Feedback, Step, Sync};
+use crate::exec::step::{Feedback, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::source::Sources;
 use std::sync::Arc;
@@ -42,12 +42,17 @@ pub(crate) fn check(
     let max_time_s = options.max_time_s;
     let mut executor = Executor::with_mode(sources, program, machine, options, true);
     let mut time_s = 0.0;
+    let mut pass = |executor: &mut Executor, seconds: f64, at: SourceRef| {
+        let was_over = time_s > max_time_s;
+        time_s += seconds;
+        if time_s > max_time_s && !was_over {
+            executor.end_by_time(max_time_s, at);
+        }
+    };
     loop {
+        let before = executor.current();
         if let Some(seconds) = executor.straight_by() {
-            time_s += seconds;
-            if time_s > max_time_s && !executor.has_ended() {
-                executor.end_by_time(max_time_s);
-            }
+            pass(&mut executor, seconds, before);
             continue;
         }
         let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
@@ -61,14 +66,15 @@ pub(crate) fn check(
                     guard: executor.guard_commands().clone(),
                 };
             }
-            Step::Motion { block, .. } => time_s += programmed_time_s(&block),
-            Step::Sync { what: Sync::Dwell { seconds } | Sync::Technology { seconds }, .. } => {
-                time_s += seconds;
+            Step::Motion { block, source, .. } => {
+                pass(&mut executor, programmed_time_s(&block), source);
             }
+            Step::Sync {
+                what: Sync::Dwell { seconds } | Sync::Technology { seconds },
+                source,
+                ..
+            } => pass(&mut executor, seconds, source),
             Step::Sync { .. } => {}
-        }
-        if time_s > max_time_s && !executor.has_ended() {
-            executor.end_by_time(max_time_s);
         }
     }
 }

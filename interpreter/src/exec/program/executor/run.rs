@@ -228,11 +228,24 @@ impl Executor {
         false
     }
 
-    /// The program time of a check is over.
-    pub(in crate::exec) fn end_by_time(&mut self, max_time_s: f64) {
-        let text = format!("the program takes more than {max_time_s} s: the check ends here");
-        let diagnostic = Diagnostic::new(Condition::Endless, text).severity(Severity::Warning);
-        self.end_by_limit(diagnostic.hint("raise the limit with --max-time"));
+    /// The program time of a check is over in the motion or wait of a block.
+    pub(in crate::exec) fn end_by_time(&mut self, max_time_s: f64, at: SourceRef) {
+        let more = if self.has_ended() { "" } else { ": the check ends here" };
+        let text = format!("the program takes more than {max_time_s} s{more}");
+        let mut diagnostic = Diagnostic::new(Condition::Endless, text)
+            .severity(Severity::Warning)
+            .hint("raise the limit with --max-time");
+        diagnostic.source = self.locate(at);
+        self.report(diagnostic);
+        if !self.has_ended() {
+            self.budget.use_up();
+            self.end(EndReason::Aborted);
+        }
+    }
+
+    /// Block in work.
+    pub(in crate::exec) fn current(&self) -> SourceRef {
+        self.decoder.report.source
     }
 
     /// Ends the program at the block that comes next.
