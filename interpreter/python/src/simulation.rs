@@ -113,9 +113,6 @@ impl Simulation {
         let mut args = arguments::program(py, words)?;
         let stop = Stop::default();
         args.simulation.stop = stop.clone();
-        if decimate == 0 {
-            return Err(errors::usage(py, "decimate: a whole number above 0 is expected"));
-        }
         let opened = interruptible(py, &stop, || args.simulation.request(&args.program).open())?;
         let mut run = opened.map_err(|e| errors::open(py, e))?.run;
         let facts = run.facts();

@@ -93,6 +93,8 @@ def test_an_aborted_run_keeps_its_rows(program):
         {"settings": ["X.getriebe[0].kv"]},
         {"signals": "X_foo_mm"},
         {"decimate": 0},
+        {"decimate": -1},
+        {"decimate": 2**64},
         {"diagnostics": "json"},
         {"frobnicate": True},
     ],
@@ -101,6 +103,14 @@ def test_wrong_options_raise(arguments):
     with pytest.raises(kontur.UsageError) as caught:
         kontur.run(SQUARE, **arguments)
     assert isinstance(caught.value, ValueError) and str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "stretch", [{"line": 0}, {"line": -1}, {"line": 2**32}, {"time_s": float("nan")}]
+)
+def test_wrong_stretches_raise(stretch):
+    with pytest.raises(kontur.UsageError):
+        kontur.start(SQUARE).run_until(**stretch)
 
 
 def test_wrong_types_raise():

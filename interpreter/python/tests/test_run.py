@@ -38,7 +38,7 @@ def test_columns_are_those_of_the_csv(command, tmp_path, name):
     run = kontur.run(PROGRAMS / name, signals=SIGNALS)
     with trace.open(newline="") as file:
         header, *rows = csv.reader(file)
-    assert list(run.columns) == header
+    assert list(run.columns) == list(run) == header
     assert len(run) == len(rows)
     for i, column in enumerate(header):
         texts = [row[i] for row in rows]

@@ -329,6 +329,17 @@ fn tool_lists() {
     assert_eq!(missing.ids(&[]), ["K-0013"]);
 }
 
+/// A setting is read as a line of a list is: an index that is left out is 0, and is named.
+#[test]
+fn settings_have_the_messages_of_lists() {
+    let files = Memory::machine();
+    let kv = |set: &str| files.load(&[set]).unwrap().0.axes[0].kv_1_s().to_bits();
+    assert_eq!(kv("X.getriebe[].kv=2500"), kv("X.getriebe[0].kv=2500"));
+    assert_eq!(files.load(&["X.getriebe[].kv=2500"]).unwrap().1[0].id, Condition::ListIndex);
+    assert!(files.load(&["X.getriebe[0].kv=2500"]).unwrap().1.is_empty());
+    assert_eq!(files.load(&["*.getriebe[].kv=2500"]).unwrap().1.len(), 1);
+}
+
 /// TF5200 zero offsets: P-ZERO-00002, P-ZERO-00003.
 #[test]
 fn lists_of_zero_offsets() {

@@ -136,8 +136,10 @@ impl Recorded {
         let words: Vec<&str> = names.split(',').map(str::trim).collect();
         columns.sort_by_key(|c| words.iter().position(|w| *w == c.name || *w == c.group));
         if columns.is_empty() || columns.len() > MOST_SIGNALS {
-            let text =
-                format!("--signals: {} columns, 1 to {MOST_SIGNALS} are drawn", columns.len());
+            let text = format!(
+                "--signals: {} columns of measured values, 1 to {MOST_SIGNALS} are drawn",
+                columns.len()
+            );
             return Err(Error::Usage(text));
         }
         Ok(Self {

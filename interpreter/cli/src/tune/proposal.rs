@@ -49,6 +49,12 @@ impl Task {
                 },
                 self.beside(&choice)
             ),
+            None if rows.is_empty() => format!(
+                "\nproposal  none: at a cycle of {} ms no mode has a kernel for {} to {} Hz\n",
+                1e3 * self.cycle.seconds(),
+                number(self.band.low_hz, 2),
+                number(self.band.high_hz, 2)
+            ),
             None => combined::answer(self).unwrap_or_else(|| {
                 format!(
                     "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \

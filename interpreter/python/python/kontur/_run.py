@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _kontur
-from ._errors import Diagnostic, ProgramError
+from ._errors import Diagnostic, ProgramError, UsageError
 from ._table import Table, Words
 from ._words import Options, Settings, StrPath, program_words
 
@@ -18,6 +19,12 @@ if TYPE_CHECKING:
 
 DEFAULT_SIGNALS = "default"
 """Groups of columns if nothing is said."""
+
+MOST_LINES = 2**32 - 1
+"""Lines of a program are counted in 32 bits."""
+
+MOST_CYCLES = 2**64 - 1
+"""Cycles are counted in 64 bits."""
 
 
 class Run(Table):
@@ -81,6 +88,10 @@ class Simulation:
 
         Raises :class:`ProgramError` if the program is refused or aborted, with the stretch as its ``run``.
         """
+        if line is not None and not 1 <= line <= MOST_LINES:
+            raise UsageError(f"line: a number from 1 to {MOST_LINES} is expected")
+        if time_s is not None and not math.isfinite(time_s):
+            raise UsageError("time_s: a time in s is expected")
         self._native.advance(line, time_s)
         result = self._result()
         if self._native.is_aborted():
@@ -144,6 +155,8 @@ def start(
     A program that the check ahead refuses raises :class:`ProgramError` with its first cycle.
     """
     words = program_words(program, machine, settings, options)
+    if isinstance(decimate, int) and not 1 <= decimate <= MOST_CYCLES:
+        raise UsageError("decimate: a whole number above 0 is expected")
     return Simulation(_kontur.Simulation(words, signals, decimate))
 
 

@@ -125,6 +125,11 @@ pub(super) fn read(table: &mut Table, pairings: &[Pairing]) -> Result<Trace, Err
             break;
         }
     }
+    for (p, column) in pairings.iter().zip(&trace.columns) {
+        if !column.iter().any(|x| x.is_finite()) {
+            return Err(Error::Usage(format!("the column `{}` has no numbers", p.column)));
+        }
+    }
     Ok(trace)
 }
 

@@ -210,3 +210,22 @@ fn two_modes() {
         "{of:?}"
     );
 }
+
+/// A decay without noise, its eighth decimal rounded: up to a damping of 0.3 it is found, above it is a transient, and the
+/// rounding beside it is no vibration.
+#[test]
+fn the_digits_of_a_file_are_no_vibration() {
+    for (z, is_vibration) in [(0.04, true), (0.15, true), (0.28, true), (0.32, false), (0.4, false)]
+    {
+        let value = |t: f64| if t < 0.0 { 0.0 } else { swing(t, (12.3, z), TAU / 4.0) };
+        let rounded = |i: u32| (value(f64::from(i) * 1e-3 - 0.2) * 1e8).round() / 1e8;
+        let samples: Vec<f64> = (0..3000).map(rounded).collect();
+        let found = analyse(&samples, &[], 1000.0, &Focus::default());
+        if is_vibration {
+            let mode = &found.modes[0];
+            assert!((mode.freq.value - 12.3).abs() < 1e-2, "{z}: {found:?}");
+            assert!((mode.damping.value - z).abs() < 1e-3, "{z}: {found:?}");
+        }
+        assert_eq!(found.modes.len(), usize::from(is_vibration), "{z}: {:?}", found.modes);
+    }
+}
