@@ -79,11 +79,13 @@ impl Kernel {
     }
 
     /// The taps, sorted by delay.
+    #[inline]
     pub fn taps(&self) -> &[Tap] {
         &self.taps
     }
 
     /// Largest delay in cycles: as many cycles of constant input flush the kernel.
+    #[inline]
     pub fn length(&self) -> u32 {
         self.taps.last().map_or(0, |tap| tap.delay)
     }
@@ -200,21 +202,25 @@ impl KernelFilter {
     }
 
     /// Whether all inputs that the kernel sees are equal bit for bit: the output is the input and stays it.
+    #[inline]
     pub fn settled(&self) -> bool {
         self.settled_for(&self.kernel)
     }
 
     /// Whether everything that is kept is equal: another cycle of the same input only counts.
+    #[inline]
     pub fn rests(&self) -> bool {
         self.rest_cycles as usize > self.history.len()
     }
 
     /// A cycle with the input of the last one, while the filter [rests](Self::rests).
+    #[inline]
     pub fn rest(&mut self) {
         self.rest_cycles = self.rest_cycles.saturating_add(1);
     }
 
     /// Whether `kernel` would see equal inputs only.
+    #[inline]
     pub(crate) fn settled_for(&self, kernel: &Kernel) -> bool {
         self.rest_cycles > kernel.length()
     }
@@ -246,6 +252,7 @@ impl KernelFilter {
 }
 
 impl Stage for KernelFilter {
+    #[inline]
     fn step(&mut self, x: f64) -> f64 {
         let at_rest = x.to_bits() == self.history.newest().to_bits();
         self.rest_cycles = if at_rest { self.rest_cycles.saturating_add(1) } else { 1 };

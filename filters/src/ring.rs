@@ -27,22 +27,26 @@ impl Ring {
     }
 
     /// Number of values kept.
+    #[inline]
     pub(crate) fn len(&self) -> usize {
         self.values.len()
     }
 
     /// Takes the value of this cycle.
+    #[inline]
     pub fn push(&mut self, x: f64) {
         self.newest = (self.newest + 1) & (self.values.len() - 1);
         self.values[self.newest] = x;
     }
 
     /// The value of this cycle.
+    #[inline]
     pub fn newest(&self) -> f64 {
         self.values[self.newest]
     }
 
     /// The value `delay` cycles ago, up to the length there is room for.
+    #[inline]
     pub fn past(&self, delay: u32) -> f64 {
         self.values[self.newest.wrapping_sub(delay as usize) & (self.values.len() - 1)]
     }

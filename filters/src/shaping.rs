@@ -90,11 +90,13 @@ impl Shaping {
     /// Whether another cycle with the input `x` would give the output of the last one and change nothing but its number.
     ///
     /// A chain with standard filters is never said to rest: they continue for as long as their states have digits.
+    #[inline]
     pub fn rests_under(&self, x: f64) -> bool {
         self.filters.is_empty() && x.to_bits() == self.newest.0.to_bits() && self.kernel.rests()
     }
 
     /// Instead of a cycle while the chain [rests](Self::rests_under).
+    #[inline]
     pub fn rest(&mut self) {
         self.kernel.rest();
     }
@@ -114,6 +116,7 @@ impl Shaping {
 
 impl Stage for Shaping {
     /// Next set position; with neither kernel nor filters the input bit for bit.
+    #[inline]
     fn step(&mut self, x: f64) -> f64 {
         let shaped = self.kernel.step(x);
         let y = self.filters.iter_mut().fold(shaped, |x, filter| filter.step(x));

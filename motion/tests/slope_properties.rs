@@ -281,3 +281,32 @@ fn nothing_to_do_and_nothing_allowed() {
     assert!(limits.plan(f64::NAN, 0.0, 50.0, 1.0).is_err());
     assert!(limits.plan(0.0, 0.0, 50.0, f64::NAN).is_err());
 }
+
+/// The feed from end to end: uniform motion, s = v t, also in its parts.
+#[test]
+fn a_speed_that_stays_is_uniform_motion() {
+    let mut random = Random::new(29);
+    for _ in 0..CASES {
+        let case = case(&mut random);
+        let (v, length) = (random.log(1e-3, 1e4), random.log(1e-6, 1e4));
+        let slower = v * random.ratio();
+        let profile = case.limits.plan(v, v, slower, length).unwrap();
+        let what = || format!("{:?} v {v} length {length}: {profile:?}", case.limits);
+        assert!(
+            (profile.duration() - length / v).abs() <= 1e-15 * profile.duration(),
+            "{}",
+            what()
+        );
+        assert!((profile.peak() - v).abs() <= 0.0, "{}", what());
+        for _ in 0..4 {
+            let t = random.ratio() * profile.duration();
+            let state = profile.at(t);
+            assert!((state.s_mm - v * t).abs() <= 1e-15 * length, "{}", what());
+            assert!((state.v_mm_s - v).abs() <= 0.0, "{}", what());
+            assert!(state.a_mm_s2.abs() + state.j_mm_s3.abs() <= 0.0, "{}", what());
+            assert!((profile.time_at(v * t) - t).abs() <= 4e-15 * profile.duration(), "{}", what());
+        }
+        let ends = [profile.at(-1.0), profile.at(2.0 * profile.duration())].map(|s| s.s_mm);
+        assert!((ends[0]).abs() <= 0.0 && (ends[1] - length).abs() <= 0.0, "{}", what());
+    }
+}

@@ -278,6 +278,7 @@ impl AxisControl {
     }
 
     /// Sets the external influences from now on.
+    #[inline]
     pub fn set_inputs(&mut self, inputs: AxisInputs) {
         self.inputs = inputs;
     }
@@ -300,6 +301,7 @@ impl AxisControl {
 
     /// The axis rests, and a cycle with these values would change nothing: it would give the output of the last one bit
     /// for bit, and may be left out.
+    #[inline]
     pub fn rests_under(
         &self,
         set_mm: f64,
@@ -312,9 +314,11 @@ impl AxisControl {
     }
 
     /// Counts cycles that are given the same and change nothing that has no fixed memory.
+    #[inline]
     fn count_still(&mut self, given: Given) {
-        let still = given == self.given
-            && self.plant.rests()
+        // a plant that moves settles most cycles
+        let still = self.plant.rests()
+            && given == self.given
             && self.lag.rests()
             && self.exact_stop.rests()
             && !self.limiter.is_active()
@@ -436,6 +440,7 @@ impl AxisControl {
     }
 
     /// Advances the plant unless it diverged; then it is held where it was last finite.
+    #[inline]
     fn advance(&mut self, input: PlantInput, lag_mm: f64) -> Option<Fault> {
         if self.diverged {
             return None;
@@ -451,6 +456,7 @@ impl AxisControl {
     /// Speed that the drive follows: what it was sent in its format.
     ///
     /// A drive that closes the position loop itself makes its own command.
+    #[inline]
     fn felt_mm_s(&self, command: f64, additive: f64) -> f64 {
         let (c, cycle_s) = (&self.config, self.cycle_s);
         let command = match c.position.closed_in {
@@ -462,11 +468,13 @@ impl AxisControl {
     }
 
     /// Acceleration that an additive torque gives the axis.
+    #[inline]
     fn felt_mm_s2(&self, wanted: f64) -> f64 {
         let torque = &self.config.torque;
         if wanted.abs() > 0.0 { torque.acceleration(torque.torque(wanted)) } else { 0.0 }
     }
 
+    #[inline]
     fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {
         let (command_scale, ff_scale) = self.counts_per_mm_s;
         let mut values = DriveValues {

@@ -102,6 +102,7 @@ impl SetpointBuffer {
     }
 
     /// Takes the setpoint of this cycle.
+    #[inline]
     pub fn push(&mut self, setpoint: Setpoint) {
         self.newest = (self.newest + 1) % Self::CAPACITY;
         self.ring[self.newest] = setpoint;
@@ -115,17 +116,20 @@ impl SetpointBuffer {
     }
 
     /// Setpoint `age` cycles ago; beyond the newest the newest.
+    #[inline]
     fn at(&self, age: usize, ahead: usize) -> &Setpoint {
         let age = age.saturating_sub(ahead);
         &self.ring[(self.newest + Self::CAPACITY - age) % Self::CAPACITY]
     }
 
     /// Position the controller works on in this cycle, mm.
+    #[inline]
     pub fn reference_mm(&self) -> f64 {
         self.at(self.delay, 0).position_mm
     }
 
     /// Speed with which the reference moved in the last cycle, mm per cycle.
+    #[inline]
     pub(crate) fn reference_step_mm(&self) -> f64 {
         self.reference_mm() - self.at(self.delay + 1, 0).position_mm
     }

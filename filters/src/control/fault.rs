@@ -109,6 +109,7 @@ impl Faults {
     const CAPACITY: usize = 7;
 
     /// Adds a fault; a full list keeps what it has, from the starty source raises at most one per cycle.
+    #[inline]
     pub(crate) fn push(&mut self, fault: Option<Fault>) {
         if fault.is_some()
             && let Some(free) = self.items.iter_mut().find(|i| i.is_none())
@@ -123,6 +124,7 @@ impl Faults {
     }
 
     /// Forgets all of them.
+    #[inline]
     pub(crate) fn clear(&mut self) {
         if !self.is_empty() {
             *self = Self::default();

@@ -74,6 +74,14 @@ impl FeedforwardMode {
     fn conventional(self, activation: Self, additive: Self) -> bool {
         self.contains(activation) && !self.contains(additive)
     }
+
+    /// In a window of gain 0 every value is 0: no delay gives out what went in before. (All three parts at the controller
+    /// output could sum up to -0.)
+    fn needs_gain(self) -> bool {
+        let delayed = [Self::ADD_VEL, Self::ADD_ACC, Self::ADD_JERK];
+        !delayed.into_iter().any(|part| self.contains(part))
+            && !self.contains(Self::VEL | Self::ACC | Self::JERK)
+    }
 }
 
 /// Additive inputs of a drive (process data).
@@ -261,6 +269,7 @@ pub struct Feedforward {
     velocity: Delay,
     acceleration: Delay,
     jerk: Delay,
+    needs_gain: bool,
 }
 
 impl Feedforward {
@@ -279,6 +288,7 @@ impl Feedforward {
             velocity: Delay::new(config.velocity_delay_s / cycle_s),
             acceleration: Delay::new(config.acceleration_delay_s / cycle_s),
             jerk: Delay::new(config.jerk_delay_s / cycle_s),
+            needs_gain: config.mode.needs_gain(),
         }
     }
 
@@ -289,13 +299,9 @@ impl Feedforward {
         }
     }
 
-    /// In a window of gain 0 every value is 0: no delay gives out what went in before. (All three parts at the controller
-    /// output could sum up to -0.)
-    pub(crate) fn needs_gain(&self) -> bool {
-        use FeedforwardMode as M;
-        let mode = self.config.mode;
-        let delayed = [M::ADD_VEL, M::ADD_ACC, M::ADD_JERK].iter().any(|m| mode.contains(*m));
-        !delayed && !mode.contains(M::VEL | M::ACC | M::JERK)
+    /// See [`FeedforwardMode::needs_gain`].
+    pub(crate) const fn needs_gain(&self) -> bool {
+        self.needs_gain
     }
 
     /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.

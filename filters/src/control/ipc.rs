@@ -350,10 +350,12 @@ impl Ipc {
     }
 
     /// Additive speed of one cycle.
+    #[inline]
     pub fn step(&mut self, input: &IpcInput) -> IpcOutput {
-        if self.stages.is_empty() {
-            return IpcOutput::default();
-        }
+        if self.is_off() { IpcOutput::default() } else { self.sum_of_stages(input) }
+    }
+
+    fn sum_of_stages(&mut self, input: &IpcInput) -> IpcOutput {
         let wanted = -self.stages.iter_mut().map(|s| s.step(input)).sum::<f64>();
         let speed_mm_s = wanted.clamp(-self.limit_mm_s, self.limit_mm_s);
         self.computed.rotate_right(1);

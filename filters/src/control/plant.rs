@@ -157,6 +157,7 @@ pub struct Measured {
 }
 
 impl Measured {
+    #[inline]
     fn rigid(position_mm: f64, speed_mm_s: f64) -> Self {
         Self {
             motor_mm: position_mm,
@@ -297,6 +298,7 @@ impl Plant {
     }
 
     /// Advances by one cycle. False if the state is no longer finite; what was measured last then stays.
+    #[inline]
     pub fn advance(&mut self, mut input: PlantInput) -> bool {
         if self.dead_time_cycles > 0 {
             self.dead_time.copy_within(..self.dead_time_cycles, 1);

@@ -83,6 +83,7 @@ impl PositionConfig {
     /// Gain in 1/s at an axis speed.
     ///
     /// Assumption: the commanded speed decides, so that a vibrating actual value does not modulate the gain.
+    #[inline]
     pub fn gain_at(&self, speed_mm_s: f64) -> f64 {
         let Some(d) = self.dynamic_kv else { return self.kv_per_s };
         let share = (speed_mm_s.abs() - d.v1_mm_s) / (d.v2_mm_s - d.v1_mm_s);
@@ -100,6 +101,7 @@ impl PositionConfig {
     ///
     /// Source: P-AXIS-00395 keeps the controller from giving out small commands at standstill; effective with position
     /// control in the CNC only.
+    #[inline]
     pub fn error_mm(&self, lag_mm: f64, reference_rests: bool) -> f64 {
         let inside = lag_mm.abs() < self.dead_band_mm;
         let quiet = inside && reference_rests && self.closed_in == PositionLoop::Cnc;
@@ -132,6 +134,7 @@ impl SpeedLimiter {
     }
 
     /// The limited command and the fault of a beginning excess.
+    #[inline]
     pub fn step(&mut self, speed_mm_s: f64) -> (f64, Option<Fault>) {
         let Some(limit_mm_s) = self.limit_mm_s.filter(|l| speed_mm_s.abs() > *l) else {
             self.active = false;

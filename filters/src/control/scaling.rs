@@ -59,6 +59,7 @@ impl Default for SpeedFormat {
 impl SpeedFormat {
     /// The speed in mm/s that a drive takes from the value that was sent for one: bus drives get whole counts, analogue and
     /// simulated ones any value.
+    #[inline]
     pub fn sent(&self, speed_mm_s: f64, cycle_s: f64) -> f64 {
         match self {
             Self::Gain(_) => speed_mm_s,

@@ -95,6 +95,9 @@ impl RampedLimits {
         let (needed_up, needed_down) = distances(top - v0, top - ve);
         let vf = vf.max(top);
         Infeasible::check(needed_up + needed_down, length, vf)?;
+        if length > 0.0 && vf <= v0.min(ve) {
+            return Ok(Profile::even(vf, length));
+        }
         let mut gains = (vf - v0, vf - ve);
         let mut parts = distances(gains.0, gains.1);
         let mut peak = vf;

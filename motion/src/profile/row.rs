@@ -49,6 +49,13 @@ impl Profile {
         Self { phases: Arc::from(&timed[..]), duration, end }
     }
 
+    /// One speed in mm/s, above 0, over a length: what most short blocks in a row have.
+    pub(super) fn even(v_mm_s: f64, length: f64) -> Self {
+        let cruise = Phase::state(0.0, v_mm_s, 0.0).until(length / v_mm_s);
+        let end = State { s_mm: length, v_mm_s, ..State::default() };
+        Self { phases: Arc::new([(0.0, cruise)]), duration: cruise.t, end }
+    }
+
     /// Phases that follow each other over a length.
     pub(crate) fn over(phases: Vec<Phase>, length: f64) -> Self {
         let last = phases.last().map(Phase::end);
@@ -105,8 +112,8 @@ impl Profile {
 
     /// Duration in s and mean jerk in mm/s3 of every phase.
     ///
-    /// TRAPEZ and SIN2: the seven segments I..VII. STEP: one per acceleration level from the lowest, cruise, one
-    /// per deceleration level from the highest. Braking to the feed first: those of both parts. A speed that follows
+    /// TRAPEZ and SIN2: the seven segments I..VII, or the cruise alone where the speed never changes. STEP: one per
+    /// acceleration level from the lowest, cruise, one per deceleration level from the highest. Braking to the feed first: those of both parts. A speed that follows
     /// varying limits: as many as it takes.
     pub fn phases(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.phases.iter().map(|(_, p)| (p.t, p.j))

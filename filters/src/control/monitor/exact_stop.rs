@@ -125,6 +125,7 @@ impl ExactStopMonitor {
     }
 
     /// One cycle: set position after the filters, actual position at the start of the cycle.
+    #[inline]
     pub fn step(&mut self, set_mm: f64, actual_mm: f64) -> Option<Fault> {
         self.last_mm = set_mm;
         self.moved |= (set_mm - self.rest_mm).abs() > Self::REACHED_MM;

@@ -149,6 +149,7 @@ impl LagMonitor {
     }
 
     /// One cycle: reference and actual position, gain of the position controller.
+    #[inline]
     pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
         let delay = self.config.delay_cycles;
         for i in (0..=delay).rev() {
@@ -161,6 +162,12 @@ impl LagMonitor {
             self.rests = true;
             return None;
         }
+        self.watch(commanded, kv_per_s)
+    }
+
+    /// The lag of this cycle against what is permitted.
+    fn watch(&mut self, commanded: f64, kv_per_s: f64) -> Option<Fault> {
+        let delay = self.config.delay_cycles;
         let newest = (commanded - self.past_mm[delay + 1]).abs();
         self.still = if newest > 0.0 { 0 } else { self.still.saturating_add(1) };
         let estimate = self.estimate_mm;

@@ -70,6 +70,8 @@ pub struct SetpointMonitor {
     cycle_s: f64,
     past_mm: [f64; 3],
     levels: [Level; 3],
+    /// A level is above good.
+    raised: bool,
     /// Magnitude of each difference of set positions in mm up to which there is nothing to say about the derivative.
     good_mm: [f64; 3],
 }
@@ -97,13 +99,13 @@ impl SetpointMonitor {
             good(config.j_max_mm_s3, config.jerk.watched()) * (t * t * t) * CLEARLY,
         ];
         let (past_mm, levels) = ([0.0; 3], [Level::Good; 3]);
-        Self { config, cycle_s: t, past_mm, levels, good_mm }
+        Self { config, cycle_s: t, past_mm, levels, raised: false, good_mm }
     }
 
     /// Axis at rest at a position.
     pub fn start(&mut self, position_mm: f64) {
         self.past_mm = [position_mm; 3];
-        self.levels = [Level::Good; 3];
+        (self.levels, self.raised) = ([Level::Good; 3], false);
     }
 
     /// The place where the axis is gets another position, `by_mm` further on.
@@ -114,15 +116,21 @@ impl SetpointMonitor {
     }
 
     /// One cycle: a fault for every derivative whose level rises.
+    #[inline]
     pub(crate) fn step(&mut self, set_mm: f64, faults: &mut Faults) {
         let [p1, p2, p3] = self.past_mm;
         let (d1, d2, d3) = (set_mm - p1, p1 - p2, p2 - p3);
         self.past_mm = [set_mm, p1, p2];
         let differences = [d1, d1 - d2, d1 - 2.0 * d2 + d3];
         let good = differences.iter().zip(&self.good_mm).all(|(mm, good)| mm.abs() <= *good);
-        if good && self.levels == [Level::Good; 3] {
-            return;
+        if !good || self.raised {
+            self.judge(differences, faults);
         }
+    }
+
+    /// The same where there may be something to say.
+    #[cold]
+    fn judge(&mut self, differences: [f64; 3], faults: &mut Faults) {
         let t = self.cycle_s;
         let values = [differences[0] / t, differences[1] / (t * t), differences[2] / (t * t * t)];
         let c = self.config;
@@ -153,6 +161,7 @@ impl SetpointMonitor {
                 _ => None,
             });
         }
+        self.raised = self.levels != [Level::Good; 3];
     }
 }
 

@@ -138,6 +138,7 @@ impl<S: States> LinearPlant<S> {
     /// Advances by one cycle. `rests` says whether that changed nothing, bit for bit: with the same input no further
     /// cycle will. A disturbance that changes with time never rests. False if the state is no longer finite; what was measured
     /// last then stays.
+    #[inline]
     pub(super) fn advance(
         &mut self,
         input: &PlantInput,
@@ -156,7 +157,7 @@ impl<S: States> LinearPlant<S> {
             *rests = self.substep(input, input.force_mm_s2 + 0.0);
         }
         self.cycles += 1;
-        self.measured().replace(measured)
+        self.measure(measured)
     }
 
     fn disturbance_at(&self, d: &Disturbance, time_s: f64) -> f64 {
@@ -172,6 +173,7 @@ impl<S: States> LinearPlant<S> {
     }
 
     /// True if nothing has changed.
+    #[inline]
     fn substep(&mut self, input: &PlantInput, force_mm_s2: f64) -> bool {
         let inputs: [f64; INPUTS] = [input.speed_mm_s, input.acc_mm_s2, force_mm_s2];
         // plain loops: matrices this small are faster than the library's dispatch. A sum begins with -0, so that the
@@ -207,6 +209,7 @@ impl<S: States> LinearPlant<S> {
     }
 
     /// A function of the state; no allocation.
+    #[inline]
     fn value(&self, row: &S) -> f64 {
         let (row, state) = (row.as_ref(), self.state.as_ref());
         let mut sum = -0.0;
@@ -216,17 +219,22 @@ impl<S: States> LinearPlant<S> {
         sum
     }
 
+    /// Measures, unless a value is not a number; false then.
     #[inline]
-    fn measured(&self) -> Measured {
+    fn measure(&self, measured: &mut Measured) -> bool {
         let (motor_mm, motor_mm_s) = self.point(0);
+        if !self.elastic && !self.has_tool_point {
+            return Measured::rigid(motor_mm, motor_mm_s).replace(measured);
+        }
         let (load_mm, load_mm_s) =
             if self.elastic { self.point(1) } else { (motor_mm, motor_mm_s) };
         let (tcp_mm, tcp_mm_s) =
             if self.has_tool_point { self.point(2) } else { (load_mm, load_mm_s) };
-        Measured { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s }
+        Measured { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s }.replace(measured)
     }
 
     /// Position and speed of a measured point.
+    #[inline]
     fn point(&self, i: usize) -> (f64, f64) {
         (self.base_mm + self.value(&self.positions[i]), self.value(&self.speeds[i]))
     }
