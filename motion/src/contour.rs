@@ -1,5 +1,8 @@
 //! The programmed contour that is still within reach of the filters, and the distance of a set point from it.
 
+mod around;
+mod sight;
+
 use crate::axis::AxisVec;
 use crate::junction::TANGENT;
 use crate::path::{LinePath, Path};
@@ -8,6 +11,10 @@ use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
+
+use around::nearest;
+pub(crate) use around::{Around, Nearest};
+pub(crate) use sight::Sight;
 
 /// Entries whose paths begin closer together than this, in mm of path length, have the same path.
 pub(crate) const SAME_START_MM: f64 = 1e-9;
@@ -28,6 +35,8 @@ fn fading(least: f64, distance: f64) -> f64 {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contour {
     blocks: VecDeque<Passed>,
+    /// Number of the first block: of those forgotten so far.
+    forgotten: u64,
 }
 
 /// A block with the moment and the place of its entry.
@@ -52,7 +61,13 @@ impl Passed {
 }
 
 impl Passed {
+    /// True unless the block is straight.
+    fn is_bent(&self) -> bool {
+        !self.queued.block.path.is_straight()
+    }
+
     /// Vector from the nearest point of the path of the block to a point, and the square of its length.
+    #[inline]
     fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         self.queued.block.path.vector_to(point, out)
     }
@@ -95,6 +110,7 @@ impl Contour {
             self.blocks.pop_front();
             count += 1;
         }
+        self.forgotten += count as u64;
         count
     }
 
@@ -104,6 +120,7 @@ impl Contour {
         for _ in 0..count {
             self.blocks.pop_front();
         }
+        self.forgotten += count as u64;
     }
 
     /// Takes out the blocks that are to be entered at `cycles` or later.
@@ -155,57 +172,6 @@ impl Contour {
         nearest(self.blocks.range(self.numbers(from, to)), point, out)
     }
 
-    /// The blocks that can be the nearest one of those interpolated between two moments (cycles) to a point of the line
-    /// between two points, or be taken for it; also of those interpolated up to `slack` cycles before and behind. Half the
-    /// length of the line from its middle a block is nearer, or further, by that much at most.
-    pub(crate) fn around(
-        &self,
-        line: (&[f64], &[f64]),
-        (from, to): (f64, f64),
-        slack: (f64, f64),
-    ) -> Around<'_> {
-        let Range { start, end } = self.entries(from, to);
-        let among = start..self.whole(end);
-        // a separate search would end a step or two further
-        let mut all = start..end;
-        while all.start > 0 && self.blocks[all.start].cycles > from - slack.0 {
-            all.start -= 1;
-        }
-        while self.blocks.get(all.end).is_some_and(|b| b.cycles <= to + slack.1) {
-            all.end += 1;
-        }
-        all.end = if all.end == end { among.end } else { self.whole(all.end) };
-        let middle = &mut AxisVec::zeros(line.0.len())[..];
-        let mut half = 0.0;
-        for ((m, a), b) in middle.iter_mut().zip(line.0).zip(line.1) {
-            *m = 0.5 * (a + b);
-            half += 0.25 * (b - a) * (b - a);
-        }
-        let half: f64 = f64::sqrt(half);
-        let mut around = Around { blocks: SmallVec::new(), half };
-        let vector = &mut AxisVec::zeros(middle.len())[..];
-        let mut far = |passed: &Passed| passed.vector_to(middle, vector).sqrt();
-        let within = |least: f64| (1.0 + WARY) * (least + half) + half;
-        // a filter takes the set point half of its length back as a rule: that block leaves few of the others
-        let guess =
-            Some(all.start.midpoint(all.end)).filter(|i| all.contains(i) && among.contains(i));
-        let guessed = guess.map_or(f64::INFINITY, |i| far(&self.blocks[i]));
-        let mut most = within(guessed);
-        for (passed, i) in self.blocks.range(all.clone()).zip(all) {
-            let is_guess = guess == Some(i);
-            if is_guess || passed.queued.ball.may_be_within(middle, most + ROUNDING_MM) {
-                let distance = if is_guess { guessed } else { far(passed) };
-                let (block, counts) = (passed.queued.block.seq, among.contains(&i));
-                if counts {
-                    most = most.min(within(distance));
-                }
-                around.blocks.push(Candidate { passed, block, distance, counts });
-            }
-        }
-        around.blocks.retain(|b| b.distance <= most);
-        around
-    }
-
     /// Numbers of the blocks that [`Self::nearest`] looks at.
     fn numbers(&self, from: f64, to: f64) -> Range<usize> {
         let Range { start, end } = self.entries(from, to);
@@ -231,6 +197,28 @@ impl Contour {
     /// Number of blocks that were entered up to a moment in cycles.
     pub(crate) fn entered(&self, moment: f64) -> usize {
         self.blocks.partition_point(|b| b.cycles <= moment)
+    }
+
+    /// The same, searched from what it was a few cycles away.
+    pub(crate) fn entered_near(&self, moment: f64, near: usize) -> usize {
+        let mut count = near.min(self.blocks.len());
+        while count > 0 && self.blocks[count - 1].cycles > moment {
+            count -= 1;
+        }
+        while self.blocks.get(count).is_some_and(|b| b.cycles <= moment) {
+            count += 1;
+        }
+        count
+    }
+
+    /// Number of a block, counted from the first one of all.
+    pub(crate) const fn number(&self, index: usize) -> u64 {
+        self.forgotten + index as u64
+    }
+
+    /// Index of the block with this number, unless it is forgotten.
+    pub(crate) fn index(&self, number: u64) -> Option<usize> {
+        number.checked_sub(self.forgotten).map(|index| index as usize)
     }
 
     /// Moments in cycles and places of the kinks between the first `end` blocks that were passed behind `from`.
@@ -324,124 +312,4 @@ impl<'a> Walk<'a> {
         let queued = &passed.queued;
         Some((passed, queued.offset + (s_mm - passed.s_mm).clamp(0.0, queued.length)))
     }
-}
-
-/// Blocks of a contour, see [`Contour::around`].
-pub(crate) struct Around<'a> {
-    blocks: SmallVec<[Candidate<'a>; 16]>,
-    /// Half the length of the line in mm.
-    half: f64,
-}
-
-struct Candidate<'a> {
-    passed: &'a Passed,
-    /// Number of the block.
-    block: u64,
-    /// From the middle of the line in mm.
-    distance: f64,
-    /// Within reach of the second moment without slack.
-    counts: bool,
-}
-
-impl<'a> Around<'a> {
-    /// As [`Contour::nearest`] between the two moments without slack.
-    pub(crate) fn nearest(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest<'a>> {
-        nearest(self.blocks.iter().filter(|b| b.counts).map(|b| b.passed), point, out)
-    }
-
-    /// As [`Contour::nearest`] between the two moments with slack.
-    pub(crate) fn nearest_of_all(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest<'a>> {
-        nearest(self.blocks.iter().map(|b| b.passed), point, out)
-    }
-
-    /// True if the slack adds no block: [`Self::nearest`] and [`Self::nearest_of_all`] are the same.
-    pub(crate) fn all_count(&self) -> bool {
-        self.blocks.iter().all(|b| b.counts)
-    }
-
-    /// True if some other block can be nearer somewhere on the line: on the way of half the line, one comes nearer and the other
-    /// goes away by that much at most.
-    pub(crate) fn may_be_nearer_than(&self, nearest: &Nearest<'_>) -> bool {
-        let (mut own, mut other) = (f64::INFINITY, f64::INFINITY);
-        for b in &self.blocks {
-            let least = if b.block == nearest.block { &mut own } else { &mut other };
-            *least = least.min(b.distance);
-        }
-        other.is_finite() && other <= own + 2.0 * self.half
-    }
-
-    /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
-    /// longer by at most `WARY` than the shortest one without slack. Between points that are looked at, and with another
-    /// idea of what is within reach, another block may be the nearest.
-    pub(crate) fn worst_component(&self, point: &[f64]) -> f64 {
-        let mut vector = AxisVec::zeros(point.len());
-        let mut least = f64::INFINITY;
-        let mut found: SmallVec<[(f64, f64); 16]> = SmallVec::new();
-        for Candidate { passed, counts, .. } in &self.blocks {
-            let square = passed.vector_to(point, &mut vector);
-            if *counts {
-                least = least.min(square);
-            }
-            found.push((square, vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()))));
-        }
-        if least.is_infinite() {
-            return 0.0;
-        }
-        let within = (1.0 + WARY) * (1.0 + WARY) * least;
-        found.iter().filter(|f| f.0 <= within).map(|f| f.1).fold(0.0, f64::max)
-    }
-}
-
-/// The block that the shortest vector starts on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest<'a> {
-    /// Length of the vector in mm.
-    pub(crate) distance: f64,
-    /// Programmed block, the same for all parts of it.
-    pub(crate) block: u64,
-    passed: &'a Passed,
-}
-
-impl<'a> Nearest<'a> {
-    /// Its path if it is a straight line.
-    pub(crate) fn line(&self) -> Option<&'a LinePath> {
-        match &self.passed.queued.block.path {
-            Path::Line(line) => Some(line),
-            _ => None,
-        }
-    }
-
-    /// Shortest vector from the path of this block to a point, and its length in mm.
-    pub(crate) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
-        self.passed.vector_to(point, out).sqrt()
-    }
-}
-
-/// Shortest vector from the paths of the blocks to a point; `None`, and no vector, if there are no blocks.
-fn nearest<'a>(
-    mut blocks: impl Iterator<Item = &'a Passed>,
-    point: &[f64],
-    out: &mut [f64],
-) -> Option<Nearest<'a>> {
-    let Some(first) = blocks.next() else {
-        out.fill(0.0);
-        return None;
-    };
-    let mut best = (first.vector_to(point, out), first);
-    let mut before = first;
-    let vector = &mut AxisVec::zeros(point.len())[..];
-    for passed in blocks {
-        // every path is searched over its whole length, so once is enough for its parts
-        if before.is_part_of_the_same(passed) {
-            continue;
-        }
-        before = passed;
-        let square = passed.vector_to(point, vector);
-        if square < best.0 {
-            best = (square, passed);
-            out.copy_from_slice(vector);
-        }
-    }
-    let (square, passed) = best;
-    Some(Nearest { distance: square.sqrt(), block: passed.queued.block.seq, passed })
 }

@@ -29,9 +29,11 @@ mod between;
 mod component;
 mod gauge;
 mod meter;
+#[cfg(test)]
+mod tests;
 
 use crate::axis::AxisVec;
-use crate::contour::{Contour, ROUNDING_MM, WARY};
+use crate::contour::{Contour, ROUNDING_MM, Sight, WARY};
 pub(crate) use meter::What;
 pub use meter::{Change, Meter};
 use smallvec::SmallVec;
@@ -58,6 +60,24 @@ pub(crate) struct SetPath {
     ways: Vec<f64>,
 }
 
+/// The line of the set path that is nearest to a point.
+struct Search {
+    /// Square of its distance, and its number.
+    best: (f64, u64),
+    /// How far away another line may be that could be called the nearest one, in mm.
+    alike: f64,
+}
+
+impl Search {
+    /// Takes another line; the first one of those equally near is found.
+    fn take(&mut self, k: u64, d2: f64) {
+        if d2 < self.best.0 || d2 <= self.best.0 && k < self.best.1 {
+            self.best = (d2, k);
+            self.alike = (1.0 + ALIKE) * d2.sqrt();
+        }
+    }
+}
+
 /// Largest components found, with the vector that one of them belongs to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Excursion {
@@ -78,12 +98,14 @@ impl Excursion {
     }
 
     fn take(&mut self, vector: &[f64]) {
+        let n = vector.len();
+        let kept = &mut self.vector[..n];
         let mut square = 0.0;
-        for (kept, new) in self.vector.iter_mut().zip(vector) {
-            if new.abs() > kept.abs() {
-                *kept = *new;
+        for i in 0..n {
+            if vector[i].abs() > kept[i].abs() {
+                kept[i] = vector[i];
             }
-            square += new * new;
+            square += vector[i] * vector[i];
         }
         self.length = self.length.max(f64::sqrt(square));
     }
@@ -120,11 +142,12 @@ impl SetPath {
 
     /// Adds the set point of the next cycle.
     pub(crate) fn push(&mut self, point: &[f64]) {
+        let n = point.len();
         let way = self.ways.last().map_or(0.0, |way| {
-            let before = &self.values[self.values.len() - point.len()..];
+            let before = &self.values[self.values.len() - n..][..n];
             let mut square = 0.0;
-            for (a, b) in before.iter().zip(point) {
-                square += (b - a) * (b - a);
+            for i in 0..n {
+                square += (point[i] - before[i]) * (point[i] - before[i]);
             }
             way + f64::sqrt(square)
         });
@@ -159,6 +182,7 @@ impl SetPath {
         contour: &Contour,
         k: u64,
         (from, to): (f64, f64),
+        sight: &mut Sight,
         out: &mut Excursion,
     ) -> Option<(f64, AxisVec)> {
         let here = self.get(k)?;
@@ -168,7 +192,7 @@ impl SetPath {
             out.take(&vector);
             return now.map(|now| (now.distance, vector));
         };
-        let around = contour.around((before, here), (from, to), (1.0, 0.0));
+        let around = contour.around((before, here), (from, to), (1.0, 0.0), sight);
         let now = around.nearest(here, &mut vector);
         out.take(&vector);
         let shortest = now.map(|now| (now.distance, vector.clone()));
@@ -185,10 +209,11 @@ impl SetPath {
         k: u64,
         (from, to): (f64, f64),
         (slack, apart): (f64, f64),
+        sight: &mut Sight,
     ) -> f64 {
         let ends = k.checked_sub(1).and_then(|before| Some((self.get(before)?, self.get(k)?)));
         let Some((a, b)) = ends else { return 0.0 };
-        let around = contour.around((a, b), (from, to), (slack, slack));
+        let around = contour.around((a, b), (from, to), (slack, slack), sight);
         let length = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt();
         let parts = (length / apart).ceil().clamp(1.0, f64::from(PARTS)) as u32;
         let component = |part: u32| {
@@ -212,31 +237,44 @@ impl SetPath {
         if first >= last {
             return None;
         }
-        // a first guess excuses most of the others: from one line to the next a distance falls by their length at most
+        // a first guess excuses most of the others: from one line to the next a distance falls by their length at most. What
+        // is left is looked at from both ends: the point lies between them, so either end excuses its half at once
         let guess = first.midpoint(last);
-        let mut best = (self.to_line(guess, point).0, guess);
-        let mut alike = (1.0 + ALIKE) * best.0.sqrt();
+        let guessed = self.to_line(guess, point).0;
+        let mut search = Search { best: (guessed, guess), alike: (1.0 + ALIKE) * guessed.sqrt() };
         let mut near: SmallVec<[(u64, f64); 16]> = SmallVec::new();
-        let mut k = first;
-        while k < last {
-            let d2 = self.to_line(k, point).0;
-            if d2 < best.0 || d2 <= best.0 && k < best.1 {
-                best = (d2, k);
-                alike = (1.0 + ALIKE) * d2.sqrt();
+        let mut look = |k: u64| {
+            let d2 = if k == guess { guessed } else { self.to_line(k, point).0 };
+            search.take(k, d2);
+            if wary_mm.is_finite() {
+                near.push((k, d2));
             }
-            near.push((k, d2));
-            let ways = &self.ways[(k - self.first) as usize..];
-            let certain = ways[0] + d2.sqrt() - alike - ROUNDING_MM;
-            k += 1;
-            k += ways[2..].iter().take_while(|way| **way < certain).count() as u64;
+            d2.sqrt() - search.alike - ROUNDING_MM
+        };
+        let way = |k: u64| self.ways[(k - self.first) as usize];
+        let (mut low, mut high) = (first, last);
+        while low < high {
+            let certain = way(low + 1) + look(low);
+            low += 1;
+            while low < high && way(low + 1) < certain {
+                low += 1;
+            }
+            if low < high {
+                high -= 1;
+                let certain = way(high) - look(high);
+                while low < high && way(high - 1) > certain {
+                    high -= 1;
+                }
+            }
         }
-        let (d2, k) = best;
+        let (d2, k) = search.best;
         let mut vector = AxisVec::zeros(self.axes);
         self.aside(k, point, &mut vector);
         out.take(&vector);
         let nearest = vector.clone();
         if d2 > wary_mm * wary_mm {
             let within = (1.0 + ALIKE) * (1.0 + ALIKE) * d2;
+            near.sort_unstable_by_key(|(k, _)| *k);
             for (k, d2) in near {
                 if d2 <= within {
                     self.aside(k, point, &mut vector);

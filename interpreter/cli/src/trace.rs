@@ -1,6 +1,7 @@
 //! The trace: columns, and the files they go to.
 
 mod background;
+pub(crate) mod batch;
 pub(crate) mod csv;
 pub(crate) mod fixed;
 #[cfg(feature = "parquet")]
@@ -11,6 +12,7 @@ use crate::console::Console;
 use crate::files::STANDARD;
 use crate::target::Target;
 use background::Background;
+use batch::Batch;
 use kontur_interpreter::job::{Facts, Run};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::{self, Column};
@@ -46,11 +48,11 @@ enum Writer {
 }
 
 impl Writer {
-    fn write(&mut self, records: &[CycleRecord]) -> io::Result<()> {
+    fn write(&mut self, batch: &Batch) -> io::Result<()> {
         match self {
-            Self::Csv(w) => records.iter().try_for_each(|record| w.write(record)),
+            Self::Csv(w) => w.write(batch),
             #[cfg(feature = "parquet")]
-            Self::Parquet(w) => w.write(records),
+            Self::Parquet(w) => w.write(batch),
         }
     }
 
@@ -105,6 +107,7 @@ impl Trace {
         }
         let name = if path.as_os_str() == STANDARD { "stdout".into() } else { path.to_owned() };
         let to_error = |e| Error::io(name.display().to_string(), e);
+        let shown = columns.clone();
         let rows = |columns| csv::Rows::new(columns, facts);
         let writer = if path.as_os_str() == STANDARD {
             let target = csv::Target::Standard(console.output());
@@ -120,7 +123,7 @@ impl Trace {
                 _ => Writer::Csv(csv::CsvWriter::new(csv::Target::File(target), rows(columns))),
             }
         };
-        let way = Way::Thread(Background::start(writer).map_err(to_error)?);
+        let way = Way::Thread(Background::start(writer, shown).map_err(to_error)?);
         Ok(Self { path: name, way, decimate: decimate.max(1), shows_deviation })
     }
 

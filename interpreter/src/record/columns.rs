@@ -85,15 +85,6 @@ impl Column {
             _ => None,
         }
     }
-
-    /// Appends the [`Self::number`] of each record, if it is a numeric column.
-    pub fn extend_numbers(&self, records: &[CycleRecord], numbers: &mut Vec<f64>) {
-        match self.content {
-            Content::Path(f) => numbers.extend(records.iter().map(f)),
-            Content::Axis(i, f) => numbers.extend(records.iter().map(|r| of_axis(r, i, f))),
-            _ => {}
-        }
-    }
 }
 
 fn of_axis(record: &CycleRecord, axis: usize, value: fn(&AxisRecord) -> f64) -> f64 {

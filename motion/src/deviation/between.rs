@@ -174,7 +174,7 @@ fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contour::Contour;
+    use crate::contour::{Contour, Sight};
     use crate::example::{Arc, block};
     use crate::queue::Queued;
     use kontur_filters::time::CycleTime;
@@ -198,7 +198,8 @@ mod tests {
     fn found(points: &[[f64; 2]], ends: &[[f64; 2]; 2]) -> Excursion {
         let contour = contour(points);
         let line = (&ends[0][..], &ends[1][..]);
-        let around = contour.around(line, (0.0, points.len() as f64), (1.0, 0.0));
+        let around =
+            contour.around(line, (0.0, points.len() as f64), (1.0, 0.0), &mut Sight::default());
         let mut out = Excursion::none(2);
         let mut vector = [0.0; 2];
         for end in ends {

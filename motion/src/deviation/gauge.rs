@@ -2,7 +2,7 @@
 
 use super::{Excursion, SetPath};
 use crate::axis::AxisVec;
-use crate::contour::Contour;
+use crate::contour::{Contour, Sight};
 
 /// Both ways, cycle by cycle, for what is output.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +13,9 @@ pub(crate) struct Gauge {
     set: SetPath,
     path: SetPath,
     found: Excursion,
+    sight: Sight,
+    /// Number of the block that the filters let go last.
+    left: u64,
     /// Last cycle whose set point was not the interpolated one.
     filtered: Option<u64>,
     /// Shortest vector to the last set point with its length in mm.
@@ -23,6 +26,11 @@ impl Gauge {
     /// For filters that reach `reach` cycles back; `every`: they differ between the axes.
     pub(crate) fn new(reach: u32, every: bool) -> Self {
         Self { reach: u64::from(reach), every, ..Self::default() }
+    }
+
+    /// The contour is another one.
+    pub(crate) fn look_anew(&mut self) {
+        self.sight = Sight::default();
     }
 
     /// Largest components found in the last cycle, per axis.
@@ -64,7 +72,8 @@ impl Gauge {
         self.filtered = Some(k);
         self.found = Excursion::none(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
-        self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut self.found);
+        let within = (moment - reach, moment);
+        self.shortest = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
         self.let_go(contour, k, least_mm);
     }
 
@@ -83,7 +92,8 @@ impl Gauge {
     /// What of the contour was missed that the filters have let go in cycle `k`.
     fn let_go(&mut self, contour: &Contour, k: u64, least_mm: f64) {
         let passed = k as f64 - self.reach as f64 - 1.0;
-        let entered = contour.entered(passed);
+        let entered = contour.entered_near(passed, contour.index(self.left).unwrap_or_default());
+        self.left = contour.number(entered);
         for (moment, point) in contour.kinks(passed - 1.0, entered) {
             let first = moment.floor().max(0.0) as u64;
             self.miss(contour, k, &point, (first, first + self.reach + 2), least_mm);

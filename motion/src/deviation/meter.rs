@@ -82,7 +82,10 @@ impl Meter {
     /// Takes a change of the planner, in their order.
     pub fn take(&mut self, Change(what): Change) {
         match what {
-            What::Contour(contour) => self.contour = contour,
+            What::Contour(contour) => {
+                self.contour = contour;
+                self.gauge.look_anew();
+            }
             What::Enters(passed) => self.contour.append(passed),
             What::Leave(count) => self.contour.forget(count),
             What::Kernels { reach_cycles, differ, at } => {

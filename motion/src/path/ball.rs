@@ -37,15 +37,13 @@ impl Ball {
         Self { center, radius: f64::sqrt(square) }
     }
 
-    /// False if no point of the path comes as near as `within_mm` to `point`.
-    #[inline]
-    pub(crate) fn may_be_within(&self, point: &[f64], within_mm: f64) -> bool {
+    /// How far every point of the path is from `point` at least, in mm; negative for a point in the ball.
+    pub(crate) fn distance_from(&self, point: &[f64]) -> f64 {
         let mut square = 0.0;
         for (c, p) in self.center.iter().zip(point) {
             square += (c - p) * (c - p);
         }
-        let reach = within_mm + self.radius;
-        square <= reach * reach
+        f64::sqrt(square) - self.radius
     }
 }
 
@@ -75,7 +73,7 @@ mod tests {
                     path.position(path.length() * f64::from(i) / 1000.0, &mut q);
                     let squares = q.iter().zip(&point).map(|(q, p)| (q - p) * (q - p));
                     let distance = squares.sum::<f64>().sqrt();
-                    assert!(ball.may_be_within(&point, distance + 1e-9));
+                    assert!(ball.distance_from(&point) <= distance + 1e-9);
                 }
             }
         }

@@ -7,6 +7,7 @@ use super::search::chunks;
 use super::set_points::SetPoints;
 use super::view::View;
 use super::{BORDER_CYCLES, Unkept};
+use crate::contour::Sight;
 use crate::deviation::{Excursion, SetPath};
 
 /// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be: what is longer by less than
@@ -39,6 +40,7 @@ impl View<'_> {
             let first = self.first_for((from, to));
             let mut record = Record::starting(first);
             let mut set = SetPath::starting(first, n);
+            let mut sight = Sight::default();
             let mut harvest = Harvest::new(self, &mut left.worst, &mut found);
             let suspects =
                 self.suspects((from, to), points, &mut companion, |k, points, suspect| {
@@ -46,7 +48,7 @@ impl View<'_> {
                     set.push(points.set());
                     if k >= from
                         && suspect
-                        && let Some(v) = self.leaves_at(k, &set)
+                        && let Some(v) = self.leaves_at(k, &set, &mut sight)
                     {
                         harvest.take(v, &record);
                     }
@@ -58,7 +60,7 @@ impl View<'_> {
     }
 
     /// The violation on the way to the set point of cycle `k`, if it is one.
-    fn leaves_at(&self, k: u64, set: &SetPath) -> Option<Violation> {
+    fn leaves_at(&self, k: u64, set: &SetPath, sight: &mut Sight) -> Option<Violation> {
         let contour = &self.contour;
         let moment = k as f64;
         let within_reach = (moment - f64::from(self.trial.kernels.length()), moment);
@@ -67,12 +69,12 @@ impl View<'_> {
             return None;
         }
         let mut out = Excursion::none(set.axes());
-        set.leaves(contour, k, within_reach, &mut out);
+        set.leaves(contour, k, within_reach, sight, &mut out);
         let mut deviation_mm = out.largest();
         if out.length > DOUBT * tolerance_mm && deviation_mm <= within(tolerance_mm) {
             // the components depend on what counts as within reach
             let apart = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
-            deviation_mm = deviation_mm.max(set.doubtful(contour, k, within_reach, apart));
+            deviation_mm = deviation_mm.max(set.doubtful(contour, k, within_reach, apart, sight));
         }
         let axis = out.axis();
         let (vector, missed) = (out.vector, None);

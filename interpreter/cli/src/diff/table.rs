@@ -1,11 +1,13 @@
 //! Where the rows of a comparison come from: a CSV or Parquet file, or a run that happens now.
 
 use crate::Error;
+use crate::trace::batch::Batch;
 use crate::trace::csv::Rows;
 use crate::trace::select;
 use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::Run;
+use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::record::{CycleRecord, columns};
 use kontur_interpreter::source::text::Text;
 use std::fs::File;
@@ -32,6 +34,7 @@ enum Origin {
 
 struct Fresh {
     run: Run,
+    columns: Vec<Column>,
     rows: Rows,
     batch: csv::Reader<Cursor<Vec<u8>>>,
 }
@@ -127,7 +130,7 @@ impl Table {
     /// [`Error::Usage`] if no columns can be chosen.
     pub(super) fn run(run: Run, names: Option<&[String]>) -> Result<Self, Error> {
         let facts = run.facts();
-        let columns = match names {
+        let columns: Vec<Column> = match names {
             Some(names) => {
                 let all = columns::all(facts).into_iter();
                 all.filter(|c| names.contains(&c.name)).collect()
@@ -136,9 +139,9 @@ impl Table {
         };
         let header = columns.iter().map(|c| c.name.clone()).collect();
         let name = facts.program.clone();
-        let rows = Rows::new(columns, facts);
+        let rows = Rows::new(columns.clone(), facts);
         let batch = reader(Vec::new());
-        let rows = Origin::Run(Box::new(Fresh { run, rows, batch }));
+        let rows = Origin::Run(Box::new(Fresh { run, columns, rows, batch }));
         Ok(Self { name, header, row: ByteRecord::new(), rows })
     }
 
@@ -180,9 +183,10 @@ impl Fresh {
         if self.batch.read_byte_record(row)? {
             return Ok(true);
         }
-        let mut text = Vec::new();
-        let rows = &mut self.rows;
-        let Ok(()) = self.run.advance(BATCH, &mut |r: &CycleRecord| rows.push_row(&mut text, r));
+        let Self { run, columns, rows, .. } = self;
+        let (mut text, mut batch) = (Vec::new(), Batch::default());
+        let Ok(()) = run.advance(BATCH, &mut |r: &CycleRecord| batch.push(columns, r));
+        rows.push_rows(&mut text, &batch);
         self.batch = reader(text);
         self.batch.read_byte_record(row)
     }

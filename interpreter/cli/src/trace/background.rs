@@ -1,20 +1,22 @@
 //! A trace file written by a separate thread, so that a run does not wait for formatting and disks.
 //!
-//! Records go to it in batches, and the empty batches come back: a few of them are all the memory that this takes, and
+//! Rows go to it in batches, and the empty batches come back: a few of them are all the memory that this takes, and
 //! a run that is faster than its file waits. The rows are the same, and in the same order, as without a thread.
 
 use super::Writer;
+use super::batch::Batch;
 use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::columns::Column;
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Records of a batch.
-const RECORDS: usize = 256;
+/// Rows of a batch.
+const ROWS: usize = 256;
 /// Batches on their way.
 const BATCHES: usize = 3;
-/// Records between two looks at the clock.
+/// Rows between two looks at the clock.
 const LOOK_EVERY: usize = 16;
 /// A batch waits no longer than this before it is handed over, and the thread no longer before it flushes.
 const PERIOD: Duration = Duration::from_millis(400);
@@ -27,25 +29,9 @@ fn now() -> Instant {
     Instant::now()
 }
 
-/// Records in the order of the run; those after the first `filled` are left over from before.
-#[derive(Default)]
-struct Batch {
-    records: Vec<CycleRecord>,
-    filled: usize,
-}
-
-impl Batch {
-    fn push(&mut self, record: &CycleRecord) {
-        match self.records.get_mut(self.filled) {
-            Some(old) => old.clone_from(record),
-            None => self.records.push(record.clone()),
-        }
-        self.filled += 1;
-    }
-}
-
 /// A writer on a separate thread.
 pub(super) struct Background {
+    columns: Vec<Column>,
     batch: Batch,
     sent: Instant,
     /// `None` once the thread is to end.
@@ -56,30 +42,29 @@ pub(super) struct Background {
 
 impl std::fmt::Debug for Background {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Background").field("waiting", &self.batch.filled).finish_non_exhaustive()
+        f.debug_struct("Background").field("waiting", &self.batch.len()).finish_non_exhaustive()
     }
 }
 
 impl Background {
-    /// Gives a writer its thread.
+    /// Gives a writer of rows with these columns its thread.
     ///
     /// # Errors
     /// The system's, if there can be no more threads.
-    pub(super) fn start(writer: Writer) -> io::Result<Self> {
+    pub(super) fn start(writer: Writer, columns: Vec<Column>) -> io::Result<Self> {
         let (sender, batches) = sync_channel(BATCHES);
         let (back, spare) = sync_channel(BATCHES + 2);
         let thread =
             Builder::new().name("trace".to_owned()).spawn(move || work(writer, &batches, &back))?;
         let (sender, thread) = (Some(sender), Some(thread));
-        Ok(Self { batch: Batch::default(), sent: now(), sender, spare, thread })
+        Ok(Self { columns, batch: Batch::default(), sent: now(), sender, spare, thread })
     }
 
     /// Takes a record; false if the thread has ended because of an error, which [`Self::end`] returns.
     pub(super) fn write(&mut self, record: &CycleRecord) -> bool {
-        self.batch.push(record);
-        let full = self.batch.filled == RECORDS;
+        self.batch.push(&self.columns, record);
         let late = || self.sent.elapsed() >= PERIOD;
-        if full || self.batch.filled.is_multiple_of(LOOK_EVERY) && late() {
+        if self.batch.len() == ROWS || self.batch.len().is_multiple_of(LOOK_EVERY) && late() {
             return self.send();
         }
         true
@@ -125,8 +110,8 @@ fn work(
     loop {
         let written = match batches.recv_timeout(PERIOD) {
             Ok(mut batch) => {
-                let written = writer.write(&batch.records[..batch.filled]);
-                batch.filled = 0;
+                let written = writer.write(&batch);
+                batch.clear();
                 // if it is no longer needed, nobody receives it
                 drop(back.try_send(batch));
                 written
@@ -148,11 +133,12 @@ mod tests {
     use kontur_interpreter::job::Facts;
     use kontur_interpreter::record::columns;
 
-    fn writer(path: &std::path::Path) -> Writer {
+    fn start(path: &std::path::Path) -> Background {
         let facts = Facts { cycle_us: 1000, ..Facts::default() };
-        let rows = Rows::new(columns::select("s_mm", &facts).unwrap(), &facts);
+        let columns = columns::select("s_mm", &facts).unwrap();
         let target = csv::Target::File(Target::create(path).unwrap());
-        Writer::Csv(CsvWriter::new(target, rows))
+        let writer = Writer::Csv(CsvWriter::new(target, Rows::new(columns.clone(), &facts)));
+        Background::start(writer, columns).unwrap()
     }
 
     /// Every record of several batches arrives, in order, the last ones too.
@@ -160,7 +146,7 @@ mod tests {
     fn everything_arrives_in_order() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let mut background = Background::start(writer(&path)).unwrap();
+        let mut background = start(&path);
         for k in 0..5000 {
             assert!(background.write(&CycleRecord { k, ..CycleRecord::default() }));
         }
@@ -178,7 +164,7 @@ mod tests {
     fn what_is_dropped_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.csv"), "old").unwrap();
-        let mut background = Background::start(writer(&folder.path().join("a.csv"))).unwrap();
+        let mut background = start(&folder.path().join("a.csv"));
         for k in 0..100_000 {
             background.write(&CycleRecord { k, ..CycleRecord::default() });
         }
@@ -192,7 +178,7 @@ mod tests {
     #[test]
     #[cfg(target_os = "linux")]
     fn an_error_comes_back() {
-        let mut background = Background::start(writer("/dev/full".as_ref())).unwrap();
+        let mut background = start("/dev/full".as_ref());
         let mut k = 0;
         while background.write(&CycleRecord { k, ..CycleRecord::default() }) {
             k += 1;

@@ -1,15 +1,15 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
+use super::batch::{Batch, Head};
 use super::fixed::{push_fixed, push_integer, push_seconds};
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
-use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::{Column, Content};
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-/// Turns records into lines of CSV.
+/// Turns rows into lines of CSV.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows {
     columns: Vec<Column>,
@@ -34,25 +34,31 @@ impl Rows {
         out.push(b'\n');
     }
 
-    /// Appends the line of one record.
-    pub(crate) fn push_row(&self, out: &mut Vec<u8>, record: &CycleRecord) {
+    /// Appends the line of each row.
+    pub(crate) fn push_rows(&self, out: &mut Vec<u8>, batch: &Batch) {
+        batch.rows().for_each(|(head, numbers)| self.push_row(out, head, numbers));
+    }
+
+    fn push_row(&self, out: &mut Vec<u8>, head: &Head, numbers: &[f64]) {
+        let mut numbers = numbers.iter();
         for column in &self.columns {
             match column.content {
-                Content::Axis(i, value) => {
-                    push_fixed(out, record.axes.get(i).map_or(0.0, value), column.decimals);
+                Content::Axis(..) | Content::Path(_) => {
+                    if let Some(value) = numbers.next() {
+                        push_fixed(out, *value, column.decimals);
+                    }
                 }
-                Content::Path(value) => push_fixed(out, value(record), column.decimals),
-                Content::Time => push_seconds(out, record.k.saturating_mul(self.cycle_us)),
-                Content::Line => push_integer(out, u64::from(record.line)),
+                Content::Time => push_seconds(out, head.k.saturating_mul(self.cycle_us)),
+                Content::Line => push_integer(out, u64::from(head.line)),
                 Content::Block => {
-                    if let Some(n) = record.block {
+                    if let Some(n) = head.block {
                         push_integer(out, n);
                     }
                 }
                 Content::File => {
-                    out.extend_from_slice(quoted(&self.files.name(record.file)).as_bytes());
+                    out.extend_from_slice(quoted(&self.files.name(head.file)).as_bytes());
                 }
-                Content::Limit => out.extend_from_slice(record.path.limit.name().as_bytes()),
+                Content::Limit => out.extend_from_slice(head.limit.name().as_bytes()),
             }
             out.push(b',');
         }
@@ -132,7 +138,7 @@ pub(crate) struct CsvWriter {
     buffer: Vec<u8>,
     /// Bytes handed over.
     written: u64,
-    /// Records in the buffer.
+    /// Rows in the buffer.
     waiting: u64,
     /// When lines were handed over last.
     flushed: Instant,
@@ -145,7 +151,7 @@ impl CsvWriter {
     const PIECE: usize = 256 * 1024;
     /// And at least so often: what a kill can lose is not more.
     const PERIOD: Duration = Duration::from_millis(900);
-    /// Records between two looks at the clock.
+    /// Rows between two looks at the clock.
     const LOOK_EVERY: u64 = 16;
 
     /// Starts a trace with its header.
@@ -155,19 +161,23 @@ impl CsvWriter {
         Self { rows, target, buffer, written: 0, waiting: 0, flushed: now(), failed: false }
     }
 
-    /// Adds a record.
+    /// Adds rows.
     ///
     /// # Errors
     /// The system's, e.g. a full disk; what is in the file then ends with a whole line.
-    pub(crate) fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
-        self.rows.push_row(&mut self.buffer, record);
+    pub(crate) fn write(&mut self, batch: &Batch) -> io::Result<()> {
+        batch.rows().try_for_each(|(head, numbers)| self.write_row(head, numbers))
+    }
+
+    fn write_row(&mut self, head: &Head, numbers: &[f64]) -> io::Result<()> {
+        self.rows.push_row(&mut self.buffer, head, numbers);
         self.waiting += 1;
         let late =
             self.waiting.is_multiple_of(Self::LOOK_EVERY) && self.flushed.elapsed() >= Self::PERIOD;
         if self.buffer.len() >= Self::PIECE || late { self.flush() } else { Ok(()) }
     }
 
-    /// Hands every line to the system; a header without a record stays where it is.
+    /// Hands every line to the system; a header without a row stays where it is.
     ///
     /// # Errors
     /// As [`CsvWriter::write`].
@@ -196,7 +206,7 @@ impl CsvWriter {
         result
     }
 
-    /// Brings everything to the file, which has its name then, unless there is no record or lines are missing.
+    /// Brings everything to the file, which has its name then, unless there is no row or lines are missing.
     ///
     /// # Errors
     /// As [`CsvWriter::write`].
@@ -211,7 +221,7 @@ mod tests {
     use super::*;
     use crate::trace::columns;
     use kontur_interpreter::job::AxisFacts;
-    use kontur_interpreter::record::{AxisRecord, PathRecord, SpeedLimit};
+    use kontur_interpreter::record::{AxisRecord, CycleRecord, PathRecord, SpeedLimit};
 
     fn facts(files: &[&str]) -> Facts {
         Facts {
@@ -238,14 +248,20 @@ mod tests {
         }
     }
 
+    fn batch(signals: &str, facts: &Facts, cycles: impl IntoIterator<Item = u64>) -> (Rows, Batch) {
+        let columns = columns::select(signals, facts).unwrap();
+        let mut batch = Batch::default();
+        cycles.into_iter().for_each(|k| batch.push(&columns, &record(k)));
+        (Rows::new(columns, facts), batch)
+    }
+
     #[test]
     fn rows_read_as_plain_csv() {
         let facts = facts(&["a.nc", "sub, \"old\".nc"]);
-        let rows = Rows::new(columns::select("v_mm_s,v_limit,ipo", &facts).unwrap(), &facts);
+        let (rows, batch) = batch("v_mm_s,v_limit,ipo", &facts, [0, 3]);
         let mut out = Vec::new();
         rows.push_header(&mut out);
-        rows.push_row(&mut out, &record(0));
-        rows.push_row(&mut out, &record(3));
+        rows.push_rows(&mut out, &batch);
         assert_eq!(
             String::from_utf8(out).unwrap(),
             "t_s,line,block,file,v_mm_s,v_limit,X_ipo_mm\n\
@@ -257,13 +273,11 @@ mod tests {
     #[test]
     fn long_traces_arrive_complete() {
         let facts = facts(&["a.nc"]);
-        let rows = Rows::new(columns::select(columns::DEFAULT_SIGNALS, &facts).unwrap(), &facts);
+        let (rows, batch) = batch(columns::DEFAULT_SIGNALS, &facts, 0..20_000);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
         let mut writer = CsvWriter::new(Target::File(target::Target::create(&path).unwrap()), rows);
-        for k in 0..20_000 {
-            writer.write(&record(k)).unwrap();
-        }
+        writer.write(&batch).unwrap();
         let before = std::fs::read(&path).unwrap();
         assert!(!before.is_empty() && before.ends_with(b"\n"), "pieces end with a line");
         writer.finish().unwrap();
@@ -276,10 +290,10 @@ mod tests {
     #[cfg(target_os = "linux")]
     fn a_full_disk_is_an_error() {
         let facts = facts(&["a.nc"]);
-        let rows = Rows::new(columns::select("ipo", &facts).unwrap(), &facts);
+        let (rows, batch) = batch("ipo", &facts, [0]);
         let full = target::Target::create("/dev/full".as_ref()).unwrap();
         let mut writer = CsvWriter::new(Target::File(full), rows);
-        writer.write(&record(0)).unwrap();
+        writer.write(&batch).unwrap();
         assert_eq!(writer.flush().unwrap_err().kind(), io::ErrorKind::StorageFull);
     }
 }

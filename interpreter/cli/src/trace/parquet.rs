@@ -8,6 +8,7 @@
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
+use super::batch::{Batch, Head};
 use crate::target::{Target, folder_of};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::writer::ColumnCloseResult;
@@ -20,8 +21,8 @@ use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::{ColumnPath, Type};
 use bytes::Bytes;
 use kontur_interpreter::job::{Facts, FileNames, Totals};
+use kontur_interpreter::record::SpeedLimit;
 use kontur_interpreter::record::columns::{Column, Content};
-use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -34,8 +35,11 @@ const ROWS_PER_GROUP: usize = 65_536;
 /// Bytes that are handed to the system at once.
 const PIECE: usize = 1 << 20;
 
-/// Records whose values are taken together: so many that they are in the nearest memory of the processor for every column.
+/// Rows whose values are taken together: so many that they are in the nearest memory of the processor for every column.
 const TOGETHER: usize = 16;
+
+/// The largest buffer that is kept when it is free, see [`keep_free_memory`]: more than that of any page.
+const KEPT: usize = 16 << 20;
 
 /// The values of one column that wait to be written.
 #[derive(Debug)]
@@ -81,6 +85,7 @@ impl ParquetWriter {
         columns: Vec<Column>,
         facts: &Facts,
     ) -> io::Result<Self> {
+        keep_free_memory();
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY)
@@ -138,49 +143,51 @@ impl ParquetWriter {
         })
     }
 
-    /// Adds records.
+    /// Adds rows.
     ///
     /// # Errors
     /// The system's, e.g. a full disk.
-    pub(crate) fn write(&mut self, mut records: &[CycleRecord]) -> io::Result<()> {
-        while !records.is_empty() {
-            let room = ROWS_PER_GROUP - self.rows;
-            let (now, later) = records.split_at(records.len().min(room));
-            now.chunks(TOGETHER).for_each(|records| self.gather(records));
-            if self.rows == ROWS_PER_GROUP {
+    pub(crate) fn write(&mut self, batch: &Batch) -> io::Result<()> {
+        for (heads, numbers) in batch.stretches(TOGETHER) {
+            self.gather(heads, numbers);
+            if self.rows >= ROWS_PER_GROUP {
                 self.write_group().map_err(|e| self.kept(e))?;
             }
-            records = later;
         }
         Ok(())
     }
 
-    /// Takes the values of records, column by column: the kind of a column is determined once for all records.
-    fn gather(&mut self, records: &[CycleRecord]) {
+    /// Takes the values of rows, column by column: the kind of a column is determined once for all of them.
+    fn gather(&mut self, heads: &[Head], numbers: &[f64]) {
         let Self { cycle_us, files, limits, .. } = self;
+        let width = numbers.len() / heads.len();
+        let mut nth = 0..width;
         for (column, values) in &mut self.columns {
             match (values, column.content) {
                 (Values::Number(v), Content::Time) => {
-                    let time = |r: &CycleRecord| r.k.saturating_mul(*cycle_us) as f64 / 1e6;
-                    v.extend(records.iter().map(time));
+                    let time = |head: &Head| head.k.saturating_mul(*cycle_us) as f64 / 1e6;
+                    v.extend(heads.iter().map(time));
                 }
-                (Values::Number(v), _) => column.extend_numbers(records, v),
-                (Values::Integer(v), _) => v.extend(records.iter().map(|r| i64::from(r.line))),
+                (Values::Number(v), _) => {
+                    let first = nth.next().unwrap_or_default();
+                    v.extend(numbers.iter().skip(first).step_by(width));
+                }
+                (Values::Integer(v), _) => v.extend(heads.iter().map(|h| i64::from(h.line))),
                 (Values::Optional(v, present), _) => {
-                    let block = |r: &CycleRecord| r.block.and_then(|n| i64::try_from(n).ok());
-                    present.extend(records.iter().map(|r| i16::from(block(r).is_some())));
-                    v.extend(records.iter().filter_map(block));
+                    let block = |head: &Head| head.block.and_then(|n| i64::try_from(n).ok());
+                    present.extend(heads.iter().map(|head| i16::from(block(head).is_some())));
+                    v.extend(heads.iter().filter_map(block));
                 }
                 (Values::Word(v), Content::File) => {
-                    v.extend(records.iter().map(|r| ByteArray::from(files.name(r.file).as_str())));
+                    v.extend(heads.iter().map(|h| ByteArray::from(files.name(h.file).as_str())));
                 }
-                (Values::Word(v), _) => v.extend(records.iter().map(|r| {
-                    let found = limits.iter().find(|l| l.0 == r.path.limit);
+                (Values::Word(v), _) => v.extend(heads.iter().map(|head| {
+                    let found = limits.iter().find(|l| l.0 == head.limit);
                     found.map(|l| l.1.clone()).unwrap_or_default()
                 })),
             }
         }
-        self.rows += records.len();
+        self.rows += heads.len();
     }
 
     /// Writes the waiting rows to a separate file.
@@ -275,6 +282,13 @@ impl ParquetWriter {
         writer.close().map_err(to_io)?;
         self.target.show()
     }
+}
+
+/// Has the memory of a page kept for the next one. Every page takes several buffers of half a megabyte; the C library of GNU gives
+/// such memory back to the system at once, which clears it before each use, until a larger buffer has been freed. Elsewhere
+/// this is a buffer that is never used.
+fn keep_free_memory() {
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
 }
 
 /// A word that costs nothing to clone: no count of its users is kept.

@@ -3,8 +3,7 @@ use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::RowAccessor;
 use kontur_interpreter::job::AxisFacts;
 use kontur_interpreter::record::columns;
-use kontur_interpreter::record::{AxisRecord, PathRecord};
-use std::slice;
+use kontur_interpreter::record::{AxisRecord, CycleRecord, PathRecord};
 
 /// Rows written before an error stay at the location that the error names.
 #[test]
@@ -14,15 +13,16 @@ fn parts_outlive_an_error() {
     let path = folder.path().join("a.parquet");
     let columns = columns::select("time", &facts).unwrap();
     let target = Target::create(&path).unwrap();
+    let mut row = Batch::default();
+    row.push(&columns, &CycleRecord::default());
     let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
-    let record = CycleRecord::default();
     for _ in 0..ROWS_PER_GROUP {
-        writer.write(slice::from_ref(&record)).unwrap();
+        writer.write(&row).unwrap();
     }
     let part = writer.parts[0].clone();
     // no file can be created where a folder is
     std::fs::create_dir(part.with_file_name(".000002.part")).unwrap();
-    let mut more = (0..ROWS_PER_GROUP).map(|_| writer.write(slice::from_ref(&record)));
+    let mut more = (0..ROWS_PER_GROUP).map(|_| writer.write(&row));
     let error = more.find_map(Result::err).unwrap();
     drop(writer);
     let said = error.to_string();
@@ -47,7 +47,7 @@ fn reads_back_bit_by_bit() {
     let path = folder.path().join("a.parquet");
     let columns = columns::select("v_limit,ipo", &facts).unwrap();
     let target = Target::create(&path).unwrap();
-    let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
+    let mut writer = ParquetWriter::new(&path, target, columns.clone(), &facts).unwrap();
     let rows = 2 * ROWS_PER_GROUP as u64 + 5;
     let record = |k: u64| CycleRecord {
         k,
@@ -60,7 +60,8 @@ fn reads_back_bit_by_bit() {
     };
     // batches that do not end where groups do
     for first in (0..rows).step_by(700) {
-        let batch: Vec<_> = (first..rows.min(first + 700)).map(record).collect();
+        let mut batch = Batch::default();
+        (first..rows.min(first + 700)).for_each(|k| batch.push(&columns, &record(k)));
         writer.write(&batch).unwrap();
     }
     let totals = Totals { filter_delay_cycles: vec![12.5], ..Totals::default() };

@@ -1,0 +1,68 @@
+//! The nearest line of a set path, by looking at every one of them.
+
+use super::*;
+use proptest::prelude::*;
+
+/// The shortest vector from a point to the line between two others.
+fn aside(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    let way = [0, 1].map(|i| to[i] - from[i]);
+    let off = [0, 1].map(|i| point[i] - from[i]);
+    let square = way[0] * way[0] + way[1] * way[1];
+    let share = if square > 0.0 { (way[0] * off[0] + way[1] * off[1]) / square } else { 0.0 };
+    [0, 1].map(|i| share.clamp(0.0, 1.0) * way[i] - off[i])
+}
+
+fn length(v: &[f64; 2]) -> f64 {
+    libm::hypot(v[0], v[1])
+}
+
+proptest! {
+    /// The nearest line is found, and where whatever could be called the nearest one counts, all of those.
+    #[test]
+    fn no_line_of_the_set_path_is_nearer(
+        steps in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 3..40),
+        point in prop::array::uniform2(-3.0..3.0f64),
+        (ahead, rests) in (0.0..0.5f64, prop::bool::ANY),
+        (skip, more) in (0_u64..4, 0_u64..4),
+    ) {
+        let (mut at, mut points) = ([0.0; 2], vec![[0.0; 2]]);
+        for (step, i) in steps.iter().zip(0..) {
+            // a path that comes from somewhere, with cycles in which it rests
+            let scale = if rests && i % 5 > 2 { 0.0 } else { 0.3 };
+            at = [at[0] + scale * (step[0] + ahead), at[1] + scale * step[1]];
+            points.push(at);
+        }
+        let mut set = SetPath::starting(7, 2);
+        points.iter().for_each(|p| set.push(p));
+        let (first, last) = (7 + skip, 7 + steps.len() as u64 + more);
+        let lines: Vec<_> = points.windows(2).map(|p| aside(point, p[0], p[1])).collect();
+        let lines = &lines[skip.min(lines.len() as u64) as usize..];
+        for wary_mm in [0.0, f64::INFINITY] {
+            let mut out = Excursion::none(2);
+            let found = set.misses(&point, (first, last), wary_mm, &mut out);
+            let least = lines.iter().map(length).fold(f64::INFINITY, f64::min);
+            let Some((k, vector)) = found else {
+                prop_assert!(lines.is_empty());
+                continue;
+            };
+            let nearest = [vector[0], vector[1]];
+            prop_assert!((length(&nearest) - least).abs() < 1e-12, "{nearest:?} {least}");
+            let of_it = lines[(k - 1 - first) as usize];
+            prop_assert!((length(&of_it) - least).abs() < 1e-12, "{k}");
+            if wary_mm > 0.0 {
+                prop_assert_eq!(&*out.vector, &nearest[..]);
+                continue;
+            }
+            // those that are as near as the rule says, less and more than rounding
+            let within = |share: f64| {
+                let near = lines.iter().filter(move |v| length(v) <= (1.0 + share) * least);
+                [0, 1].map(|i| near.clone().fold(0.0, |m: f64, v| m.max(v[i].abs())))
+            };
+            let (few, many) = (within(ALIKE - 1e-9), within(ALIKE + 1e-9));
+            for i in 0..2 {
+                let out = out.vector[i].abs();
+                prop_assert!(out >= few[i] - 1e-12 && out <= many[i] + 1e-12, "{out} {few:?}");
+            }
+        }
+    }
+}
