@@ -174,21 +174,26 @@ impl Queued {
 
     /// The block in parts of similar bend, where the speed that a bend allows makes that worth it; one part otherwise.
     pub(crate) fn parts(self: &Arc<Self>, speed: impl Fn(f64) -> f64) -> Vec<Arc<Self>> {
-        // neighbours stay together as long as their common speed costs little
+        // neighbours stay together as long as their common speed costs little; each with the time of its stretches at their own
+        // speeds, so that a bend that grows step by step does not become one group
         let mut groups: Vec<(f64, f64, f64)> = Vec::new();
+        let mut least_s: Vec<f64> = Vec::new();
         let mut from = 0.0;
         for (end, bend) in self.bends() {
             let mut group = (from, end, bend);
-            while let Some(&(start, until, before)) = groups.last() {
+            let mut apart = (end - from) / speed(bend);
+            while let (Some(&(start, _, before)), Some(&least)) = (groups.last(), least_s.last()) {
                 let bend = before.max(group.2);
-                let apart = (until - start) / speed(before) + (group.1 - group.0) / speed(group.2);
-                if (group.1 - start) / speed(bend) > (1.0 + WORTH) * apart {
+                if (group.1 - start) / speed(bend) > (1.0 + WORTH) * (least + apart) {
                     break;
                 }
                 group = (start, group.1, bend);
+                apart += least;
                 groups.pop();
+                least_s.pop();
             }
             groups.push(group);
+            least_s.push(apart);
             from = end;
         }
         let last = groups.len().saturating_sub(1);

@@ -92,6 +92,7 @@ mod harvest;
 mod kernels;
 mod leaves;
 mod measure;
+mod pace;
 mod search;
 mod set_points;
 mod tighten;
