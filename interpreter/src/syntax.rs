@@ -61,9 +61,10 @@ use grammar::{Grammar, Rule};
 
 /// `#` words that may appear among DIN words, without `#SUPPRESS OFFSETS`.
 ///
-/// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #ACHSE) and diagnosis, 20207.
-const HASH_WORDS: &[&str] =
-    &["FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "AKIMA", "PSET", "PRESET", "ADD"];
+/// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #SCALE, #ACHSE) and diagnosis, 20207.
+const HASH_WORDS: &[&str] = &[
+    "FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "AKIMA", "PSET", "PRESET", "SCALE", "ADD",
+];
 
 /// Diagnostics per block; what follows is most likely noise.
 const PROBLEMS_MAX: usize = 10;

@@ -45,3 +45,22 @@ fn a_motion_waits_for_its_spindle() {
     let waited = first_moved(&["channel.spindel[0].m3_synch=MVS_SVS"]);
     assert!((waited - 1000.0).abs() < 1e-6, "{waited}");
 }
+
+/// Programmable override (208269707): it scales the speed of its spindle alone, at once, for M3 and M4, until it is changed.
+#[test]
+fn an_override_acts_on_its_spindle_alone() {
+    let run = run_on(
+        sample_machine("two_spindles", &[]),
+        "S[M3 REV500] S2[M3 REV200]\nG04 1\nS[OVERRIDE SPEED_FACT=20]\nG04 1\nS[REV400 M4]\nG04 1\n\
+         S[OVERRIDE SPEED_FACT=100]\nG04 1\nM5\nS2[M5]\nG04 1\nM30\n",
+    );
+    assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
+    for (line, speeds) in
+        [(2, [500.0, 200.0]), (4, [100.0, 200.0]), (6, [-80.0, 200.0]), (8, [-400.0, 200.0])]
+    {
+        for (spindle, want) in speeds.into_iter().enumerate() {
+            let is = rpm(&run, spindle, line);
+            assert!((is - want).abs() < 1e-6, "line {line}, spindle {spindle}: {is}, not {want}");
+        }
+    }
+}

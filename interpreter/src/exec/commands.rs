@@ -118,7 +118,6 @@ const ROWS: &[Row] = &[
     run("CS DEF", frames::define_system).several(),
     frames::MCS,
     run("FGROUP", axes::feed_group),
-    off_only("SCALE"),
     off_only("ACS"),
     off_only("BCS"),
     off_only("ECS"),

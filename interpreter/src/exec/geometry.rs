@@ -8,11 +8,13 @@ pub(super) mod coordinates;
 pub(super) mod frame;
 pub(super) mod modulo;
 pub(super) mod planar;
+pub(super) mod scale;
 pub(super) mod tools;
 
 use crate::machine::{Axis, Machine};
 use coordinates::Coordinates;
 use kontur_motion::axis::AxisVec;
+use scale::Scale;
 use tools::Tools;
 
 /// The last arc, for system variables.
@@ -31,6 +33,8 @@ pub(super) struct LastArc {
 #[derive(Debug)]
 pub(super) struct Geometry {
     pub(super) coordinates: Coordinates,
+    /// Factors of `#SCALE`.
+    pub(super) scale: Scale,
     /// Software limits of the axes (G98, G99), `None` for an axis without.
     pub(super) limits_mm: Vec<Option<(f64, f64)>>,
     pub(super) last_arc: LastArc,
@@ -58,6 +62,7 @@ impl Geometry {
         );
         Self {
             coordinates,
+            scale: Scale::new(machine.axes.len()),
             limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
             last_arc: LastArc::default(),
             last_system: 1,

@@ -15,6 +15,7 @@ mod measuring;
 mod oscillation;
 pub(super) mod overrides;
 mod plane;
+mod scaling;
 mod set_position;
 mod space;
 pub(super) mod spindles;
@@ -65,6 +66,10 @@ impl Decoder {
             self.stop_without_motion(words);
             let outcome = self.dwell(g, words);
             self.report.keep(outcome);
+            return;
+        }
+        let fits = self.scaling_fits(words, span);
+        if self.report.keep(fits).is_none() {
             return;
         }
         if let Some(g) = words.group(Group::Measuring).filter(|g| g.row.act == Act::Measure) {
@@ -173,6 +178,7 @@ impl Decoder {
             let text = "an arc after G40 with G239: its start is not where it was programmed";
             return Err(Fault::new(Condition::CompensationInArc, text, span));
         }
+        self.join_named(words);
         let before = self.geometry.coordinates.programmed_point();
         let start = self.program_targets(words)?;
         let path = if self.modal.path == PathMode::ArcInSpace {

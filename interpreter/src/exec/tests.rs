@@ -19,7 +19,9 @@ mod positions;
 mod radius_change;
 mod random;
 mod returns;
+mod scaling;
 mod shaping;
+mod spindle_data;
 mod straight;
 mod tangential;
 

@@ -305,6 +305,7 @@ impl Chain<'_> {
         plausible::check_synchronisation(&settled.channel, diagnostics);
         inert::check(&settled.start_up, None, diagnostics);
         inert::check(&settled.channel, None, diagnostics);
+        inert::check(&settled.tools, None, diagnostics);
         for axis in &mut settled.axes {
             let number = logical_number(&axis.parameters);
             let name = names.name(number).unwrap_or_default().to_owned();

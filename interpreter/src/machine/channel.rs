@@ -116,6 +116,14 @@ pub struct Channel {
     pub cycle_changes_stay: bool,
     /// There are no chamfers and roundings (P-CHAN-00273).
     pub no_chamfers: bool,
+    /// I, J and K of arcs hold until the next ones (P-CHAN-00159).
+    pub modal_centres: bool,
+    /// Edge banding leaves out the rest of the block after its M function (P-CHAN-00149).
+    pub banding_rejects_rest: bool,
+    /// The path waits for independent axes that a block names, not only for those that it moves (P-CHAN-00451).
+    pub joins_named: bool,
+    /// Reading a `@P` parameter that was not passed creates it (P-CHAN-00463).
+    pub creates_cycle_parameters: bool,
     /// Offsets of axes that are no main axes belong to their coordinate system (P-CHAN-00397).
     pub offsets_in_systems: bool,
     /// The offsets of a tool move with its D word (P-CHAN-00100).
@@ -263,6 +271,10 @@ impl Channel {
             shortest_way: p.get(of::SHORTEST_WAY),
             cycle_changes_stay: p.get(of::CYCLE_CHANGES_STAY),
             no_chamfers: p.get(of::NO_CHAMFERS),
+            modal_centres: p.get(of::MODAL_CENTRES),
+            banding_rejects_rest: p.get(of::BANDING_REJECTS_REST),
+            joins_named: choice(of::JOINS_NAMED) == 1,
+            creates_cycle_parameters: p.get(of::CREATES_PARAMETERS),
             offsets_in_systems: p.get(of::OFFSETS_IN_SYSTEMS),
             tool_offsets_at_once: p.get(of::TOOL_OFFSETS_AT_ONCE),
             limits_bounded: p.get(of::LIMITS_BOUNDED),

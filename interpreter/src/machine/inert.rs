@@ -9,7 +9,7 @@ use crate::diag::{AxisRef, Condition, Diagnostic};
 
 /// ID, and what happens in its place.
 ///
-/// Source: TF5200 axis, channel and start-up parameters, axis compensation, friction compensation.
+/// Source: TF5200 axis, channel, start-up and tool parameters, axis compensation, friction compensation.
 const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00021", "a reversal moves the drive by no backlash (P-AXIS-00103)"),
     ("P-AXIS-00047", "no cross compensation is added to the set position"),
@@ -31,10 +31,16 @@ const INERT: &[(&str, &str)] = &[
         "P-STUP-00018",
         "programs and subroutines are looked for next to the main program and in the folders of --path",
     ),
+    ("P-CHAN-00016", "D takes the data of the tool list"),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
     ("P-CHAN-00190", "the limits do not depend on the length of a motion"),
     ("P-CHAN-00230", "the limits do not depend on the radius of an arc"),
     ("P-CHAN-00259", "contouring rounds arcs as with 0"),
+    ("P-CHAN-00261", "there is one path"),
+    (
+        "P-TOOL-00012",
+        "the limits of a spindle are those of its axis list, whatever tool it carries",
+    ),
 ];
 
 /// K-0075 for every such parameter that a list changes.

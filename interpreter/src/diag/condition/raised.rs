@@ -166,6 +166,7 @@ conditions! {
     OpenControlAtEnd = Vendor 20375: Warning None 1 1, "open control blocks at program end", cause "$IF true, no $ENDIF", hint "write the closing statement before the end of the program";
     BracketNesting = Vendor 20386: Error ProgramAbort 3 1, "brackets of an expression nested too deeply", hint "a parameter can hold a part of a long expression";
     FunctionBracket = Vendor 20387: Error ProgramAbort 3 1, "function without an opening bracket", cause "P2=SIN45]", hint "the argument of a function goes in brackets: SIN[45]";
+    CycleParameterMissing = Vendor 20394: Error ProgramAbort 3 1, "cycle parameter that was not passed", cause "@P2 in a cycle that is called without it", hint "L CYCLE [NAME=.. @P2=10] passes it", parameter "P-CHAN-00463";
     DivisionByZero = Vendor 20396: Error ProgramAbort 3 1, "division by zero in expression", hint "test the divisor with $IF before; SIN, COS and TAN are exactly 0 at multiples of 90 and 180 degrees";
     Logarithm = Vendor 20399: Error ProgramAbort 3 1, "logarithm of a value ≤ 0", hint "logarithms exist for values above 0";
     ParameterNumber = Vendor 20400: Error ProgramAbort 3 1, "number of a P parameter is 0, negative or too large", cause "P0=10", hint "P parameters have numbers from 1 on";
@@ -319,6 +320,7 @@ conditions! {
     WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
+    SpindleOverrideKeyTwice = Vendor 21422: Error ProgramAbort 3 1, "keyword twice in S[OVERRIDE ..]", hint "leave one of the two out";
     MixedTypes = Vendor 21457: Error ProgramAbort 3 1, "a text and a number in one operation", cause "\"Peter\" + 23", hint "INT_TO_STR[23] makes a text of a number";
     TextOperator = Vendor 21458: Error ProgramAbort 3 1, "operator not defined for texts", hint "texts are joined by + and compared by == and !=";
     TextExpected = Vendor 21460: Error ProgramAbort 3 1, "a text is expected", cause "a number written to a STRING", hint "INT_TO_STR and REAL_TO_STR make texts of numbers";
@@ -355,7 +357,7 @@ conditions! {
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
     NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is no array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
-    SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, G135, G136=, G137 belong in a spindle bracket";
+    SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
     PositiveLimitTooLow = Vendor 21878: Error ProgramAbort 3 1, "positive software limit not above the negative one", cause "G99 X-600 with the negative limit -500", hint "lower the negative limit first, with G98";
     ContourLineParallel = Vendor 21892: Error ProgramAbort 3 1, "equal or opposite angles of two contour lines", cause "#ANG=60, then #ANG=60 X30 Y40", hint "the second line needs another angle";
     ContourLineTwice = Vendor 21895: Error ProgramAbort 3 1, "angle of a contour line with two coordinates", cause "#ANG=45 X20 Y25", hint "leave one of the two coordinates out";

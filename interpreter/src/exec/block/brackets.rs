@@ -4,6 +4,8 @@
 
 mod spindle;
 
+pub(in crate::exec) use spindle::SPINDLE_OVERRIDE;
+
 use super::collected::Words;
 use crate::diag::Condition;
 use crate::exec::commands::keys::arguments;
@@ -12,7 +14,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
-use crate::syntax::ast::{Bracket, Group, Item, ItemKind, Span};
+use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 
 /// Words that belong to the functions of an axis and cannot come before them (21301).
 const OF_FUNCTIONS: &[&str] = &[
@@ -75,8 +77,9 @@ impl Decoder {
             && !functions.is_empty()
         {
             once(&functions, bracket, words)?;
-            for (function, _) in functions {
-                self.call_function(function);
+            for ((function, _), item) in functions.into_iter().zip(&group.items) {
+                let value = self.value_of_function(item)?;
+                self.call_function(function, value);
             }
             return Ok(());
         }
@@ -151,12 +154,22 @@ impl Decoder {
         Ok(())
     }
 
+    /// The value of `M54=567`.
+    ///
+    /// Source: TF5200 programming manual, M and H functions with additional information (15556839051).
+    fn value_of_function(&self, item: &Item) -> Outcome<Option<f64>> {
+        match &item.kind {
+            ItemKind::Pair { value: ItemValue::Expr(expr), .. } => self.number(expr).map(Some),
+            _ => Ok(None),
+        }
+    }
+
     /// An M or H function of an axis or spindle: for the log, and for the time it takes.
-    fn call_function(&mut self, function: Function) {
+    fn call_function(&mut self, function: Function, value: Option<f64>) {
         self.takes_time(function);
         match function {
-            Function::M(number) => self.contour.event(Event::MFunction { number, value: None }),
-            Function::H(number) => self.contour.event(Event::HFunction { number, value: None }),
+            Function::M(number) => self.contour.event(Event::MFunction { number, value }),
+            Function::H(number) => self.contour.event(Event::HFunction { number, value }),
             Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => {}
         }
     }
@@ -164,7 +177,11 @@ impl Decoder {
 
 /// The user's M or H function that an item names: not those that end programs or turn spindles.
 fn function(item: &Item) -> Option<(Function, Span)> {
-    let ItemKind::Flag(word) = &item.kind else { return None };
+    let (ItemKind::Flag(word) | ItemKind::Pair { key: word, value: ItemValue::Expr(_) }) =
+        &item.kind
+    else {
+        return None;
+    };
     let digits = word.text.get(1..).filter(|d| d.bytes().all(|b| b.is_ascii_digit()))?;
     let number: u32 = digits.parse().ok().filter(|n| *n <= 65535)?;
     let function = match word.text.as_bytes().first()? {

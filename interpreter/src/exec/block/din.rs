@@ -4,6 +4,7 @@
 //! Assumption: this order; the vendor documents only that the order of words in the block counts for nothing.
 
 mod functions;
+mod insertions;
 mod offsets;
 
 use super::collected::{CycleCall, GWord, Placed, Words};
@@ -11,12 +12,11 @@ use super::groups::{Act, Group};
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane};
 use super::modes::weight_ratio;
 use crate::diag::{Condition, ValueKind};
-use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::values::number::LARGEST_MM;
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
+use insertions::inserts_behind;
 
 /// What follows a block.
 #[derive(Debug)]
@@ -31,14 +31,6 @@ pub(in crate::exec) enum After<'b> {
     Return(Option<(&'b Return, Span)>),
     /// M02, M30.
     End,
-}
-
-/// `#CHR`, `#CHF` and `#RND` in a motion belong to the corner at its end; as blocks of their own they lie between two motions anyway.
-///
-/// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
-fn inserts_behind(words: &Words<'_>) -> bool {
-    let of_corner = |name: &str| matches!(name, "CHR" | "CHF" | "RND");
-    !words.axes.is_empty() && words.hashes.iter().any(|(hash, _, _)| of_corner(&hash.name))
 }
 
 impl Decoder {
@@ -62,7 +54,9 @@ impl Decoder {
         if let Some(before) = tool_before {
             self.tool_moves(&before, &mut words, takes_axes);
         }
-        let preset = self.position_presets(&words) || self.spline_vectors(&words);
+        let preset = self.scaling_words(&words)
+            || self.position_presets(&words)
+            || self.spline_vectors(&words);
         self.motion.feed_before = self.modal.feed();
         self.feeds_and_modes(&words, takes_axes);
         // after G04 the S word is a number of revolutions, after G74 an order
@@ -277,6 +271,7 @@ impl Decoder {
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.modal.unit_mm();
                 self.modal.radius_mm = Some(radius);
+                self.modal.centre_mm = [None; 3];
             }
             Act::Ignored(why) => {
                 let text = format!("G{:02} has no effect: {why}", g.row.number);
@@ -294,102 +289,6 @@ impl Decoder {
             _ => {}
         }
         Ok(())
-    }
-
-    /// P-CHAN-00273 = 1: what it leaves out is an error (256603531, 255785355).
-    fn insertions_are_on(&self, words: &Words<'_>) -> Outcome<()> {
-        if !self.machine.channel.no_chamfers {
-            return Ok(());
-        }
-        let text = "chamfers and roundings are switched off (P-CHAN-00273)";
-        if let Some(g) = words.group(Group::Insertion) {
-            return Err(Fault::new(Condition::InsertionsOff, text, g.span));
-        }
-        let names = ["ANG", "CHR", "CHF", "RND"];
-        match words.hashes.iter().find(|(hash, _, _)| names.contains(&&*hash.name)) {
-            Some((_, _, span)) => Err(Fault::new(Condition::ContourLinesOff, text, *span)),
-            None => Ok(()),
-        }
-    }
-
-    fn insertions(&mut self, words: &Words<'_>) {
-        if self.report.keep(self.insertions_are_on(words)).is_none() {
-            return;
-        }
-        let mut request = None;
-        for g in &words.g {
-            let kind = match g.row.act {
-                Act::Chamfer => Kind::Chamfer,
-                Act::Rounding => Kind::Rounding,
-                _ => continue,
-            };
-            let written = words.centre[0].map(|(i, span)| (i * self.modal.unit_mm(), span));
-            if let Some((size, _)) = written {
-                self.modal.insertion_mm = Some(size);
-            }
-            match self.modal.insertion_mm {
-                Some(size) if size > LARGEST_MM => {
-                    let text = format!("G{}: {size} mm is outside the data format", g.row.number);
-                    self.report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
-                }
-                Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
-                _ => {
-                    let text = format!("G{} without a size (I)", g.row.number);
-                    self.report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
-                }
-            }
-        }
-        let mut feed = None;
-        for (hash, value, span) in &words.hashes {
-            let kind = match &*hash.name {
-                "FRC" => {
-                    feed = value.filter(|v| *v > 0.0).map(|v| (v, *span));
-                    if feed.is_none() {
-                        let text = "#FRC needs a feed above 0";
-                        self.report.note(Fault::new(Condition::Range, text, *span));
-                    }
-                    continue;
-                }
-                "PSET"
-                | "PRESET"
-                | "SUPPRESS OFFSETS"
-                | "ANG"
-                | "CANG"
-                | "AKIMA STARTVECTOR"
-                | "AKIMA ENDVECTOR"
-                | "SET ASPLINE STARTTANG"
-                | "SET ASPLINE ZIELTANG" => continue,
-                // G200 to G202 are refused
-                "ACHSE" if words.group(Group::Manual).is_some() => continue,
-                "ACHSE" => {
-                    let text = "#ACHSE without G200, G201 or G202";
-                    self.report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
-                    continue;
-                }
-                "CHR" => Kind::Chamfer,
-                "CHF" => Kind::ChamferLength,
-                "RND" => Kind::Rounding,
-                other => {
-                    self.report.note(Fault::unsupported(format!("#{other}"), *span));
-                    continue;
-                }
-            };
-            match value.map(|v| v * self.modal.unit_mm()) {
-                Some(size) if size > 0.0 => request = Some((kind, size, *span)),
-                _ => {
-                    let text = format!("#{} without a size", hash.name);
-                    self.report.note(Fault::new(Condition::Range, text, *span));
-                }
-            }
-        }
-        if let Some((kind, size, at)) = request {
-            let feed = feed.map(|(value, at)| self.feed_from(value, self.modal.unit_mm(), at));
-            let feed = feed.and_then(|feed| self.report.keep(feed));
-            self.insert(kind, size, feed, at);
-        } else if let Some((_, at)) = feed {
-            let text = "#FRC without chamfer or rounding has no effect";
-            self.report.note(Fault::new(Condition::Odd, text, at).warning());
-        }
     }
 
     /// K-0120 for a block that only a 3D printer understands: G92 with the way of an extruder.

@@ -158,6 +158,8 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) centre_correction: bool,
     /// R of the last arc that had one, in mm.
     pub(in crate::exec) radius_mm: Option<f64>,
+    /// I, J and K of the last arcs that had them in their planes, in mm, while they hold (P-CHAN-00159).
+    pub(in crate::exec) centre_mm: [Option<f64>; 3],
     pub(in crate::exec) slope: Slope,
     /// Selective weights act (P-CHAN-00001, P-CHAN-00073): from the start of a program on, and with the slope in its older form. With
     /// `#SLOPE` the weights act on everything.
@@ -209,6 +211,7 @@ impl Modal {
             centre_absolute: false,
             centre_correction: true,
             radius_mm: None,
+            centre_mm: [None; 3],
             slope: Slope { kind: slope, optimised: false, constant_ramp_time },
             old_slope: true,
             look_ahead: LookAhead::Complete,

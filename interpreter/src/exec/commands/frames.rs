@@ -4,6 +4,7 @@
 //! 20875, 21556.
 
 use super::keys::arguments;
+use super::misc::may_flush;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::modal::Compensation;
@@ -168,6 +169,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
         }
         return Err(call.unexpected(word));
     }
+    may_flush(decoder, call)?;
     let command = call.command;
     match (command.on, &command.tail[..], &command.groups[..]) {
         (Some(false), [], []) => {
@@ -324,6 +326,9 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     if call.name == "KIN ID" && decoder.geometry.transformation_on {
         let text = "#KIN ID under an active kinematic transformation";
         return Err(Fault::new(Condition::KinematicsWhileActive, text, call.span()));
+    }
+    if call.name == "TRAFO" {
+        may_flush(decoder, call)?;
     }
     if ["TRAFO", "RTCP"].contains(&call.name) {
         decoder.geometry.transformation_on = call.command.on != Some(false);

@@ -3,6 +3,7 @@
 
 use super::range::Range;
 use crate::diag::Condition;
+use crate::exec::block::brackets::SPINDLE_OVERRIDE;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
@@ -212,6 +213,7 @@ impl Found {
 fn key_twice(title: &str) -> Condition {
     match title {
         "#OVERRIDE" => Condition::OverrideKeyTwice,
+        SPINDLE_OVERRIDE => Condition::SpindleOverrideKeyTwice,
         _ => Condition::DuplicateKey,
     }
 }

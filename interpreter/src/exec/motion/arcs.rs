@@ -37,7 +37,10 @@ impl Decoder {
         let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
         let (s, e) = (in_plane(&start), in_plane(&end));
         let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
-        let centre_words = [words.centre[main[0]], words.centre[main[1]]];
+        let scale = self.scale_of_plane([main[0], main[1]], span)?;
+        let centre_words = self
+            .centre_words(words, [main[0], main[1]], span)
+            .map(|word| word.map(|(value, at)| (value * scale, at)));
         let has_centre = centre_words.iter().any(Option::is_some);
         if let Some((radius, at)) = words.radius {
             if has_centre {
@@ -51,7 +54,7 @@ impl Decoder {
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         } else if let Some(radius) = self.modal.radius_mm {
-            arc::by_radius(s, e, radius, ccw)
+            arc::by_radius(s, e, radius * scale, ccw)
         } else {
             // radius programming is expected where no centre is given: no arc that the centre's correction would find
             let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
@@ -79,8 +82,8 @@ impl Decoder {
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             } else {
-                arc.sweep_rad =
-                    arc::with_turns(arc.sweep_rad, height, pitch * self.modal.unit_mm());
+                let pitch_mm = pitch * self.modal.unit_mm() * self.scale_of_main(main[2]);
+                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
             }
         }
         self.geometry.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
@@ -176,6 +179,35 @@ impl Decoder {
             Target { axis: y, value: end[1], absolute: true },
         ];
         Ok(())
+    }
+
+    /// I, J and K of a block in the plane of its arc; with P-CHAN-00159 = 1 those that it leaves out are the last ones.
+    ///
+    /// Assumption: a centre and a radius that both hold take the place of each other, the later one counts.
+    fn centre_words(
+        &mut self,
+        words: &Words<'_>,
+        plane: [usize; 2],
+        span: Span,
+    ) -> [Option<Placed>; 2] {
+        let written = plane.map(|main| words.centre[main]);
+        if !self.machine.channel.modal_centres {
+            return written;
+        }
+        let unit = self.modal.unit_mm();
+        if words.radius.is_some() {
+            self.modal.centre_mm = [None; 3];
+            return written;
+        }
+        for (main, word) in plane.into_iter().zip(written) {
+            if let Some((value, _)) = word {
+                self.modal.centre_mm[main] = Some(value * unit);
+                self.modal.radius_mm = None;
+            }
+        }
+        plane.map(|main| {
+            words.centre[main].or(self.modal.centre_mm[main].map(|value| (value / unit, span)))
+        })
     }
 
     /// Centre in the coordinates of the axes, or of the program if the plane lies askew to them.

@@ -35,6 +35,12 @@ impl Decoder {
                 g.span,
             ));
         }
+        if on && self.machine.channel.banding_rejects_rest {
+            return Err(Fault::unsupported(
+                "edge banding that leaves out the rest of its block (P-CHAN-00149)",
+                g.span,
+            ));
+        }
         if std::mem::replace(&mut self.motion.measuring.banding, on) && !on {
             self.report.note(unused(g.span));
         }

@@ -83,6 +83,7 @@ impl Decoder {
             return Err(Fault::new(condition, text, at));
         }
         let axis = self.face_turning_axis(at)?;
+        self.no_spindle_override("G96", at)?;
         let listed = self.motion.spindles[0].index.and_then(|i| self.machine.spindles.get(i));
         let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else {
             return Err(Fault::unsupported("G96 without a spindle in the machine", at));
@@ -155,11 +156,12 @@ impl Decoder {
         Ok(())
     }
 
-    /// What a coordinate word of an axis counts in mm: its unit, half of it for diameters.
+    /// What a coordinate word of an axis counts in mm: its unit, half of it for diameters, times its factor (`#SCALE`).
     pub(in crate::exec) fn coordinate_unit(&self, axis: usize, absolute: bool) -> f64 {
         let halves =
             self.modal.diameter == Some(axis) && self.machine.axes[axis].takes_diameters(absolute);
-        self.axis_unit(axis) * if halves { 0.5 } else { 1.0 }
+        let unit = self.axis_unit(axis) * if halves { 0.5 } else { 1.0 };
+        unit * self.geometry.scale.factor(axis)
     }
 
     fn face_turning_axis(&self, span: Span) -> Outcome<usize> {
@@ -194,6 +196,16 @@ impl Decoder {
         if changes || (self.geometry.coordinates.turning_centre(axis) - known).abs() > 1e-9 {
             self.tell_cutting_speed();
         }
+    }
+
+    /// Refuses what counts with the speed of the main spindle while an override changes it: the pages are silent about
+    /// which of the two speeds counts.
+    pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
+        if self.motion.spindles[0].is_overridden() {
+            let what = format!("{what} with an override of the main spindle (S[OVERRIDE ..])");
+            return Err(Fault::unsupported(what, span).hint("S[OVERRIDE SPEED_FACT=100] ends it"));
+        }
+        Ok(())
     }
 
     /// Speed of the main spindle in rev/min after the present position.

@@ -25,11 +25,12 @@ impl Decoder {
         } else if let Some((_, value, span)) = of_axis {
             (*value, *span)
         } else if let Some((spindle, turns, span)) = revolutions {
-            let rpm = self.motion.spindles[*spindle].rpm.abs();
+            let rpm = self.motion.spindles[*spindle].overridden_rpm();
             if rpm == 0.0 {
                 let text = "G04 S: the spindle has no speed";
                 return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));
             }
+            self.motion.dwell_revolutions = *turns;
             (turns * 60.0 / rpm, *span)
         } else if let Some((_, _, span)) = words.axes.first() {
             let text = "G04: the time follows the first main axis";

@@ -50,6 +50,7 @@ impl Decoder {
             FeedType::Time => Feed::Duration(value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(value / 100.0),
             FeedType::PerRevolution => {
+                self.no_spindle_override("G95", span)?;
                 let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
                     let text = "feed per revolution, but the main spindle has no speed";

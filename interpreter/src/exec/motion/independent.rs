@@ -8,6 +8,7 @@
 
 use super::state::Function;
 use crate::diag::Condition;
+use crate::exec::block::collected::Words as BlockWords;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
@@ -87,7 +88,7 @@ impl Decoder {
         }
         let start = self.geometry.coordinates.target().clone();
         let relative = words.relative.unwrap_or(!self.modal.absolute);
-        let way = position * self.axis_unit(axis);
+        let way = position * self.axis_unit(axis) * self.geometry.scale.factor(axis);
         let target = if relative { start[axis] + way } else { way };
         // the offsets of the program do not act on independent axes
         self.geometry
@@ -242,6 +243,18 @@ impl Decoder {
             path.start()[*axis].to_bits() != path.end()[*axis].to_bits() || plane.contains(axis)
         };
         let axes: Vec<usize> = self.motion.independent.open.iter().copied().filter(moves).collect();
+        if !axes.is_empty() {
+            self.join(axes);
+        }
+    }
+
+    /// P-CHAN-00451 = 1: a block that names an axis which is on its way alone waits for it, whether it moves it or not.
+    pub(super) fn join_named(&mut self, words: &BlockWords<'_>) {
+        if !self.machine.channel.joins_named || self.motion.independent.open.is_empty() {
+            return;
+        }
+        let named = |axis: &usize| words.axes.iter().any(|(word, _, _)| word == axis);
+        let axes: Vec<usize> = self.motion.independent.open.iter().copied().filter(named).collect();
         if !axes.is_empty() {
             self.join(axes);
         }

@@ -63,6 +63,10 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         let title = format!("{}[OSC]", self.names.name(axis));
+        // the page scales oscillating axes, but does not say which of their words
+        if self.geometry.scale.changes(axis) {
+            return Err(Fault::unsupported(format!("{title} with #SCALE"), span));
+        }
         let group = Group { items: rest.to_vec(), span };
         let keys = OscArguments::read(self, &title, Some(&group))?;
         if let Some((name, at)) = keys.unsupported() {

@@ -35,6 +35,9 @@ impl Decoder {
     ) -> Outcome<()> {
         self.moves_not_coupled(axis, span)?;
         let title = format!("{}[SET_POSITION]", self.names.name(axis));
+        if self.geometry.scale.changes(axis) {
+            return Err(Fault::unsupported(format!("{title} with #SCALE"), span));
+        }
         let group = Group { items: rest.to_vec(), span };
         let keys = SetPositionArguments::read(self, &title, Some(&group))?;
         if self.motion.independent.open.contains(&axis) {

@@ -11,6 +11,8 @@ pub(in crate::exec) struct Spindle {
     pub(in crate::exec) index: Option<usize>,
     /// Speed in rev/min (S word).
     pub(in crate::exec) rpm: f64,
+    /// Programmed override of the speed (`S[OVERRIDE ..]`), 1 without one.
+    pub(in crate::exec) override_ratio: f64,
     pub(in crate::exec) turning: Turning,
     /// Angle of M19 in deg: that of POS, which holds.
     pub(in crate::exec) angle_deg: f64,
@@ -41,6 +43,16 @@ impl Turning {
         }
     }
 
+    /// The M function that asks for it.
+    pub(in crate::exec) fn number(self) -> u32 {
+        match self {
+            Self::Clockwise => 3,
+            Self::CounterClockwise => 4,
+            Self::Stopped => 5,
+            Self::Positioned(_) => 19,
+        }
+    }
+
     /// M3 or M4 with M19: the direction of the positioning.
     pub(in crate::exec) fn with_direction(self, number: u32) -> Self {
         match (self, number) {
@@ -57,6 +69,7 @@ impl Spindle {
             name: name.to_owned(),
             index,
             rpm: 0.0,
+            override_ratio: 1.0,
             turning: Turning::Stopped,
             angle_deg: 0.0,
             acceleration_ratio: 1.0,
@@ -65,9 +78,19 @@ impl Spindle {
         }
     }
 
+    /// Speed in rev/min without its sign, times the programmed override.
+    pub(in crate::exec) fn overridden_rpm(&self) -> f64 {
+        self.rpm.abs() * self.override_ratio
+    }
+
+    /// True if an override changes the programmed speed.
+    pub(in crate::exec) fn is_overridden(&self) -> bool {
+        self.override_ratio.to_bits() != 1.0_f64.to_bits()
+    }
+
     /// Its state of motion as an event; `None` if the machine has no such spindle.
     pub(in crate::exec) fn motion_event(&self) -> Option<Event> {
-        let rpm = self.rpm.abs();
+        let rpm = self.overridden_rpm();
         let motion = match self.turning {
             Turning::Stopped => SpindleMotion::Stop,
             Turning::Clockwise => SpindleMotion::Clockwise { rpm },

@@ -60,6 +60,8 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) cutting: Cutting,
     /// `#OTC`.
     pub(in crate::exec) wear: OnlineCompensation,
+    /// S of the last G04: revolutions of the spindle.
+    pub(in crate::exec) dwell_revolutions: f64,
 }
 
 impl MotionState {
@@ -87,6 +89,7 @@ impl MotionState {
             left_contour: false,
             cutting: Cutting::default(),
             wear: OnlineCompensation::default(),
+            dwell_revolutions: 0.0,
         }
     }
 

@@ -134,6 +134,7 @@ impl Decoder {
             && self.motion.couplings.are_off()
             && self.motion.overrides.are_alike()
             && self.geometry.coordinates.frame().is_identity()
+            && !self.geometry.scale.is_on()
     }
 
     /// The motion to the targets of a block; what it shares with the next one comes back.

@@ -147,6 +147,7 @@ impl Decoder {
         if self.motion.spindles[0].index.is_none() {
             return Err(Fault::unsupported("a thread without a spindle in the machine", span));
         }
+        self.no_spindle_override("a thread", span)?;
         if self.modal.path == PathMode::Thread {
             return Ok(());
         }

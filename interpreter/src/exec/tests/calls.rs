@@ -45,7 +45,10 @@ fn cycles_have_parameters_of_their_own() {
     assert_eq!(run.end, [1.0, 4.0, 0.0]);
     let run = with("L CYCLE [NAME=c.nc @P1=3 \\\n; the depth\n @P1=4]\nM30\n", "c.nc", "M17\n");
     assert_eq!(run.ids(), ["21379"]);
-    let run = with("L CYCLE [NAME=c.nc]\nM30\n", "c.nc", "X @P1 F100\n");
+    // reading creates what was not passed, and says so once (818650763)
+    let run = with("L CYCLE [NAME=c.nc]\nM30\n", "c.nc", "X[@P1+2] F100\nX[3*@P1+3]\n");
+    assert_eq!((run.ids(), run.end[0]), (vec!["K-0109".to_owned()], 3.0));
+    let run = with("L CYCLE [NAME=c.nc]\nM30\n", "c.nc", "X @I F100\n");
     assert_eq!(run.ids(), ["K-0012"]);
 }
 

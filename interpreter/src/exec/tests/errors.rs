@@ -99,7 +99,6 @@ fn what_the_manual_knows_is_never_unknown() {
         "Z[OSC ON ZERO_POS=1 EXCUR=2 FEED=100 SHORT]",
         "X[LIFT 1]",
         "X[MC_MoveAbsolute Position=5]",
-        "S[OVERRIDE SPEED_FACT=50]",
         "S[SYNC]",
         "S[G131=50]",
         "S[CALLAX]",

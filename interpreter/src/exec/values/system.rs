@@ -3,7 +3,7 @@
 //! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.; served
 //! values are kontur's choice where a headless tool has none.
 
-use super::number::{as_number, is_true, whole};
+use super::number::whole;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -11,6 +11,10 @@ use crate::exec::geometry::tools::Tool;
 use crate::exec::options::Value;
 use crate::exec::suggest;
 use crate::syntax::ast::{Segment, Span};
+
+mod write;
+
+pub(in crate::exec) use write::write;
 
 /// One readable variable: its name with `*` for an axis name or index.
 type Reader = fn(&Decoder, &Path<'_>) -> Outcome<Value>;
@@ -45,9 +49,9 @@ fn text(s: &str) -> Outcome<Value> {
 
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
-    Row { name: &["A", "ABS", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
-    Row { name: &["A", "PROG", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
-    Row { name: &["A", "MENT", "*"], read: |d, p| p.position(d, 2, |d, a| {
+    Row { name: &["A", "ABS", "*"], read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
+    Row { name: &["A", "PROG", "*"], read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
+    Row { name: &["A", "MENT", "*"], read: |d, p| p.coordinate(d, 2, |d, a| {
         if d.geometry.coordinates.mirrored(a) { -d.geometry.coordinates.programmed(a) } else { d.geometry.coordinates.programmed(a) }
     }) },
     Row { name: &["A", "ACT_POS", "*"], read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
@@ -125,6 +129,14 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "CS_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.systems() > 0) },
     Row { name: &["G", "CS_COUNT"], read: |d, _| number(d.geometry.coordinates.systems() as f64) },
     Row { name: &["SPDL_PROG", "SPEED", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].rpm) } },
+    Row { name: &["SPDL_PROG", "MOVE_CMD", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(f64::from(d.motion.spindles[i].turning.number())) } },
+    Row { name: &["SPDL_PROG", "POSITION", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].angle_deg) } },
+    Row { name: &["SPDL_PROG", "MAX_SPEED", "s"], read: |d, p| p.of_main_spindle(d, d.motion.cutting.most_rpm()) },
+    Row { name: &["SPDL_PROG", "CONST_CUT_SPEED", "s"], read: |d, p| p.of_main_spindle(d, d.motion.cutting.speed_m_min()) },
+    Row { name: &["SPDL_PROG", "DWELL_ROT_COUNT", "s"], read: |d, p| p.of_main_spindle(d, d.motion.dwell_revolutions) },
+    Row { name: &["SPDL", "PLC_CONTROL", "s"], read: |d, p| { p.spindle(d, 2)?; truth(false) } },
+    Row { name: &["SPDL", "NBR_IN_CHANNEL"], read: |d, _| number(d.machine.spindles.len() as f64) },
+    Row { name: &["SPDL", "M_FCT_FREE"], read: |_, _| truth(false) },
     Row { name: &["SPDL", "LOG_AX_NR", "s"], read: |d, p| {
         let i = p.spindle(d, 2)?;
         number(d.motion.spindles[i].index.map_or(0.0, |i| f64::from(d.machine.spindles[i].number())))
@@ -161,6 +173,22 @@ impl Path<'_> {
         number(f(d, axis) / d.axis_unit(axis))
     }
 
+    /// A coordinate of the program; refused for an axis that is scaled, as no page says whether it is the coordinate
+    /// before or after it.
+    fn coordinate(
+        &self,
+        d: &Decoder,
+        at: usize,
+        f: impl Fn(&Decoder, usize) -> f64,
+    ) -> Outcome<Value> {
+        let axis = self.axis(d, at)?;
+        if d.geometry.scale.changes(axis) {
+            let name = written(self.segments);
+            return Err(Fault::unsupported(format!("V.{name} with #SCALE"), self.span));
+        }
+        self.position(d, at, f)
+    }
+
     /// Axis by name in the segment `at`, or by the index after the segment before.
     fn axis(&self, d: &Decoder, at: usize) -> Outcome<usize> {
         if let Some(segment) = self.segments.get(at) {
@@ -180,6 +208,11 @@ impl Path<'_> {
             let text = format!("unknown spindle `{name}`");
             Fault::new(Condition::AxisIdentifier, text, self.span)
         })
+    }
+
+    /// A value that only the main spindle has, 0 for another one.
+    fn of_main_spindle(&self, d: &Decoder, value: f64) -> Outcome<Value> {
+        number(if self.spindle(d, 2)? == 0 { value } else { 0.0 })
     }
 
     /// Index after a segment.
@@ -303,110 +336,6 @@ fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
         Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
         None => fault,
     }
-}
-
-/// Kinematic parameters that are kept.
-const KINEMATICS_MAX: usize = 10_000;
-
-/// Writes a system variable; 20100 if it cannot be written.
-pub(in crate::exec) fn write(
-    d: &mut Decoder,
-    segments: &[Segment],
-    value: &Value,
-    span: Span,
-) -> Outcome<()> {
-    if is_kinematic(segments) {
-        let name = kinematic(d, segments, span)?;
-        let value = as_number(value, span)?;
-        if d.values.kinematics.len() >= KINEMATICS_MAX && !d.values.kinematics.contains_key(&name) {
-            let text = format!("more than {KINEMATICS_MAX} kinematic parameters");
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        d.values.kinematics.insert(name, value);
-        let text =
-            "V.G.KIN: transformations are taken as identity, their parameters have no effect";
-        d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
-        return Ok(());
-    }
-    let path = Path { segments, span };
-    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let x = || as_number(value, span);
-    match names[..] {
-        ["G", "NP", "V", _] | ["G", "NP", "V"] => {
-            let group = path.index(d, 1, 999)?;
-            let axis = path.axis(d, 3)?;
-            d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
-        }
-        ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
-            let axis = path.axis(d, 3)?;
-            d.geometry.coordinates.set_zero_offset(axis, x()? * d.axis_unit(axis));
-        }
-        ["G", "CYCLE_CHANGES_MODAL"] => {
-            let stay = is_true(x()?);
-            (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
-        }
-        ["G", "RW"] => {
-            d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();
-        }
-        ["G", "WZR"] => {
-            d.geometry.tools.active.radius_mm = x()?;
-        }
-        ["G", "WZL"] => {
-            d.geometry.tools.active.length_mm = x()?;
-            d.geometry.coordinates.tool_programmed();
-            d.tool_offsets();
-        }
-        ["G", "WZ_AKT", ..] => {
-            let mut tool = d.geometry.tools.active.clone();
-            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
-            d.geometry.tools.active = tool;
-            if matches!(names[2], "L" | "V") {
-                d.geometry.coordinates.tool_programmed();
-            }
-            d.tool_offsets();
-        }
-        ["G", "WZ", ..] => {
-            let index = path.index(d, 1, u32::MAX)?;
-            if d.geometry.tools.table.len() >= 10_000
-                && !d.geometry.tools.table.contains_key(&index)
-            {
-                let text = "the tool table holds at most 10000 tools";
-                return Err(Fault::new(Condition::Range, text, span));
-            }
-            let mut tool = path.tool(d)?;
-            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
-            d.geometry.tools.table.insert(index, tool);
-        }
-        _ if find(segments).is_some() => {
-            let text = format!("V.{} may not be written", written(segments));
-            return Err(Fault::new(Condition::VariableNotWritable, text, span));
-        }
-        _ => return Err(unknown(d, segments, span)),
-    }
-    Ok(())
-}
-
-fn write_tool(
-    d: &Decoder,
-    path: &Path<'_>,
-    names: &[&str],
-    tool: &mut Tool,
-    x: f64,
-) -> Outcome<()> {
-    match *names {
-        ["OK"] => tool.is_valid = x.abs() > 0.0,
-        ["R"] => tool.radius_mm = x,
-        ["L"] => tool.length_mm = x,
-        ["V", _] | ["V"] => {
-            tool.offsets_mm.insert(path.axis(d, 3)?, x);
-        }
-        ["P"] => {
-            tool.parameters.insert(path.index(d, 2, 1000)?, x);
-        }
-        _ => return Err(unknown(d, path.segments, path.span)),
-    }
-    Ok(())
 }
 
 /// True if reading this variable needs the machine at rest and its actual positions.

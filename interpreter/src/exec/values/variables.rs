@@ -53,13 +53,36 @@ fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
 }
 
 impl Variables {
-    fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
+    /// Value of `@name`; `creates`: reading a `@P` that was not passed creates it (P-CHAN-00463).
+    ///
+    /// Assumption: it is created with 0, and `V.G.@P[i].VALID` remains FALSE.
+    fn cycle_parameter(&self, name: &str, creates: bool, span: Span) -> Outcome<Value> {
         let Some(scope) = self.cycles.last() else {
             return Err(outside_cycle(name, span));
         };
-        scope.passed.get(name).cloned().ok_or_else(|| {
-            undefined(&format!("@{name}"), span).hint(format!("test V.G.@{name}.VALID first"))
-        })
+        if let Some(value) = scope.passed.get(name) {
+            return Ok(value.clone());
+        }
+        let hint = format!("test V.G.@{name}.VALID first");
+        let numbered = name.strip_prefix(['P', 'p']).and_then(|rest| rest.parse::<u32>().ok());
+        match numbered {
+            Some(_) if creates => {
+                self.created.borrow_mut().push((name.into(), span));
+                Ok(Value::Number(0.0))
+            }
+            Some(number) => {
+                let text = format!("@{name} was not passed to the cycle");
+                Err(Fault::new(Condition::CycleParameterMissing, text, span)
+                    .hint(hint)
+                    .with(|d| d.value(ValueKind::Wrong, number, "-")))
+            }
+            None => Err(undefined(&format!("@{name}"), span).hint(hint)),
+        }
+    }
+
+    /// The parameters that reading has created in this block.
+    pub(in crate::exec) fn take_created(&self) -> Vec<(Box<str>, Span)> {
+        self.created.take()
     }
 
     fn unknown(&self, class: Class, name: &str, span: Span) -> Box<Fault> {
@@ -78,6 +101,18 @@ impl Variables {
 }
 
 impl Decoder {
+    /// Says once of each `@P` that reading has created it.
+    pub(in crate::exec) fn report_created(&mut self) {
+        for (name, span) in self.values.variables.take_created() {
+            let text = format!("@{name} was not passed to the cycle: reading it creates it with 0");
+            let fault = Fault::new(Condition::Odd, text, span)
+                .warning()
+                .hint(format!("pass it, or test V.G.@{name}.VALID first"))
+                .with(|d| d.parameter("P-CHAN-00463"));
+            self.report.note_once(&format!("@{name}"), fault);
+        }
+    }
+
     fn subscripts(&self, exprs: &[Expr]) -> Outcome<Subscripts> {
         exprs.iter().map(|e| self.number(e)).collect()
     }
@@ -204,7 +239,10 @@ impl Decoder {
                     })
                 }
             },
-            Target::Cycle(name) => self.values.variables.cycle_parameter(name, span),
+            Target::Cycle(name) => {
+                let creates = self.machine.channel.creates_cycle_parameters;
+                self.values.variables.cycle_parameter(name, creates, span)
+            }
             Target::System(segments) => system::read(self, segments, span),
         }
     }

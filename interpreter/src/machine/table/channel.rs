@@ -143,6 +143,8 @@ parameters! {
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
     chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one replaces those before it")
         .default(0.0).source("TF5200 channel parameters"), as SEVERAL_WORDS: Switch;
+    chan("P-CHAN-00149", "kasto_reject_rest_block", Raw::Boolean, "1: edge banding (G108) leaves out the rest of the block after its M function; refused")
+        .default(0.0).source("TF5200 channel parameters 149014539"), as BANDING_REJECTS_REST: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
     chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"), as TOOL_CHANGE_PROGRAM: Text;
@@ -153,6 +155,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(2.0)).default(1.0);
     chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with warning instead of error at setpoint limits")
         .default(0.0), as LIMIT_WARNINGS: Whole;
+    chan("P-CHAN-00159", "modal_i_j_k_for_circle", Raw::Boolean, "1: I, J and K of arcs hold until the next ones")
+        .default(0.0).source("TF5200 channel parameters 149414539"), as MODAL_CENTRES: Switch;
     chan("P-CHAN-00160", "g80_prog_file", Raw::Text, "global subroutine called by G80"), as G80_PROGRAM: Text;
     chan("P-CHAN-00171", "max_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference (21758)")
         .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
@@ -175,6 +179,8 @@ parameters! {
     chan("P-CHAN-00252", "final_prog_file", Raw::Text, "subroutine at program end"), as END_PROGRAM: Text;
     chan("P-CHAN-00259", "opt_contour_mode", Raw::Uns32, "smoother curvature at arcs in DEV contouring")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0);
+    chan("P-CHAN-00261", "multi_path_configuration", Raw::Boolean, "1: two paths in one block, separated by a colon; not simulated")
+        .default(0.0).source("TF5263 extended interpolation 1097158155");
     chan("P-CHAN-00273", "disable_chamfers_roundings", Raw::Boolean, "1: no chamfers and roundings (G301, G302: 21718; #ANG, #CHR, #CHF, #RND: 21932)")
         .default(0.0).source("TF5200 channel parameters"), as NO_CHAMFERS: Switch;
     chan("P-CHAN-00297", "mode_exact_stop_indp_axis", Raw::Uns16, "0: #WAIT INDP waits for set positions; 1: G60 waits for independent axes too, until they are in their windows; 2: #WAIT INDP waits for the windows of all axes")
@@ -189,6 +195,10 @@ parameters! {
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_RADIAL_ACC: Number;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")
         .default(0.0), as CONTOURING_INCH: Switch;
+    chan("P-CHAN-00451", "mode_implicite_sync_indp_asyn_axis", Raw::Uns16, "the path waits for an independent axis (INDP_ASYN) or ends an oscillating one: 0 when it moves the axis, 1 when a block names it")
+        .range(Bound::At(0.0), Bound::At(1.0)).default(0.0).source("TF5200 channel parameters 502430091"), as JOINS_NAMED: Whole;
+    chan("P-CHAN-00463", "create_cycle_param_on_read", Raw::Boolean, "a @P parameter that was not passed to its cycle: 1 reading it creates it with 0, 0 it is 20394")
+        .default(1.0).source("TF5200 channel parameters 818650763"), as CREATES_PARAMETERS: Switch;
     chan("P-CHAN-00498", "range_check_prog_soft_limits", Raw::Boolean, "1: G98 and G99 stay within the software limits of the axis list")
         .default(0.0).source("TF5200 channel parameters"), as LIMITS_BOUNDED: Switch;
     chan("P-CHAN-00511", "configuration.decoder.macro_symbol_len", Raw::Uns16, "most characters of the name of a macro (20614)")
@@ -223,6 +233,8 @@ parameters! {
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
     chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T also selects the tool data with its number, like T5 D5")
         .default(0.0).source("TF5200 tool data"), as TOOL_DATA_WITH_TOOL: Switch;
+    chan("P-CHAN-00016", "ext_wzv_vorhanden", Raw::Boolean, "1: an external tool management has the data of the tools; not simulated")
+        .default(0.0).source("TF5200 channel parameters 147959819");
     chan("P-CHAN-00836", "thread_cutting.ignore_override", Raw::Boolean, "G33: 0 the override acts and changes the pitch, 1 it does not act")
         .default(0.0).source("TF5200 channel parameters"), as THREAD_IGNORES_OVERRIDE: Switch;
     chan("P-CHAN-00837", "thread_cutting.thread_chain", Raw::Boolean, "consecutive blocks of G33: 0 each is a separate thread, 1 one thread without a stop")

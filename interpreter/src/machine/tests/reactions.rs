@@ -178,6 +178,15 @@ fn what_has_no_effect_is_said() {
     let mut files = Memory::machine();
     files.add("m/lists/channel.lis", "prog_start.g_gruppe[21].nr 135\n");
     assert_eq!(files.ids(&[]), ["K-0075"]);
+    for key in ["ext_wzv_vorhanden", "multi_path_configuration"] {
+        let mut files = Memory::machine();
+        files.add("m/lists/channel.lis", &format!("{key} 1\n"));
+        assert_eq!(files.ids(&[]), ["K-0075"], "{key}");
+    }
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "werkz_data[0] lists/tools.lis\n");
+    files.put("m/lists/tools.lis", "wz[5].log_ax_nr_spdl 6\nwz[5].vb_max 3000000\n");
+    assert_eq!(files.ids(&[]), ["K-0075"]);
     let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "pfad[0].prg[0] ../subs\n");
     assert_eq!(files.ids(&[]), ["K-0075"]);

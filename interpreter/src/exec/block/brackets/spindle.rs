@@ -1,24 +1,25 @@
-//! Commands of spindles in brackets: `S[M3 REV1000 M10]`, `S[G135 G136=80]`.
+//! Commands of spindles in brackets: `S[M3 REV1000 M10]`, `S[G135 G136=80]`, `S[OVERRIDE SPEED_FACT=50]`.
 //!
-//! Source: TF5200 programming manual (programming in spindle-specific syntax); TF5200 feedforward control (spindles);
-//! 21738, 21867.
+//! Source: TF5200 programming manual (programming in spindle-specific syntax; programmable spindle override); TF5200
+//! feedforward control (spindles); 21422, 21738, 21867.
 
 use super::{function, once};
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::modes::weight_ratio;
+use crate::exec::commands::keys::arguments;
+use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
-use crate::syntax::ast::{Bracket, Item, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
 /// Beginnings of further words of spindle brackets that the manual knows. Source: TF5200 programming manual, programming in
 /// spindle-specific syntax.
 const OTHER_WORDS: &[&str] = &[
-    "OVERRIDE",
     "CALLAX",
     "PUTAX",
     "SYNC",
@@ -38,6 +39,13 @@ const OTHER_WORDS: &[&str] = &[
     "G233",
 ];
 
+arguments! {
+    /// Keys of `S[OVERRIDE ..]`.
+    struct SpindleOverrideArguments {
+        speed: Number "SPEED_FACT" in between(0.1, 200.0), "%", "";
+    }
+}
+
 /// What one item of a spindle bracket means.
 enum SpindleItem {
     /// M3, M4, M5, M19.
@@ -52,11 +60,14 @@ enum SpindleItem {
     Feedforward(bool),
     /// G136=.
     Weight(f64),
-    /// M or H function of the user.
-    Function(Function),
+    /// M or H function of the user, with its value.
+    Function(Function, Option<f64>),
     /// G167.
     FullOverride,
 }
+
+/// The override of spindles in messages.
+pub(in crate::exec) const SPINDLE_OVERRIDE: &str = "S[OVERRIDE]";
 
 impl Decoder {
     pub(super) fn spindle_bracket(
@@ -66,6 +77,12 @@ impl Decoder {
         words: &Words<'_>,
     ) -> Outcome<()> {
         let group = &bracket.group;
+        if let Some((Item { kind: ItemKind::Flag(word), .. }, rest)) = group.items.split_first()
+            && word.is("OVERRIDE")
+        {
+            let rest = Group { items: rest.to_vec(), span: group.span };
+            return self.spindle_override(spindle, &rest);
+        }
         let functions: Vec<_> = group.items.iter().filter_map(function).collect();
         once(&functions, bracket, words)?;
         let mut items = Vec::new();
@@ -100,7 +117,7 @@ impl Decoder {
         }
         for (i, (item, span)) in items.iter().enumerate() {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
-            let several = matches!(item, SpindleItem::Function(_));
+            let several = matches!(item, SpindleItem::Function(..));
             // M3 and M4 are the direction of M19
             let directs = |(other, _): &(SpindleItem, Span)| {
                 matches!(
@@ -148,13 +165,35 @@ impl Decoder {
         Ok(())
     }
 
+    /// `S[OVERRIDE SPEED_FACT=..]`: the speed of a spindle in percent of the programmed one, until it is changed.
+    ///
+    /// Assumption: it acts on the speed of M19 too, as the override from outside does.
+    fn spindle_override(&mut self, spindle: usize, group: &Group) -> Outcome<()> {
+        let keys = SpindleOverrideArguments::read(self, SPINDLE_OVERRIDE, Some(group))?;
+        let Some((percent, span)) = keys.speed else {
+            let text = format!("{SPINDLE_OVERRIDE} needs SPEED_FACT");
+            return Err(Fault::new(Condition::SpindleToken, text, group.span));
+        };
+        self.motion.spindles[spindle].override_ratio = percent / 100.0;
+        if spindle == 0 && self.motion.cutting.is_on() {
+            self.no_spindle_override("G96", span)?;
+        }
+        if self.motion.spindles[spindle].is_turning()
+            && let Some(event) = self.motion.spindles[spindle].motion_event()
+        {
+            self.contour.event(event);
+        }
+        self.check_spindle_speed(spindle, span);
+        Ok(())
+    }
+
     fn spindle_item(&self, item: &Item) -> Outcome<SpindleItem> {
         let unknown = |shown: &str| {
             let text = format!("unknown word `{shown}` in a spindle bracket");
             Fault::new(Condition::SpindleToken, text, item.span)
         };
         if let Some((function, _)) = function(item) {
-            return Ok(SpindleItem::Function(function));
+            return Ok(SpindleItem::Function(function, self.value_of_function(item)?));
         }
         let (word, value) = match &item.kind {
             ItemKind::Flag(word) => match word.split_number() {
@@ -216,7 +255,7 @@ impl Decoder {
                     self.takes_time(Function::Spindle { spindle: index, m: number });
                 }
             }
-            SpindleItem::Function(function) => self.call_function(function),
+            SpindleItem::Function(function, value) => self.call_function(function, value),
             SpindleItem::FullOverride => {}
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");

@@ -57,6 +57,12 @@ impl Decoder {
     /// Takes the speed of a spindle in rev/min; K-0131 if the spindle is slower.
     pub(in crate::exec) fn set_spindle_speed(&mut self, index: usize, rpm: f64, span: Span) {
         self.motion.spindles[index].rpm = rpm;
+        self.check_spindle_speed(index, span);
+    }
+
+    /// Says of the speed of a spindle that it is above what the spindle can do (K-0131).
+    pub(in crate::exec) fn check_spindle_speed(&mut self, index: usize, span: Span) {
+        let rpm = self.motion.spindles[index].overridden_rpm();
         let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
         let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else { return };
         if rpm > most {

@@ -16,6 +16,21 @@ pub(in crate::exec) struct Cutting {
 }
 
 impl Cutting {
+    /// G96 with a speed is in force.
+    pub(in crate::exec) fn is_on(&self) -> bool {
+        self.speed.is_some()
+    }
+
+    /// S of G196 in rev/min, 0 without one.
+    pub(in crate::exec) fn most_rpm(&self) -> f64 {
+        self.rpm_max.unwrap_or_default()
+    }
+
+    /// S of G96 in m/min, 0 while it is off.
+    pub(in crate::exec) fn speed_m_min(&self) -> f64 {
+        self.speed.map_or(0.0, |cutting| cutting.speed_mm_min / 1000.0)
+    }
+
     /// The S words of the main spindle of this block are not speeds in rev/min.
     pub(in crate::exec) fn takes_s_words(&self, words: &Words<'_>) -> bool {
         self.waits

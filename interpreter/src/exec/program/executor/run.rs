@@ -388,6 +388,7 @@ impl Executor {
 
     /// Reports the conditions of the block; an error ends the program.
     pub(in crate::exec) fn settle(&mut self, faulty: bool) {
+        self.decoder.report_created();
         let faults = self.decoder.report.take_faults();
         let mut failed = faulty;
         for fault in faults {

@@ -5,6 +5,7 @@ use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::{External, Value};
 use crate::syntax::ast::Span;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 type Table = BTreeMap<Box<str>, Variable>;
@@ -31,6 +32,9 @@ pub(in crate::exec) struct Variables {
     pub(super) cycles: Vec<CycleScope>,
     pub(super) external: BTreeMap<String, External>,
     pub(super) elements: usize,
+    /// Cycle parameters that reading has created and that nothing has been said about yet: an expression reads without changing
+    /// anything else.
+    pub(super) created: RefCell<Vec<(Box<str>, Span)>>,
 }
 
 impl Variables {

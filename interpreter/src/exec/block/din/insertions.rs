@@ -1,0 +1,126 @@
+//! Chamfers and roundings of a block: G301, G302, `#CHR`, `#CHF`, `#RND` with `#FRC`.
+
+use crate::diag::Condition;
+use crate::exec::block::collected::Words;
+use crate::exec::block::groups::{Act, Group};
+use crate::exec::contour::insertion::Kind;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::values::number::LARGEST_MM;
+
+/// `#CHR`, `#CHF` and `#RND` in a motion belong to the corner at its end; as blocks of their own they lie between two motions anyway.
+///
+/// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
+pub(super) fn inserts_behind(words: &Words<'_>) -> bool {
+    let of_corner = |name: &str| matches!(name, "CHR" | "CHF" | "RND");
+    !words.axes.is_empty() && words.hashes.iter().any(|(hash, _, _)| of_corner(&hash.name))
+}
+
+impl Decoder {
+    /// P-CHAN-00273 = 1: what it leaves out is an error (256603531, 255785355). With `#SCALE` they are refused: its page shows in
+    /// pictures only whether their sizes are scaled.
+    fn insertions_are_on(&self, words: &Words<'_>) -> Outcome<()> {
+        if !self.machine.channel.no_chamfers && !self.geometry.scale.is_on() {
+            return Ok(());
+        }
+        let names = ["ANG", "CHR", "CHF", "RND"];
+        let by_g = words.group(Group::Insertion).map(|g| (Condition::InsertionsOff, g.span));
+        let by_hash = || {
+            let found = words.hashes.iter().find(|(hash, _, _)| names.contains(&&*hash.name));
+            found.map(|(_, _, span)| (Condition::ContourLinesOff, *span))
+        };
+        match by_g.or_else(by_hash) {
+            None => Ok(()),
+            Some((condition, span)) if self.machine.channel.no_chamfers => {
+                let text = "chamfers and roundings are switched off (P-CHAN-00273)";
+                Err(Fault::new(condition, text, span))
+            }
+            Some((_, span)) => {
+                Err(Fault::unsupported("a chamfer, a rounding or #ANG with #SCALE", span))
+            }
+        }
+    }
+
+    pub(super) fn insertions(&mut self, words: &Words<'_>) {
+        if self.report.keep(self.insertions_are_on(words)).is_none() {
+            return;
+        }
+        let mut request = None;
+        for g in &words.g {
+            let kind = match g.row.act {
+                Act::Chamfer => Kind::Chamfer,
+                Act::Rounding => Kind::Rounding,
+                _ => continue,
+            };
+            let written = words.centre[0].map(|(i, span)| (i * self.modal.unit_mm(), span));
+            if let Some((size, _)) = written {
+                self.modal.insertion_mm = Some(size);
+            }
+            match self.modal.insertion_mm {
+                Some(size) if size > LARGEST_MM => {
+                    let text = format!("G{}: {size} mm is outside the data format", g.row.number);
+                    self.report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
+                }
+                Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
+                _ => {
+                    let text = format!("G{} without a size (I)", g.row.number);
+                    self.report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
+                }
+            }
+        }
+        let mut feed = None;
+        for (hash, value, span) in &words.hashes {
+            let kind = match &*hash.name {
+                "FRC" => {
+                    feed = value.filter(|v| *v > 0.0).map(|v| (v, *span));
+                    if feed.is_none() {
+                        let text = "#FRC needs a feed above 0";
+                        self.report.note(Fault::new(Condition::Range, text, *span));
+                    }
+                    continue;
+                }
+                "PSET"
+                | "PRESET"
+                | "SUPPRESS OFFSETS"
+                | "SCALE"
+                | "SCALE ON"
+                | "SCALE OFF"
+                | "ANG"
+                | "CANG"
+                | "AKIMA STARTVECTOR"
+                | "AKIMA ENDVECTOR"
+                | "SET ASPLINE STARTTANG"
+                | "SET ASPLINE ZIELTANG" => continue,
+                // G200 to G202 are refused
+                "ACHSE" if words.group(Group::Manual).is_some() => continue,
+                "ACHSE" => {
+                    let text = "#ACHSE without G200, G201 or G202";
+                    self.report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
+                    continue;
+                }
+                "CHR" => Kind::Chamfer,
+                "CHF" => Kind::ChamferLength,
+                "RND" => Kind::Rounding,
+                other => {
+                    self.report.note(Fault::unsupported(format!("#{other}"), *span));
+                    continue;
+                }
+            };
+            match value.map(|v| v * self.modal.unit_mm()) {
+                Some(size) if size > 0.0 => request = Some((kind, size, *span)),
+                _ => {
+                    let text = format!("#{} without a size", hash.name);
+                    self.report.note(Fault::new(Condition::Range, text, *span));
+                }
+            }
+        }
+        if let Some((kind, size, at)) = request {
+            let feed = feed.map(|(value, at)| self.feed_from(value, self.modal.unit_mm(), at));
+            let feed = feed.and_then(|feed| self.report.keep(feed));
+            self.insert(kind, size, feed, at);
+        } else if let Some((_, at)) = feed {
+            let text = "#FRC without chamfer or rounding has no effect";
+            self.report.note(Fault::new(Condition::Odd, text, at).warning());
+        }
+    }
+}

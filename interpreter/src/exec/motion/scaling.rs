@@ -1,0 +1,117 @@
+//! `#SCALE`: contours enlarged or reduced by factors of the axes.
+//!
+//! A factor acts on the coordinate words of its axis in motions, on centres, radii and pitches of arcs and on the targets
+//! of independent axes, about the zero point of the active coordinate system. Offsets, feeds, tolerances and tool data keep
+//! their values, and switching moves nothing.
+//!
+//! Source: TF5200 programming manual, enlarging and reducing contours (207656459). The page names lines, arcs and
+//! positioning axes; what it shows in pictures only, or not at all, is refused.
+
+use crate::diag::Condition;
+use crate::exec::block::collected::Words;
+use crate::exec::block::groups::{Act, Group};
+use crate::exec::block::modal::PathMode;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
+
+impl Decoder {
+    /// `#SCALE ON X2 Y2`, `#SCALE X2`, `#SCALE OFF`: true if the axis words of the block belong to one of them.
+    pub(in crate::exec) fn scaling_words(&mut self, words: &Words<'_>) -> bool {
+        let found = words.hashes.iter().find_map(|(hash, _, at)| match &*hash.name {
+            "SCALE" => Some((None, *at)),
+            "SCALE ON" => Some((Some(true), *at)),
+            "SCALE OFF" => Some((Some(false), *at)),
+            _ => None,
+        });
+        let Some((switch, at)) = found else { return false };
+        let outcome = self.switch_scaling(switch, words, at);
+        self.report.keep(outcome);
+        true
+    }
+
+    fn switch_scaling(&mut self, switch: Option<bool>, words: &Words<'_>, at: Span) -> Outcome<()> {
+        let factors = &words.axes;
+        if let (Some(false), Some((_, _, span))) = (switch, factors.first()) {
+            let text = "#SCALE OFF takes no factors";
+            return Err(Fault::new(Condition::TokenUnknown, text, *span));
+        }
+        if switch.is_none() && factors.is_empty() {
+            let text = "#SCALE needs ON, OFF or factors";
+            return Err(Fault::new(Condition::TokenUnknown, text, at).hint("#SCALE ON X2 Y2"));
+        }
+        if let (true, Some((_, _, span))) = (self.geometry.scale.is_on(), factors.first()) {
+            let text = "the factors of #SCALE cannot change while scaling is on";
+            return Err(Fault::new(Condition::Syntax, text, *span).hint("#SCALE OFF comes first"));
+        }
+        for (axis, factor, span) in factors {
+            if !self.is_linear(*axis) {
+                let what = format!("#SCALE of the rotary axis {}", self.names.name(*axis));
+                return Err(Fault::unsupported(what, *span));
+            }
+            if *factor <= 0.0 || !factor.is_finite() {
+                let name = self.names.name(*axis);
+                let text = format!("#SCALE {name}{factor}: a factor is above 0");
+                return Err(Fault::new(Condition::KeyRange, text, *span));
+            }
+        }
+        for (axis, factor, _) in factors {
+            self.geometry.scale.set(*axis, *factor);
+        }
+        if let Some(on) = switch {
+            self.geometry.scale.switch(on);
+        }
+        Ok(())
+    }
+
+    /// Refuses what the page does not say of scaled contours.
+    pub(super) fn scaling_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
+        if !self.geometry.scale.is_on() {
+            return Ok(());
+        }
+        let measures = words.group(Group::Measuring).is_some_and(|g| g.row.act == Act::Measure);
+        let lines = |name: &str| matches!(name, "ANG" | "CANG");
+        let what = if measures {
+            "a measuring run"
+        } else if self.modal.path.is_thread() {
+            "a thread"
+        } else if self.modal.path == PathMode::ArcInSpace {
+            "G303"
+        } else if self.contour.akima.selected {
+            "a spline"
+        } else if self.geometry.coordinates.is_machine() {
+            "a motion in machine coordinates (#MCS)"
+        } else if self.modal.diameter.is_some() {
+            "diameter programming (G51)"
+        } else if words.hashes.iter().any(|(hash, _, _)| lines(&hash.name)) {
+            "#ANG or #CANG"
+        } else {
+            return Ok(());
+        };
+        Err(Fault::unsupported(format!("{what} with #SCALE"), span))
+    }
+
+    /// Factor of centres and radii in the plane of these main axes.
+    ///
+    /// # Errors
+    /// The axes of the plane have different factors: the image of the arc would be none.
+    pub(super) fn scale_of_plane(&self, plane: [usize; 2], span: Span) -> Outcome<f64> {
+        let [first, second] = plane.map(|main| self.scale_of_main(main));
+        if first.to_bits() == second.to_bits() {
+            Ok(first)
+        } else {
+            Err(Fault::unsupported(
+                "an arc in a plane whose axes have different factors (#SCALE)",
+                span,
+            ))
+        }
+    }
+
+    /// Factor of a main axis, 1 for one that is missing.
+    pub(super) fn scale_of_main(&self, main: usize) -> f64 {
+        self.geometry
+            .coordinates
+            .main_axis(main)
+            .map_or(1.0, |axis| self.geometry.scale.factor(axis))
+    }
+}

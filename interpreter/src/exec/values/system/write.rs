@@ -1,0 +1,120 @@
+//! Writing to system variables.
+
+use super::{Path, find, is_kinematic, kinematic, unknown, written};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::tools::Tool;
+use crate::exec::options::Value;
+use crate::exec::values::number::{as_number, is_true};
+use crate::syntax::ast::{Segment, Span};
+
+/// Kinematic parameters that are kept.
+const KINEMATICS_MAX: usize = 10_000;
+
+/// Writes a system variable; 20100 if it cannot be written.
+pub(in crate::exec) fn write(
+    d: &mut Decoder,
+    segments: &[Segment],
+    value: &Value,
+    span: Span,
+) -> Outcome<()> {
+    if is_kinematic(segments) {
+        let name = kinematic(d, segments, span)?;
+        let value = as_number(value, span)?;
+        if d.values.kinematics.len() >= KINEMATICS_MAX && !d.values.kinematics.contains_key(&name) {
+            let text = format!("more than {KINEMATICS_MAX} kinematic parameters");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        d.values.kinematics.insert(name, value);
+        let text =
+            "V.G.KIN: transformations are taken as identity, their parameters have no effect";
+        d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
+        return Ok(());
+    }
+    let path = Path { segments, span };
+    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let x = || as_number(value, span);
+    match names[..] {
+        ["G", "NP", "V", _] | ["G", "NP", "V"] => {
+            let group = path.index(d, 1, 999)?;
+            let axis = path.axis(d, 3)?;
+            d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
+        }
+        ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
+            let axis = path.axis(d, 3)?;
+            d.geometry.coordinates.set_zero_offset(axis, x()? * d.axis_unit(axis));
+        }
+        ["G", "CYCLE_CHANGES_MODAL"] => {
+            let stay = is_true(x()?);
+            (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
+        }
+        // no M function of a spindle is free for other purposes here (P-CHAN-00098)
+        ["SPDL", "M_FCT_FREE"] => {
+            if is_true(x()?) {
+                return Err(Fault::unsupported("V.SPDL.M_FCT_FREE = 1", span));
+            }
+        }
+        ["G", "RW"] => {
+            d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();
+        }
+        ["G", "WZR"] => {
+            d.geometry.tools.active.radius_mm = x()?;
+        }
+        ["G", "WZL"] => {
+            d.geometry.tools.active.length_mm = x()?;
+            d.geometry.coordinates.tool_programmed();
+            d.tool_offsets();
+        }
+        ["G", "WZ_AKT", ..] => {
+            let mut tool = d.geometry.tools.active.clone();
+            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
+            d.geometry.tools.active = tool;
+            if matches!(names[2], "L" | "V") {
+                d.geometry.coordinates.tool_programmed();
+            }
+            d.tool_offsets();
+        }
+        ["G", "WZ", ..] => {
+            let index = path.index(d, 1, u32::MAX)?;
+            if d.geometry.tools.table.len() >= 10_000
+                && !d.geometry.tools.table.contains_key(&index)
+            {
+                let text = "the tool table holds at most 10000 tools";
+                return Err(Fault::new(Condition::Range, text, span));
+            }
+            let mut tool = path.tool(d)?;
+            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
+            d.geometry.tools.table.insert(index, tool);
+        }
+        _ if find(segments).is_some() => {
+            let text = format!("V.{} may not be written", written(segments));
+            return Err(Fault::new(Condition::VariableNotWritable, text, span));
+        }
+        _ => return Err(unknown(d, segments, span)),
+    }
+    Ok(())
+}
+
+fn write_tool(
+    d: &Decoder,
+    path: &Path<'_>,
+    names: &[&str],
+    tool: &mut Tool,
+    x: f64,
+) -> Outcome<()> {
+    match *names {
+        ["OK"] => tool.is_valid = x.abs() > 0.0,
+        ["R"] => tool.radius_mm = x,
+        ["L"] => tool.length_mm = x,
+        ["V", _] | ["V"] => {
+            tool.offsets_mm.insert(path.axis(d, 3)?, x);
+        }
+        ["P"] => {
+            tool.parameters.insert(path.index(d, 2, 1000)?, x);
+        }
+        _ => return Err(unknown(d, path.segments, path.span)),
+    }
+    Ok(())
+}

@@ -1,0 +1,9 @@
+; check: exit 1
+; error 120102 at 6:1
+G00 X0 Y0
+#HSC ON [BSPLINE PATH_DEV=0.5]
+G01 X10 F1000
+#CS ON [0, 0, 0, 0, 0, 30]
+Y10
+#HSC OFF
+M30

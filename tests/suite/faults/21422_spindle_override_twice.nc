@@ -1,0 +1,4 @@
+; check: exit 1
+; error 21422 at 3:26
+S[OVERRIDE SPEED_FACT=50 SPEED_FACT=60]
+M30

@@ -1,0 +1,13 @@
+; run: exit 0
+; page 475156491 contouring switched on with its values (#CONTOUR MODE ON)
+; passes X100 Y50
+; passes X0 Y50
+; end X0 Y0
+N10 G90 G01 X0 Y0 Z0 F6000
+N20 #CONTOUR MODE ON [DEV PATH_DEV=1.0]
+N30 X100
+N40 Y100
+N50 X0
+N60 Y0
+N70 #CONTOUR MODE OFF
+N80 M30
