@@ -64,6 +64,7 @@ const fn optional<const N: usize>(texts: [&'static str; N]) -> Option<&'static s
 }
 
 conditions! {
+    ListIndexRange = Vendor 1030: Error JobAbort 7 2, "index in the start-up list beyond its array", cause "achs_mds[230]", hint "axis lists have the indices 0 to 31 here, channel lists 0 to 11";
     AxisMissing = Vendor 20003: Warning None 1 1, "G function needs an axis", cause "e.g. G160=2 without axis", hint "the function acts on the axes in its block: G160=2 X1";
     SpindleSpeedZero = Vendor 20007: Error ProgramAbort 3 1, "spindle speed 0", cause "G63 with S0", hint "program the speed before: S1000 M3";
     FeedZero = Vendor 20008: Error ProgramAbort 3 1, "feed is 0 in a motion block", cause "first G01/G02/G03 without F (P-CHAN-00099 = 0)", hint "write F in this block or before it";
@@ -171,8 +172,17 @@ conditions! {
     ParameterNumber = Vendor 20400: Error ProgramAbort 3 1, "number of a P parameter is 0, negative or too large", cause "P0=10", hint "P parameters have numbers from 1 on";
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
+    SpindleNameTwice = Vendor 20419: Error JobAbort 1 2, "two spindles of the channel list have one name", hint "give every spindle a name of its own", parameter "P-CHAN-00007";
     PathAxisNumberTwice = Vendor 20423: Error JobAbort 1 2, "two path axes of the channel list have one logical number", cause "gruppe[0].achse[1].log_achs_nr 1 beside achse[0]", hint "give every axis a number of its own, that of its axis list", parameter "P-CHAN-00035";
+    PathAxisNameTwice = Vendor 20424: Error JobAbort 1 2, "two path axes of the channel list have one name", hint "give every axis a name of its own", parameter "P-CHAN-00006";
+    PathAxisName = Vendor 20425: Warning None 1 2, "axis name of the channel list too long or with a wrong first letter, replaced", cause "gruppe[0].achse[0].bezeichnung K", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters", parameter "P-CHAN-00006";
+    SpindleIsPathAxis = Vendor 20426: Error JobAbort 1 2, "a spindle and a path axis of the channel list have one logical number", hint "give every axis and spindle a number of its own", parameter "P-CHAN-00036";
     CentreShiftZero = Vendor 20435: Warning None 1 2, "largest centre shift of arcs is 0, set to its default", cause "mittelpkt_diff 0", hint "write a value above 0", parameter "P-CHAN-00059";
+    CentreFactorZero = Vendor 20436: Warning None 1 2, "relative centre shift 0, the default is used", cause "mittelpkt_faktor 0", hint "write the largest shift in 0.1 % of the radius", parameter "P-CHAN-00060";
+    DefaultCouplingNumber = Vendor 20438: Warning None 1 2, "default coupling group with the logical axis number 0, the pair is left out", cause "synchro_data.koppel_gruppe[0].paar[0] without a master", hint "name master and slave by their logical axis numbers", parameter "P-CHAN-00037";
+    DefaultCouplingItself = Vendor 20440: Warning None 1 2, "default coupling group that couples an axis with itself, the pair is left out", hint "master and slave are different axes", parameter "P-CHAN-00037";
+    DefaultCouplingSlaveTwice = Vendor 20441: Warning None 1 2, "default coupling group with one slave in two pairs, the second one is left out", hint "a slave has one master", parameter "P-CHAN-00038";
+    DefaultCouplingChain = Vendor 20442: Warning None 1 2, "default coupling group with an axis that is master and slave, the second pair is left out", hint "a master is no slave of another pair", parameter "P-CHAN-00037";
     WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it to a separate block";
     CouplingWithCompensation = Vendor 20457: Error ProgramAbort 3 1, "coupling switched while tool radius compensation is active", cause "#ENABLE AX LINK [1] after G41", hint "switch couplings before G41 or after G40";
     CouplingGroupNumber = Vendor 20461: Error ProgramAbort 3 1, "number of a coupling group out of range", cause "#SET AX LINK [100000, Y=X]", hint "groups have the numbers 1 to 65535; 0 is that of the channel list";
@@ -198,6 +208,7 @@ conditions! {
     ZeroGroupFormat = Vendor 20582: Error ProgramAbort 3 1, "group of G159 outside the data format", cause "G159=-1", hint "groups are whole numbers from 0";
     MaskedGroupFormat = Vendor 20583: Error ProgramAbort 3 1, "group of G160 outside the data format", cause "G160=-1 X1", hint "groups are whole numbers from 0";
     MaskedGroup = Vendor 20584: Error ProgramAbort 3 1, "group of G160 is not in the table of zero offsets", cause "G160=500 X1", hint "groups are 0 to 96";
+    ZeroOffsetDefault = Vendor 20585: Error ProgramAbort 6 2, "default zero offset outside the groups", cause "default_index 200", hint "groups are 0 to 96", parameter "P-ZERO-00002";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetTooLarge = Vendor 20604: Error ProgramAbort 3 1, "position of #PSET outside the data format", cause "#PSET X94967296", hint "coordinates reach up to 214748.3647 mm or deg";
     PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before it";
@@ -266,6 +277,7 @@ conditions! {
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     TangentialRadius = Vendor 20962: Error ProgramAbort 3 1, "least radius of #TANGFEED outside the data format", cause "#TANGFEED [RMIN=-5]", hint "a radius is 0 or more";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
+    SpindleName = Vendor 20971: Warning None 1 2, "spindle name of the channel list that does not begin with S, S is used", cause "spindel[0].bezeichnung C", hint "names of spindles begin with S", parameter "P-CHAN-00007";
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
     TwoDecelerations = Vendor 20977: Error ProgramAbort 3 1, "two of G09/G900/G901", hint "one of G09, G900, G901 per block";
@@ -277,6 +289,7 @@ conditions! {
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
     SpindleSpeedTwice = Vendor 21036: Error ProgramAbort 3 1, "spindle speed twice in one block", cause "S[M3 REV100 REV200]", hint "leave one of the two out";
     NotMainSpindle = Vendor 21044: Error ProgramAbort 3 1, "DIN words of a spindle that is not the main spindle", cause "S2=100 M3", hint "write S2[REV100 M3]";
+    MainSpindleName = Vendor 21045: Error JobAbort 1 2, "the name of the main spindle is that of another spindle", cause "main_spindle_name S2 beside spindel[1].bezeichnung S2", hint "give the main spindle a name that no other spindle has", parameter "P-CHAN-00053";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
     CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of a coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two numbers that are not 0: [Y=X, -1, 1] mirrors";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
@@ -289,6 +302,7 @@ conditions! {
     TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";
     MessageFormat = Vendor 21232: Error ProgramAbort 3 1, "unknown format in #MSG", cause "only %s %S %d %D %f %F", hint "formats are %s, %d and %f";
     OscillationCount = Vendor 21237: Error ProgramAbort 3 1, "number of oscillations outside the data format", cause "NBR_OSC=0", hint "write a whole number from 1";
+    PathAxisIsSpindle = Vendor 21238: Error JobAbort 7 2, "path axis of the channel list whose axis list is that of a spindle", hint "name the spindle under spindel[i], or change the axis type", parameter "P-CHAN-00035";
     ArcFunctionRange = Vendor 21241: Error ProgramAbort 3 1, "argument of ASIN or ACOS outside -1 to 1", cause "P1=ASIN[2]", hint "sine and cosine lie between -1 and 1";
     ExchangeComma = Vendor 21251: Error ProgramAbort 3 1, "axis exchange: comma missing", hint "write [name, number, index]";
     ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
@@ -317,6 +331,7 @@ conditions! {
     CycleSpindleOutside = Vendor 21385: Error ProgramAbort 3 1, "spindle of a cycle outside of a cycle", cause "@S=1000 in a main program", hint "@S is a word of cycles; write the spindle";
     ConditionalOpen = Vendor 21387: Error ProgramAbort 3 1, "#IF without #ENDIF", hint "write #ENDIF before the end of the program";
     WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
+    WordsWithoutDimensions = Vendor 21404: Warning None 1 2, "several words of an axis without several G90 and G91, switched off", cause "multi_axes_in_block 1 with multi_dimension_in_block 0", hint "set both, or none", parameter "P-CHAN-00148";
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     MixedTypes = Vendor 21457: Error ProgramAbort 3 1, "a text and a number in one operation", cause "\"Peter\" + 23", hint "INT_TO_STR[23] makes a text of a number";
@@ -388,6 +403,7 @@ conditions! {
     SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
     CuttingSpeedZero = Vendor 50182: Error ProgramAbort 6 1, "cutting speed 0", cause "G96 S0", hint "S is the cutting speed in m/min under G96";
+    AccelerationCurve = Vendor 50254: Error AllStop 7 2, "unknown acceleration curve of a spindle", cause "beschl_kennlinie.typ 7", hint "0 none, 1 hyperbola, 2 polynomial, 3 asynchronous drive", parameter "P-AXIS-00202";
     MovedWithoutBanding = Vendor 50263: Error FeedHold 6 1, "moved main axis that does not take part in edge banding", cause "kenngr.kasto_achse 0", hint "set kenngr.kasto_achse to 1", parameter "P-AXIS-00098";
     NoBandingAxis = Vendor 50398: Error FeedHold 6 1, "no axis for edge banding", cause "kenngr.kasto_achse is 0 for all main axes", hint "set kenngr.kasto_achse to 1 for the axes of the plane", parameter "P-AXIS-00098";
     OscillationLimited = Vendor 50487: Warning None 1 0, "oscillation slower than programmed", cause "FREQ, TIME or FEED beyond what velocity and acceleration of the axis allow", hint "lower FREQ or FEED, or bring the reversal positions closer together", parameter "P-AXIS-00212";
@@ -430,12 +446,19 @@ conditions! {
     AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
     ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
     ResolutionPath = Vendor 110086: Warning None 1 2, "encoder resolution (path) is 0, set to 1", cause "P-AXIS-00233", hint "write 1 or more";
+    WindowZero = Vendor 110087: Warning None 1 2, "position window 0, the default is used", hint "write the window of exact stops in 0.1 um", parameter "P-AXIS-00236";
+    FeedAccelerationZero = Vendor 110100: Warning None 1 2, "acceleration 0, the default is used", hint "write the acceleration of the feed in mm/s2", parameter "P-AXIS-00001";
+    FeedDecelerationZero = Vendor 110102: Warning None 1 2, "deceleration 0, the default is used", hint "write the deceleration of the feed in mm/s2", parameter "P-AXIS-00002";
     SoftwareLimitRange = Vendor 110110: Warning None 1 2, "software limits leave no range, corrected", cause "P-AXIS-00177, P-AXIS-00178", hint "write kenngr.swe_neg below kenngr.swe_pos";
     OverrideRange = Vendor 110111: Warning None 1 2, "largest override below the smallest one, limited", cause "P-AXIS-00109", hint "write 1 to 2000 (0.1 %)";
     FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more";
     FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
     GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
     FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "types are LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2, HSC_MEAN";
+    GeometricRampTime = Vendor 110276: Warning None 1 2, "geometric ramp time below the shortest ramp time, limited", hint "raise P-AXIS-00199, or lower P-AXIS-00201", parameter "P-AXIS-00199";
+    SpindleWithoutType = Vendor 110304: Error ProgramAbort 7 2, "spindle of the channel list whose axis list is not that of a spindle", hint "kenngr.achs_typ ACHSTYP_SPINDEL makes an axis a spindle", parameter "P-AXIS-00018";
+    SpindleMode = Vendor 110352: Warning None 1 2, "axis mode of a spindle that is not modulo, modulo is used", cause "kenngr.achs_mode 1 in the list of a spindle", hint "spindles count modulo: 4", parameter "P-AXIS-00015";
+    AxisMode = Vendor 110353: Warning None 1 2, "unknown axis mode, corrected", cause "kenngr.achs_mode 8", hint "the mode has one of 1 linear, 2 optimised positioning, 4 modulo", parameter "P-AXIS-00015";
     FilterFrequencyTooLow = Vendor 110361: Warning None 1 2, "filter frequency below the lowest possible one, lowest frequency used", cause "P-AXIS-00067", hint "write a frequency above it, and below half the sampling rate";
     AccelerationDenominator = Vendor 110381: Warning None 1 2, "denominator of the acceleration feedforward is 0, set to 1", cause "P-AXIS-00226", hint "write 1 or more; a numerator of 0 switches the part off";
     ResolutionIncrements = Vendor 110386: Warning None 1 2, "encoder resolution (increments) is 0, set to 1", cause "P-AXIS-00234", hint "write 1 or more";
