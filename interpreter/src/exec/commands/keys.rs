@@ -212,6 +212,7 @@ impl Found {
 fn key_twice(title: &str) -> Condition {
     match title {
         "#OVERRIDE" => Condition::OverrideKeyTwice,
+        title if title.starts_with("#TIMER") => Condition::TimerTwice,
         _ => Condition::DuplicateKey,
     }
 }
