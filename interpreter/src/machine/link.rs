@@ -281,9 +281,10 @@ fn own_of(own: &Parameters, number: u32) -> Parameters {
 fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic>) -> AxisKind {
     let kind = kind_of(parameters);
     if (kind == AxisKind::Spindle) != named.spindle {
-        let (condition, is, list) = match named.spindle {
-            true => (Condition::SpindleWithoutType, "a spindle", "no spindle"),
-            false => (Condition::PathAxisIsSpindle, "a path axis", "a spindle"),
+        let (condition, is, list) = if named.spindle {
+            (Condition::SpindleWithoutType, "a spindle", "no spindle")
+        } else {
+            (Condition::PathAxisIsSpindle, "a path axis", "a spindle")
         };
         let message = format!(
             "{} is {is} in the channel list and {list} in its axis list (kenngr.achs_typ)",
@@ -325,9 +326,10 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             };
             Some(format!("{name}: logical axis number {number} is that of {} already", first.name))
         } else if earlier.iter().any(|n| n.name.eq_ignore_ascii_case(name)) {
-            condition = match named.spindle {
-                true => Condition::SpindleNameTwice,
-                false => Condition::PathAxisNameTwice,
+            condition = if named.spindle {
+                Condition::SpindleNameTwice
+            } else {
+                Condition::PathAxisNameTwice
             };
             Some(format!("the name {name} is in the channel list twice"))
         } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {

@@ -237,7 +237,7 @@ fn check_together(
         None
     } else if kind_of(parameters) == AxisKind::Spindle && mode & 0x4 == 0 {
         Some((Condition::SpindleMode, "is not that of a spindle", mode & !0x3 | 0x4))
-    } else if mode < 0x40 && mode & 0x7 == 0 {
+    } else if mode < 0x40 && [0x1, 0x2, 0x4].iter().all(|bit| mode & bit == 0) {
         Some((Condition::AxisMode, "is unknown", if is_linear { 0x1 } else { 0x4 }))
     } else {
         None

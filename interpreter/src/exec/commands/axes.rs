@@ -325,9 +325,10 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
         // the manual has a number for two names of the command, and one for an axis that is there already
-        let condition = match taken.numbers.contains(&decoder.machine.axes[other].number()) {
-            true => Condition::ExchangeNameTwice,
-            false => Condition::ExchangeNameTaken,
+        let condition = if taken.numbers.contains(&decoder.machine.axes[other].number()) {
+            Condition::ExchangeNameTwice
+        } else {
+            Condition::ExchangeNameTaken
         };
         let text = format!("two axes of the channel would have the name {letters}");
         return Err(Fault::new(condition, text, name.span));
