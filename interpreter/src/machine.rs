@@ -38,6 +38,7 @@ mod transmission;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
+pub use channel::couplings::DefaultCoupling;
 pub use channel::functions::{Acknowledged, SpindleMoment};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
 pub use issues::filter_condition;

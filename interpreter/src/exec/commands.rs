@@ -11,6 +11,7 @@ mod contour;
 mod corner;
 mod couplings;
 mod frames;
+mod jog;
 pub(in crate::exec) mod keys;
 mod measuring;
 mod messages;
@@ -171,7 +172,7 @@ const ROWS: &[Row] = &[
     unsupported("INFO"),
     unsupported("GET WCS POSLIMIT"),
     unsupported("LOCK"),
-    unsupported("MANUAL LIMITS"),
+    jog::MANUAL_LIMITS,
     unsupported("MCS TO WCS"),
     measuring::MEAS,
     measuring::MEAS_MODE,
@@ -202,7 +203,7 @@ const ROWS: &[Row] = &[
     unsupported("RT WHILE"),
     unsupported("RT ENDWHILE"),
     unsupported("VOLCOMP"),
-    unsupported("JOG"),
+    jog::JOG,
     unsupported("HANDWHEEL"),
     // parameters and procedures of drives
     unsupported("IDENT"),

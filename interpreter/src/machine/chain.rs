@@ -1,6 +1,7 @@
 //! From the start-up list to settled parameters: defaults, default list, specific list, overrides, range checks.
 
 use super::axis::{AxisKind, kind_of, logical_number};
+use super::channel::couplings::default_couplings;
 use super::lists::{self, Found, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
@@ -299,10 +300,8 @@ impl Chain<'_> {
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
         plausible::check(&mut settled.tools, cycle, None, diagnostics);
         plausible::check(&mut settled.zero, cycle, None, diagnostics);
-        plausible::check_feed_unit(&mut settled.channel, diagnostics);
-        plausible::check_presets(&settled.channel, diagnostics);
-        plausible::check_rapid_override(&settled.channel, diagnostics);
-        plausible::check_synchronisation(&settled.channel, diagnostics);
+        plausible::channel::check(&mut settled.channel, diagnostics);
+        diagnostics.append(&mut default_couplings(&settled.channel).1);
         inert::check(&settled.start_up, None, diagnostics);
         inert::check(&settled.channel, None, diagnostics);
         inert::check(&settled.tools, None, diagnostics);

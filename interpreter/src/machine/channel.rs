@@ -1,5 +1,6 @@
 //! The channel: start values of a program and limits of the path.
 
+pub(super) mod couplings;
 pub(super) mod functions;
 
 use super::parameters::{Parameters, Setting};
@@ -7,6 +8,7 @@ use super::table::Indices;
 use super::table::channel as of;
 use super::table::param::{Number, Optional, Param, Text, Whole, whole};
 use super::table::start_up as from;
+use couplings::{DefaultCoupling, default_couplings};
 use functions::{Acknowledged, SpindleDurations, SpindleWaits};
 use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 use kontur_motion::realtime::OverrideMode;
@@ -197,6 +199,8 @@ pub struct Channel {
     pub main_spindle: Option<u32>,
     /// Name that addresses the main spindle in the NC program (P-CHAN-00053).
     pub main_spindle_name: String,
+    /// Coupling group 0, which the list defines (P-CHAN-00037, P-CHAN-00038).
+    pub default_couplings: Vec<DefaultCoupling>,
     parameters: Parameters,
     start_up: Parameters,
 }
@@ -332,6 +336,7 @@ impl Channel {
             tool_change_program: program(of::TOOL_CHANGE_PROGRAM),
             main_spindle: Some(choice(of::MAIN_SPINDLE)).filter(|n| *n != 0),
             main_spindle_name: p.get(of::MAIN_SPINDLE_NAME).unwrap_or_default(),
+            default_couplings: default_couplings(p).0,
             parameters,
             start_up,
         }

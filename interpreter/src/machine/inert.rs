@@ -57,7 +57,10 @@ pub(super) fn check(
             Default::Number(x) => x,
             _ => 0.0,
         };
-        if setting.value == Value::Number(default) {
+        // what is refused has its message already
+        let is_refused =
+            |d: &Diagnostic| d.is_error() && d.parameter == Some(row.id) && d.source == setting.at;
+        if setting.value == Value::Number(default) || diagnostics.iter().any(is_refused) {
             continue;
         }
         let key = with_indices(row.key, indices);

@@ -104,6 +104,8 @@ const SIZES: &[(&str, u32)] = &[
     ("gruppe", 1),
     ("gruppe[i].achse", 32),
     ("spindel", 16),
+    ("synchro_data.koppel_gruppe", 1),
+    ("synchro_data.koppel_gruppe[i].paar", 15),
     ("prog_start.g_gruppe", 38),
     ("configuration.channel", 12),
 ];

@@ -74,6 +74,9 @@ struct EntryKeys {
     number: Place,
 }
 
+/// Most characters of a name. Source: P-CHAN-00006, P-CHAN-00010.
+const NAME_MAX: usize = 16;
+
 /// An array of names in the channel list.
 struct GroupKeys {
     /// Its key in messages.
@@ -135,7 +138,7 @@ fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnost
             diagnostics.push(error(Condition::ListLink, message, at));
             continue;
         };
-        let text = name.value.text().unwrap_or_default().to_owned();
+        let text = name.value.text().unwrap_or_default();
         let Some(number) = number_at(i) else {
             let message = format!("{array}[{i}]: axis {text} has no logical number (log_achs_nr)");
             diagnostics.push(error(Condition::ListLink, message, name.at.clone()));
@@ -143,25 +146,48 @@ fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnost
         };
         let value = number.value.number().and_then(whole).unwrap_or_default();
         let at = number.at.clone().or_else(|| name.at.clone());
-        check_name(&text, spindles, name.at.as_ref(), diagnostics);
+        let name = usable_name(text, value, spindles, name.at.as_ref(), diagnostics);
         let feed = !spindles && channel.get(of::FEED_AXIS.and(i));
-        found.push(Named { name: text, number: value, spindle: spindles, feed, at });
+        found.push(Named { name, number: value, spindle: spindles, feed, at });
     }
     found
 }
 
 /// Names of path axes begin with A B C U V W X Y Z Q, names of spindles with S; then letters, digits and `_`.
-fn check_name(name: &str, spindle: bool, at: Option<&Location>, diagnostics: &mut Vec<Diagnostic>) {
+///
+/// A wrong first letter, and an axis name that is too long, are replaced as the control does it: 20425, 20971
+/// (251585675, 253130635). No document has a number for other wrong characters, nor a name in their place.
+fn usable_name(
+    name: &str,
+    number: u32,
+    spindle: bool,
+    at: Option<&Location>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> String {
     let letters = if spindle { "S" } else { "ABCUVWXYZQ" };
     let first = name.chars().next().map(|c| c.to_ascii_uppercase());
-    let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if !first.is_some_and(|c| letters.contains(c)) || !rest || name.len() > 16 {
-        let message = format!(
-            "`{name}` is no name of {}: it begins with one of {letters}, then at most 15 letters, digits and _",
-            if spindle { "a spindle" } else { "an axis" }
-        );
-        diagnostics.push(error(Condition::ListLink, message, at.cloned()));
+    let begins = first.is_some_and(|c| letters.contains(c));
+    let is_long = name.len() > NAME_MAX;
+    if begins && !is_long && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return name.to_owned();
     }
+    let what = if spindle { "a spindle" } else { "an axis" };
+    let message = format!(
+        "`{name}` is no name of {what}: it begins with one of {letters}, then at most {} letters, digits and _",
+        NAME_MAX - 1
+    );
+    let replaced = match (begins, is_long) {
+        (false, _) | (_, true) if !spindle => (Condition::PathAxisName, format!("X{number}")),
+        (false, false) if spindle => (Condition::SpindleName, "S".to_owned()),
+        _ => {
+            diagnostics.push(error(Condition::ListLink, message, at.cloned()));
+            return name.to_owned();
+        }
+    };
+    let (condition, used) = replaced;
+    let diagnostic = error(condition, format!("{message}; {used} is used"), at.cloned());
+    diagnostics.push(diagnostic.axis(number, &*used));
+    used
 }
 
 fn error(condition: Condition, message: String, at: Option<Location>) -> Diagnostic {
@@ -251,19 +277,22 @@ fn own_of(own: &Parameters, number: u32) -> Parameters {
     part
 }
 
-/// The channel list decides what is a spindle; K-0031 if the axis list says otherwise.
+/// The channel list decides what is a spindle; 21238, 110304 if the axis list says otherwise.
 fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic>) -> AxisKind {
     let kind = kind_of(parameters);
     if (kind == AxisKind::Spindle) != named.spindle {
-        let (is, list) =
-            if named.spindle { ("a spindle", "no spindle") } else { ("a path axis", "a spindle") };
+        let (condition, is, list) = if named.spindle {
+            (Condition::SpindleWithoutType, "a spindle", "no spindle")
+        } else {
+            (Condition::PathAxisIsSpindle, "a path axis", "a spindle")
+        };
         let message = format!(
             "{} is {is} in the channel list and {list} in its axis list (kenngr.achs_typ)",
             named.name
         );
         let at = parameters.set_by(axis_general::KIND).and_then(|s| s.at.clone());
         diagnostics.push(
-            error(Condition::ListLink, message, at.or_else(|| named.at.clone()))
+            error(condition, message, at.or_else(|| named.at.clone()))
                 .axis(named.number, &*named.name),
         );
     }
@@ -289,12 +318,19 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         let problem = if *number == 0 {
             Some(format!("{name}: logical axis number 0 is not allowed"))
         } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
-            // the manual has a number for path axes alone
-            if !named.spindle && !first.spindle {
-                condition = Condition::PathAxisNumberTwice;
-            }
+            // the manual has no number for two spindles
+            condition = match (first.spindle, named.spindle) {
+                (false, false) => Condition::PathAxisNumberTwice,
+                (true, true) => Condition::ListLink,
+                _ => Condition::SpindleIsPathAxis,
+            };
             Some(format!("{name}: logical axis number {number} is that of {} already", first.name))
         } else if earlier.iter().any(|n| n.name.eq_ignore_ascii_case(name)) {
+            condition = if named.spindle {
+                Condition::SpindleNameTwice
+            } else {
+                Condition::PathAxisNameTwice
+            };
             Some(format!("the name {name} is in the channel list twice"))
         } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {
             Some(format!("{name}: no axis list has kopf.achs_nr {number}"))
@@ -306,6 +342,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
                 .push(error(condition, message, named.at.clone()).axis(*number, name.as_str()));
         }
     }
+    check_main_name(settled, names, diagnostics);
     for (indices, setting) in settled.own.settings() {
         // a list may describe more axes than the channel has
         let is_set = setting.at.as_ref().is_some_and(|at| &*at.file == OVERRIDE);
@@ -336,5 +373,25 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             diagnostics
                 .push(error(Condition::ListLink, message, None).axis(*number, name.as_str()));
         }
+    }
+}
+
+/// 21045: the main spindle must not have the name of another one.
+fn check_main_name(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
+    let Some(setting) = settled.channel.set_by(of::MAIN_SPINDLE_NAME) else { return };
+    let listed = settled.channel.get(of::MAIN_SPINDLE);
+    let mut spindles = names.named.iter().filter(|n| n.spindle);
+    let main = match listed {
+        0 => spindles.clone().next().map(|n| n.number),
+        number => Some(number),
+    };
+    let name = setting.value.text().unwrap_or_default();
+    let other = |n: &&Named| Some(n.number) != main && n.name.eq_ignore_ascii_case(name);
+    if let Some(other) = spindles.find(other) {
+        let message = format!("main_spindle_name: {name} is the name of another spindle");
+        diagnostics.push(
+            error(Condition::MainSpindleName, message, setting.at.clone())
+                .axis(other.number, &*other.name),
+        );
     }
 }

@@ -97,7 +97,7 @@ const SAID_MAX: u32 = 20;
 /// Number of unknown keys that are named in one message; more are only counted.
 const NAMED_UNKNOWN: usize = 12;
 
-/// Reads a list. Diagnostics: 1001119 unknown element, 1001138 bad number, K-0028 key twice, K-0029 empty index,
+/// Reads a list. Diagnostics: 1001119 unknown element, 1030 index of a start-up list beyond its array, 1001138 bad number, K-0028 key twice, K-0029 empty index,
 /// K-0030 second word after a text, K-0071 line that is not an entry, K-0072 end mark.
 pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diagnostic>) -> List {
     let mut reader = Reader {
@@ -187,8 +187,12 @@ impl Reader<'_> {
         let Some((row, indices)) = key.resolve(self.kind) else {
             if let Some(beyond) = key.beyond(self.kind) {
                 let message = format!("`{word}` is ignored: {beyond}");
+                let condition = match self.kind {
+                    ListKind::StartUp => Condition::ListIndexRange,
+                    _ => Condition::ListKeyUnknown,
+                };
                 self.say(
-                    Diagnostic::new(Condition::ListKeyUnknown, message)
+                    Diagnostic::new(condition, message)
                         .value(ValueKind::Identification, 1, "-")
                         .at(key_at),
                 );

@@ -3,14 +3,16 @@
 //! Rows whose range depends on other words of a function (filters, Improved Position Control) are checked where that
 //! function is set up.
 
+pub(super) mod channel;
+
 use super::axis::{AxisKind, kind_of};
 use super::lists::parameter;
-use super::parameters::{Parameters, Setting};
-use super::table::param::{Number, Param, Place, whole};
+use super::parameters::Parameters;
+use super::table::param::{Number, Param, Place};
 use super::table::{
     self, Bound, Correction, Default, Indices, ListKind, Raw, Reaction, Row, with_indices,
 };
-use super::table::{axis_drive, axis_general, channel, kontur};
+use super::table::{axis_drive, axis_general, kontur};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
@@ -228,6 +230,23 @@ fn check_together(
         put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
     }
 
+    // P-AXIS-00015: modes of spindles, and modes that there are not
+    let (mode, is_linear) =
+        (parameters.get(axis_general::MODE), kind_of(parameters) == AxisKind::Linear);
+    let wrong = if parameters.set_by(axis_general::MODE).is_none() {
+        None
+    } else if kind_of(parameters) == AxisKind::Spindle && mode & 0x4 == 0 {
+        Some((Condition::SpindleMode, "is not that of a spindle", mode & !0x3 | 0x4))
+    } else if mode < 0x40 && [0x1, 0x2, 0x4].iter().all(|bit| mode & bit == 0) {
+        Some((Condition::AxisMode, "is unknown", if is_linear { 0x1 } else { 0x4 }))
+    } else {
+        None
+    };
+    if let Some((condition, what, used)) = wrong {
+        let text = format!("kenngr.achs_mode: {mode} {what}, {used} is used");
+        put(parameters, condition, axis_general::MODE.place(), text, f64::from(used));
+    }
+
     // P-AXIS-00566 allows velocity feedforward only
     let flags = parameters.get(axis_drive::FEEDFORWARD);
     if parameters.get(axis_drive::FF_WITHOUT_DELAY) && flags & 0x6 != 0 {
@@ -280,95 +299,4 @@ pub(super) fn check_sampling(
         .value(ValueKind::Wrong, z / n, "s")
         .value(ValueKind::Corrected, cycle.seconds(), "s");
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
-}
-
-/// Group of G135, G136 and G137 (P-CHAN-00063).
-const FEEDFORWARD_GROUP: u32 = 21;
-
-/// K-0075: every program starts with G137, whatever P-CHAN-00063 presets for the group of the feedforward.
-pub(super) fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let preset = channel::G_GROUP.at(FEEDFORWARD_GROUP);
-    let Some(setting) = parameters.set_by(preset) else { return };
-    if setting.value.number().and_then(whole) != Some(135) {
-        return;
-    }
-    let text = format!(
-        "{}: a preset of G135 has no effect, programs start with feedforward off",
-        preset.place()
-    );
-    let hint = "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
-    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
-    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
-}
-
-/// K-0070: P-CHAN-00108 knows two units.
-///
-/// Assumption: any other value becomes 100, as the page says of 0; it names no unit for the values between the two.
-pub(super) fn check_feed_unit(parameters: &mut Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let place = channel::FEED_UNIT.place();
-    let Some(setting) = parameters.set_by(place).cloned() else { return };
-    let Some(value) = setting.value.number() else { return };
-    if [0.1_f64, 100.0, -1.0].iter().any(|unit| unit.total_cmp(&value).is_eq()) {
-        return;
-    }
-    let text = format!("{place}: {value} is neither 100 (mm/min) nor 0.1 (m/min), 100 is used");
-    let diagnostic = Diagnostic::new(Condition::ListRange, text)
-        .value(ValueKind::Wrong, value, "-")
-        .value(ValueKind::Corrected, 100.0, "-")
-        .corrected(100.0);
-    parameters.set(place.row, place.indices, Value::Number(100.0), setting.at.clone());
-    diagnostics.push(finish(diagnostic, place.row, setting.at, None));
-}
-
-/// K-0075: ACTIVE_EXTENDED of P-CHAN-00181 acts as ACTIVE.
-pub(super) fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let Some(setting) = parameters.set_by(channel::RAPID_OVERRIDE) else { return };
-    if setting.value.number().and_then(whole) != Some(3) {
-        return;
-    }
-    let text = format!(
-        "{}: ACTIVE_EXTENDED acts as ACTIVE, measuring runs and homing follow the override of feed",
-        channel::RAPID_OVERRIDE.place()
-    );
-    let hint = "rapid_override_percent of --input acts on G00 alone";
-    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
-    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
-}
-
-/// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 and 00027 say.
-pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    // for its spindles the path does wait
-    let simulated = channel::BEFORE_MOTION | channel::DURING_MOTION | channel::BEHIND_MOTION;
-    // edge banding has its own messages
-    let waiting = simulated | channel::ELSEWHERE & !channel::AT_SIGNAL;
-    let durations = [
-        (channel::M_SYNCHRONISATION, channel::M_DURATION),
-        (channel::H_SYNCHRONISATION, channel::H_DURATION),
-        (channel::SPINDLE_M3_SYNCHRONISATION, channel::SPINDLE_M3_DURATION),
-        (channel::SPINDLE_M4_SYNCHRONISATION, channel::SPINDLE_M4_DURATION),
-        (channel::SPINDLE_M5_SYNCHRONISATION, channel::SPINDLE_M5_DURATION),
-        (channel::SPINDLE_M19_SYNCHRONISATION, channel::SPINDLE_M19_DURATION),
-        (channel::SPINDLE_SPEED_SYNCHRONISATION, channel::SPINDLE_SPEED_DURATION),
-    ];
-    // a declared duration is waited for, or named in the summary
-    let is_missing = |(i, setting): &(Indices, &Setting)| {
-        let mut rows = durations.iter();
-        let row =
-            rows.find(|(synchronisation, _)| synchronisation.place().row.key == setting.row.key);
-        row.is_some_and(|(_, duration)| {
-            let of_spindle = setting.row.key.starts_with("spindel");
-            let not_simulated = if of_spindle { waiting & !simulated } else { waiting };
-            let bits = setting.value.number().and_then(whole);
-            bits.is_some_and(|bits| bits & not_simulated != 0)
-                && parameters.listed(duration.at(i[0])).is_none_or(|us| us <= 0.0)
-        })
-    };
-    let Some((i, setting)) = parameters.settings().find(is_missing) else { return };
-    let text = format!(
-        "{}: no time is spent on the acknowledgement of functions, the path does not wait for it",
-        with_indices(setting.row.key, i)
-    );
-    let hint = "m_prozess_zeit and its relatives (P-CHAN-00040, 00026, 00044) with --techno-times let the path wait for functions";
-    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
-    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

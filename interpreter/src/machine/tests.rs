@@ -355,5 +355,5 @@ fn lists_of_zero_offsets() {
     assert_eq!(machine.zero_offsets.entries, BTreeMap::from([((1, 0), 10.0), ((2, 1), -5.5)]));
     let set = files.load(&["zero.default_index=1"]).unwrap().0;
     assert_eq!(set.zero_offsets.start_group, 1);
-    assert_eq!(files.ids(&["zero.default_index=97"]), ["K-0070"]);
+    assert_eq!(files.ids(&["zero.default_index=97"]), ["20585"]);
 }

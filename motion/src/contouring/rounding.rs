@@ -37,6 +37,10 @@ struct Bounds {
 /// takes a few cycles).
 pub(crate) const NEEDLE_RAD: f64 = 0.05;
 
+/// Corner distance that a block must allow. Source: the example of the vendor's remarks on contouring, where 0.0007 mm of a
+/// block of 0.0014 mm are too short (120216); Assumption: the limit is the next round number, 1 um.
+const SHORTEST_MM: f64 = 0.001;
+
 /// Largest corner distance of a block: half of what does not have to remain, on arcs at most a quarter turn
 /// (source: TF5200, maximum corner distance).
 fn longest(path: &Path, settings: &ContourSettings) -> f64 {
@@ -192,6 +196,9 @@ impl<'a> Corner<'a> {
 
     /// The largest curve within the bounds.
     fn fit(&self, bounds: Bounds) -> Option<Curve> {
+        if self.longest.0.min(self.longest.1) < SHORTEST_MM {
+            return None;
+        }
         let mut pre = bounds.pre.min(self.longest.0);
         let mut post = bounds.post.min(self.longest.1);
         if bounds.symmetric {

@@ -64,6 +64,7 @@ const fn optional<const N: usize>(texts: [&'static str; N]) -> Option<&'static s
 }
 
 conditions! {
+    ListIndexRange = Vendor 1030: Error JobAbort 7 2, "index in the start-up list beyond its array", cause "achs_mds[230]", hint "axis lists have the indices 0 to 31 here, channel lists 0 to 11";
     AxisMissing = Vendor 20003: Warning None 1 1, "G function needs an axis", cause "e.g. G160=2 without axis", hint "the function acts on the axes in its block: G160=2 X1";
     SpindleSpeedZero = Vendor 20007: Error ProgramAbort 3 1, "spindle speed 0", cause "G63 with S0", hint "program the speed before: S1000 M3";
     FeedZero = Vendor 20008: Error ProgramAbort 3 1, "feed is 0 in a motion block", cause "first G01/G02/G03 without F (P-CHAN-00099 = 0)", hint "write F in this block or before it";
@@ -172,8 +173,17 @@ conditions! {
     ParameterNumber = Vendor 20400: Error ProgramAbort 3 1, "number of a P parameter is 0, negative or too large", cause "P0=10", hint "P parameters have numbers from 1 on";
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
+    SpindleNameTwice = Vendor 20419: Error JobAbort 1 2, "two spindles of the channel list have one name", hint "give every spindle a name of its own", parameter "P-CHAN-00007";
     PathAxisNumberTwice = Vendor 20423: Error JobAbort 1 2, "two path axes of the channel list have one logical number", cause "gruppe[0].achse[1].log_achs_nr 1 beside achse[0]", hint "give every axis a number of its own, that of its axis list", parameter "P-CHAN-00035";
+    PathAxisNameTwice = Vendor 20424: Error JobAbort 1 2, "two path axes of the channel list have one name", hint "give every axis a name of its own", parameter "P-CHAN-00006";
+    PathAxisName = Vendor 20425: Warning None 1 2, "axis name of the channel list too long or with a wrong first letter, replaced", cause "gruppe[0].achse[0].bezeichnung K", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters", parameter "P-CHAN-00006";
+    SpindleIsPathAxis = Vendor 20426: Error JobAbort 1 2, "a spindle and a path axis of the channel list have one logical number", hint "give every axis and spindle a number of its own", parameter "P-CHAN-00036";
     CentreShiftZero = Vendor 20435: Warning None 1 2, "largest centre shift of arcs is 0, set to its default", cause "mittelpkt_diff 0", hint "write a value above 0", parameter "P-CHAN-00059";
+    CentreFactorZero = Vendor 20436: Warning None 1 2, "relative centre shift 0, the default is used", cause "mittelpkt_faktor 0", hint "write the largest shift in 0.1 % of the radius", parameter "P-CHAN-00060";
+    DefaultCouplingNumber = Vendor 20438: Warning None 1 2, "default coupling group with the logical axis number 0, the pair is left out", cause "synchro_data.koppel_gruppe[0].paar[0] without a master", hint "name master and slave by their logical axis numbers", parameter "P-CHAN-00037";
+    DefaultCouplingItself = Vendor 20440: Warning None 1 2, "default coupling group that couples an axis with itself, the pair is left out", hint "master and slave are different axes", parameter "P-CHAN-00037";
+    DefaultCouplingSlaveTwice = Vendor 20441: Warning None 1 2, "default coupling group with one slave in two pairs, the second one is left out", hint "a slave has one master", parameter "P-CHAN-00038";
+    DefaultCouplingChain = Vendor 20442: Warning None 1 2, "default coupling group with an axis that is master and slave, the second pair is left out", hint "a master is no slave of another pair", parameter "P-CHAN-00037";
     WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it to a separate block";
     CouplingWithCompensation = Vendor 20457: Error ProgramAbort 3 1, "coupling switched while tool radius compensation is active", cause "#ENABLE AX LINK [1] after G41", hint "switch couplings before G41 or after G40";
     CouplingGroupNumber = Vendor 20461: Error ProgramAbort 3 1, "number of a coupling group out of range", cause "#SET AX LINK [100000, Y=X]", hint "groups have the numbers 1 to 65535; 0 is that of the channel list";
@@ -185,7 +195,11 @@ conditions! {
     SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "leave one of the two couplings out";
     CouplingChain = Vendor 20477: Error ProgramAbort 3 1, "axis is master and slave", cause "#SET AX LINK [1, B=X, C=B]", hint "couple both slaves with the first master";
     EmptyBracket = Vendor 20480: Error ProgramAbort 3 1, "nothing in the brackets of a command", cause "#SET TIP [ ] X", hint "write its values into the brackets";
+    JogStep = Vendor 20485: Error ProgramAbort 3 1, "negative step of incremental jogging", cause "#JOG INCR [AX=X DIST1=-0.1 FEED1=1]", hint "steps are positive";
+    JogFeed = Vendor 20486: Error ProgramAbort 3 1, "negative feed of incremental jogging", cause "#JOG INCR [AX=X DIST1=0.1 FEED1=-1]", hint "feeds are positive";
     JogStages = Vendor 20490: Error ProgramAbort 3 1, "too many values after #SET TIP", cause "#SET TIP [1, 2, 3, 4] X", hint "write at most three speeds";
+    JogFeedContinuous = Vendor 20491: Error ProgramAbort 3 1, "negative feed of continuous jogging", cause "#JOG CONT [AX=X FEED1=-1]", hint "feeds are positive";
+    ManualLimit = Vendor 20493: Error ProgramAbort 3 1, "positive value of the negative limit of manual mode", cause "#MANUAL LIMITS [AX=X NEGATIVE=5 POSITIVE=5]", hint "write NEGATIVE=-5";
     PositionRequests = Vendor 20500: Error ProgramAbort 3 1, "too many values in #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", hint "write the rest into a second command";
     CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' describes the commands that exist";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
@@ -199,8 +213,11 @@ conditions! {
     ZeroGroupFormat = Vendor 20582: Error ProgramAbort 3 1, "group of G159 outside the data format", cause "G159=-1", hint "groups are whole numbers from 0";
     MaskedGroupFormat = Vendor 20583: Error ProgramAbort 3 1, "group of G160 outside the data format", cause "G160=-1 X1", hint "groups are whole numbers from 0";
     MaskedGroup = Vendor 20584: Error ProgramAbort 3 1, "group of G160 is not in the table of zero offsets", cause "G160=500 X1", hint "groups are 0 to 96";
+    ZeroOffsetDefault = Vendor 20585: Error ProgramAbort 6 2, "default zero offset outside the groups", cause "default_index 200", hint "groups are 0 to 96", parameter "P-ZERO-00002";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetTooLarge = Vendor 20604: Error ProgramAbort 3 1, "position of #PSET outside the data format", cause "#PSET X94967296", hint "coordinates reach up to 214748.3647 mm or deg";
+    PresetWithCompensation = Vendor 20608: Error ProgramAbort 3 1, "#PSET or #PRESET with active tool radius compensation", hint "switch the compensation off with G40 before";
+    PresetWithDiameters = Vendor 20610: Error ProgramAbort 3 1, "#PSET or #PRESET with active diameter programming", hint "write G52 before";
     PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before it";
     MacroNameLength = Vendor 20614: Error ProgramAbort 3 1, "name of a macro too long", cause "P-CHAN-00511, 30 characters by default", hint "shorten the name", parameter "P-CHAN-00511";
     CuttingSpeedLimited = Vendor 20633: Warning None 1 1, "too near to the turning centre for G96: spindle speed limited", cause "G96 at X0", hint "select G96 further out, or raise G196";
@@ -218,6 +235,7 @@ conditions! {
     KinematicsWhileActive = Vendor 20687: Error ProgramAbort 3 1, "kinematics changed under an active transformation", cause "#KIN ID under #TRAFO ON", hint "write #TRAFO OFF before #KIN ID";
     InsertionsWithoutMotion = Vendor 20701: Warning None 1 1, "two of G301/G302 without motion between them", hint "leave one of the two out";
     PresetOffsetTooLarge = Vendor 20711: Error ProgramAbort 3 1, "offset of #PSET outside the data format", cause "#PSET X-214748 where the axis is at 100", hint "offsets reach up to 214748.3647 mm or deg";
+    LookAheadFormat = Vendor 20712: Error ProgramAbort 3 1, "G115 value outside the data format", cause "G115=-1", hint "write a whole number from 0 to 14";
     MessageCount = Vendor 20721: Error ProgramAbort 3 1, "#MSG: number of values and of formats differ", cause "#MSG [\"%d %d\", 1]", hint "write one value for each format";
     MessageValue = Vendor 20726: Error ProgramAbort 3 1, "#MSG: value missing after a comma", cause "#MSG [\"%d\", ]", hint "write one value for each format";
     MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
@@ -267,17 +285,23 @@ conditions! {
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     TangentialRadius = Vendor 20962: Error ProgramAbort 3 1, "least radius of #TANGFEED outside the data format", cause "#TANGFEED [RMIN=-5]", hint "a radius is 0 or more";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
+    SpindleName = Vendor 20971: Warning None 1 2, "spindle name of the channel list that does not begin with S, S is used", cause "spindel[0].bezeichnung C", hint "names of spindles begin with S", parameter "P-CHAN-00007";
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
     TwoDecelerations = Vendor 20977: Error ProgramAbort 3 1, "two of G09/G900/G901", hint "one of G09, G900, G901 per block";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before it";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "M3 and M4 set the direction, REV and SPEED are positive";
     SignalNumber = Vendor 20995: Error ProgramAbort 3 1, "negative number of a signal", cause "#SIGNAL [ID=-1]", hint "numbers of signals are 0 or above";
+    SignalChannel = Vendor 20996: Error ProgramAbort 3 1, "channel number of a signal outside the data format", cause "#SIGNAL [ID=1 CH=0]", hint "channels have numbers from 1 on";
+    SignalBracket = Vendor 20998: Error ProgramAbort 3 1, "neither SYN nor a bracket after #SIGNAL or #WAIT", cause "#SIGNAL ID=1", hint "write #SIGNAL [ID=1] or #WAIT SYN [ID=1]";
     TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63 is active", cause "M3, M4, M5 or M19 in the block of G63 or after it", hint "write G00 or G01 before it: G63 is modal";
     SizeOfSystemVariable = Vendor 21023: Error ProgramAbort 3 1, "SIZEOF of a variable of the control", cause "SIZEOF[V.G.WZ_AKT.V[1]]", hint "SIZEOF takes arrays of the program: P, V.P, V.L, V.S";
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
     SpindleSpeedTwice = Vendor 21036: Error ProgramAbort 3 1, "spindle speed twice in one block", cause "S[M3 REV100 REV200]", hint "leave one of the two out";
     NotMainSpindle = Vendor 21044: Error ProgramAbort 3 1, "DIN words of a spindle that is not the main spindle", cause "S2=100 M3", hint "write S2[REV100 M3]";
+    MainSpindleName = Vendor 21045: Error JobAbort 1 2, "the name of the main spindle is that of another spindle", cause "main_spindle_name S2 beside spindel[1].bezeichnung S2", hint "give the main spindle a name that no other spindle has", parameter "P-CHAN-00053";
+    SignalNumberTwice = Vendor 21056: Error ProgramAbort 3 1, "number of a signal twice", cause "#SIGNAL [ID=1 ID=2]", hint "write one command for each signal";
+    SignalParameterTwice = Vendor 21059: Error ProgramAbort 3 1, "parameter of a signal twice", cause "#SIGNAL [ID=44 P[0]=200 P[0]=944]", hint "leave one of the two out, or raise the index";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
     CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of a coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two numbers that are not 0: [Y=X, -1, 1] mirrors";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
@@ -289,7 +313,9 @@ conditions! {
     VariableClass = Vendor 21218: Error ProgramAbort 3 1, "variable type not available", cause "V.L.", hint "V.P, V.L, V.S and V.CYC can be declared";
     TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";
     MessageFormat = Vendor 21232: Error ProgramAbort 3 1, "unknown format in #MSG", cause "only %s %S %d %D %f %F", hint "formats are %s, %d and %f";
+    SystemsTooMany = Vendor 21234: Error ProgramAbort 3 1, "more coordinate systems than can be stored", cause "a sixth #CS DEF", hint "define a number again that is no longer needed";
     OscillationCount = Vendor 21237: Error ProgramAbort 3 1, "number of oscillations outside the data format", cause "NBR_OSC=0", hint "write a whole number from 1";
+    PathAxisIsSpindle = Vendor 21238: Error JobAbort 7 2, "path axis of the channel list whose axis list is that of a spindle", hint "name the spindle under spindel[i], or change the axis type", parameter "P-CHAN-00035";
     ArcFunctionRange = Vendor 21241: Error ProgramAbort 3 1, "argument of ASIN or ACOS outside -1 to 1", cause "P1=ASIN[2]", hint "sine and cosine lie between -1 and 1";
     ExchangeComma = Vendor 21251: Error ProgramAbort 3 1, "axis exchange: comma missing", hint "write [name, number, index]";
     ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
@@ -299,18 +325,21 @@ conditions! {
     ExchangeIndexTwice = Vendor 21257: Error ProgramAbort 3 1, "axis exchange: index twice", cause "#CALL AX [X,1,0][Y,2,0]", hint "give every axis its own index";
     ExchangeNumberTwice = Vendor 21258: Error ProgramAbort 3 1, "axis exchange: axis number twice", cause "#CALL AX [X,1,0][Y,1,1]", hint "name every axis once";
     ExchangeIndexTaken = Vendor 21260: Error ProgramAbort 3 1, "axis exchange: the axis index is in use", cause "#CALL AX [Z,3,0] while X is the axis 0", hint "take a free index, or release the other axis with #PUT AX first";
+    ExchangeNameTaken = Vendor 21261: Error ProgramAbort 3 1, "axis exchange: name of an axis that the channel has already", cause "#CALL AX [X,3,2] beside X", hint "call the axis by another name, or release the other one before";
     CouplingPairs = Vendor 21281: Error ProgramAbort 3 1, "too many pairs in a coupling group", cause "#SET AX LINK with 16 pairs", hint "divide them into several groups: a group has at most 15 pairs";
     SlaveIsActiveSlave = Vendor 21283: Error ProgramAbort 3 1, "slave is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     SlaveIsActiveMaster = Vendor 21284: Error ProgramAbort 3 1, "slave is a master in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     MasterIsActiveSlave = Vendor 21285: Error ProgramAbort 3 1, "master is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     KeyRange = Vendor 21296: Error ProgramAbort 3 1, "value of a keyword outside its range", cause "#CONTOUR MODE [REMAIN_PART=300]", hint "the message names the range";
     AxisFunctionMissing = Vendor 21301: Error ProgramAbort 3 1, "bracket of an axis that does not begin with its function", cause "X[POS=10 INDP_SYN ..]", hint "the function comes first: INDP_SYN, INDP_ASYN, OSC, OVERRIDE, SET_POSITION, M or H functions";
+    MainSpindleUnknown = Vendor 21306: Error ProgramAbort 3 1, "#MAIN SPINDLE names no spindle of the channel", hint "spindles are named in the channel list", parameter "P-CHAN-00007";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block may precede %NAME";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
     SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "change of the way of selection within that of G238", cause "G139 between G41 and G40", hint "write G40 first";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "leave SYN out: parameters are read without synchronisation";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
+    CycleInThread = Vendor 21380: Error ProgramAbort 3 1, "cycle called while a thread is cut", cause "G63, then L CYCLE [..]", hint "write G01 before the call";
     CycleWhileModal = Vendor 21381: Error ProgramAbort 3 1, "cycle called while a modal cycle is active", hint "write #DISABLE MODAL CYCLE before the call";
     CycleParameterOutside = Vendor 21382: Error ProgramAbort 3 1, "cycle parameter outside of a cycle", cause "@P1=10 in a main program", hint "a cycle gets its parameters by L CYCLE [NAME=.. @P1=10]";
     CycleAxisOutside = Vendor 21383: Error ProgramAbort 3 1, "axis of a cycle outside of a cycle", cause "@X=10 in a main program", hint "@X, @Y and @Z are words of cycles; write the axis";
@@ -318,6 +347,7 @@ conditions! {
     CycleSpindleOutside = Vendor 21385: Error ProgramAbort 3 1, "spindle of a cycle outside of a cycle", cause "@S=1000 in a main program", hint "@S is a word of cycles; write the spindle";
     ConditionalOpen = Vendor 21387: Error ProgramAbort 3 1, "#IF without #ENDIF", hint "write #ENDIF before the end of the program";
     WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
+    WordsWithoutDimensions = Vendor 21404: Warning None 1 2, "several words of an axis without several G90 and G91, switched off", cause "multi_axes_in_block 1 with multi_dimension_in_block 0", hint "set both, or none", parameter "P-CHAN-00148";
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     SpindleOverrideKeyTwice = Vendor 21422: Error ProgramAbort 3 1, "keyword twice in S[OVERRIDE ..]", hint "leave one of the two out";
@@ -337,11 +367,13 @@ conditions! {
     OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
     OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write $ENDIF before the end of the program";
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
+    DirectWithCompensation = Vendor 21525: Error ProgramAbort 3 1, "#PTP with active tool radius compensation", hint "switch the compensation off with G40 before";
     TimerTwice = Vendor 21537: Error ProgramAbort 3 1, "word twice in #TIMER", cause "#TIMER START STOP, #TIMER START [ID=1 ID=2]", hint "one of START, STOP, READ and CLEAR, and one ID";
     ThreadOffsetTwice = Vendor 21540: Error ProgramAbort 3 1, "offset angle of a thread twice in one block", hint "leave one of the two out";
     BehindCall = Vendor 21542: Error ProgramAbort 3 1, "NC command after a subroutine or cycle call", cause "LL SUB Z300", hint "write it before the call or in the next block";
     ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
     TextPosition = Vendor 21545: Error ProgramAbort 3 1, "position outside the text of a text function", cause "DELETE[\"Hello world!\", 7, 100]: the text comes first, then the count, then the position", hint "positions count from 1 to LEN[..], for INSERT from 0";
+    MFunctionWithoutSpindle = Vendor 21548: Error ProgramAbort 3 1, "M function of a spindle in a channel without one", cause "M3, M4, M5, M19 with spdl_anzahl 0", hint "name a spindle in the channel list: spdl_anzahl, spindel[0]";
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
     CompensationModulo = Vendor 21555: Error ProgramAbort 3 1, "tool radius compensation with a modulo axis", cause "G41 while a main axis of the plane counts modulo 360 degrees (P-AXIS-00015)", hint "take another plane, or an axis that does not count modulo";
     SystemOfModuloAxis = Vendor 21556: Error ProgramAbort 3 1, "coordinate system over a modulo axis", cause "#CS ON while a main axis counts modulo 360 degrees (P-AXIS-00015)", hint "only axes that do not count modulo are main axes of a coordinate system";
@@ -357,6 +389,8 @@ conditions! {
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
     NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is no array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
+    DwellWithoutTime = Vendor 21786: Error ProgramAbort 3 1, "G04 without a time", hint "write G04 2.5";
+    FileNameTwice = Vendor 21823: Error ProgramAbort 3 1, "key of #FILE NAME twice", hint "leave one of the two out";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
     PositiveLimitTooLow = Vendor 21878: Error ProgramAbort 3 1, "positive software limit not above the negative one", cause "G99 X-600 with the negative limit -500", hint "lower the negative limit first, with G98";
     ContourLineParallel = Vendor 21892: Error ProgramAbort 3 1, "equal or opposite angles of two contour lines", cause "#ANG=60, then #ANG=60 X30 Y40", hint "the second line needs another angle";
@@ -390,6 +424,7 @@ conditions! {
     SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
     CuttingSpeedZero = Vendor 50182: Error ProgramAbort 6 1, "cutting speed 0", cause "G96 S0", hint "S is the cutting speed in m/min under G96";
+    AccelerationCurve = Vendor 50254: Error AllStop 7 2, "unknown acceleration curve of a spindle", cause "beschl_kennlinie.typ 7", hint "0 none, 1 hyperbola, 2 polynomial, 3 asynchronous drive", parameter "P-AXIS-00202";
     MovedWithoutBanding = Vendor 50263: Error FeedHold 6 1, "moved main axis that does not take part in edge banding", cause "kenngr.kasto_achse 0", hint "set kenngr.kasto_achse to 1", parameter "P-AXIS-00098";
     NoBandingAxis = Vendor 50398: Error FeedHold 6 1, "no axis for edge banding", cause "kenngr.kasto_achse is 0 for all main axes", hint "set kenngr.kasto_achse to 1 for the axes of the plane", parameter "P-AXIS-00098";
     OscillationLimited = Vendor 50487: Warning None 1 0, "oscillation slower than programmed", cause "FREQ, TIME or FEED beyond what velocity and acceleration of the axis allow", hint "lower FREQ or FEED, or bring the reversal positions closer together", parameter "P-AXIS-00212";
@@ -403,6 +438,7 @@ conditions! {
     FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
     SpindleSpeedError = Vendor 60101: Error AllStop 6 0, "spindle speed limit exceeded", cause "+9 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpindleSpeedWarning = Vendor 60102: Warning None 1 0, "spindle speed above the warning level", cause "+5 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle that stands", cause "G95 before M3 and S", hint "start the spindle before: S1000 M3";
     SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed before: S1000 M3";
     SpindleStoppedInThread = Vendor 60154: Error AllStop 6 0, "G33 while the spindle stands", cause "S1000 and G33 without M3", hint "write M3 or M4 before it";
     SpindleSlopeType = Vendor 60226: Warning None 1 0, "slope type of a spindle invalid", cause "P-AXIS-00270", hint "getriebe[i].slope_type is 0 to 3 (P-AXIS-00270)";
@@ -432,12 +468,19 @@ conditions! {
     AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
     ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
     ResolutionPath = Vendor 110086: Warning None 1 2, "encoder resolution (path) is 0, set to 1", cause "P-AXIS-00233", hint "write 1 or more";
+    WindowZero = Vendor 110087: Warning None 1 2, "position window 0, the default is used", hint "write the window of exact stops in 0.1 um", parameter "P-AXIS-00236";
+    FeedAccelerationZero = Vendor 110100: Warning None 1 2, "acceleration 0, the default is used", hint "write the acceleration of the feed in mm/s2", parameter "P-AXIS-00001";
+    FeedDecelerationZero = Vendor 110102: Warning None 1 2, "deceleration 0, the default is used", hint "write the deceleration of the feed in mm/s2", parameter "P-AXIS-00002";
     SoftwareLimitRange = Vendor 110110: Warning None 1 2, "software limits leave no range, corrected", cause "P-AXIS-00177, P-AXIS-00178", hint "write kenngr.swe_neg below kenngr.swe_pos";
     OverrideRange = Vendor 110111: Warning None 1 2, "largest override below the smallest one, limited", cause "P-AXIS-00109", hint "write 1 to 2000 (0.1 %)";
     FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more";
     FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
     GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
     FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "types are LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2, HSC_MEAN";
+    GeometricRampTime = Vendor 110276: Warning None 1 2, "geometric ramp time below the shortest ramp time, limited", hint "raise P-AXIS-00199, or lower P-AXIS-00201", parameter "P-AXIS-00199";
+    SpindleWithoutType = Vendor 110304: Error ProgramAbort 7 2, "spindle of the channel list whose axis list is not that of a spindle", hint "kenngr.achs_typ ACHSTYP_SPINDEL makes an axis a spindle", parameter "P-AXIS-00018";
+    SpindleMode = Vendor 110352: Warning None 1 2, "axis mode of a spindle that is not modulo, modulo is used", cause "kenngr.achs_mode 1 in the list of a spindle", hint "spindles count modulo: 4", parameter "P-AXIS-00015";
+    AxisMode = Vendor 110353: Warning None 1 2, "unknown axis mode, corrected", cause "kenngr.achs_mode 8", hint "the mode has one of 1 linear, 2 optimised positioning, 4 modulo", parameter "P-AXIS-00015";
     FilterFrequencyTooLow = Vendor 110361: Warning None 1 2, "filter frequency below the lowest possible one, lowest frequency used", cause "P-AXIS-00067", hint "write a frequency above it, and below half the sampling rate";
     AccelerationDenominator = Vendor 110381: Warning None 1 2, "denominator of the acceleration feedforward is 0, set to 1", cause "P-AXIS-00226", hint "write 1 or more; a numerator of 0 switches the part off";
     ResolutionIncrements = Vendor 110386: Warning None 1 2, "encoder resolution (increments) is 0, set to 1", cause "P-AXIS-00234", hint "write 1 or more";
@@ -478,6 +521,7 @@ conditions! {
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring although the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
     ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes change behind a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is on", cause "G261 before G100", hint "write G260 before the run";
+    IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline before, or move the axis with the path";
     SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "numbers are written 10, -10, 1.5 or 0x101";

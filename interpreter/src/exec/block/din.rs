@@ -33,6 +33,9 @@ pub(in crate::exec) enum After<'b> {
     End,
 }
 
+/// Largest value of G115 beyond which it is 20712 and not 20151. Assumption: the data format has 16 bits.
+const LOOK_AHEAD_FORMAT: u32 = 65535;
+
 impl Decoder {
     /// Executes a block of words.
     pub(in crate::exec) fn execute_words<'b>(
@@ -255,9 +258,14 @@ impl Decoder {
             }
             Act::LookAheadFunctions => {
                 let value = g.value.unwrap_or_default();
-                if crate::exec::values::number::whole(value, 0, 14).is_none() {
+                let number = crate::exec::values::number::whole(value, 0, LOOK_AHEAD_FORMAT);
+                if number.is_none_or(|number| number > 14) {
+                    let condition = match number {
+                        Some(_) => Condition::LookAheadRange,
+                        None => Condition::LookAheadFormat,
+                    };
                     let text = format!("G115={value}, allowed are 0 to 14");
-                    return Err(Fault::new(Condition::LookAheadRange, text, g.span)
+                    return Err(Fault::new(condition, text, g.span)
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));
                 }
                 let text = "G115: single functions of the look-ahead are not switched off";

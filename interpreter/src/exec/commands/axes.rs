@@ -323,9 +323,15 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     };
     taken.add(index, logical, [at(1), at(2)])?;
     decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
-    if decoder.names.of_name(&letters).is_some_and(|other| other != axis) {
+    if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
+        // the manual has a number for two names of the command, and one for an axis that is there already
+        let condition = if taken.numbers.contains(&decoder.machine.axes[other].number()) {
+            Condition::ExchangeNameTwice
+        } else {
+            Condition::ExchangeNameTaken
+        };
         let text = format!("two axes of the channel would have the name {letters}");
-        return Err(Fault::new(Condition::ExchangeNameTwice, text, name.span));
+        return Err(Fault::new(condition, text, name.span));
     }
     let main = index as usize;
     if index < 3 && decoder.geometry.coordinates.main_axis(main).is_some_and(|other| other != axis)

@@ -226,7 +226,7 @@ fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()
     let known = decoder.geometry.coordinates.stored_system(id).is_some();
     if !known && decoder.geometry.coordinates.stored_systems() >= SYSTEMS_MAX {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
-        return Err(Fault::new(Condition::CoordinateSystemNumber, text, span));
+        return Err(Fault::new(Condition::SystemsTooMany, text, span));
     }
     decoder.geometry.coordinates.store_system(id, frame);
     decoder.geometry.last_system = id;
@@ -329,6 +329,10 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     if call.name == "TRAFO" {
         may_flush(decoder, call)?;
+    }
+    if call.name == "PTP" && decoder.modal.compensation != Compensation::Off {
+        let text = "#PTP while tool radius compensation is active";
+        return Err(Fault::new(Condition::DirectWithCompensation, text, call.span()));
     }
     if ["TRAFO", "RTCP"].contains(&call.name) {
         decoder.geometry.transformation_on = call.command.on != Some(false);

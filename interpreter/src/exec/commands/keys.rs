@@ -214,6 +214,7 @@ fn key_twice(title: &str) -> Condition {
     match title {
         "#OVERRIDE" => Condition::OverrideKeyTwice,
         SPINDLE_OVERRIDE => Condition::SpindleOverrideKeyTwice,
+        title if title.starts_with("#TIMER") => Condition::TimerTwice,
         _ => Condition::DuplicateKey,
     }
 }

@@ -10,7 +10,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{Event, Sync};
 use crate::exec::values::timers::TimerAct;
-use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
+use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
 
 /// Row of `#FLUSH`.
 pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
@@ -164,6 +164,9 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         };
         return decoder.wait_for_independent(all, &call.command.groups, call.span());
     }
+    if let Some(word) = call.rest.first().filter(|word| !word.is("SYN") && !word.is("FOR")) {
+        return Err(super::signals::no_bracket(call, word.span));
+    }
     if let ([] | [_], [group]) = (call.rest, &call.command.groups[..])
         && call.rest.iter().all(|word| word.is("SYN"))
         && super::signals::wait_for_signal(decoder, call, group)?
@@ -277,6 +280,7 @@ pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()>
 /// `#FILE NAME [G80="x.nc" M6="z.nc" MSG="y"]`.
 pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
+    let mut written: Vec<&Ident> = Vec::new();
     for item in call.command.groups.iter().flat_map(|g| &g.items) {
         let ItemKind::Pair { key, value } = &item.kind else {
             if matches!(item.kind, ItemKind::Missing) {
@@ -288,6 +292,11 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 item.span,
             ));
         };
+        if written.iter().any(|earlier| earlier.is(&key.text)) {
+            let text = format!("#FILE NAME: {} twice", key.text);
+            return Err(Fault::new(Condition::FileNameTwice, text, key.span));
+        }
+        written.push(key);
         let file = match value {
             ItemValue::Name(name) => name.text.to_string(),
             ItemValue::Expr(expr) => match decoder.value(expr)? {

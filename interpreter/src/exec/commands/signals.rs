@@ -46,6 +46,12 @@ fn wrong(call: &Call<'_>, span: Span) -> Box<Fault> {
     Fault::new(Condition::TokenUnknown, text, span)
 }
 
+/// 20998.
+pub(super) fn no_bracket(call: &Call<'_>, span: Span) -> Box<Fault> {
+    let text = format!("{}: SYN or a bracket is expected", call.title());
+    Fault::new(Condition::SignalBracket, text, span)
+}
+
 impl<'c> Words<'c> {
     fn read(decoder: &Decoder, call: &Call<'_>, group: &'c Group) -> Outcome<Self> {
         let mut words = Self::default();
@@ -69,6 +75,10 @@ impl<'c> Words<'c> {
                 ItemKind::Target { place, value } => {
                     let index =
                         parameter_index(decoder, place).ok_or_else(|| wrong(call, item.span))?;
+                    if words.parameters.iter().any(|(earlier, ..)| *earlier == index) {
+                        let text = format!("{}: P[{index}] twice", call.title());
+                        return Err(Fault::new(Condition::SignalParameterTwice, text, item.span));
+                    }
                     words.parameters.push((index, value, item.span));
                 }
                 ItemKind::Pair { .. } | ItemKind::Value(_) => return Err(wrong(call, item.span)),
@@ -84,11 +94,18 @@ impl<'c> Words<'c> {
         let Some(value) = whole(number, least, u32::MAX) else {
             let text =
                 format!("{}: {known}={number} is no whole number from {least}", call.title());
-            let negative = known == "ID" && number < 0.0;
-            let condition = if negative { Condition::SignalNumber } else { Condition::Range };
+            let condition = match known {
+                "ID" if number < 0.0 => Condition::SignalNumber,
+                "CH" => Condition::SignalChannel,
+                _ => Condition::Range,
+            };
             return Err(Fault::new(condition, text, span));
         };
         match known {
+            "ID" if self.id.is_some() => {
+                let text = format!("{}: ID twice", call.title());
+                return Err(Fault::new(Condition::SignalNumberTwice, text, span));
+            }
             "ID" => self.id = Some(value),
             "COUNT" => self.count = Some(value),
             _ => self.channels.push(value),
@@ -117,9 +134,9 @@ fn signal(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [] => false,
         [word] if word.is("SYN") => false,
         [word] if word.is("REMOVE") => true,
-        [word, ..] => return Err(call.unexpected(word)),
+        [word, ..] => return Err(no_bracket(call, word.span)),
     };
-    let [group] = &call.command.groups[..] else { return Err(wrong(call, call.span())) };
+    let [group] = &call.command.groups[..] else { return Err(no_bracket(call, call.span())) };
     let words = Words::read(decoder, call, group)?;
     let Some(id) = words.id else {
         let text = format!("{} needs ID", call.title());

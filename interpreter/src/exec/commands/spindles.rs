@@ -54,9 +54,8 @@ fn main_spindle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let names: Vec<&str> =
                     decoder.motion.spindles.iter().map(|s| s.name.as_str()).collect();
                 let hint = format!("spindles of the channel: {}", names.join(", "));
-                return Err(
-                    wrong("#MAIN SPINDLE: the channel has no such spindle", item.span).hint(hint)
-                );
+                let text = "#MAIN SPINDLE: the channel has no such spindle";
+                return Err(Fault::new(Condition::MainSpindleUnknown, text, item.span).hint(hint));
             };
             // the main spindle is the first one
             decoder.motion.spindles.swap(0, index);

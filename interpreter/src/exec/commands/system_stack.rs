@@ -119,7 +119,7 @@ fn add(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     frames::turns_alike(decoder, call, &frame)?;
     if !decoder.geometry.coordinates.stack_add(&name.text, frame) {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems in the stack");
-        return Err(Fault::new(Condition::CoordinateSystemNumber, text, call.span()));
+        return Err(Fault::new(Condition::SystemsTooMany, text, call.span()));
     }
     Ok(())
 }

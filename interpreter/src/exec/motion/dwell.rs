@@ -36,7 +36,7 @@ impl Decoder {
             let text = "G04: the time follows the first main axis";
             return Err(Fault::new(Condition::DwellWrongAxis, text, *span));
         } else {
-            return Err(Fault::new(Condition::Syntax, "G04 without a time", g.span));
+            return Err(Fault::new(Condition::DwellWithoutTime, "G04 without a time", g.span));
         };
         let others: Vec<(usize, Span)> = words
             .axes

@@ -53,8 +53,12 @@ impl Decoder {
                 self.no_spindle_override("G95", span)?;
                 let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
-                    let text = "feed per revolution, but the main spindle has no speed";
-                    return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));
+                    let (condition, what) = match self.motion.spindles[0].turning {
+                        Turning::Stopped => (Condition::SpindleAtRestAtFeed, "stands"),
+                        _ => (Condition::SpindleSpeedZeroAtFeed, "has no speed"),
+                    };
+                    let text = format!("feed per revolution, but the main spindle {what}");
+                    return Err(Fault::new(condition, text, span));
                 }
                 per_revolution(value * unit_mm, rpm)
             }

@@ -58,6 +58,11 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         self.moves_not_coupled(axis, span)?;
+        if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
+            let name = self.machine.axes[axis].name();
+            let text = format!("{name} cannot move independently within a spline");
+            return Err(Fault::new(Condition::IndependentInSpline, text, span));
+        }
         let words = self.independent_words(axis, rest)?;
         for function in words.functions {
             match function {

@@ -75,7 +75,7 @@ impl MotionState {
             dynamics: [None, None],
             overrides: Overrides::new(n),
             independent: Independent::new(n),
-            couplings: Couplings::default(),
+            couplings: Couplings::of_lists(machine),
             feedforward: Feedforward {
                 on: false,
                 weight_ratios: AxisVec::from_slice(&vec![1.0; n]),

@@ -176,6 +176,11 @@ impl Executor {
             ));
             return;
         };
+        if self.decoder.modal.path.is_thread() {
+            let text = "a thread is being cut: no cycle may be called";
+            self.decoder.report.note(Fault::new(Condition::CycleInThread, text, span));
+            return;
+        }
         if self.decoder.calls.modal_cycle.is_some() {
             let text = "a modal cycle is active: no other cycle may be called";
             self.decoder.report.note(Fault::new(Condition::CycleWhileModal, text, span));

@@ -39,7 +39,7 @@ fn diameters() {
     assert_eq!(found[1][0], 15.0);
     assert_eq!(ends(&[], "G51 X10").0, ["K-0075"]);
     assert_eq!(ends(&[ABSOLUTE], "G19 G51").0.last().map(String::as_str), Some("20042"));
-    assert_eq!(ends(&[ABSOLUTE], "G51\n#PSET X10").0, ["K-0019"]);
+    assert_eq!(ends(&[ABSOLUTE], "G51\n#PSET X10").0, ["20610"]);
     assert_eq!(ends(&[ABSOLUTE, "channel.versch_im_durchm=1"], "G51").0, ["K-0019"]);
 }
 
@@ -116,7 +116,7 @@ fn coordinate_systems() {
     assert_end("#CS DEF [6][1,2,3]\n#CS DEF [70][4]\n#CS ON [6]\nX1 F100", [2.0, 0.0, 0.0]);
     let five = [10, 20, 30, 40, 50].map(|i| format!("#CS DEF [{i}][{i}]\n")).concat();
     assert!(clean(&format!("{five}#CS DEF [20][7]\nM30\n")).ids().is_empty());
-    assert_eq!(run(&format!("{five}#CS DEF [6][1,2,3]\nM30\n")).ids(), ["20820"]);
+    assert_eq!(run(&format!("{five}#CS DEF [6][1,2,3]\nM30\n")).ids(), ["21234"]);
     assert_eq!(run("#TRAFO ON\nM30\n").ids(), ["K-0019"]);
 }
 

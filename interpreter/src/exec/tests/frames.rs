@@ -187,7 +187,7 @@ fn stack_of_systems() {
         ["N0S", "N1S", "N2S", "N3S", "N4S"].map(|name| format!("#CS ADD [{name}][1]\n")).concat();
     assert_eq!(ids(&five), [""; 0]);
     assert_near(&clean(&format!("{five}#CS SELECT [N4S]\nG00 X0\nM30\n")).end, &[5.0, 0.0, 0.0]);
-    assert_eq!(ids(&format!("{five}#CS ADD [SIX][1]")), ["20820"]);
+    assert_eq!(ids(&format!("{five}#CS ADD [SIX][1]")), ["21234"]);
     for (text, id) in [
         ("#CS SELECT [B]", "21601"),
         ("#CS SET [B][1]", "21601"),

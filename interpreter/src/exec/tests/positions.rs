@@ -45,7 +45,10 @@ fn wrong_requests() {
 
 #[test]
 fn wrong_main_spindles() {
-    for text in ["#MAIN SPINDLE [S7]", "#MAIN SPINDLE [S2, S]", "#MAIN SPINDLE 2"] {
+    for text in ["#MAIN SPINDLE [S2, S]", "#MAIN SPINDLE 2"] {
         assert_eq!(said(text), ["21220"], "{text}");
+    }
+    for text in ["#MAIN SPINDLE [S7]", "#MAIN SPINDLE [7]"] {
+        assert_eq!(said(text), ["21306"], "{text}");
     }
 }

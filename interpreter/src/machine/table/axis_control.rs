@@ -44,7 +44,7 @@ parameters! {
     axis("P-AXIS-00234", "getriebe[i].wegaufz", Raw::Uns32, "encoder resolution, increments (numerator); 0 gives 110386")
         .range(Bound::At(1.0), Bound::None).default(1.0).unit("incr", "incr").below(Condition::ResolutionIncrements, Correction::Value(1.0)), as RESOLUTION_INCREMENTS: Number;
     axis("P-AXIS-00236", "getriebe[i].window", Raw::Sgn32, "exact-stop window, also for G60")
-        .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1um", "0.0001deg").source("TF5200 position monitoring"), as WINDOW: Number;
+        .range(Bound::At(1.0), Bound::None).default(500.0).unit("0.1um", "0.0001deg").below(Condition::WindowZero, Correction::Default).source("TF5200 position monitoring"), as WINDOW: Number;
     axis("P-AXIS-00244", "getriebe[i].dyn_kv.dyn_kv_active", Raw::Boolean, "dynamic kv: the gain depends on the speed (P-AXIS-00245 to 00248) instead of P-AXIS-00099")
         .default(0.0).drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_BY_SPEED: Switch;
     axis("P-AXIS-00245", "getriebe[i].dyn_kv.kv1", Raw::Uns32, "dynamic kv: gain at v1")

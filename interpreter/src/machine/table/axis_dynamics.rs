@@ -6,9 +6,9 @@ use crate::diag::Condition;
 
 parameters! {
     axis("P-AXIS-00001", "getriebe[i].slope_profil.a_beschl", Raw::Uns32, "acceleration, non-linear slope, feed")
-        .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(1000.0).unit("mm/s2", "deg/s2").axes("TR"), as FEED_ACC: Number;
+        .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(1000.0).unit("mm/s2", "deg/s2").below(Condition::FeedAccelerationZero, Correction::Default).axes("TR"), as FEED_ACC: Number;
     axis("P-AXIS-00002", "getriebe[i].slope_profil.a_brems", Raw::Uns32, "deceleration, non-linear slope, feed")
-        .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(1000.0).unit("mm/s2", "deg/s2"), as FEED_DEC: Number;
+        .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(1000.0).unit("mm/s2", "deg/s2").below(Condition::FeedDecelerationZero, Correction::Default), as FEED_DEC: Number;
     axis("P-AXIS-00003", "getriebe[i].dynamik.a_emergency", Raw::Uns32, "braking in error stops; 0 = a_max")
         .range(Bound::At(1.0), Bound::Times(2.0, "P-AXIS-00008")).default(0.0).unit("mm/s2", "deg/s2").special(0.0), as EMERGENCY_DEC: Number;
     axis("P-AXIS-00004", "getriebe[i].slope_profil.a_grenz", Raw::Uns32, "acceleration and deceleration in rapid, non-linear slope")
@@ -42,13 +42,13 @@ parameters! {
     axis("P-AXIS-00198", "getriebe[i].slope_profil.tr_brems_zu", Raw::Uns32, "ramp time for building up deceleration")
         .range(Bound::Of("P-AXIS-00201"), Bound::None).default(50000.0).unit("us", "us"), as RAMP_DEC_UP: Number;
     axis("P-AXIS-00199", "getriebe[i].dynamik.tr_geom", Raw::Uns32, "geometric ramp time: limits the jerk that comes from the contour")
-        .range(Bound::At(0.0), Bound::None).default(10000.0).unit("us", "us"), as GEOMETRIC_RAMP: Number;
+        .range(Bound::Of("P-AXIS-00201"), Bound::None).default(10000.0).unit("us", "us").below(Condition::GeometricRampTime, Correction::Limit), as GEOMETRIC_RAMP: Number;
     axis("P-AXIS-00200", "getriebe[i].slope_profil.tr_grenz", Raw::Uns32, "ramp time in rapid (replaces the four)")
         .range(Bound::Of("P-AXIS-00201"), Bound::None).default(10000.0).unit("us", "us"), as RAPID_RAMP: Number;
     axis("P-AXIS-00201", "getriebe[i].dynamik.tr_min", Raw::Uns32, "shortest ramp time = jerk limit of the axis")
         .range(Bound::At(0.0), Bound::None).default(10000.0).unit("us", "us").below(Condition::ShortestRampTime, Correction::Limit), as SHORTEST_RAMP: Number;
     axis("P-AXIS-00202", "getriebe[i].beschl_kennlinie.typ", Raw::Uns32, "spindle acceleration curve 0 none 1 hyperbola 2 polynomial 3 asynchronous drive")
-        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).axes("S");
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).above(Condition::AccelerationCurve, Correction::Refuse).axes("S");
     axis("P-AXIS-00007", "getriebe[i].beschl_kennlinie.a_konst", Raw::Uns32, "acceleration below P-AXIS-00130, curves 1 and 2; not simulated")
         .default(0.0).unit("-", "deg/s2").axes("S");
     axis("P-AXIS-00010", "getriebe[i].beschl_kennlinie.a_min", Raw::Real64, "least acceleration of the curve; not simulated")

@@ -73,6 +73,10 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(65535.0)), as AXIS_NUMBER: Whole;
     chan("P-CHAN-00036", "spindel[i].log_achs_nr", Raw::Uns16, "logical axis number of the spindle")
         .range(Bound::At(1.0), Bound::At(65535.0)), as SPINDLE_NUMBER: Whole;
+    chan("P-CHAN-00037", "synchro_data.koppel_gruppe[i].paar[j].log_achs_nr_master", Raw::Uns16, "logical number of the master of pair j of coupling group 0, which #ENABLE AX LINK [0] switches on")
+        .default(0.0), as COUPLING_MASTER: Whole;
+    chan("P-CHAN-00038", "synchro_data.koppel_gruppe[i].paar[j].log_achs_nr_slave", Raw::Uns16, "logical number of its slave")
+        .default(0.0), as COUPLING_SLAVE: Whole;
     chan("P-CHAN-00054", "mass_einh", Raw::Uns08, "0 mm, 1 inch for all linear axes")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
     chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: distance after the signal of the probe")
@@ -112,7 +116,7 @@ parameters! {
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
         .range(Bound::Beyond(0.0), Bound::None).default(20000.0).unit("0.0001mm", "0.0001mm").below(Condition::CentreShiftZero, Correction::Default).source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
-        .default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
+        .range(Bound::At(1.0), Bound::None).below(Condition::CentreFactorZero, Correction::Default).default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
     chan("P-CHAN-00062", "makro_def[i].nc_code", Raw::Code, "NC code of a macro that every program has, to the end of the line; \\\"NAME\\\" in it uses another one")
         .source("TF5200 channel parameters"), as MACRO_CODE: Text;
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")

@@ -19,17 +19,17 @@ fn numbers_that_do_not_fit_together() {
     );
     assert_eq!(
         broken("m/lists/channel.lis", &format!("{channel} x\ngruppe[0].achse[1].log_achs_nr 7\n")),
-        ["K-0031"]
+        ["20424"]
     );
     assert_eq!(
         broken("m/lists/channel.lis", &format!("{channel} M\ngruppe[0].achse[1].log_achs_nr 7\n")),
-        ["K-0031"]
+        ["20425"]
     );
     assert_eq!(broken("m/lists/channel.lis", &format!("{channel} Y\n")), ["K-0031"]);
     // a path axis whose list says spindle
     assert_eq!(
         broken("m/lists/channel.lis", &format!("{channel} Y\ngruppe[0].achse[1].log_achs_nr 4\n")),
-        ["K-0031"]
+        ["21238"]
     );
     let mut files = Memory::machine();
     files.0.remove("m/lists/y.lis");
@@ -211,4 +211,37 @@ fn counts_limit_what_is_used() {
     let mut files = Memory::machine();
     files.add("m/lists/channel.lis", "gruppe[0].achse[2].bezeichnung Z\n");
     assert_eq!(files.ids(&[]), ["K-0074"]);
+}
+
+/// Pairs of the coupling group of the channel list, by an independent rule: a pair stays if both numbers are not 0 and
+/// differ, its slave has no master yet, and no axis is both (20438, 20440 to 20442).
+#[test]
+fn default_couplings_keep_the_pairs_that_fit() {
+    let pair = |i: u32, master: u32, slave: u32| {
+        format!(
+            "synchro_data.koppel_gruppe[0].paar[{i}].log_achs_nr_master {master}\n\
+             synchro_data.koppel_gruppe[0].paar[{i}].log_achs_nr_slave {slave}\n"
+        )
+    };
+    for seed in 0..81_u32 {
+        let digits: Vec<u32> = (0..4).map(|k| seed / 3_u32.pow(k) % 3).collect();
+        let written = [(digits[0], digits[1]), (digits[2], digits[3])];
+        let mut files = Memory::machine();
+        files.add(
+            "m/lists/channel.lis",
+            &(pair(0, written[0].0, written[0].1) + &pair(1, written[1].0, written[1].1)),
+        );
+        let (machine, warnings) = files.load(&[]).unwrap();
+        let fits = |(master, slave): (u32, u32)| master * slave != 0 && master != slave;
+        let first = fits(written[0]).then_some(written[0]);
+        let second = Some(written[1]).filter(|pair| fits(*pair)).filter(|(master, slave)| {
+            first.is_none_or(|(m, s)| s != *slave && s != *master && m != *slave)
+        });
+        let kept: Vec<(u32, u32)> = first.into_iter().chain(second).collect();
+        let found: Vec<(u32, u32)> =
+            machine.channel.default_couplings.iter().map(|p| (p.master, p.slave)).collect();
+        assert_eq!(found, kept, "{written:?}");
+        let absent = written.iter().filter(|pair| **pair == (0, 0)).count();
+        assert_eq!(warnings.len(), 2 - kept.len() - absent, "{written:?} {warnings:?}");
+    }
 }

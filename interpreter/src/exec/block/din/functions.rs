@@ -122,7 +122,9 @@ impl Decoder {
                 MKind::Spindle if positions && m.number != 19 => {}
                 MKind::Spindle => {
                     self.turn_main_spindle(m, direction.map(|m| m.number));
-                    self.spindle_warning(0, m.span);
+                    if self.motion.spindles[0].index.is_some() {
+                        self.spindle_warning(0, m.span);
+                    }
                 }
                 _ => {}
             }
@@ -147,6 +149,11 @@ impl Decoder {
     }
 
     fn turn_main_spindle(&mut self, m: &Code, direction: Option<u32>) {
+        let Some(spindle) = self.motion.spindles[0].index else {
+            let text = format!("M{:02}: the channel has no spindle", m.number);
+            self.report.note(Fault::new(Condition::MFunctionWithoutSpindle, text, m.span));
+            return;
+        };
         if let (19, Some(deg)) = (m.number, m.value) {
             self.motion.spindles[0].angle_deg = deg;
         }
@@ -158,13 +165,7 @@ impl Decoder {
         if let Some(event) = self.motion.spindles[0].motion_event() {
             self.contour.event(event);
         }
-        self.takes_time(match self.motion.spindles[0].index {
-            Some(spindle) => Function::Spindle { spindle, m: m.number },
-            None => Function::M(m.number),
-        });
-        if self.motion.spindles[0].index.is_none() {
-            self.contour.event(Event::MFunction { number: m.number, value: m.value });
-        }
+        self.takes_time(Function::Spindle { spindle, m: m.number });
     }
 
     pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {

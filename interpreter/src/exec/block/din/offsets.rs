@@ -163,16 +163,18 @@ impl Decoder {
             return true;
         }
         let coordinates = &self.geometry.coordinates;
-        let conflicts =
-            coordinates.rotation().is_some() || self.modal.compensation != Compensation::Off;
-        if conflicts {
-            let text = "#PSET and #PRESET do not go with rotation or tool radius compensation";
-            self.report.note(Fault::new(Condition::Syntax, text, at));
-            return true;
-        }
-        if words.axes.iter().any(|(axis, _, _)| self.modal.diameter == Some(*axis)) {
-            self.report
-                .note(Fault::unsupported("#PSET and #PRESET of an axis with diameters (G51)", at));
+        let conflict = if self.modal.compensation != Compensation::Off {
+            Some((Condition::PresetWithCompensation, "tool radius compensation"))
+        } else if self.modal.diameter.is_some() {
+            Some((Condition::PresetWithDiameters, "diameter programming (G51)"))
+        } else if coordinates.rotation().is_some() {
+            Some((Condition::Syntax, "rotation"))
+        } else {
+            None
+        };
+        if let Some((condition, what)) = conflict {
+            let text = format!("#PSET and #PRESET do not go with {what}");
+            self.report.note(Fault::new(condition, text, at));
             return true;
         }
         let beside = words.axes.iter().find(|(axis, _, _)| coordinates.main_index(*axis).is_none());

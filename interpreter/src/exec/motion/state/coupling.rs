@@ -1,5 +1,7 @@
 //! The groups of coupled axes.
 
+use crate::machine::DefaultCoupling;
+use crate::machine::Machine;
 use kontur_motion::axis::AxisDynamics;
 use std::collections::BTreeMap;
 
@@ -34,6 +36,19 @@ pub(in crate::exec) struct Couplings {
 }
 
 impl Couplings {
+    /// At program start: group 0 is that of the channel list, unless an axis of it is not in the channel.
+    pub(in crate::exec::motion) fn of_lists(machine: &Machine) -> Self {
+        let axis = |number: u32| machine.axes.iter().position(|axis| axis.number() == number);
+        let pair = |listed: &DefaultCoupling| {
+            let (slave, master) = (axis(listed.slave)?, axis(listed.master)?);
+            Some(Pair { slave, master, ratio: 1.0, is_gantry: false })
+        };
+        let listed = &machine.channel.default_couplings;
+        let pairs: Option<Vec<Pair>> = listed.iter().map(pair).collect();
+        let group = pairs.filter(|pairs| !pairs.is_empty()).map(|pairs| (0, pairs));
+        Self { groups: group.into_iter().collect(), active: Vec::new() }
+    }
+
     /// No group is switched on.
     pub(in crate::exec) fn are_off(&self) -> bool {
         self.active.is_empty()

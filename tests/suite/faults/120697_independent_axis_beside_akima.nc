@@ -1,0 +1,6 @@
+; check: exit 1
+; error 120697 at 4:10
+G151
+X1 F100 Z[INDP_ASYN G00 G90 POS180]
+G150
+M30

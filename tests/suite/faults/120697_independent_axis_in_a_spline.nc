@@ -1,0 +1,6 @@
+; check: exit 1
+; error 120697 at 4:2
+#HSC ON [BSPLINE]
+Z[INDP_ASYN G00 G90 POS180]
+#HSC OFF
+M30

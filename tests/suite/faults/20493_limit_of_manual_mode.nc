@@ -1,0 +1,4 @@
+; check: exit 1
+; error 20493 at 3:22
+#MANUAL LIMITS [AX=X NEGATIVE=5.0 POSITIVE=5.0]
+M30
