@@ -31,8 +31,9 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut table = create_all(table)?.pop();
     let mut summary = (args.summary != SummaryForm::None).then(|| Collector::new(run.facts()));
-    if summary.is_none() && !traces.iter().any(Trace::shows_deviation) {
-        run = run.without_deviation();
+    if summary.is_none() {
+        let shown = traces.iter().any(Trace::shows_deviation);
+        run = if shown { run.without_both_ways() } else { run.without_deviation() };
     }
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;

@@ -121,6 +121,16 @@ impl Run {
         self
     }
 
+    /// For records whose [`AxisRecord::dev_both_ways`] is not read: from the first cycle on it is not a number (NaN) until a
+    /// block demands `AX_DEV`. The deviation of the set points alone costs a third.
+    ///
+    /// [`AxisRecord::dev_both_ways`]: crate::record::AxisRecord::dev_both_ways
+    #[must_use]
+    pub fn without_both_ways(mut self) -> Self {
+        self.measuring.set_points_only();
+        self
+    }
+
     /// What stays the same during the run.
     pub const fn facts(&self) -> &Facts {
         &self.facts

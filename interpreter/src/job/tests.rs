@@ -189,6 +189,27 @@ fn the_deviation_is_left_out_until_a_block_demands_a_tolerance() {
     assert!(left_out > 100 && largest > 0.01, "{left_out} {largest}");
 }
 
+/// Without both ways the set points are measured as ever, and from the first block with a tolerance on everything is.
+#[test]
+fn the_set_points_are_measured_alone_until_a_block_demands_a_tolerance() {
+    let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nG01 X5 F3000\nY5\nG03 X0 Y0 I-2.5 J-2.5\n#VIB GUARD OFF\n\
+                #VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.05]\nG01 X5\nY5\nX0 Y0\nM30\n";
+    let start = || job(text, &[], Options::default()).start().unwrap();
+    let whole = records(&mut start());
+    let mut left_out = 0;
+    for (mut short, whole) in records(&mut start().without_both_ways()).into_iter().zip(whole) {
+        if short.axes.iter().any(|a| a.dev_both_ways.is_nan()) {
+            assert!(whole.line < 7, "line {}", whole.line);
+            for (short, whole) in short.axes.iter_mut().zip(&whole.axes) {
+                short.dev_both_ways = whole.dev_both_ways;
+            }
+            left_out += 1;
+        }
+        assert_eq!(short, whole);
+    }
+    assert!(left_out > 100, "{left_out}");
+}
+
 /// Stopped from elsewhere a check comes back at once where the program has no end, and a run has no more cycles.
 #[test]
 fn a_stop_ends_check_and_run() {

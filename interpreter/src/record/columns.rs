@@ -78,6 +78,7 @@ impl Column {
     }
 
     /// The value of a numeric column; zero where an axis is missing in the record.
+    #[inline] // for every value of a trace
     pub fn number(&self, record: &CycleRecord) -> Option<f64> {
         match self.content {
             Content::Path(f) => Some(f(record)),
@@ -87,6 +88,7 @@ impl Column {
     }
 }
 
+#[inline]
 fn of_axis(record: &CycleRecord, axis: usize, value: fn(&AxisRecord) -> f64) -> f64 {
     record.axes.get(axis).map_or(0.0, value)
 }

@@ -110,6 +110,11 @@ pub(crate) struct Measuring {
 }
 
 impl Measuring {
+    /// Measures nothing but the set points until a block demands a tolerance; not a number (NaN) instead of both ways.
+    pub(crate) fn set_points_only(&mut self) {
+        self.meter.set_points_only();
+    }
+
     /// Measures the next cycles.
     pub(crate) fn measure(&mut self, samples: &mut Samples) {
         let n = samples.axes;
@@ -135,7 +140,9 @@ impl Measuring {
             let excursion = self.meter.excursion();
             for (p, dev) in self.vector.iter().enumerate() {
                 set[p] = *dev;
-                path[p] = excursion.get(p).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
+                path[p] = excursion.map_or(f64::NAN, |found| {
+                    found.get(p).map_or(dev.abs(), |d| d.abs().max(dev.abs()))
+                });
             }
             if let Some(exceeded) = self.meter.take_exceeded() {
                 samples.exceeded = Some((i, exceeded));

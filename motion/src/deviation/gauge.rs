@@ -44,13 +44,21 @@ impl Gauge {
     }
 
     /// Takes the set point of a cycle that filters left as it was interpolated. Finds what of the contour they have let go
-    /// was missed: axes that have all arrived may still owe a corner that they held until now.
-    pub(crate) fn unfiltered(&mut self, contour: &Contour, k: u64, point: &[f64], least_mm: f64) {
+    /// was missed: axes that have all arrived may still owe a corner that they held until now. `least_mm`: see [`Self::step`].
+    pub(crate) fn unfiltered(
+        &mut self,
+        contour: &Contour,
+        k: u64,
+        point: &[f64],
+        least_mm: Option<f64>,
+    ) {
         self.shortest = None;
         if self.filtered.is_some_and(|last| k <= last + self.reach + 2) {
             self.enter(k, point, point);
             self.found = Excursion::none(point.len());
-            self.let_go(contour, k, least_mm);
+            if let Some(least_mm) = least_mm {
+                self.let_go(contour, k, least_mm);
+            }
         } else {
             self.found.clear();
             self.set.restart(k, point);
@@ -60,21 +68,29 @@ impl Gauge {
 
     /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
-    /// missed by; see [`Self::miss`] for the least tolerance of the run.
+    /// missed by; see [`Self::miss`] for the least tolerance of the run. Without one, only the shortest vector to the set
+    /// point is found.
     pub(crate) fn step(
         &mut self,
         contour: &Contour,
         k: u64,
         (set, path): (&[f64], &[f64]),
-        least_mm: f64,
+        least_mm: Option<f64>,
     ) {
         self.enter(k, set, path);
         self.filtered = Some(k);
         self.found = Excursion::none(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
         let within = (moment - reach, moment);
-        self.shortest = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
-        self.let_go(contour, k, least_mm);
+        if let Some(least_mm) = least_mm {
+            self.shortest = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
+            self.let_go(contour, k, least_mm);
+        } else {
+            let around = contour.around((set, set), within, (0.0, 0.0), &mut self.sight);
+            let mut vector = AxisVec::zeros(set.len());
+            let nearest = around.nearest(set, &mut vector);
+            self.shortest = nearest.map(|nearest| (nearest.distance, vector));
+        }
     }
 
     fn enter(&mut self, k: u64, set: &[f64], path: &[f64]) {

@@ -59,6 +59,8 @@ pub struct Meter {
     reach_cycles: u32,
     /// Least tolerance of any block so far in mm, if one has any.
     least_tolerance_mm: Option<f64>,
+    /// The set path between two set points, and what of the contour it misses, do not matter as long as no block has one.
+    set_points_only: bool,
     excess: Excess,
 }
 
@@ -79,6 +81,11 @@ const ALLOWANCE: f64 = 1.001;
 const ALLOWANCE_MM: f64 = 1e-6;
 
 impl Meter {
+    /// Measures nothing but the set points until a block has a tolerance: half of the work.
+    pub fn set_points_only(&mut self) {
+        self.set_points_only = true;
+    }
+
     /// Takes a change of the planner, in their order.
     pub fn take(&mut self, Change(what): Change) {
         match what {
@@ -93,7 +100,7 @@ impl Meter {
                 self.gauge = Gauge::new(reach_cycles, differ);
                 // the line to the next set point starts here
                 if let Some((k, position)) = at {
-                    self.gauge.unfiltered(&self.contour, k, &position, self.least_mm());
+                    self.gauge.unfiltered(&self.contour, k, &position, self.wanted_mm());
                 }
             }
             What::Tolerance(mm) => self.least_tolerance_mm = Some(mm),
@@ -105,10 +112,16 @@ impl Meter {
         self.least_tolerance_mm.unwrap_or(f64::INFINITY)
     }
 
+    /// The least tolerance, if both directions are measured.
+    fn wanted_mm(&self) -> Option<f64> {
+        let wanted = !self.set_points_only || self.least_tolerance_mm.is_some();
+        wanted.then(|| self.least_mm())
+    }
+
     /// Components of the shortest vector from the contour within reach of the filters to the set point of cycle `k`, whose
     /// interpolated point is `path`; returns its length in mm.
     pub fn filtered(&mut self, k: u64, set: &[f64], path: &[f64], out: &mut [f64]) -> f64 {
-        self.gauge.step(&self.contour, k, (set, path), self.least_mm());
+        self.gauge.step(&self.contour, k, (set, path), self.wanted_mm());
         debug_assert_eq!(
             self.gauge.shortest().map(|(length_mm, _)| length_mm),
             self.contour
@@ -128,7 +141,7 @@ impl Meter {
 
     /// Replaces [`Self::filtered`] in a cycle whose set point is the interpolated one.
     pub fn unfiltered(&mut self, k: u64, point: &[f64]) {
-        self.gauge.unfiltered(&self.contour, k, point, self.least_mm());
+        self.gauge.unfiltered(&self.contour, k, point, self.wanted_mm());
         self.judge(k);
     }
 
@@ -157,8 +170,9 @@ impl Meter {
     }
 
     /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the
-    /// contour that the filters have just let go: the two directions that `AX_DEV` bounds.
-    pub fn excursion(&self) -> &[f64] {
-        self.gauge.found()
+    /// contour that the filters have just let go: the two directions that `AX_DEV` bounds. `None` if only the set point was
+    /// measured.
+    pub fn excursion(&self) -> Option<&[f64]> {
+        self.wanted_mm().map(|_| self.gauge.found())
     }
 }

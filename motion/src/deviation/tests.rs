@@ -33,7 +33,9 @@ proptest! {
             points.push(at);
         }
         let mut set = SetPath::starting(7, 2);
-        points.iter().for_each(|p| set.push(p));
+        for point in &points {
+            set.push(point);
+        }
         let (first, last) = (7 + skip, 7 + steps.len() as u64 + more);
         let lines: Vec<_> = points.windows(2).map(|p| aside(point, p[0], p[1])).collect();
         let lines = &lines[skip.min(lines.len() as u64) as usize..];

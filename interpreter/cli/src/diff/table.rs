@@ -141,6 +141,8 @@ impl Table {
         let name = facts.program.clone();
         let rows = Rows::new(columns.clone(), facts);
         let batch = reader(Vec::new());
+        // no column shows both ways
+        let run = run.without_both_ways();
         let rows = Origin::Run(Box::new(Fresh { run, columns, rows, batch }));
         Ok(Self { name, header, row: ByteRecord::new(), rows })
     }
