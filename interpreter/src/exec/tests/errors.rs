@@ -371,7 +371,7 @@ fn brackets_and_values_that_a_command_does_not_take() {
 fn axis_exchanges_are_checked() {
     for (text, id) in [
         ("#SET AX [X,1,0][X,2,1]", "21256"),
-        ("#PUT AX [Z]\n#CALL AX [X,3,2]", "21256"),
+        ("#PUT AX [Z]\n#CALL AX [X,3,2]", "21261"),
         ("#CS ADD [A][1]\n#CS SELECT [A]\n#SET AX [X,1,0]", "20684"),
     ] {
         let run = super::run(&format!("{text}\nM30\n"));

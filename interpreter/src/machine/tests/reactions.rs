@@ -23,7 +23,7 @@ fn numbers_that_do_not_fit_together() {
     );
     assert_eq!(
         broken("m/lists/channel.lis", &format!("{channel} M\ngruppe[0].achse[1].log_achs_nr 7\n")),
-        ["20425"]
+        ["20425", "K-0075"]
     );
     assert_eq!(broken("m/lists/channel.lis", &format!("{channel} Y\n")), ["K-0031"]);
     // a path axis whose list says spindle
