@@ -24,7 +24,7 @@ const NOTES: &[Note] = &[
     Note("P-AXIS-00226", "the feedforward manual prints 0 inside the range, the diagnosis manual rejects it (110381)", "1", &["P-AXIS-00225", "110381"]),
     Note("P-AXIS-00228", "recommended global weight 0.7..1; above 1 the axis leads. The feedforward manual allows 0, the axis manual names 110122 for it; 0 is a legal weight here", "", &["P-AXIS-00229", "110122", "G136"]),
     Note("P-AXIS-00229", "the feedforward manual prints 0 inside the range, the axis manual rejects it (110123)", "", &["P-AXIS-00228", "110123"]),
-    Note("P-AXIS-00236", "500 is 0.05 mm; recommended: at least three times the lag at standstill", "100", &["P-AXIS-00532", "70082", "G60"]),
+    Note("P-AXIS-00236", "500 is 0.05 mm; recommended: at least three times the lag at standstill; 0 becomes the default (110087), although the document prints a range from 0", "100", &["P-AXIS-00532", "70082", "G60"]),
     Note("P-AXIS-00255", "the documented way to have feedforward in every program; a preset of G group 21 has no effect", "", &["P-CHAN-00063", "G135", "P-AXIS-00256"]),
     Note("P-AXIS-00256", "wins over P-AXIS-00255 (K-0023)", "", &["P-AXIS-00255"]),
     Note("P-AXIS-00320", "DRIVE_DEFAULT: the drive closes the loop for SERCOS, PROFIdrive and CANopen, the CNC for all others. Improved Position Control then needs the additive velocity in the process data (K-0066), and dead band and speed limit of the CNC's controller do not act; the loop of the drive is simulated with the law of the CNC and kv. OPEN_POSITION_LOOP modes of spindles are simulated with a closed loop (K-0079), of other axes refused (70345)", "CNC_POSITION_CONTROL", &["P-AXIS-00020", "P-AXIS-00099", "P-AXIS-00395", "K-0066", "K-0079", "70345"]),
