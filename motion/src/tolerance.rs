@@ -35,8 +35,7 @@
 //! trace will be: first what leaves the contour ([`leaves`]), then, where nothing does, what of it is missed ([`measure`]); each
 //! time only what has changed ([`examine`]). What exceeds the tolerance is put down to kinks and bends by their parts in the sum above
 //! ([`blame`]): an isolated corner is passed more slowly, then rests, then waits; likes within one kernel length share the
-//! even speed that keeps the tolerance, or less where changes of speed have a part in it ([`pace`]). Then the window is planned
-//! again ([`tighten`]).
+//! even speed that keeps the tolerance. Then the window is planned again ([`tighten`]).
 //!
 //! Exact, but for [`MARGIN_MM`]: set points; kinks of the contour; the places where the nearest point passes from one block,
 //! or one part of the set path, to another (halvings). Where two vectors could be taken for the shortest, the larger
