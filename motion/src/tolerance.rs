@@ -92,7 +92,6 @@ mod harvest;
 mod kernels;
 mod leaves;
 mod measure;
-mod pace;
 mod search;
 mod set_points;
 mod tighten;

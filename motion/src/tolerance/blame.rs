@@ -14,16 +14,26 @@
 //! it is run, the starts and stops next to it are the cause (`du a M2 / 2`, whatever the speed): then the path rests at its ends.
 
 use super::Demands;
-use super::even::ALIKE;
+use super::even::{ALIKE, Evenly, aim, fastest};
 use super::measure::{Record, Violation};
+use super::tighten::{PATIENCE, hurry};
 use super::view::{Mark, View};
 use crate::axis::AxisVec;
 use crate::contour::SAME_START_MM;
 
 /// Points at which a bend is looked at.
 const BEND_POINTS: u32 = 6;
+/// Doublings from the least speed looked at to the one planned.
+const DOUBLINGS: u32 = 4;
 /// Ratio of two excesses up to which the second one is not looked at.
 const LITTLE_MORE: f64 = 1.05;
+/// Least part of the speed planned that one round leaves of it.
+const LEAST_OF_ROUND: f64 = 0.5;
+/// Largest reduction of an even speed in one round.
+const MOST: f64 = 0.25;
+/// Least part of the speed planned that an even speed can be.
+const LEAST: f64 = 2.5e-4;
+
 /// What exceeded the tolerance in one round.
 pub(super) struct Findings {
     /// Largest excess in mm blamed on each boundary alone.
@@ -50,7 +60,7 @@ impl Findings {
     }
 
     /// Asks for an even speed on a block because of a violation.
-    pub(super) fn evenly(&mut self, block: usize, speed: f64, v: &Violation) {
+    fn evenly(&mut self, block: usize, speed: f64, v: &Violation) {
         self.even[block] = self.even[block].min(speed);
         let slot = &mut self.block[block];
         if slot.is_none_or(|(e, _)| e < v.excess()) {
@@ -71,9 +81,9 @@ struct Part {
 
 /// Marks whose blocks, and whose entries, share one speed.
 #[derive(Default)]
-pub(super) struct Shared {
-    pub(super) marks: Vec<usize>,
-    pub(super) kinks: Vec<usize>,
+struct Shared {
+    marks: Vec<usize>,
+    kinks: Vec<usize>,
 }
 
 impl View<'_> {
@@ -212,6 +222,70 @@ impl View<'_> {
         self.share(&shared, even, v, record, demands, findings);
     }
 
+    /// Asks for one speed on a stretch: the even one, or less if that is not below what is planned.
+    fn share(
+        &self,
+        shared: &Shared,
+        even: f64,
+        v: &Violation,
+        record: &Record,
+        demands: &Demands,
+        findings: &mut Findings,
+    ) {
+        let marks = &self.marks;
+        let at = |m: &usize, length: f64, asked: f64| {
+            let s = marks[*m].s_mm;
+            self.fastest(v, record, s, s + length).min(asked)
+        };
+        let blocks = shared.marks.iter().map(|m| {
+            let asked = marks[*m].block.map_or(f64::INFINITY, |b| demands.feed[b]);
+            at(m, marks[*m].queued.length, asked)
+        });
+        let kinks = shared.kinks.iter().map(|m| {
+            let asked = marks[*m].boundary.map_or(f64::INFINITY, |b| demands.cap[b]);
+            at(m, 0.0, asked)
+        });
+        let present = blocks.chain(kinks).fold(0.0, f64::max);
+        let speed = if present <= 0.0 {
+            // the path rests while the filters swing: no speed is the cause
+            f64::INFINITY
+        } else if even < 0.995 * present {
+            // a plan that is far too fast says little about who is to blame in a slower one
+            even.max(LEAST_OF_ROUND * present)
+        } else {
+            // where the speed is even already, or a change of speed is the cause
+            let blocks = || shared.marks.iter().filter_map(|m| marks[*m].block);
+            let repeats = blocks().map(|b| demands.slower[b].0).max().unwrap_or(0);
+            if repeats >= PATIENCE {
+                // starts and stops around the stretch are the cause, and these need not be slow
+                let ends = [blocks().min(), blocks().max().map(|b| b + 1)];
+                for b in ends.into_iter().flatten() {
+                    findings.corner[b] = findings.corner[b].max(v.excess());
+                }
+            }
+            let steps = hurry(repeats);
+            let step = (aim(v.tolerance_mm) / v.deviation_mm).sqrt().min(0.995);
+            present * libm::pow(step, f64::from(steps)).max(MOST)
+        };
+        for m in &shared.marks {
+            if let Some(b) = marks[*m].block {
+                findings.evenly(b, speed, v);
+            }
+        }
+        for b in shared.kinks.iter().filter_map(|m| marks[*m].boundary) {
+            findings.even_at[b] = findings.even_at[b].min(speed);
+        }
+    }
+
+    /// Highest speed in mm/s between two path lengths while the filters hold a violation.
+    fn fastest(&self, v: &Violation, record: &Record, from: f64, to: f64) -> f64 {
+        let length = u64::from(self.trial.kernels.length());
+        let cycles = v.cycle.saturating_sub(length)..v.cycle;
+        let inside = cycles.filter(|k| record.s(k + 1) >= from && record.s(*k) <= to);
+        let steps = inside.map(|k| record.s(k + 1) - record.s(k));
+        steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
+    }
+
     /// Parts in a deviation that push the way it points, in order of the path: of the set point of a cycle, or of the middle
     /// of the line between two.
     fn parts_of(
@@ -270,5 +344,38 @@ impl View<'_> {
             }
         }
         parts
+    }
+
+    /// Speed in mm/s at which the stretch of a violation, run through evenly, keeps the tolerance; at most the highest one
+    /// planned there.
+    fn even_speed(&self, v: &Violation, record: &Record, demands: &Demands) -> f64 {
+        let Self { trial, marks, .. } = self;
+        let fastest_planned = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
+        let longest = trial.kernels.longest();
+        let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest_planned };
+        let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
+        let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
+        // a run through a corner says nothing where the path rests there until the filters have let go of it
+        let full = trial.kernels.length();
+        let long = |m: &&Mark| {
+            m.boundary.is_some_and(|b| demands.stop[b].is_some_and(|dwell| dwell >= full))
+        };
+        let rests = || marks.iter().filter(long).map(|m| m.s_mm);
+        let (oldest, newest) = (at(full) + SAME_START_MM, at(0) - SAME_START_MM);
+        let between = (
+            rests().filter(|s| *s <= oldest).fold(f64::NEG_INFINITY, f64::max),
+            rests().filter(|s| *s >= newest).fold(f64::INFINITY, f64::min),
+        );
+        let (contour, kernels, cycle) = (&self.contour, trial.kernels, trial.cycle);
+        let evenly = Evenly { contour, kernels, cycle, between };
+        let aim = aim(v.tolerance_mm);
+        let least = LEAST * fastest_planned;
+        fastest(fastest_planned / f64::from(1 << DOUBLINGS), least, fastest_planned, |speed| {
+            let deviation = match &v.missed {
+                Some((point, s)) => evenly.misses(point, *s, speed),
+                None => evenly.leaves(middle, speed),
+            };
+            deviation <= aim
+        })
     }
 }

@@ -24,7 +24,7 @@ const ROUNDS: u32 = 8;
 /// Share of the largest part of a deviation from which on another one counts as its like.
 pub(super) const ALIKE: f64 = 0.3;
 
-/// A contour that is run through, at an even speed or as planned.
+/// A contour run through evenly.
 pub(super) struct Evenly<'a> {
     pub(super) contour: &'a Contour,
     pub(super) kernels: &'a Kernels,
@@ -34,33 +34,22 @@ pub(super) struct Evenly<'a> {
 }
 
 impl Evenly<'_> {
-    /// Largest component in mm by which the set point around path length `middle` leaves the contour at an even speed.
+    /// Largest component in mm by which the set point around path length `middle` leaves the contour.
     pub(super) fn leaves(&self, middle: f64, speed: f64) -> f64 {
-        self.leaves_along(|cycles| self.place(middle, speed, cycles))
-    }
-
-    /// Largest component in mm by which the set points around path length `at` miss a point there at an even speed.
-    pub(super) fn misses(&self, point: &[f64], at: f64, speed: f64) -> f64 {
-        self.misses_along(point, |cycles| self.place(at, speed, cycles))
-    }
-
-    /// Largest component in mm by which the set point leaves the contour whose middle is `run(0)`, where `run` is the path length
-    /// so many cycles after that.
-    pub(super) fn leaves_along(&self, run: impl Fn(f64) -> f64) -> f64 {
-        let reach = f64::from(self.kernels.length());
+        let reach = self.reach(speed);
         let mut x = AxisVec::zeros(self.kernels.axes.len());
-        self.set_point(&run, &mut x);
-        self.contour.aside(&x, run(-reach), run(reach))
+        self.set_point(middle, speed, &mut x);
+        self.contour.aside(&x, middle - reach, middle + reach)
     }
 
-    /// Largest component in mm by which the set points around `run(0)` miss a point.
-    pub(super) fn misses_along(&self, point: &[f64], run: impl Fn(f64) -> f64) -> f64 {
-        let reach = f64::from(self.kernels.length());
+    /// Largest component in mm by which the set points around path length `at` miss a point there.
+    pub(super) fn misses(&self, point: &[f64], at: f64, speed: f64) -> f64 {
+        let reach = self.reach(speed);
         let mut x = AxisVec::zeros(self.kernels.axes.len());
         let mut best = (f64::INFINITY, 0.0);
         for i in -PLACES..=PLACES {
-            let later = 0.5 * reach * f64::from(i) / f64::from(PLACES);
-            self.set_point(&|cycles| run(later + cycles), &mut x);
+            let s = at + 0.5 * reach * f64::from(i) / f64::from(PLACES);
+            self.set_point(s, speed, &mut x);
             let aside = || x.iter().zip(point).map(|(a, b)| (a - b).abs());
             let d2: f64 = aside().map(|c| c * c).sum();
             if d2 < best.0 {
@@ -70,17 +59,19 @@ impl Evenly<'_> {
         best.1
     }
 
-    /// Path length so many cycles after the path length `at` at an even speed.
-    fn place(&self, at: f64, speed: f64, cycles: f64) -> f64 {
-        let s = at + speed * self.cycle.seconds() * cycles;
-        s.clamp(self.between.0, self.between.1)
+    /// Path length in mm that the filters hold.
+    fn reach(&self, speed: f64) -> f64 {
+        speed * f64::from(self.kernels.length()) * self.cycle.seconds()
     }
 
-    /// Set point whose middle is `run(0)`.
-    fn set_point(&self, run: &impl Fn(f64) -> f64, out: &mut AxisVec) {
-        let Self { contour, kernels, .. } = self;
+    /// Set point around path length `s`.
+    fn set_point(&self, s: f64, speed: f64, out: &mut AxisVec) {
+        let Self { contour, kernels, cycle, between } = self;
+        let step = speed * cycle.seconds();
         let mut walk = contour.walk();
-        let place = |(weight, delay): &(f64, f64)| (*weight, run(kernels.delay - delay));
+        let place = |(weight, delay): &(f64, f64)| {
+            (*weight, (s + step * (kernels.delay - delay)).clamp(between.0, between.1))
+        };
         // equal kernels share their taps
         if !kernels.unequal
             && let Some(coarse) = kernels.coarse.first()

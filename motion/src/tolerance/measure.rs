@@ -80,13 +80,6 @@ impl Record {
         self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)
     }
 
-    /// Path length at a moment in cycles, along the line between two cycles.
-    pub(super) fn s_at(&self, moment: f64) -> f64 {
-        let k = moment.max(0.0).floor();
-        let [from, to] = [0, 1].map(|next| self.s(k as u64 + next));
-        from + (moment.max(0.0) - k) * (to - from)
-    }
-
     /// Last cycle of the record in which the path has not got beyond a path length: a rest there is over then.
     pub(super) fn leaves(&self, s: f64) -> u64 {
         self.first + self.s_mm.partition_point(|passed| *passed <= s).saturating_sub(1) as u64
