@@ -78,6 +78,11 @@ fn limits_stop_a_program_and_do_not_refuse_it() {
         assert!(duration > 2.0 && duration <= limit, "{options:?}: {duration}");
         // of 100 blocks one is F, and every pass has $WHILE, two motions of 10 mm and $ENDWHILE
         let path = summary["path_length_mm"].as_f64().unwrap();
+        // at 100 mm/s, and not what the look-ahead has taken from the program
+        let ideal = summary["ideal_duration_s"].as_f64().unwrap();
+        assert!((ideal - path / 100.0).abs() < 1e-3, "{options:?}: {ideal} s for {path} mm");
+        let blocks = summary["blocks"].as_f64().unwrap();
+        assert!((blocks - 4.0 * path / 20.0).abs() < 6.0, "{options:?}: {blocks} for {path} mm");
         assert!(limit < 3.0 || (480.0..=500.0).contains(&path), "{options:?}: {path}");
         let (exit, said, _) = call("check", endless, &options);
         let is_error = exit == Exit::Aborted;
@@ -91,6 +96,80 @@ fn limits_stop_a_program_and_do_not_refuse_it() {
     let (exit, said, out) = call("run", behind, &["--max-time", "1"]);
     assert_eq!((exit, said.len()), (Exit::Aborted, 1), "{said:?} {out}");
     assert!(said[0].starts_with("K-0017 ") && out.contains("aborted"), "{said:?} {out}");
+}
+
+/// Motions of 100 s each in lines 2 to 4: a check names the one in which its time is over, the last one too.
+#[test]
+fn a_check_counts_every_motion() {
+    let text = "%P\nG01 F60 X100\nX0\nX100\nM30\n";
+    for limit_s in [5, 99, 101, 150, 199, 201, 299, 301, 1000] {
+        let (exit, said, _) = call("check", text, &["--max-time", &limit_s.to_string()]);
+        let line = 2 + limit_s / 100;
+        let expected = if limit_s < 300 { vec![format!("K-0017 {line}:1")] } else { Vec::new() };
+        assert_eq!((exit, said), (Exit::Finished, expected), "{limit_s}");
+    }
+    // the run ends with an error of its own, and the warning of its check is not repeated
+    let (exit, said, _) = call("run", text, &["--max-time", "250"]);
+    assert_eq!((exit, said), (Exit::Aborted, vec!["K-0017 4:1".to_owned()]));
+}
+
+/// An amplitude that no run can have: above half the sampling frequency an error, after the end of every run a warning, and no
+/// word of a parameter without effect.
+#[test]
+fn amplitudes_that_cannot_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = folder.path().join("part.nc");
+    std::fs::write(&program, "G01 X10 F6000\nM30\n").unwrap();
+    let sweep = |amplitude: &str| {
+        let program = program.to_str().unwrap();
+        let vary = "X.getriebe[0].kv=4000,5000";
+        command([
+            "sweep",
+            program,
+            "--vary",
+            vary,
+            "--amplitude",
+            amplitude,
+            "--columns",
+            amplitude,
+        ])
+    };
+    let above = sweep("X_lag_mm@600..700");
+    assert_eq!(above.exit, Exit::Usage);
+    assert!(above.err.contains("shows up to 500 Hz"), "{}", above.err);
+    let late = sweep("X_lag_mm@1..2@5..6");
+    assert_eq!(late.exit, Exit::Finished);
+    assert!(late.err.contains("no run lasts until the end of this window"), "{}", late.err);
+    assert!(!late.out.contains("without_effect"), "{}", late.out);
+    let there = sweep("X_lag_mm@10..20@0..0.2");
+    assert!(there.err.is_empty() && !there.out.contains("without_effect"), "{}", there.err);
+}
+
+/// A warning that is an error for its caller does not say that the run continues.
+#[test]
+fn refused_lists_do_not_continue() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = folder.path().join("part.nc");
+    std::fs::write(&program, "G01 X10 F6000\nM30\n").unwrap();
+    let program = program.to_str().unwrap();
+    let plant =
+        ["--set", "kontur.axis[1].plant.model=TWO_MASS", "--set", "kontur.axis[1].plant.f0=0"];
+    for words in [&["--cycle-us", "7"][..], &plant] {
+        let done = command([&["run", program], words].concat());
+        assert_eq!(done.exit, Exit::Usage, "{}", done.err);
+        assert!(done.err.contains("the machine lists were refused"), "{}", done.err);
+        assert!(!done.err.contains("the run continues"), "{}", done.err);
+    }
+}
+
+/// External variables are named as on the command line or as in the program.
+#[test]
+fn external_variables_with_their_prefix() {
+    let text = "G01 F[V.E.SPEED] X10\nM30\n";
+    for name in ["SPEED", "V.E.SPEED", "v.e.SPEED"] {
+        let (exit, said, _) = call("run", text, &["--external", &format!("{name}=6000")]);
+        assert_eq!((exit, said), (Exit::Finished, Vec::new()), "{name}");
+    }
 }
 
 /// A mistake in a program that moves without end: the check does not continue to the limit of blocks.

@@ -36,6 +36,8 @@ fn numbers_that_do_not_fit_together() {
     assert_eq!(files.ids(&[]), ["K-0013", "K-0031"]);
     let errors = Memory::default().load(&[]).unwrap_err();
     assert_eq!(errors[0].id, Condition::NoFile);
+    // --path is for subroutines
+    assert!(errors[0].hint.as_ref().unwrap().starts_with("-m takes"), "{errors:?}");
 }
 
 /// Conformance: F055, F065, F082, F087, F088, V063, V065, V067.
