@@ -173,6 +173,9 @@ fn end(parameters: &Parameters, bound: Bound, indices: Indices, cycle: CycleTime
 }
 
 fn correction(row: &Row, reaction: Reaction, bound: End, below: bool) -> Option<f64> {
+    if reaction.correction == Correction::Refuse {
+        return None;
+    }
     let limit = match (bound.allowed, row.raw) {
         (true, _) => bound.value,
         (false, Raw::Real64) => return default_of(row),
