@@ -206,7 +206,7 @@ impl Decoder {
             self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
         if changed.software_limits_mm() != limits_mm {
-            // also over what G98 and G99 have set
+            // Assumption: also over what G98 and G99 have set, as the last command that names the limit
             self.geometry.limits_mm[axis] = changed.software_limits_mm();
         }
         let number = changed.number();
@@ -214,6 +214,8 @@ impl Decoder {
         // first: a kernel is replaced when the axes have stood for as long as it remembers
         self.update_shaping(span);
         self.sync(Sync::MachineData { axis: number });
+        // the list decides what the state of G135 is worth
+        self.feedforward_event();
         Ok(())
     }
 

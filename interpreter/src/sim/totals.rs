@@ -73,8 +73,9 @@ impl Programmed {
 /// drives.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Progress {
-    /// Of the motions before the current one.
-    done: Programmed,
+    /// Ideal time of the motions before the current one.
+    done_s: f64,
+    /// The current one; after a stop nothing but the blocks up to there.
     current: Programmed,
     /// Path length at which the current one began.
     from_mm: f64,
@@ -89,17 +90,16 @@ impl Progress {
 
     /// Everything up to so many blocks of the program has been executed.
     pub(super) fn complete(&mut self, blocks: u64) {
-        self.done.ideal_s += self.current.ideal_s;
-        self.done.blocks = blocks;
+        self.done_s += self.current.ideal_s;
         self.current = Programmed { blocks, ..Programmed::default() };
     }
 
     /// Blocks, and the ideal time in s, up to a path length.
     pub(super) fn up_to(&self, s_mm: f64) -> (u64, f64) {
-        let Self { done, current, from_mm } = self;
+        let Self { done_s, current, from_mm } = self;
         let share = (s_mm - from_mm) / current.length_mm;
         let part_s = if share > 0.0 { current.ideal_s * share.min(1.0) } else { 0.0 };
-        (current.blocks.max(done.blocks), done.ideal_s + part_s)
+        (current.blocks, done_s + part_s)
     }
 }
 
