@@ -10,7 +10,7 @@
 //! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
 //! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
-//!    along its limits, see [`crate::ride`]; where that is refused, the boundary that is exceeded most becomes a knot, and
+//!    along its limits, see [`crate::ride`]; where that is refused, or takes longer than stops of the acceleration, the boundary that is exceeded most becomes a knot, and
 //!    3 to 5 are repeated;
 //! 6. *passing* (TRAPEZ, HSC): where that is faster, a kink is passed with an acceleration, see [`passing`].
 //!
@@ -48,7 +48,7 @@ mod stretch;
 use crate::cap::{Cap, SpeedLimit};
 use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
-use crate::ride::ride;
+use crate::ride::{Cell, connects_gently, ride};
 pub(crate) use draft::Draft;
 use std::sync::Arc;
 use stretch::{Stretch, Weakest, cells, most_exceeded};
@@ -86,7 +86,8 @@ struct Window<'a> {
     forced: &'a [bool],
     v_start: Cap,
     a_start: f64,
-    end: SpeedLimit,
+    /// Speed at the end.
+    end: Cap,
     /// Speed at which a block may be entered: its feed, or more under G901.
     entries: Vec<Cap>,
     /// Braking under G901 continues across the boundary.
@@ -126,6 +127,7 @@ pub(crate) fn plan_again(
         return Ok(Draft::default());
     }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
+    let end = Cap::new(0.0, end);
     // where a plan was left inside, its speed has been computed in another way
     let rounded = !is_above(v_start.v_mm_s, feeds[0].v_mm_s) && a_start.abs() > FLAT_MM_S2;
     let v_start =
@@ -200,10 +202,17 @@ impl<'a> Window<'a> {
                 {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
                     let divides = |b| self.only_divides(b);
+                    let along = |cells: Vec<Cell>| {
+                        let ride = ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s)?;
+                        let slower = worst.is_some()
+                            && connects_gently(&cells)
+                            && self.part(s, from, to).is_faster_with_knots(ride.duration());
+                        (!slower).then_some(ride)
+                    };
                     let ridden = (worst.is_some() || s.is_uneven(blocks, divides, profile.peak()))
                         .then(|| cells(blocks, feeds, caps, s.first, s.end))
                         .flatten()
-                        .and_then(|cells| ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s));
+                        .and_then(along);
                     match (ridden, worst) {
                         (Some(ride), None) if ride.duration() >= profile.duration() => {}
                         (Some(ride), _) => profile = ride,
@@ -263,11 +272,53 @@ impl<'a> Window<'a> {
         s
     }
 
+    /// A stretch as a window of its own, between the speeds at its ends.
+    fn part(&self, s: &Stretch<'_>, v_start: Cap, end: Cap) -> Self {
+        let blocks = s.first..s.end;
+        Self {
+            blocks: &self.blocks[blocks.clone()],
+            feeds: &self.feeds[blocks.clone()],
+            caps: &self.caps[blocks.clone()],
+            forced: &self.forced[blocks.clone()],
+            v_start,
+            a_start: 0.0,
+            end,
+            entries: self.entries[blocks.clone()].to_vec(),
+            carried: self.carried[blocks].to_vec(),
+        }
+    }
+
+    /// True if the window takes less than `most_s` with acceleration zero at every boundary that would be exceeded
+    /// otherwise.
+    fn is_faster_with_knots(&self, most_s: f64) -> bool {
+        let n = self.blocks.len();
+        let mut knot = vec![false; n + 1];
+        (knot[0], knot[n]) = (true, true);
+        loop {
+            let stretches = self.stretches(&knot);
+            let speeds = self.passes(&stretches);
+            let (mut time, mut exceeds) = (0.0, false);
+            for (s, v) in stretches.iter().zip(speeds.windows(2)) {
+                let Ok(profile) = s.profile(v[0].v_mm_s, v[1].v_mm_s) else { return false };
+                time += profile.duration();
+                if time >= most_s {
+                    return false;
+                }
+                if let Some(b) = most_exceeded(self.blocks, self.feeds, self.caps, s, &profile) {
+                    (knot[b], exceeds) = (true, true);
+                }
+            }
+            if !exceeds {
+                return true;
+            }
+        }
+    }
+
     /// Backward and forward pass: speed and reason at every knot.
     fn passes(&self, stretches: &[Stretch<'_>]) -> Vec<Cap> {
         let m = stretches.len();
         let mut v = vec![self.v_start; m + 1];
-        v[m] = Cap::new(0.0, self.end);
+        v[m] = self.end;
         for k in (1..m).rev() {
             let s = &stretches[k];
             let best = self.limit(s.first);

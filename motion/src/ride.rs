@@ -111,6 +111,17 @@ pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Prof
     Some(Profile::over(speed, length))
 }
 
+/// True if a ride connects rise and fall with less jerk than the limits allow: sine-square ramps, for which the least of the
+/// four jerks is used.
+pub(crate) fn connects_gently(cells: &[Cell]) -> bool {
+    let lopsided = |block: &Block| {
+        let least = block.least_jerk();
+        block.jerks.iter().any(|jerk| *jerk > least * (1.0 + SLACK))
+    };
+    cells.last().is_some_and(|cell| cell.rates.shape == RampShape::Sin2)
+        && own(cells).iter().any(lopsided)
+}
+
 /// One block, or several between which nothing changes, with one jerk.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Alone {
