@@ -276,6 +276,13 @@ impl Diagnostic {
         self
     }
 
+    /// What happens: nothing where an error is only a warning.
+    fn reaction(&self) -> condition::Reaction {
+        let row = condition::row(self.id);
+        let milder = row.severity == Severity::Error && !self.is_error();
+        if milder { condition::Reaction::None } else { row.reaction }
+    }
+
     /// True if the program or list is refused or aborted.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
@@ -296,7 +303,7 @@ impl Serialize for Diagnostic {
         s.serialize_field("kontur_id", &own)?;
         s.serialize_field("severity", &self.severity)?;
         s.serialize_field("text", &self.text)?;
-        s.serialize_field("reaction", &row.reaction.class())?;
+        s.serialize_field("reaction", &self.reaction().class())?;
         s.serialize_field("remedy", &row.remedy)?;
         s.serialize_field("root", &row.root)?;
         s.serialize_field("multiple_id", &0)?;

@@ -15,6 +15,7 @@ const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00047", "no cross compensation is added to the set position"),
     ("P-AXIS-00174", "no plane compensation is added to the set position"),
     ("P-AXIS-00175", "no leadscrew error is added to the set position"),
+    ("P-AXIS-00179", "actual positions are not checked against the software limits"),
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
     ("P-AXIS-00231", "the command for the drive keeps its sign"),
     ("P-AXIS-00271", "no temperature compensation is added to the set position"),

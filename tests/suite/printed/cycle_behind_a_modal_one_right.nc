@@ -1,6 +1,7 @@
 ; run: exit 0
 ; page 254436235 diagnosis 21381, right
-; end X200 Y300 Z20
+; the cycle runs at its call and again after N20 and N30
+; end X200 Y300 Z30
 %L DUMMY1
 G91 Z10
 M17

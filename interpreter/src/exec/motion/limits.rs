@@ -7,6 +7,15 @@ use crate::exec::fault::Fault;
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
+/// Half of the increment of 0.1 um (0.0001 deg) in which positions and limits are given: what is closer to a limit is at it, as
+/// after a thousand incremental steps.
+const HALF_INCREMENT_MM: f64 = 0.5e-4;
+
+/// True if a position in mm (deg) is outside software limits.
+pub(super) fn is_outside(position_mm: f64, (least_mm, most_mm): (f64, f64)) -> bool {
+    !(least_mm - HALF_INCREMENT_MM..=most_mm + HALF_INCREMENT_MM).contains(&position_mm)
+}
+
 impl Decoder {
     /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round; `place`
     /// says where the word of an axis is.
@@ -73,8 +82,8 @@ impl Decoder {
         if low.to_bits() == high.to_bits() {
             return None;
         }
-        let limits @ (least, most) = self.geometry.limits_mm[axis]?;
-        let outside = |x: f64| !(least..=most).contains(&x);
+        let limits = self.geometry.limits_mm[axis]?;
+        let outside = |x: f64| is_outside(x, limits);
         // the path leaves out what the axis has gone as an independent axis
         let way = self.motion.independent.way[axis];
         let (low, high) = (low + way, high + way);
@@ -90,8 +99,8 @@ impl Decoder {
 
     /// 21897 for a target outside the software limits of its axis.
     pub(in crate::exec) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
-        let Some(limits @ (low, high)) = self.geometry.limits_mm[axis] else { return };
-        if !(low..=high).contains(&target) {
+        let Some(limits) = self.geometry.limits_mm[axis] else { return };
+        if is_outside(target, limits) {
             let fault = self.limit_fault(axis, "target", target, limits, at);
             self.report.note(fault);
         }
@@ -107,13 +116,16 @@ impl Decoder {
     ) -> Box<Fault> {
         let name = self.names.name(axis).to_owned();
         let number = self.machine.axes[axis].number();
-        let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
+        // an increment has four decimals, more of them are rounding
+        let shown = (x * 1e7).round() / 1e7;
+        let text = format!("axis {name}: {what} {shown} is outside its limits {least} to {most}");
+        let limit = if x < least { "P-AXIS-00177" } else { "P-AXIS-00178" };
         let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {
             d.axis(number, name)
                 .value(ValueKind::Current, x * 1e4, "0.1um")
                 .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
                 .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
-                .parameter("P-AXIS-00177")
+                .parameter(limit)
         });
         let machine = &self.machine;
         let masked = machine.channel.limit_warnings.checked_shr(axis as u32).unwrap_or(0) & 1 == 1;

@@ -4,6 +4,7 @@
 //! a row have in common is worked out once and holds until another kind of block comes.
 
 use super::InPlane;
+use super::limits::is_outside;
 use super::state::Straight;
 use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::decoder::Decoder;
@@ -198,9 +199,8 @@ impl Decoder {
     fn check_line(&mut self, start: &[f64], words: &StraightWords) {
         let end = self.geometry.coordinates.target();
         let inside = |axis: usize| {
-            self.geometry.limits_mm[axis].is_none_or(|(least, most)| {
-                (least..=most).contains(&start[axis]) && (least..=most).contains(&end[axis])
-            })
+            let limits = self.geometry.limits_mm[axis];
+            limits.is_none_or(|l| !is_outside(start[axis], l) && !is_outside(end[axis], l))
         };
         if words.targets.iter().all(|(target, _)| inside(target.axis)) {
             return;

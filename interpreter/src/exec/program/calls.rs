@@ -187,8 +187,8 @@ impl Executor {
             return;
         }
         if let Some(every_block) = modal {
+            let (name, passed) = (name.clone(), passed.clone());
             self.decoder.calls.modal_cycle = Some(ModalCycle { name, local, passed, every_block });
-            return;
         }
         self.call_named(&name, local, Some(passed));
     }
@@ -252,11 +252,13 @@ impl Executor {
         }
     }
 
-    /// The modal cycle after a block; not inside cycles.
-    pub(in crate::exec) fn modal_cycle(&mut self) {
-        let inside = self.levels.iter().any(|l| l.cycle.is_some());
+    /// The modal cycle after a block that began at this number of levels; not inside cycles, and after a block that moves nothing
+    /// only where it neither calls nor ends a program. Source: TF5200 programming manual, cycles as subroutines.
+    pub(in crate::exec) fn modal_cycle(&mut self, levels: usize) {
         let Some(cycle) = &self.decoder.calls.modal_cycle else { return };
-        if inside || self.has_ended() || !(cycle.every_block || self.decoder.moved) {
+        let inside = self.levels.iter().any(|l| l.cycle.is_some()) || self.levels.len() < levels;
+        let wanted = self.decoder.moved || cycle.every_block && self.levels.len() == levels;
+        if inside || self.has_ended() || !wanted {
             return;
         }
         let cycle = cycle.clone();

@@ -96,6 +96,22 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         let hint = format!("{reader} reads it: kontur.axis[i].plant.model");
         tell(place, "parameter of another model of drive and mechanics", &hint);
     }
+    if let Some((indices, setting)) = plant::of_the_simulated_drive(axis) {
+        let hint =
+            "SIMU in kontur.axis[i].plant.model reads it; the model of kontur.lis takes its place";
+        tell(Place { row: setting.row, indices }, "parameter of the simulated drive", hint);
+    }
+    let of_motor = |row: &Row| {
+        [axis_control::ENCODER_NUM, axis_control::ENCODER_DENOM]
+            .iter()
+            .any(|p| p.at(0).place().row.key == row.key)
+    };
+    let other = axis.parameters().settings().find(|([i, _], s)| *i != 1 && of_motor(s.row));
+    if let Some((indices, setting)) = other {
+        let hint = "lr_hw[1] is the direct measuring system; the one of the motor has \
+            getriebe[0].wegaufz and wegaufn, or getriebe[0].incr_per_rev";
+        tell(Place { row: setting.row, indices }, "resolution of the motor encoder", hint);
+    }
     // the default of the vendor's lists says nothing about another drive
     let said = axis.set_by(of::FF_SHIFT).and_then(|s| s.value.number());
     if drive != Drive::Profidrive && said.is_some_and(|x| x > 0.0 && (x - 3.0).abs() > 0.0) {

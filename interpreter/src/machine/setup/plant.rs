@@ -2,8 +2,10 @@
 
 use crate::machine::Axis;
 use crate::machine::overrides::OVERRIDE;
+use crate::machine::parameters::Setting;
 use crate::machine::table::param::{Number, Param, Place};
-use crate::machine::table::{axis_drive, kontur as of};
+use crate::machine::table::{Default, Indices, axis_drive, kontur as of};
+use crate::machine::value::Value;
 use kontur_filters::control::plant::{
     Disturbance, ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig,
 };
@@ -50,6 +52,25 @@ pub(super) fn of_another_model(axis: &Axis) -> Option<(Place, &'static str)> {
         let reader = reader.map(|(_, reader)| *reader).or(of_modes)?;
         (!reader.split(" and ").any(|name| name == model))
             .then_some((Place { row, indices }, reader))
+    })
+}
+
+/// The first parameter of the vendor's simulated drive that a list changes, where `kontur.lis` gives another model.
+pub(super) fn of_the_simulated_drive(axis: &Axis) -> Option<(Indices, &Setting)> {
+    const READERS: [Place; 5] = [
+        axis_drive::SIMU_FOLLOWS.place(),
+        axis_drive::SIMU_DAMPING_NUM.place(),
+        axis_drive::SIMU_DAMPING_DENOM.place(),
+        axis_drive::SIMU_FREQUENCY_NUM.place(),
+        axis_drive::SIMU_FREQUENCY_DENOM.place(),
+    ];
+    let model = axis.get(of::PLANT_MODEL).unwrap_or_default();
+    if matches!(model.as_ref(), "" | "SIMU") {
+        return None;
+    }
+    axis.parameters().settings().find(|(_, setting)| {
+        let is_read = READERS.iter().any(|place| place.row.key == setting.row.key);
+        is_read && !matches!(setting.row.default, Default::Number(x) if setting.value == Value::Number(x))
     })
 }
 

@@ -305,7 +305,11 @@ impl Executor {
                     self.decoder.report.keep(outcome);
                 }
             }
-            Body::Command(command) => self.command(command, entry),
+            Body::Command(command) => {
+                let levels = self.levels.len();
+                self.command(command, entry);
+                self.modal_cycle(levels);
+            }
             Body::Control(control) => {
                 self.decoder.dialect.own = true;
                 if let Some(entry) = entry {
@@ -317,8 +321,9 @@ impl Executor {
                 if self.decoder.report.failed() && !self.decoder.checking {
                     return;
                 }
+                let levels = self.levels.len();
                 self.after(after);
-                self.modal_cycle();
+                self.modal_cycle(levels);
             }
         }
     }

@@ -48,6 +48,8 @@ struct Builder<'a> {
     /// `%` blocks inside the main program, with the end of the program seen before each.
     remarks: Vec<(EntryId, bool)>,
     end_seen: bool,
+    /// The main program has no head, and a local subroutine follows blocks without M30.
+    unfinished: bool,
     /// `%` after the end of the main program, until a block follows.
     behind_end: Option<Location>,
     diagnostics: Vec<Diagnostic>,
@@ -146,6 +148,8 @@ impl Builder<'_> {
         let next = Position { offset: raw.position.offset, line: raw.position.line };
         if let Some(name) = local {
             self.behind_end = None;
+            let nameless = |main: usize| self.index.sections[main].name.is_none();
+            self.unfinished |= !self.end_seen && self.section.is_some_and(nameless);
             self.close(raw.position.offset);
             let name = name_of(name);
             if self.has_main {
@@ -159,6 +163,16 @@ impl Builder<'_> {
                 self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
             }
             self.open_section(name, true, next);
+        } else if let (true, Some(name)) = (self.unfinished, name_of(behind.trim_start())) {
+            // whoever reads %MAIN takes it for the program
+            let text = format!(
+                "program {name} never runs: the blocks before the first % are the main program"
+            );
+            let hint = "no block comes before the first %L or %; write M30 after the blocks if they are the program";
+            let d = Diagnostic::new(Condition::TextBehindEnd, text);
+            let d = d.severity(Severity::Error).hint(hint);
+            self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
+            self.unfinished = false;
         } else if self.has_main {
             // whether it is a remark is known at the end of the file
             let id = self.push(raw.position, raw.text.len() - rest.len(), Keyword::Remark);
@@ -387,6 +401,7 @@ pub(in crate::exec) fn build(
         section: None,
         has_main: false,
         remarks: Vec::new(),
+        unfinished: false,
         end_seen: false,
         behind_end: None,
         diagnostics: Vec::new(),
