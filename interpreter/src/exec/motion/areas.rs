@@ -250,6 +250,8 @@ impl Decoder {
     }
 
     /// Axes of a polygon: those of the plane, or two others that its blocks name.
+    ///
+    /// The pages print 21363 and 21797 for the same third axis; 21797 is the later one, of builds with areas of other axes.
     fn area_plane(&self, named: &[usize], span: Span) -> Outcome<[usize; 2]> {
         let plane = self.in_plane(span)?.plane;
         if named.len() > 2 {
