@@ -5,6 +5,7 @@
 //!
 //! Source: TF5200 programming manual, list of commands.
 
+mod areas;
 mod axes;
 mod compensation;
 mod contour;
@@ -177,6 +178,10 @@ const ROWS: &[Row] = &[
     measuring::MEAS,
     measuring::MEAS_MODE,
     measuring::MEAS_DEFAULT,
+    areas::CONTROL_AREA_BEGIN,
+    areas::CONTROL_AREA_START,
+    areas::CONTROL_AREA_END,
+    areas::CONTROL_AREA,
     unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),
     off_only("SEGMENTATION"),
@@ -230,7 +235,6 @@ const ROWS: &[Row] = &[
     ignored("SAVE CONFIG"),
     unsupported("CLEAR CONFIG"),
     ignored("CACHE"),
-    Row::of("CONTROL AREA", Act::Ignored("areas are not watched, a motion into one is not stopped")),
     ignored("DISTANCE PROG START"),
     ignored("DIST TO GO"),
     ignored("EXPORT VE"),

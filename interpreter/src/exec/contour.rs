@@ -62,6 +62,8 @@ pub(super) struct Contour {
     pub(super) akima: Akima,
     interim: Interim,
     driven: Vec<Driven>,
+    /// Control areas that motions violate, since the last call.
+    violations: Vec<Fault>,
     blocks: u64,
     /// The position of the tool at the contour has to be reported (`#OTC`), and the one reported last.
     tells_engagement: bool,
@@ -354,6 +356,11 @@ impl Contour {
         std::mem::take(&mut self.driven)
     }
 
+    /// Control areas that motions violate, since the last call.
+    pub(super) fn take_violations(&mut self) -> Vec<Fault> {
+        std::mem::take(&mut self.violations)
+    }
+
     fn compensate(&mut self, mut motion: Box<Motion>) -> Option<Box<Fault>> {
         if motion.compensation.is_some() || self.compensator.is_active() {
             motion.enter_tilt();
@@ -396,7 +403,13 @@ impl Contour {
     /// The last stage before the simulation.
     fn go_out(&mut self, item: Item) {
         match &item {
-            Item::Motion(motion) => self.driven.extend(self.interim.motion(motion)),
+            Item::Motion(motion) => {
+                if let Some(watch) = &motion.watch {
+                    let violation = watch.fault(&motion.block.path, motion.source, motion.span);
+                    self.violations.extend(violation);
+                }
+                self.driven.extend(self.interim.motion(motion));
+            }
             Item::Rest(_) => self.interim.rest(),
             Item::Events(_) => {}
         }

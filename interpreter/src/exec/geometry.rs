@@ -4,6 +4,7 @@
 
 pub(super) mod angle;
 pub(super) mod arc;
+pub(super) mod area;
 pub(super) mod coordinates;
 pub(super) mod frame;
 pub(super) mod modulo;

@@ -2,6 +2,7 @@
 
 mod angles;
 mod arcs;
+pub(super) mod areas;
 mod banding;
 mod coupling;
 mod cutting;
@@ -66,6 +67,12 @@ impl Decoder {
             self.stop_without_motion(words);
             let outcome = self.dwell(g, words);
             self.report.keep(outcome);
+            return;
+        }
+        let measures = words.group(Group::Measuring).is_some_and(|g| g.row.act == Act::Measure);
+        if self.motion.areas.is_defining() && (measures || self.modal.path.is_thread()) {
+            let text = "the contour of a control area consists of G00, G01, G02 and G03";
+            self.report.note(Fault::new(Condition::AreaOfArcs, text, span));
             return;
         }
         let fits = self.scaling_fits(words, span);
@@ -205,6 +212,9 @@ impl Decoder {
                 (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
             LinePath::new(start, end, &self.motion.feed_axes).map(Path::Line)
         };
+        if self.motion.areas.is_defining() {
+            return self.area_block(path.as_ref(), words, span);
+        }
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
         let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
@@ -239,6 +249,11 @@ impl Decoder {
             self.contouring_fits(span)?;
         }
         let course = self.feed_course(words, feed, rounds, span)?;
+        let shaped = rounds
+            || self.contour.hsc.contour().is_some()
+            || self.contour.hsc.spline().is_some()
+            || self.contour.akima.selected;
+        self.areas_fit(shaped, span)?;
         let in_plane = self.in_plane(span)?;
         if self.contour.akima.selected {
             self.spline_fits(rapid, rounds, span)?;
@@ -357,6 +372,7 @@ impl Decoder {
     ) {
         let InPlane { plane, tilt, compensation } = in_plane;
         let akima = self.contour.akima.selected && block.path.is_straight();
+        let watch = self.watch();
         let motion = Box::new(Motion {
             block,
             course,
@@ -369,6 +385,7 @@ impl Decoder {
             engaged: None,
             tangential: std::mem::take(&mut self.contour.tangential),
             akima,
+            watch,
             span,
         });
         self.moved = true;

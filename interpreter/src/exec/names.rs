@@ -82,6 +82,11 @@ impl AxisNames {
         format!("axes of the channel: {}", names.join(", "))
     }
 
+    /// Whether an axis is in the channel.
+    pub(super) fn has(&self, axis: usize) -> bool {
+        self.axes[axis].is_some()
+    }
+
     /// Name of an axis, `?` for one that was given away.
     pub(super) fn name(&self, axis: usize) -> &str {
         self.axes[axis].as_deref().unwrap_or("?")

@@ -94,8 +94,11 @@ pub struct List {
 /// Messages of one kind about a list that are shown; more are only counted.
 const SAID_MAX: u32 = 20;
 
-/// Number of unknown keys that are named in one message; more are only counted.
+/// Number of unknown keys that are named in one message; of more, the structures are named.
 const NAMED_UNKNOWN: usize = 12;
+
+/// Number of structures that are named after them; more are only counted.
+const NAMED_STRUCTURES: usize = 30;
 
 /// Reads a list. Diagnostics: 1001119 unknown element, 1030 index of a start-up list beyond its array, 1001138 bad number, K-0028 key twice, K-0029 empty index,
 /// K-0030 second word after a text, K-0071 line that is not an entry, K-0072 end mark.
@@ -275,11 +278,10 @@ impl Reader<'_> {
         let total: u32 = plain.iter().map(|(_, count, _)| count).sum();
         let mut names: Vec<&str> = plain.iter().map(|(shape, _, _)| shape.as_str()).collect();
         let Some((_, _, first)) = plain.first() else { return };
-        let more = names.len().saturating_sub(NAMED_UNKNOWN);
-        names.truncate(NAMED_UNKNOWN);
+        let more = names.split_off(names.len().min(NAMED_UNKNOWN));
         let mut message = format!("{total} unknown element(s), ignored: {}", names.join(", "));
-        if more > 0 {
-            message = format!("{message} and {more} more");
+        if !more.is_empty() {
+            message = format!("{message} and {} more: {}", more.len(), structures(&more));
         }
         self.diagnostics.push(
             Diagnostic::new(Condition::ListKeyUnknown, message)
@@ -287,6 +289,26 @@ impl Reader<'_> {
                 .at(first.clone()),
         );
     }
+}
+
+/// The structures of keys with the number of their keys, in the order of the list: `handbetrieb (12), kenngr (3)`.
+fn structures(shapes: &[&str]) -> String {
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    let mut others = 0;
+    for shape in shapes {
+        let name = shape.split(['.', '[']).next().unwrap_or(shape);
+        match counts.iter().position(|(known, _)| *known == name) {
+            Some(place) => counts[place].1 += 1,
+            None if counts.len() < NAMED_STRUCTURES => counts.push((name, 1)),
+            None => others += 1,
+        }
+    }
+    let mut named: Vec<String> =
+        counts.iter().map(|(name, count)| format!("{name} ({count})")).collect();
+    if others > 0 {
+        named.push(format!("others ({others})"));
+    }
+    named.join(", ")
 }
 
 /// Names the parameter of a row, if it has an ID.

@@ -108,6 +108,7 @@ conditions! {
     GUnknown = Vendor 20131: Error ProgramAbort 3 1, "unknown G function", hint "the number is not assigned in this dialect: kontur explain G<number> describes those that are";
     PlaneWithCompensation = Vendor 20133: Error ProgramAbort 3 1, "plane selection with active tool radius compensation", hint "switch the compensation off with G40 before G17, G18, G19";
     CompensationWithoutAxis = Vendor 20136: Error ProgramAbort 3 1, "tool radius compensation without a main axis of its plane", cause "#PUT AX [X] and then G41", hint "the first two main axes of the plane have to be in the channel";
+    HomingWithCouplings = Vendor 20137: Error ProgramAbort 3 1, "homing while axes are coupled", cause "G74 after #ENABLE AX LINK", hint "switch every coupling off with #DISABLE AX LINK before G74";
     MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure with G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
@@ -330,6 +331,8 @@ conditions! {
     SlaveIsActiveSlave = Vendor 21283: Error ProgramAbort 3 1, "slave is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     SlaveIsActiveMaster = Vendor 21284: Error ProgramAbort 3 1, "slave is a master in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     MasterIsActiveSlave = Vendor 21285: Error ProgramAbort 3 1, "master is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
+    AreaId = Vendor 21286: Error ProgramAbort 3 1, "ID of a control area outside its range", hint "a channel has 20 control areas";
+    AreaInThread = Vendor 21295: Error ProgramAbort 3 1, "definition of a control area during a thread", cause "#CONTROL AREA BEGIN after G33 or G63", hint "write G00 or G01 before it";
     KeyRange = Vendor 21296: Error ProgramAbort 3 1, "value of a keyword outside its range", cause "#CONTOUR MODE [REMAIN_PART=300]", hint "the message names the range";
     AxisFunctionMissing = Vendor 21301: Error ProgramAbort 3 1, "bracket of an axis that does not begin with its function", cause "X[POS=10 INDP_SYN ..]", hint "the function comes first: INDP_SYN, INDP_ASYN, OSC, OVERRIDE, SET_POSITION, M or H functions";
     MainSpindleUnknown = Vendor 21306: Error ProgramAbort 3 1, "#MAIN SPINDLE names no spindle of the channel", hint "spindles are named in the channel list", parameter "P-CHAN-00007";
@@ -338,6 +341,7 @@ conditions! {
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
     SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "change of the way of selection within that of G238", cause "G139 between G41 and G40", hint "write G40 first";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "leave SYN out: parameters are read without synchronisation";
+    AreaAxis = Vendor 21363: Error ProgramAbort 3 1, "axis that the contour of a control area must not have", cause "Z in G17", hint "the contour lies in the first two main axes of the plane, MIN_EXCUR and MAX_EXCUR bound the third";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
     CycleInThread = Vendor 21380: Error ProgramAbort 3 1, "cycle called while a thread is cut", cause "G63, then L CYCLE [..]", hint "write G01 before the call";
     CycleWhileModal = Vendor 21381: Error ProgramAbort 3 1, "cycle called while a modal cycle is active", hint "write #DISABLE MODAL CYCLE before the call";
@@ -377,6 +381,7 @@ conditions! {
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
     CompensationModulo = Vendor 21555: Error ProgramAbort 3 1, "tool radius compensation with a modulo axis", cause "G41 while a main axis of the plane counts modulo 360 degrees (P-AXIS-00015)", hint "take another plane, or an axis that does not count modulo";
     SystemOfModuloAxis = Vendor 21556: Error ProgramAbort 3 1, "coordinate system over a modulo axis", cause "#CS ON while a main axis counts modulo 360 degrees (P-AXIS-00015)", hint "only axes that do not count modulo are main axes of a coordinate system";
+    BlocksAheadTwice = Vendor 21575: Error ProgramAbort 3 1, "two limits of the blocks ahead", cause "V.G.MAX_NC_BLOCKS_AHEAD beside V.G.MAX_MOTION_BLOCKS_AHEAD", hint "set the other one to 0 before";
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SystemNameUnknown = Vendor 21601: Error ProgramAbort 3 1, "name of a coordinate system unknown", cause "#CS SELECT [WCS] without #CS ADD [WCS]..", hint "is the name right? Case counts";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
@@ -389,7 +394,9 @@ conditions! {
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
     NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is no array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
+    AxisPositionOfSlave = Vendor 21784: Error ProgramAbort 3 1, "V.A.ACS.ABS of a slave axis", cause "read while its coupling is active", hint "read it after #DISABLE AX LINK, or that of the master";
     DwellWithoutTime = Vendor 21786: Error ProgramAbort 3 1, "G04 without a time", hint "write G04 2.5";
+    AreaAxes = Vendor 21797: Error ProgramAbort 3 1, "more than two axes in the contour of a control area", cause "X0 Y100 Z100", hint "MIN_EXCUR and MAX_EXCUR bound the third axis";
     FileNameTwice = Vendor 21823: Error ProgramAbort 3 1, "key of #FILE NAME twice", hint "leave one of the two out";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
     PositiveLimitTooLow = Vendor 21878: Error ProgramAbort 3 1, "positive software limit not above the negative one", cause "G99 X-600 with the negative limit -500", hint "lower the negative limit first, with G98";
@@ -432,6 +439,7 @@ conditions! {
     OscillationFeed = Vendor 50593: Error AbruptStop 6 1, "oscillation without a feed", cause "X[OSC ON ..] with FEED=0, or without FEED, FREQ and TIME", hint "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]";
     BandingPath = Vendor 50655: Error FeedHold 6 1, "not enough path for the way after the signal of edge banding", cause "the block ends before, or the path is too fast to stop that soon", hint "lengthen the block, lower F, or raise V.G.RW", parameter "P-CHAN-00030";
     FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
+    AreaPoints = Vendor 50786: Error ProgramAbort 6 1, "too many points of a control area", hint "a polygon has 20 blocks at most";
     GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "use a smaller cycle, less damping or a higher frequency (the manual's advice); kontur tune proposes both";
     FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";
     FilterOrderTooHigh = Vendor 50911: Warning None 1 0, "filter order too high", hint "lower the order";
@@ -518,11 +526,19 @@ conditions! {
     SplineInSurface = Vendor 120370: Error ProgramAbort 3 0, "spline selected while free-form surface mode is active", cause "G151 after #HSC ON [BSPLINE]", hint "write #HSC OFF before G151";
     FeedGroupOfArc = Vendor 120462: Warning None 1 1, "feed group does not fit an arc", cause "#FGROUP [X] and G02 in the plane X, Y", hint "#FGROUP names all axes of the arc, or none of the main axes";
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
+    AreaOverlaps = Vendor 120477: Error ProgramAbort 6 1, "sides of a control area cross each other", hint "write the corners in their order round the area";
+    OutsideWorkspace = Vendor 120484: Error ProgramAbort 6 1, "point outside a workspace", cause "start or end of a motion, or of the tool at #CONTROL AREA ON", hint "write #CONTROL AREA OFF [ID=..] before it, or another target";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring although the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
     ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes change behind a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is on", cause "G261 before G100", hint "write G260 before the run";
+    AreaOfArcs = Vendor 120691: Error ProgramAbort 6 1, "motion that the contour of a control area must not have", cause "G02 in a control area POLY", hint "polygons have lines alone, CIRC has one full circle";
     IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline before, or move the axis with the path";
     SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";
+    AreaHeightInBase = Vendor 120734: Error ProgramAbort 6 1, "axis of EXCUR_AX in the base of its control area", cause "EXCUR_AX=X with a contour in X and Y", hint "the third axis is none of those of the contour";
+    AreaOneAxis = Vendor 120736: Error ProgramAbort 6 1, "control area with one axis in its base", cause "X2 without Y2", hint "the contour needs two axes";
+    AreaAxisMissing = Vendor 120740: Error ProgramAbort 6 1, "axis of a control area that is not in the channel", cause "#PUT AX [Y] before #CONTROL AREA ON", hint "call the axis back with #CALL AX";
+    AreaAxisAlone = Vendor 120742: Error ProgramAbort 6 1, "independent axis of a control area", cause "X[INDP_ASYN ..] while an area of X is watched", hint "write #CONTROL AREA OFF [ID=..] before it";
+    AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis that the circle of a control area must not have", cause "G02 with an axis that is no main axis", hint "the base of CIRC lies in main axes";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "numbers are written 10, -10, 1.5 or 0x101";
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
@@ -629,4 +645,6 @@ conditions! {
     MacroControl = Kontur 144 "K-MACRO-CONTROL": Error ProgramAbort 3 1, "control statement in a macro (no vendor ID known)", cause "\"M\" = \"$BREAK\"; #IF, #ELSE, #COMMENT BEGIN or % from a macro", hint "write the statement out, only its condition may be a macro: $IF \"A\" > 1";
     Unpaired = Kontur 145 "K-UNPAIRED": Error ProgramAbort 3 1, "#COMMENT BEGIN without #COMMENT END, or the reverse (no vendor ID known)", cause "a #COMMENT BEGIN hides everything up to #COMMENT END; comments do not nest", hint "write the missing one; an end without a beginning is left out";
     CornerFaster = Kontur 146 "K-CORNER-FASTER": Note None 1 0, "corner not rounded: the curve would take longer than the corner", cause "a small PATH_DEV or corner distance at a sharp corner, or short blocks, at a high feed", hint "a larger tolerance or a lower feed makes the curve faster, with #CONTOUR MODE also CHECK_JERK=0";
+    AreaViolated = Kontur 147 "K-AREA": Error ProgramAbort 3 1, "path through a protection area, or out of a workspace (no vendor ID known)", cause "a motion while #CONTROL AREA ON is in force", hint "lead the path round the area, or write #CONTROL AREA OFF [ID=..] before it";
+    AreaWrong = Kontur 148 "K-AREA-WRONG": Error ProgramAbort 3 1, "control area that cannot be defined or selected so (no vendor ID known)", cause "a contour that is not closed, an ID that is not defined or is active", hint "#CONTROL AREA BEGIN [ID=1 WORK POLY MIN_EXCUR=-50 MAX_EXCUR=50], closed lines, #CONTROL AREA END";
 }

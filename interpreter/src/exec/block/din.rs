@@ -249,6 +249,11 @@ impl Decoder {
                 self.motion.feedforward.on = on;
                 self.feedforward_event();
             }
+            // Assumption: without axes, every transition is a stop; the pages do not say what the values of the axes are
+            Act::StopAtTransitions(_) if !words.axes.is_empty() => {
+                let what = format!("G{} with axes", g.row.number);
+                return Err(Fault::unsupported(what, g.span));
+            }
             Act::StopAtTransitions(stop) => {
                 let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
                 if self.modal.look_ahead != mode {
@@ -288,7 +293,7 @@ impl Decoder {
             }
             Act::Simplified(how) => {
                 if g.row.number == 74 {
-                    self.home(words);
+                    self.home(g, words)?;
                 }
                 let text = format!("G{}: {how}", g.row.number);
                 let key = format!("G{}", g.row.number);

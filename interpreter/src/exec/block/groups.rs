@@ -422,6 +422,7 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
             | Act::MirrorAxes
             | Act::Rotate
             | Act::MeasuringOffsets(_)
+            | Act::StopAtTransitions(_)
     ) || matches!(row.number, 74 | 107 | 108 | 112 | 333 | 338)
 }
 

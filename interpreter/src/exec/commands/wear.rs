@@ -8,12 +8,9 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::state::wear::WearSource;
+use crate::exec::motion::state::wear::{WEAR_UNIT, WearSource};
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
-
-/// mm of wear for a mm of way in one unit of WEAR_CONST, 0.1 um for a metre.
-const WEAR_UNIT: f64 = 1e-7;
 
 arguments! {
     /// Keys of `#OTC`.

@@ -1,11 +1,13 @@
 //! A programmed motion on its way through the stages of the contour.
 
 use crate::exec::block::modal::Selection;
+use crate::exec::motion::areas::Watch;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::{LinePath, Path, Tilt, TiltedArc};
+use std::sync::Arc;
 
 /// A programmed motion; the number of its block is given when it becomes a step.
 #[derive(Clone, Debug)]
@@ -28,6 +30,8 @@ pub(in crate::exec) struct Motion {
     pub(in crate::exec) course: Option<FeedCourse>,
     /// It leads to a point of an Akima spline.
     pub(in crate::exec) akima: bool,
+    /// The control areas that it must not violate.
+    pub(in crate::exec) watch: Option<Arc<Watch>>,
     /// The block, for conditions.
     pub(in crate::exec) span: Span,
 }

@@ -58,6 +58,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         self.moves_not_coupled(axis, span)?;
+        self.moves_unwatched(axis, span)?;
         if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
             let name = self.machine.axes[axis].name();
             let text = format!("{name} cannot move independently within a spline");

@@ -56,7 +56,7 @@ impl Decoder {
             .collect()
     }
 
-    /// Compensated motions against the software limits.
+    /// Compensated motions against the software limits, all of them against the control areas.
     pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
         let driven = self.contour.take_driven();
         let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
@@ -67,7 +67,9 @@ impl Decoder {
                 all.map(|fault| *Box::new(fault).in_block(*source))
             })
         });
-        faults.collect()
+        let mut faults: Vec<Fault> = faults.collect();
+        faults.extend(self.contour.take_violations());
+        faults
     }
 
     /// 21897 for an axis that moves between `low` and `high` and leaves its limits.

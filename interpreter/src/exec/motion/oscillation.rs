@@ -76,6 +76,7 @@ impl Decoder {
             return Err(Fault::unsupported(format!("{title} of a modulo axis"), span));
         }
         self.moves_not_coupled(axis, span)?;
+        self.moves_unwatched(axis, span)?;
         match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => self.oscillation(axis, &keys, span),
             (None, Some(_)) => {

@@ -9,6 +9,7 @@ use self::coupling::Couplings;
 use self::cutting::Cutting;
 use self::measuring::Measuring;
 use self::wear::OnlineCompensation;
+use super::areas::Areas;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
@@ -60,6 +61,7 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) cutting: Cutting,
     /// `#OTC`.
     pub(in crate::exec) wear: OnlineCompensation,
+    pub(in crate::exec) areas: Areas,
     /// S of the last G04: revolutions of the spindle.
     pub(in crate::exec) dwell_revolutions: f64,
 }
@@ -89,6 +91,7 @@ impl MotionState {
             left_contour: false,
             cutting: Cutting::default(),
             wear: OnlineCompensation::default(),
+            areas: Areas::default(),
             dwell_revolutions: 0.0,
         }
     }

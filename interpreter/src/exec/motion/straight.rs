@@ -133,6 +133,7 @@ impl Decoder {
             && self.calls.modal_cycle.is_none()
             && self.motion.independent.is_unused()
             && self.motion.couplings.are_off()
+            && self.motion.areas.are_idle()
             && self.motion.overrides.are_alike()
             && self.geometry.coordinates.frame().is_identity()
             && !self.geometry.scale.is_on()

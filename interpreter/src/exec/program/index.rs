@@ -101,6 +101,21 @@ impl Index {
         self.entries.silencing()
     }
 
+    /// Whether a jump leads from outside into a branch between `#IF` and `#ENDIF`.
+    ///
+    /// Assumption: such a branch may be none of the program's, and which one is only known when its `#IF` is reached; the
+    /// documents are silent.
+    pub(super) fn enters_conditional(&self, from: u64, to: u64) -> bool {
+        let position = |id: EntryId| self.entry(id).position.offset;
+        let conditional = |entry: &Entry| entry.keyword == Keyword::ConditionalIf;
+        self.silencing().filter(conditional).any(|begin| {
+            let Some(end) = begin.end.map(position) else { return false };
+            let is_in = |x: u64| (begin.position.offset..=end).contains(&x);
+            let other = begin.next.map_or(end, position);
+            is_in(to) && !(is_in(from) && (from <= other) == (to <= other))
+        })
+    }
+
     /// Label of a section.
     pub(in crate::exec) fn label(&self, section: usize, label: &LabelKind) -> Option<LabelPlace> {
         self.labels.get(section, label)

@@ -65,15 +65,22 @@ impl Executor {
                 let hint = "a label comes first in its block: N20: or [NAME]";
                 return Err(Fault::new(Condition::Label, text, jump.span).hint(hint));
             };
-            self.landing(level, place, &format!("label {}", shown(&label)), jump.span)
+            let from = self.position.offset;
+            self.landing((level, from), place, &format!("label {}", shown(&label)), jump.span)
         });
         if let Some(landing) = self.decoder.report.keep(outcome) {
             self.land(landing, self.position.offset);
         }
     }
 
-    /// A place of a level as the target of a jump.
-    fn landing(&self, level: usize, place: LabelPlace, name: &str, span: Span) -> Outcome<Landing> {
+    /// A place of a level as the target of a jump from the block at the offset `from`.
+    fn landing(
+        &self,
+        (level, from): (usize, u64),
+        place: LabelPlace,
+        name: &str,
+        span: Span,
+    ) -> Outcome<Landing> {
         let level = &self.levels[level];
         // structures around the place that are not open, the innermost first
         let mut entered = Vec::new();
@@ -87,7 +94,12 @@ impl Executor {
             around = level.index.entry(id).parent;
         };
         let keyword = |id: &EntryId| level.index.entry(*id).keyword;
-        let Some(closed) = entered.iter().map(keyword).find(|k| *k != Keyword::If) else {
+        let closed = entered.iter().map(keyword).find(|k| *k != Keyword::If);
+        let conditional = || {
+            let into = level.index.enters_conditional(from, place.position.offset);
+            into.then_some(Keyword::ConditionalIf)
+        };
+        let Some(closed) = closed.or_else(conditional) else {
             return Ok(Landing { place, depth, entered });
         };
         let text = format!("{name} is inside {}", closed.text());
@@ -164,7 +176,8 @@ impl Executor {
             LabelKind::Number(n) => format!("block N{n}"),
             LabelKind::Name(_) => format!("label {}", shown(&label)),
         };
-        Ok((levels, Some(self.landing(level, place, &name, jump.span)?)))
+        let from = self.levels[level].at.offset;
+        Ok((levels, Some(self.landing((level, from), place, &name, jump.span)?)))
     }
 
     /// A label of a level, or else the block of this number.

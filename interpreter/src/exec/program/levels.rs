@@ -107,6 +107,7 @@ impl Executor {
             return;
         }
         self.contouring_at_end();
+        self.area_at_end();
         self.decoder.banding_ends();
         self.end(EndReason::Finished);
     }
@@ -142,6 +143,14 @@ impl Executor {
                 Diagnostic::new(Condition::ContouringAtEnd, text).severity(Severity::Warning);
             diagnostic.source = self.here(Span::default());
             self.report(diagnostic);
+        }
+    }
+
+    /// K-0148 for a definition that would hide the rest of the program.
+    fn area_at_end(&mut self) {
+        if let Some(span) = self.decoder.motion.areas.open() {
+            let text = "a control area is not closed by #CONTROL AREA END";
+            self.decoder.report.note(Fault::new(Condition::AreaWrong, text, span));
         }
     }
 

@@ -90,6 +90,8 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
     /// `V.G.CYCLE_CHANGES_MODAL`, P-CHAN-00210: cycles give nothing back.
     pub(in crate::exec) cycle_changes_stay: bool,
+    /// `V.G.MAX_NC_BLOCKS_AHEAD` and `V.G.MAX_MOTION_BLOCKS_AHEAD`, 0 without a limit.
+    pub(in crate::exec) blocks_ahead: [f64; 2],
     /// `#RETAIN CYCLE CHANGES`, or what cycles do: the cycle in work gives nothing back.
     pub(in crate::exec) retain_cycle_changes: bool,
 }

@@ -117,7 +117,11 @@ fn unknown_keys_are_counted_and_named_once() {
     assert_eq!(ids(&diagnostics), ["1001119", "1001119"]);
     assert_eq!(diagnostics[0].hint.as_deref(), Some("did you mean `vorsteuer.jerk_fact_num`?"));
     assert!(diagnostics[1].text.starts_with("40 unknown element(s)"), "{}", diagnostics[1].text);
-    assert!(diagnostics[1].text.ends_with("and 8 more"), "{}", diagnostics[1].text);
+    assert!(
+        diagnostics[1].text.ends_with("and 8 more: handbetrieb (8)"),
+        "{}",
+        diagnostics[1].text
+    );
 }
 
 /// An index beyond its array is no misspelt key: the message names the index and the array, not the key itself again.

@@ -15,6 +15,10 @@ parameters! {
         .default(1.0), as MODE: Whole;
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
         .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(Condition::AxisNumberZero, Correction::Refuse), as NUMBER: Whole;
+    axis("P-AXIS-00031", "kenngr.beweg_richt", Raw::Boolean, "the only direction of a spindle with P-AXIS-00224: 0 negative, 1 positive; not simulated")
+        .default(0.0).axes("RS").source("TF5200 axis parameters 117210251");
+    axis("P-AXIS-00224", "kenngr.vorz_richtung", Raw::Boolean, "1: the spindle turns in one direction alone (P-AXIS-00031); not simulated")
+        .default(0.0).axes("RS").source("TF5200 axis parameters 117208715");
     axis("P-AXIS-00018", "kenngr.achs_typ", Raw::Names(AXIS_TYPES), "ACHSTYP_TRANSLATOR 0x1, ACHSTYP_ROTATOR 0x2, ACHSTYP_SPINDEL 0x4")
         .default(1.0), as KIND: Whole;
     axis("P-AXIS-00020", "kenngr.antr_typ", Raw::Uns16, "drive: 1 conventional, 2 SERCOS, 3 PROFIdrive, 4 simulation, 5 Lightbus, 6 terminal, 7 RT Ethernet, 8 CANopen, 16 virtual, 32 CAN")

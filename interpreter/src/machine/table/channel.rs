@@ -53,6 +53,8 @@ parameters! {
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_ACC: Number;
     chan("P-CHAN-00003", "gruppe[i].achs_anzahl", Raw::Uns16, "axes in the group")
         .range(Bound::At(0.0), Bound::At(32.0)).default(0.0), as AXIS_COUNT: Whole;
+    chan("P-CHAN-00004", "spindel[i].autom_range", Raw::Boolean, "the gear of a spindle follows from its S word; not simulated")
+        .default(0.0).source("TF5200 channel parameters 147959819");
     chan("P-CHAN-00005", "gruppe[i].bezeichnung", Raw::Text, "name of the group");
     chan("P-CHAN-00006", "gruppe[i].achse[j].bezeichnung", Raw::Text, "axis name in the NC program; first letter A B C U V W X Y Z Q, then letters, digits (and _), unique"), as AXIS_NAME: Text;
     chan("P-CHAN-00007", "spindel[i].bezeichnung", Raw::Text, "spindle name"), as SPINDLE_NAME: Text;
@@ -83,6 +85,10 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
+    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i goes; read and ignored, it changes no motion")
+        .source("TF5200 M and H functions 286205579");
+    chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i goes; read and ignored, it changes no motion")
+        .source("TF5200 M and H functions 286205579");
     chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; MNE_SNS acts with G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
@@ -229,6 +235,8 @@ parameters! {
         .default(0.0).unit("us", "us"), as SPINDLE_M5_DURATION: Optional;
     chan("P-CHAN-00051", "main_spindle_ax_nr", Raw::Uns16, "logical axis number of the main spindle; 0: the first spindle")
         .default(0.0), as MAIN_SPINDLE: Whole;
+    chan("P-CHAN-00052", "main_spindle_gear_change", Raw::Boolean, "M40 to M45 change the gear of the main spindle; not simulated")
+        .default(0.0).source("TF5200 programming manual 208055307");
     chan("P-CHAN-00053", "main_spindle_name", Raw::Text, "name that addresses the main spindle in the NC program")
         .default_is(Default::Text("S")).source("TF5200 channel parameters"), as MAIN_SPINDLE_NAME: Text;
     chan("P-CHAN-00080", "spindel[i].s_prozess_zeit", Raw::Uns32, "duration of an S word, counted with --techno-times")

@@ -28,7 +28,6 @@ const OTHER_WORDS: &[&str] = &[
     "TRANS",
     "DYNAMIC",
     "MC_",
-    "G74",
     "G112",
     "G131",
     "G132",
@@ -64,6 +63,8 @@ enum SpindleItem {
     Function(Function, Option<f64>),
     /// G167.
     FullOverride,
+    /// G74.
+    Home,
 }
 
 /// The override of spindles in messages.
@@ -109,6 +110,12 @@ impl Decoder {
         let weight = items.iter().find(|(i, _)| matches!(i, SpindleItem::Acceleration(_)));
         if let (Some(_), Some((_, span))) = (some, weight) {
             let text = "feedforward and G130 in one bracket exclude each other";
+            return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
+        }
+        let homes = items.iter().any(|(i, _)| matches!(i, SpindleItem::Home));
+        let turns = items.iter().find(|(i, _)| matches!(i, SpindleItem::Turn(_)));
+        if let (true, Some((_, span))) = (homes, turns) {
+            let text = "G74 and M3, M4, M5 or M19 in one bracket exclude each other";
             return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
         }
         if let (Some(_), Some((_, span))) = (some, other) {
@@ -225,6 +232,7 @@ impl Decoder {
             ("G130", Some(x)) => SpindleItem::Acceleration(x),
             // no override from outside acts on spindles
             ("G167", None) => SpindleItem::FullOverride,
+            ("G74", None) => SpindleItem::Home,
             (other, _) if OTHER_WORDS.iter().any(|w| other.starts_with(w)) => {
                 let name = format!("{other} in a spindle bracket");
                 return Err(Fault::unsupported(name, item.span));
@@ -257,6 +265,10 @@ impl Decoder {
             }
             SpindleItem::Function(function, value) => self.call_function(function, value),
             SpindleItem::FullOverride => {}
+            SpindleItem::Home => {
+                let text = "G74: a spindle counts as homed where it is, nothing turns";
+                self.report.note_once("S[G74]", Fault::new(Condition::Fallback, text, span));
+            }
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
                 let condition =

@@ -222,14 +222,19 @@ impl Decoder {
         Ok(())
     }
 
-    /// G74 takes the position presets of its axes back, without axes of all (207101835).
-    pub(super) fn home(&mut self, words: &Words<'_>) {
+    /// G74 takes the position presets of its axes back, without axes of all (207101835); 20137 (250902411).
+    pub(super) fn home(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        if !self.motion.couplings.are_off() {
+            let text = "G74 while a coupling group is switched on";
+            return Err(Fault::new(Condition::HomingWithCouplings, text, g.span));
+        }
         let named = |axis: usize| words.axes.iter().any(|(other, _, _)| *other == axis);
         for axis in 0..self.machine.axes.len() {
             if words.axes.is_empty() || named(axis) {
                 self.geometry.coordinates.preset_position(axis, None);
             }
         }
+        Ok(())
     }
 
     /// G98, G99: until the end of the program.

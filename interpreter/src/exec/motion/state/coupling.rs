@@ -66,6 +66,11 @@ impl Couplings {
         self.followers().map(|(_, follower)| follower.pair.slave)
     }
 
+    /// Whether an axis follows a master.
+    pub(in crate::exec) fn is_slave(&self, axis: usize) -> bool {
+        self.slaves().any(|slave| slave == axis)
+    }
+
     /// The group that an axis takes part in, as slave or as master.
     pub(in crate::exec) fn group_of(&self, axis: usize) -> Option<u32> {
         let mut of_axis =

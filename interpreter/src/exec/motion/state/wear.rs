@@ -2,6 +2,9 @@
 //!
 //! Source: TF5200 online tool compensation (213641867).
 
+/// mm of wear for a mm of way in one unit of WEAR_CONST, 0.1 um for a metre.
+pub(in crate::exec) const WEAR_UNIT: f64 = 1e-7;
+
 /// Where the wear comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum WearSource {

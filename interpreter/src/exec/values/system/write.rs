@@ -5,8 +5,9 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::tools::Tool;
+use crate::exec::motion::state::wear::WEAR_UNIT;
 use crate::exec::options::Value;
-use crate::exec::values::number::{as_number, is_true};
+use crate::exec::values::number::{as_number, is_true, whole};
 use crate::syntax::ast::{Segment, Span};
 
 /// Kinematic parameters that are kept.
@@ -49,6 +50,15 @@ pub(in crate::exec) fn write(
         ["G", "CYCLE_CHANGES_MODAL"] => {
             let stay = is_true(x()?);
             (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
+        }
+        ["G", name @ ("MAX_NC_BLOCKS_AHEAD" | "MAX_MOTION_BLOCKS_AHEAD")] => {
+            d.limit_blocks_ahead(usize::from(name == "MAX_MOTION_BLOCKS_AHEAD"), x()?, span)?;
+        }
+        ["G", "WZ_AKT", "WEAR_CONST"] => {
+            d.geometry.tools.active.wear_ratio = x()? * WEAR_UNIT;
+            if d.motion.wear.on {
+                d.apply_wear(span)?;
+            }
         }
         // no M function of a spindle is free for other purposes here (P-CHAN-00098)
         ["SPDL", "M_FCT_FREE"] => {
@@ -95,6 +105,28 @@ pub(in crate::exec) fn write(
         _ => return Err(unknown(d, segments, span)),
     }
     Ok(())
+}
+
+impl Decoder {
+    /// `V.G.MAX_NC_BLOCKS_AHEAD`, `V.G.MAX_MOTION_BLOCKS_AHEAD`: how far the decoder may be ahead of the motion.
+    ///
+    /// Source: TF5200 limiting the decoder block ahead, 301889163; 21575.
+    fn limit_blocks_ahead(&mut self, which: usize, blocks: f64, span: Span) -> Outcome<()> {
+        let Some(blocks) = whole(blocks, 0, u32::MAX) else {
+            let text = format!("{blocks} blocks ahead, allowed are the whole numbers from 0");
+            return Err(Fault::new(Condition::Range, text, span));
+        };
+        if blocks > 0 && self.calls.blocks_ahead[1 - which] > 0.0 {
+            let text = "two limits of the blocks ahead: the other one is in force";
+            return Err(Fault::new(Condition::BlocksAheadTwice, text, span));
+        }
+        self.calls.blocks_ahead[which] = f64::from(blocks);
+        if blocks > 0 {
+            let text = "the blocks ahead are not limited: the path is planned over all of them";
+            self.report.note_once("blocks ahead", Fault::new(Condition::Fallback, text, span));
+        }
+        Ok(())
+    }
 }
 
 fn write_tool(

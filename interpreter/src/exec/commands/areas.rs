@@ -1,0 +1,153 @@
+//! `#CONTROL AREA`: workspaces and protection areas.
+//!
+//! Source: TF5200 programming manual (207565195, 207571851); START for BEGIN in older manuals (tccncprogramming
+//! 15557061259); 21286.
+
+use super::keys::arguments;
+use super::range::between;
+use super::row::{Call, Row};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::area::Purpose;
+use crate::exec::motion::areas::Heading;
+use crate::exec::values::number::whole;
+use crate::machine::Axis;
+
+/// Highest ID of an area.
+///
+/// Assumption: IDs are 1 to 20, because a channel has 20 areas; the documents print no range.
+const ID_MAX: f64 = 20.0;
+
+arguments! {
+    /// Keys of `#CONTROL AREA BEGIN`.
+    struct AreaArguments {
+        id: Number "ID" in between(1.0, ID_MAX).whole().or(Condition::AreaId), "", "";
+        work: Flag "WORK", "", "the tool stays in the area";
+        prot: Flag "PROT", "", "the tool does not touch the area";
+        poly: Flag "POLY", "", "a closed contour of lines follows";
+        circ: Flag "CIRC", "", "a full circle follows";
+        low: Number "MIN_EXCUR", "mm, inch", "lower end in the third axis";
+        high: Number "MAX_EXCUR", "mm, inch", "upper end in the third axis";
+        height_axis: Word "EXCUR_AX", "", "the third axis, by default that of the plane";
+        height_number: Number "EXCUR_AXNR", "", "the same by its logical number";
+        _level: Number "MONITOR_LVL", "", "not simulated";
+    }
+}
+
+arguments! {
+    /// Keys of `#CONTROL AREA ON` and `OFF`.
+    struct AreaChoice {
+        id: Number "ID" in between(1.0, ID_MAX).whole().or(Condition::AreaId), "", "";
+        all: Flag "ALL", "", "also without the bracket";
+    }
+}
+
+/// Row of `#CONTROL AREA BEGIN`.
+pub(super) const CONTROL_AREA_BEGIN: Row = Row::run("CONTROL AREA BEGIN", begin)
+    .form("#CONTROL AREA BEGIN [ID=.. WORK|PROT POLY|CIRC MIN_EXCUR=.. MAX_EXCUR=..]")
+    .meaning("the blocks up to #CONTROL AREA END are the contour of a workspace or a protection area, and move nothing")
+    .keys(AreaArguments::KEYS)
+    .note("lines in G90 with the last point at the first one (POLY), or a point and a full circle (CIRC)")
+    .example("#CONTROL AREA BEGIN [ID=1 WORK POLY MIN_EXCUR=-50 MAX_EXCUR=50]")
+    .related(&["120484", "120477", "K-0147"]);
+
+/// Row of `#CONTROL AREA START`.
+pub(super) const CONTROL_AREA_START: Row = Row::run("CONTROL AREA START", begin);
+
+/// Row of `#CONTROL AREA END`.
+pub(super) const CONTROL_AREA_END: Row = Row::run("CONTROL AREA END", end).bare();
+
+/// Row of `#CONTROL AREA`.
+pub(super) const CONTROL_AREA: Row = Row::run("CONTROL AREA", switch)
+    .form("#CONTROL AREA ON|OFF [ID=..], #CONTROL AREA ON|OFF ALL")
+    .meaning("watches workspaces and protection areas: a motion that violates one ends the program")
+    .keys(AreaChoice::KEYS)
+    .note("OFF alone ends the one that was switched on last; contouring, #HSC and splines are refused meanwhile")
+    .example("#CONTROL AREA ON ALL")
+    .related(&["120484", "120742", "K-0147"]);
+
+fn begin(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let span = call.span();
+    let title = call.title();
+    let keys = AreaArguments::read(decoder, &title, call.command.groups.first())?;
+    let missing = |what: &str| {
+        let text = format!("{title}: {what} is missing");
+        Fault::new(Condition::AreaWrong, text, span)
+    };
+    let Some((number, _)) = keys.id else { return Err(missing("ID")) };
+    let purpose = match (keys.work, keys.prot) {
+        (Some(_), None) => Purpose::Workspace,
+        (None, Some(_)) => Purpose::Protection,
+        _ => return Err(missing("one of WORK and PROT")),
+    };
+    let circle = match (keys.poly, keys.circ) {
+        (Some(_), None) => false,
+        (None, Some(_)) => true,
+        _ => return Err(missing("one of POLY and CIRC")),
+    };
+    let (Some((low, _)), Some((high, at))) = (keys.low, keys.high) else {
+        return Err(missing("MIN_EXCUR or MAX_EXCUR"));
+    };
+    if low >= high {
+        let text = format!("{title}: MIN_EXCUR={low} is not below MAX_EXCUR={high}");
+        return Err(Fault::new(Condition::AreaWrong, text, at));
+    }
+    let unit = decoder.modal.unit_mm();
+    let height = match (&keys.height_axis, keys.height_number) {
+        (Some((name, at)), _) => Some((decoder.names.of_name(name), name.to_string(), *at)),
+        (None, Some((number, at))) => {
+            let is = |axis: &Axis| whole(number, 0, u32::MAX) == Some(axis.number());
+            Some((decoder.machine.axes.iter().position(is), number.to_string(), at))
+        }
+        (None, None) => None,
+    };
+    if let Some((None, name, at)) = height {
+        let text = format!("the channel has no axis {name}");
+        return Err(Fault::new(Condition::AxisNameUnknown, text, at));
+    }
+    let height_axis = height.and_then(|(axis, ..)| axis);
+    decoder.begin_area(Heading {
+        number: number as u32,
+        purpose,
+        circle,
+        low_mm: low * unit,
+        high_mm: high * unit,
+        height_axis,
+        span,
+    })
+}
+
+fn end(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    decoder.end_area(call.span())
+}
+
+fn switch(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let span = call.span();
+    let keys = AreaChoice::read(decoder, &call.title(), call.command.groups.first())?;
+    let mut all = keys.all.is_some();
+    for word in call.rest.iter().chain(&call.command.tail) {
+        if !word.is("ALL") || std::mem::replace(&mut all, true) {
+            return Err(call.unexpected(word));
+        }
+    }
+    let number = keys.id.map(|(number, _)| number as u32);
+    match (call.command.on, all, number) {
+        (Some(true), true, None) => decoder.watch_areas(None, span),
+        (Some(true), false, Some(_)) => decoder.watch_areas(number, span),
+        (Some(false), true, None) => {
+            decoder.leave_areas();
+            Ok(())
+        }
+        (Some(false), false, _) => {
+            decoder.leave_area(number);
+            Ok(())
+        }
+        _ => {
+            let text = "#CONTROL AREA needs ON or OFF with ALL or an ID, BEGIN or END";
+            Err(Fault::new(Condition::AreaWrong, text, span))
+        }
+    }
+}

@@ -1,0 +1,403 @@
+//! Control areas: their definition, and the motions that are watched.
+//!
+//! The blocks between `#CONTROL AREA BEGIN` and `END` are the contour of an area and move nothing. A motion carries the
+//! areas that are active in its block, and is compared with them when it is complete: with what tool radius compensation
+//! and chamfers have made of it.
+//!
+//! Assumptions: the coordinates of a definition count with the offsets that are active there, but without those of the tool,
+//! for it is the tip of the tool that is watched; a violation ends the program before its motion. The documents are silent.
+//!
+//! Source: TF5200 programming manual (207565195, 207571851); workspace monitoring (291148299, 291161867, 291170571); 21295,
+//! 21363, 21797, 50786, 120477, 120484, 120691, 120734, 120736, 120740, 120742, 120743.
+
+use crate::diag::{Condition, ValueKind};
+use crate::exec::block::collected::Words;
+use crate::exec::block::modal::{Compensation, PathMode};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::area::{Area, Base, Purpose, Violation, overlaps};
+use crate::exec::step::SourceRef;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::Path;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Most blocks of a polygon. Source: TF5200 workspace monitoring 291148299.
+const POLYGON_BLOCKS: usize = 20;
+/// Two points that are the same, in mm: the coordinates of a closed contour are written with four digits.
+const SAME_MM: f64 = 1e-4;
+
+/// Areas of the program.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Areas {
+    defined: BTreeMap<u32, Arc<Area>>,
+    /// In the order in which they were switched on.
+    active: Vec<Arc<Area>>,
+    draft: Option<Box<Draft>>,
+    /// What the motions of a row have in common.
+    watch: Option<Arc<Watch>>,
+}
+
+/// What a definition begins with.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct Heading {
+    pub(in crate::exec) number: u32,
+    pub(in crate::exec) purpose: Purpose,
+    /// CIRC, not POLY.
+    pub(in crate::exec) circle: bool,
+    pub(in crate::exec) low_mm: f64,
+    pub(in crate::exec) high_mm: f64,
+    /// EXCUR_AX, EXCUR_AXNR.
+    pub(in crate::exec) height_axis: Option<usize>,
+    pub(in crate::exec) span: Span,
+}
+
+/// A definition that is not complete.
+#[derive(Debug)]
+struct Draft {
+    heading: Heading,
+    /// Where the axes are meanwhile.
+    before: AxisVec,
+    /// Axes that its blocks name.
+    named: Vec<usize>,
+    points: Vec<AxisVec>,
+    /// Plane, centre and radius of the full circle.
+    circle: Option<([usize; 2], [f64; 2], f64)>,
+}
+
+/// The areas that a motion is compared with.
+#[derive(Debug, PartialEq)]
+pub(in crate::exec) struct Watch {
+    areas: Vec<Arc<Area>>,
+    /// From the path to the tip of the tool.
+    offsets_mm: AxisVec,
+    /// Names of the axes.
+    names: Vec<String>,
+}
+
+/// An error of a definition or selection for which no ID is printed.
+fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
+    Fault::new(Condition::AreaWrong, text, span)
+}
+
+impl Areas {
+    /// Neither a definition nor a watched area: motions are what they are without.
+    pub(in crate::exec) fn are_idle(&self) -> bool {
+        self.draft.is_none() && self.active.is_empty()
+    }
+
+    /// A block between BEGIN and END.
+    pub(in crate::exec) fn is_defining(&self) -> bool {
+        self.draft.is_some()
+    }
+
+    /// A definition that the program has not completed.
+    pub(in crate::exec) fn open(&self) -> Option<Span> {
+        self.draft.as_ref().map(|draft| draft.heading.span)
+    }
+
+    fn is_active(&self, number: u32) -> bool {
+        self.active.iter().any(|area| area.number == number)
+    }
+}
+
+impl Watch {
+    /// What a motion violates.
+    pub(in crate::exec) fn fault(
+        &self,
+        path: &Path,
+        source: SourceRef,
+        span: Span,
+    ) -> Option<Fault> {
+        let (area, violation) = self.areas.iter().find_map(|area| {
+            let violation = area.violation(path, &self.offsets_mm)?;
+            Some((area, violation))
+        })?;
+        Some(*violated(area, violation, &self.names, span).in_block(source))
+    }
+}
+
+/// 120484, K-0147.
+fn violated(area: &Area, violation: Violation, names: &[String], span: Span) -> Box<Fault> {
+    let condition = match (area.purpose, violation.at_end) {
+        (Purpose::Workspace, true) => Condition::OutsideWorkspace,
+        _ => Condition::AreaViolated,
+    };
+    let place: Vec<String> = area
+        .axes
+        .iter()
+        .zip(violation.point_mm)
+        .map(|(axis, x)| format!("{}{}", names[*axis], (x * 1e4).round() / 1e4))
+        .collect();
+    let text = match area.purpose {
+        Purpose::Workspace => format!("{} is outside workspace {}", place.join(" "), area.number),
+        Purpose::Protection => format!("{} is in protection area {}", place.join(" "), area.number),
+    };
+    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Current, area.number, "-"))
+}
+
+impl Decoder {
+    /// `#CONTROL AREA BEGIN`.
+    pub(in crate::exec) fn begin_area(&mut self, heading: Heading) -> Outcome<()> {
+        let Heading { number, span, .. } = heading;
+        let areas = &self.motion.areas;
+        if self.modal.path.is_thread() {
+            let text = "definition of a control area during a thread (G33, G63)";
+            return Err(Fault::new(Condition::AreaInThread, text, span));
+        }
+        if areas.is_defining() {
+            return Err(wrong("the control area before this one has no #CONTROL AREA END", span));
+        }
+        if areas.is_active(number) {
+            return Err(wrong(format!("control area {number} is active: it cannot change"), span));
+        }
+        if self.modal.compensation != Compensation::Off {
+            return Err(Fault::unsupported("a control area defined under G41 or G42", span));
+        }
+        let before = self.geometry.coordinates.target().clone();
+        let (named, points) = (Vec::new(), Vec::new());
+        self.motion.areas.draft =
+            Some(Box::new(Draft { heading, before, named, points, circle: None }));
+        Ok(())
+    }
+
+    /// A block of a definition, with its path if it has a way.
+    pub(super) fn area_block(
+        &mut self,
+        path: Option<&Path>,
+        words: &Words<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        if !self.modal.absolute {
+            return Err(Fault::unsupported("G91 in the definition of a control area", span));
+        }
+        let end = self.tip(self.geometry.coordinates.target());
+        let straight = matches!(self.modal.path, PathMode::Rapid | PathMode::Linear);
+        let Some(draft) = &mut self.motion.areas.draft else { return Ok(()) };
+        for (axis, _, _) in &words.axes {
+            if !draft.named.contains(axis) {
+                draft.named.push(*axis);
+            }
+        }
+        match path {
+            Some(circle @ Path::Arc(arc)) if draft.heading.circle => {
+                let shape = arc.shape();
+                let full = shape.sweep_rad.abs() - std::f64::consts::TAU;
+                if draft.circle.is_some() || full.abs() > 1e-9 {
+                    return Err(wrong(
+                        "the contour of a control area CIRC is one full circle",
+                        span,
+                    ));
+                }
+                let shift = shape.plane.map(|axis| end[axis] - circle.end()[axis]);
+                let centre = [0, 1].map(|i| shape.centre_mm[i] + shift[i]);
+                draft.circle = Some((shape.plane, centre, arc.radius()));
+            }
+            _ if straight && draft.circle.is_none() => draft.points.push(end),
+            _ if straight => {
+                return Err(wrong("a motion after the circle of a control area", span));
+            }
+            _ => {
+                let text = "the contour of a control area POLY consists of lines (G00, G01)";
+                return Err(Fault::new(Condition::AreaOfArcs, text, span));
+            }
+        }
+        Ok(())
+    }
+
+    /// `#CONTROL AREA END`.
+    pub(in crate::exec) fn end_area(&mut self, span: Span) -> Outcome<()> {
+        let Some(draft) = self.motion.areas.draft.take() else {
+            return Err(wrong("#CONTROL AREA END without BEGIN", span));
+        };
+        self.geometry.coordinates.set_target(&draft.before);
+        let area = self.area_of(*draft, span)?;
+        self.motion.areas.defined.insert(area.number, Arc::new(area));
+        Ok(())
+    }
+
+    fn area_of(&self, draft: Draft, span: Span) -> Outcome<Area> {
+        let Draft { heading, named, points, circle, .. } = draft;
+        let Heading { number, purpose, low_mm, high_mm, height_axis, .. } = heading;
+        let (plane, base) = if heading.circle {
+            if named.iter().any(|axis| self.geometry.coordinates.main_index(*axis).is_none()) {
+                let text = "the base of a control area CIRC lies in main axes";
+                return Err(Fault::new(Condition::AreaCircleAxis, text, span));
+            }
+            let Some((plane, centre_mm, radius_mm)) = circle else {
+                return Err(wrong("a control area CIRC needs a full circle", span));
+            };
+            (plane, Base::Circle { centre_mm, radius_mm })
+        } else {
+            let plane = self.area_plane(&named, span)?;
+            (plane, polygon(&points, plane, span)?)
+        };
+        let third = || {
+            (0..3).find_map(|main| {
+                let axis = self.geometry.coordinates.main_axis(main)?;
+                (!plane.contains(&axis)).then_some(axis)
+            })
+        };
+        let Some(height) = height_axis.or_else(third) else {
+            return Err(wrong("a control area without an axis for its height", span));
+        };
+        if plane.contains(&height) {
+            let text = format!("axis {} of EXCUR belongs to the base", self.names.name(height));
+            return Err(Fault::new(Condition::AreaHeightInBase, text, span));
+        }
+        Ok(Area { number, purpose, base, axes: [plane[0], plane[1], height], low_mm, high_mm })
+    }
+
+    /// Axes of a polygon: those of the plane, or two others that its blocks name.
+    ///
+    /// The pages print 21363 and 21797 for the same third axis; 21797 is the later one, of builds with areas of other axes.
+    fn area_plane(&self, named: &[usize], span: Span) -> Outcome<[usize; 2]> {
+        let plane = self.in_plane(span)?.plane;
+        if named.len() > 2 {
+            let text =
+                format!("{} axes in the contour of a control area, allowed are 2", named.len());
+            return Err(Fault::new(Condition::AreaAxes, text, span)
+                .with(|d| d.value(ValueKind::Wrong, named.len() as f64, "-")));
+        }
+        let main = |axis: &usize| self.geometry.coordinates.main_index(*axis);
+        match *named {
+            [a, b] if main(&a).is_none() && main(&b).is_none() => Ok([a, b]),
+            [a] if main(&a).is_none() => {
+                let text = "a control area of other axes needs two of them in its contour";
+                Err(Fault::new(Condition::AreaOneAxis, text, span))
+            }
+            _ if named.iter().all(|axis| plane.contains(axis)) => Ok(plane),
+            _ => {
+                let text = "the contour of a control area lies in the main axes of its plane";
+                Err(Fault::new(Condition::AreaAxis, text, span))
+            }
+        }
+    }
+
+    /// `#CONTROL AREA ON`: one, or all with `None`.
+    pub(in crate::exec) fn watch_areas(&mut self, number: Option<u32>, span: Span) -> Outcome<()> {
+        let chosen: Vec<Arc<Area>> = match number {
+            Some(number) => match self.motion.areas.defined.get(&number) {
+                Some(area) => vec![Arc::clone(area)],
+                None => return Err(wrong(format!("control area {number} is not defined"), span)),
+            },
+            None => self.motion.areas.defined.values().cloned().collect(),
+        };
+        let tip = self.tip(self.geometry.coordinates.target());
+        for area in chosen {
+            let missing = area.axes.iter().find(|axis| !self.names.has(**axis));
+            if missing.is_some() {
+                let text = format!("an axis of control area {} is not in the channel", area.number);
+                return Err(Fault::new(Condition::AreaAxisMissing, text, span));
+            }
+            if !area.admits(&tip) {
+                let point_mm = area.axes.map(|axis| tip[axis]);
+                let violation = Violation { point_mm, at_end: true };
+                return Err(violated(&area, violation, &self.axis_names(), span));
+            }
+            if !self.motion.areas.is_active(area.number) {
+                self.motion.areas.active.push(area);
+            }
+        }
+        Ok(())
+    }
+
+    /// `#CONTROL AREA OFF`: one, the last one with `None`.
+    pub(in crate::exec) fn leave_area(&mut self, number: Option<u32>) {
+        let active = &mut self.motion.areas.active;
+        match number {
+            Some(number) => active.retain(|area| area.number != number),
+            None => drop(active.pop()),
+        }
+    }
+
+    /// `#CONTROL AREA OFF ALL`.
+    pub(in crate::exec) fn leave_areas(&mut self) {
+        self.motion.areas.active.clear();
+    }
+
+    /// Whether a motion can be watched: contouring and splines make other paths of it later.
+    pub(super) fn areas_fit(&self, shaped: bool, span: Span) -> Outcome<()> {
+        let mut active = self.motion.areas.active.iter();
+        if shaped && active.len() > 0 {
+            let what = "contouring, #HSC or a spline while a control area is watched";
+            return Err(Fault::unsupported(what, span));
+        }
+        match active.find(|area| area.axes.iter().any(|axis| !self.names.has(*axis))) {
+            Some(area) => {
+                let text = format!("an axis of control area {} has left the channel", area.number);
+                Err(Fault::new(Condition::AreaAxisMissing, text, span))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// What the next motion is compared with.
+    pub(super) fn watch(&mut self) -> Option<Arc<Watch>> {
+        if self.motion.areas.active.is_empty() {
+            return None;
+        }
+        let offsets_mm = self.tip(&self.motion.independent.way);
+        let areas = self.motion.areas.active.clone();
+        let watch = Watch { areas, offsets_mm, names: self.axis_names() };
+        // motions of a row share it
+        if self.motion.areas.watch.as_deref() != Some(&watch) {
+            self.motion.areas.watch = Some(Arc::new(watch));
+        }
+        self.motion.areas.watch.clone()
+    }
+
+    /// 120742: an axis of an active area moves on its own.
+    pub(super) fn moves_unwatched(&self, axis: usize, span: Span) -> Outcome<()> {
+        if self.motion.areas.is_defining() {
+            return Err(wrong("an axis on its own in the definition of a control area", span));
+        }
+        let Some(area) = self.motion.areas.active.iter().find(|area| area.axes.contains(&axis))
+        else {
+            return Ok(());
+        };
+        let name = self.names.name(axis);
+        let text =
+            format!("{name} belongs to control area {}: it cannot move on its own", area.number);
+        Err(Fault::new(Condition::AreaAxisAlone, text, span))
+    }
+
+    /// Positions of the axes, without the tool: those of its tip.
+    fn tip(&self, positions: &AxisVec) -> AxisVec {
+        let mut tip = positions.clone();
+        for (x, tool) in tip.iter_mut().zip(self.geometry.coordinates.tool_offsets().iter()) {
+            *x -= tool;
+        }
+        tip
+    }
+
+    fn axis_names(&self) -> Vec<String> {
+        (0..self.machine.axes.len()).map(|axis| self.names.name(axis).to_owned()).collect()
+    }
+}
+
+/// The closed polygon through points.
+fn polygon(points: &[AxisVec], plane: [usize; 2], span: Span) -> Outcome<Base> {
+    let mut corners: Vec<[f64; 2]> =
+        points.iter().map(|point| plane.map(|axis| point[axis])).collect();
+    if corners.len() > POLYGON_BLOCKS {
+        let text = format!(
+            "{} blocks in a control area POLY, allowed are {POLYGON_BLOCKS}",
+            corners.len()
+        );
+        return Err(Fault::new(Condition::AreaPoints, text, span));
+    }
+    let last = corners.pop();
+    let closed = matches!((corners.first(), last), (Some(first), Some(last))
+        if [0, 1].iter().all(|i| (first[*i] - last[*i]).abs() <= SAME_MM));
+    if !closed || corners.len() < 3 {
+        let text = "the contour of a control area POLY has to be closed and to have three corners";
+        return Err(wrong(text, span));
+    }
+    if overlaps(&corners) {
+        let text = "sides of a control area POLY cross each other";
+        return Err(Fault::new(Condition::AreaOverlaps, text, span));
+    }
+    Ok(Base::Polygon(corners))
+}

@@ -1,0 +1,12 @@
+; run: exit 0
+; page 301889163 limits of the blocks ahead of the motion
+; end X30 Y0 Z0
+; warning K-0111 at 6:5
+N10 #FLUSH WAIT
+N20 V.G.MAX_NC_BLOCKS_AHEAD = 10
+N30 G01 X10 F1000
+N40 X20
+N50 V.G.MAX_NC_BLOCKS_AHEAD = 0
+N60 V.G.MAX_MOTION_BLOCKS_AHEAD = 5
+N70 X30
+N80 M30

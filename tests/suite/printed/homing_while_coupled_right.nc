@@ -1,0 +1,11 @@
+; check: exit 0
+; page 250902411 diagnosis 20137, right
+; warning K-0111 at 9:5
+N05 #SET AX [X, 1, 0][Y, 2, 1][C, 3, 3]
+N10 G00 X0 Y0
+N30 #SET AX LINK [1, C=Y]
+N40 #ENABLE AX LINK [1]
+N45 #DISABLE AX LINK [1]
+N50 G74 X1
+N55 #ENABLE AX LINK [1]
+N1000 M30

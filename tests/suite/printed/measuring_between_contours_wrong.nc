@@ -1,0 +1,9 @@
+; check: exit 1
+; page 265303179 diagnosis 120652, wrong
+; error 120652 at 7:6
+N010 G261
+N020 G0 Z100
+N030 G0 Z200 Y50
+N040 G100 X100 F1000
+N980 G260
+N990 M30

@@ -1,0 +1,17 @@
+; run -m ../../tests/suite/machines/grinding: exit 0
+; page 213748491 variables of online tool compensation
+; end X0 Y0 Z0
+N10 D1
+N20 $IF V.G.OTC_ACTIVE == TRUE
+N30 G00 X99
+N40 $ENDIF
+N50 #OTC ON [RADIUS CONT WEAR_CONST=250]
+N60 $IF V.G.OTC_ACTIVE == FALSE
+N70 G00 X99
+N80 $ENDIF
+N90 #OTC OFF
+N100 V.G.WZ_AKT.WEAR_CONST = 120
+N110 $IF V.G.WZ_AKT.WEAR_CONST != 120
+N120 G00 X99
+N130 $ENDIF
+N140 M30

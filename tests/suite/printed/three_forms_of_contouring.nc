@@ -1,0 +1,12 @@
+; run: exit 0
+; page 475073291 contouring block by block (G61)
+; end X120 Y100 Z0
+; warning K-0101 at 7:5
+N10 X0 Y0 G01 F1000
+N20 X20 Y100
+N30 G61 X40 Y100
+N40 G61 X60 Y20
+N50 G61 X80 Y20
+N60 G61 X100 Y100
+N70 X120 Y100
+N80 M30
