@@ -127,7 +127,7 @@ fn override_zero_is_a_standstill() {
     assert_eq!(out.last().unwrap().position[0], 100.0);
 }
 
-/// Rapid 0 % stops at the end of the feed block in front of a rapid one, not before.
+/// Rapid 0 % stops at the end of the feed block before a rapid one, not before.
 #[test]
 fn rapid_override_zero_waits_in_front_of_the_rapid_block() {
     let job = Job::new(0.0, Trapez);

@@ -219,7 +219,7 @@ fn kinds_of_synchronisation() {
     }
 }
 
-/// A function with a duration stops the path where it acts: M07 in front of its block, M05 after it. Its cycles are of its
+/// A function with a duration stops the path where it acts: M07 before its block, M05 after it. Its cycles are of its
 /// block.
 #[test]
 fn functions_that_take_time_stop_the_path() {

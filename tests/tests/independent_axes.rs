@@ -154,7 +154,7 @@ fn the_path_is_the_same() {
     near(error(&with), error(&plain));
 }
 
-/// A filter delays the axis; that is no deviation from the contour of the path, and joins wait for its end.
+/// A filter delays the axis; that is not a deviation from the contour of the path, and joins wait for its end.
 #[test]
 fn filtered() {
     let delay = [

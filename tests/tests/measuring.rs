@@ -123,7 +123,7 @@ fn through_to_the_target() {
     assert!(end(&stopped, 0) < 8.2);
 }
 
-/// G310: with a signal the program continues at the label and from where the axes stand, without one after the block.
+/// G310: with a signal the program continues at the label and from where the axes are, without one after the block.
 #[test]
 fn an_interrupted_motion_jumps() {
     let program = "#MEAS MODE [5]\nN10 G00 X0 Y0\nN20 G310 G01 F1000 X10 Y20 $GOTO[N_LABEL]\nN30 G01 X20\n\
@@ -162,7 +162,7 @@ fn measured_values_and_offsets() {
     assert_eq!(said(&run), ["8.0000 8.0000 5.0000 -5.0000", "-3000"]);
 }
 
-/// A probe that signals already, and one that signals when nobody measures.
+/// A probe that signals already, and one that signals outside of a measuring run.
 #[test]
 fn signals_at_other_times() {
     let program = format!("{TYPE_1}N50 M30\n");

@@ -294,7 +294,7 @@ fn force_on_an_axis_at_rest() {
     near(run.records.last().unwrap().axes[1].lag, 0.0);
 }
 
-/// An encoder that reads 0.3 mm too much makes the axis stand 0.3 mm short.
+/// An encoder that reads 0.3 mm too much stops the axis 0.3 mm short.
 #[test]
 fn encoder_offset() {
     let program = "%P\nG90 G01 X10 F6000\nG04 1\nM30\n";
@@ -352,7 +352,7 @@ fn sample_of_feedhold_and_override() {
     let text = command(["run", &program, "--input", &csv]).out;
     assert!(text.contains("held           0.385 s"), "{text}");
     let folder = tempfile::tempdir().unwrap();
-    // what is wrong with a file refuses run and check; a file that is not there is no mistake in one
+    // what is wrong with a file refuses run and check; a file that is not there is not a mistake in one
     for verb in ["run", "check"] {
         let refused = command([verb, &program, "--input", &program]);
         assert_eq!(refused.exit, kontur::Exit::Usage);

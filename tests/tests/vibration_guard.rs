@@ -4,7 +4,7 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_tests::{Run, run, run_on, sample_machine};
 
-/// Square of 1 mm from where the axes stand, at F4000.
+/// Square of 1 mm from where the axes are, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
 
 fn program(lines: &[&str]) -> String {

@@ -340,7 +340,7 @@ fn the_cycle_of_the_task() {
     }
 }
 
-/// A run does not take a cycle that nobody named without a warning; whoever names one is not warned.
+/// A run does not take a cycle that was not named without a warning; whoever names one is not warned.
 #[test]
 fn a_cycle_that_is_assumed_is_a_warning() {
     let folder = folder();

@@ -5,7 +5,7 @@
 //! (names, numbers and count of the axes, cycle of the GEO task) is entered here too, and said in one note.
 //!
 //! The vendor does not describe the files. Assumption: elements as public tools that edit such projects find them. An axis
-//! holds `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; beside the list of an axis stand `ItemName` and the
+//! holds `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; beside the list of an axis are `ItemName` and the
 //! fields of its dialog `DefaultChannel` (from 1), `DefaultIndex` (from 0) and `DefaultProgName`. A text with keys of a
 //! start-up list is one, whatever its element is called; lists of defaults are called `DefaultAchsMds`, `DefaultSdaMds`.
 //!
@@ -287,7 +287,7 @@ impl<'a> Project<'a> {
     }
 
     /// Enters the cycle of the project, in units of 100 ns, into `kontur.lis`, unless the file next to the project has one;
-    /// returns what becomes of it, and warns where the run would use a cycle that nobody named.
+    /// returns what becomes of it, and warns where the run would use a cycle that was not named.
     fn cycle(&mut self, units_100ns: Option<u32>, given: bool) -> String {
         let path = self.path(OWN_LIST);
         let real = match lists::find(self.files, &path) {

@@ -1,4 +1,4 @@
-//! Chains of the axes: the values that the lists state arrive in mm and s, and every correction is told.
+//! Chains of the axes: the values that the lists state arrive in mm and s, and every correction is reported.
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
@@ -342,7 +342,7 @@ fn corrections_name_axis_parameter_and_place() {
         ("K-0026", "P-AXIS-00757", format!("{stage} {ipc}.v_add_max_fact=0")),
         ("K-0027", "P-AXIS-00754", format!("{stage} {ipc}.stage[0].weight_fact_num=8")),
     ];
-    // what nobody wrote has no place: the default that does not fit
+    // what was not written has no place: the default that does not fit
     let unwritten = ["K-0037", "50989", "50663", "60311"];
     for (id, parameter, settings) in cases {
         let settings: Vec<&str> = settings.split_whitespace().collect();

@@ -372,7 +372,7 @@ fn both_inputs_of_a_profidrive() {
     near(additive.lag_mm, 0.0, 0.5 / (1000.0 * 60.0 / 36.0) / 10.0);
 }
 
-/// P-AXIS-00320: the loop of a spindle may be open, that of a path axis not; both are told, as kontur keeps it closed.
+/// P-AXIS-00320: the loop of a spindle may be open, that of a path axis not; both are reported, as kontur keeps it closed.
 #[test]
 fn open_position_loops() {
     for mode in ["MODE", "POS_FEEDBACK", "VEL_FEEDBACK", "NO_FEEDBACK"] {
@@ -386,7 +386,7 @@ fn open_position_loops() {
     }
 }
 
-/// P-AXIS-00389, P-AXIS-00390, P-AXIS-00547 delay additive inputs; a delay that nothing uses is told.
+/// P-AXIS-00389, P-AXIS-00390, P-AXIS-00547 delay additive inputs; a delay that nothing uses is reported.
 #[test]
 fn delays_without_an_additive_input() {
     for (key, own) in [("velocity", "ADD_VEL"), ("acceleration", "ADD_ACC"), ("jerk", "ADD_JERK")] {
@@ -399,7 +399,7 @@ fn delays_without_an_additive_input() {
         };
         assert!(told("VEL|ACC|JERK"), "{key}");
         assert!(!told(own), "{key}");
-        // without feedforward nobody expects an effect
+        // without feedforward no effect is expected
         assert!(!told("0x0"), "{key}");
     }
 }

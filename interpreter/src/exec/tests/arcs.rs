@@ -47,7 +47,7 @@ fn arcs_in_a_tilted_coordinate_system() {
 
 /// The curve of `#CONTOUR MODE [POS]` reaches its interim point, which lies beyond what the lines around it reach: in a check and
 /// in a run, for the block at whose end it is; with the limit beyond the curve, and in the other modes, nothing is said. The
-/// rest of a long line after the curve is no part of it.
+/// rest of a long line after the curve does not belong to it.
 #[test]
 fn a_curve_through_a_point_outside_the_limits() {
     let text = |mode: &str, behind: &str| {

@@ -30,7 +30,7 @@ fn listed(settings: &[&str], files: &[(&str, &str)]) -> Run {
 fn a_program_of_the_list_runs_before_every_end() {
     let end = ["channel.final_prog_file=final.nc"];
     let last = ("final.nc", "G90 Z9 F50\n");
-    // without M30 it runs too, and the missing end is told once
+    // without M30 it runs too, and the missing end is reported once
     let run = listed(&end, &[("main.nc", "$IF 1\nX1 F100\n$ENDIF\n"), last]);
     assert_eq!((run.ids(), run.ends().len()), (vec!["K-0003".to_owned()], 2));
     let run = listed(&end, &[("main.nc", "X1 F100\nM30\n")]);

@@ -79,7 +79,7 @@ fn what_does_not_run_is_checked_for_its_syntax() {
         "{lines:?}"
     );
     assert_eq!(lines.iter().filter(|(_, _, error)| *error).count(), 1, "{lines:?}");
-    // a subroutine that nobody calls
+    // a subroutine that is never called
     let found = checked("%L A\nX!\n%MAIN\nX1 F100\nM30\n");
     assert!(places(&found)[0].starts_with("K-0118 2:") && found.iter().all(|d| !d.is_error()));
     // taken in one pass, left out in another: looked at once

@@ -67,7 +67,7 @@ fn the_feed_falls_in_front_of_a_corner() {
 fn a_motion_shorter_than_the_distance_begins_where_the_fall_has_come_to() {
     let v = 1000.0 / 60.0;
     let all = pieces(&CORNER.replace("X50", "X14"), 10.0, 14.0);
-    // 4 mm in front of the corner 70 % of the feed are due
+    // 4 mm before the corner 70 % of the feed are due
     follow(&all, 10.0, 14.0, |s| v * (0.7 - 0.05 * s));
 }
 

@@ -59,7 +59,7 @@ macro_rules! lists {
     FeedGroupOfArc = Vendor 120462: Warning None 1 1, "feed group does not fit an arc", cause "#FGROUP [X] and G02 in the plane X, Y", hint "#FGROUP names all axes of the arc, or none of the main axes";
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring although the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
-    ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes change behind a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
+    ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes change after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is on", cause "G261 before G100", hint "write G260 before the run";
     IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline before, or move the axis with the path";
     SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";

@@ -25,9 +25,9 @@ macro_rules! motion {
     FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
     SpindleSpeedError = Vendor 60101: Error AllStop 6 0, "spindle speed limit exceeded", cause "+9 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpindleSpeedWarning = Vendor 60102: Warning None 1 0, "spindle speed above the warning level", cause "+5 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
-    SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle that stands", cause "G95 before M3 and S", hint "start the spindle before: S1000 M3";
+    SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle at rest", cause "G95 before M3 and S", hint "start the spindle before: S1000 M3";
     SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed before: S1000 M3";
-    SpindleStoppedInThread = Vendor 60154: Error AllStop 6 0, "G33 while the spindle stands", cause "S1000 and G33 without M3", hint "write M3 or M4 before it";
+    SpindleStoppedInThread = Vendor 60154: Error AllStop 6 0, "G33 with a spindle at rest", cause "S1000 and G33 without M3", hint "write M3 or M4 before it";
     SpindleSlopeType = Vendor 60226: Warning None 1 0, "slope type of a spindle invalid", cause "P-AXIS-00270", hint "getriebe[i].slope_type is 0 to 3 (P-AXIS-00270)";
     SpindleFilterTime = Vendor 60311: Error JobAbort 7 0, "filter time constant (spindle)", cause "as 50663", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
     FollowingError = Vendor 70020: Error OpenLoopStop 6 11, "following error too large", cause "limits 00167…00172, 00191", hint "raise slep_max, use feedforward (G135), or lower the feed", parameter "P-AXIS-00172";
@@ -46,11 +46,11 @@ macro_rules! motion {
     CompensationInArc = Vendor 90008: Error ProgramAbort 6 1, "tool radius compensation selected in a circular block", cause "a linear block must follow G41 and G42", hint "write a linear block after G41 and G42";
     ToolTooLarge = Vendor 90017: Error ProgramAbort 6 1, "tool radius not below the radius of an arc of the contour", hint "use a smaller tool, or a larger radius of the contour";
     ToolBetweenArcs = Vendor 90031: Error ProgramAbort 6 1, "tool radius compensation: tool too large for the corner between two arcs", hint "use a smaller tool, or larger radii of the contour";
-    RadiusChangeInArc = Vendor 90047: Error ProgramAbort 6 1, "tool radius changes in front of an arc", cause "D or V.G.WZ_AKT.R within G41, then G02", hint "write a line in front of the arc";
-    FlushAfterCompensation = Vendor 90050: Error ProgramAbort 3 1, "channel flush between G40 and the motion that leads away from the contour", cause "G40, then #FLUSH", hint "write a straight motion with G40 or behind it";
+    RadiusChangeInArc = Vendor 90047: Error ProgramAbort 6 1, "tool radius changes before an arc", cause "D or V.G.WZ_AKT.R within G41, then G02", hint "write a line before the arc";
+    FlushAfterCompensation = Vendor 90050: Error ProgramAbort 3 1, "channel flush between G40 and the motion that leads away from the contour", cause "G40, then #FLUSH", hint "write a straight motion with G40 or after it";
     InsideCornerRadius = Vendor 90127: Error ProgramAbort 3 1, "change of the tool radius within the contour of G238", hint "change the tool before G41 or after G40";
     WearSelectedInArc = Vendor 90183: Error ProgramAbort 3 1, "compensation that begins with an arc during online tool compensation", cause "#OTC ON, then G41 with an arc (G237)", hint "begin with a line, or write #OTC OFF before it";
-    SpaceArcAfterCompensation = Vendor 90193: Error ProgramAbort 3 1, "arc in space behind G40", cause "G40, then G303", hint "write a straight motion with G40 or behind it";
+    SpaceArcAfterCompensation = Vendor 90193: Error ProgramAbort 3 1, "arc in space after G40", cause "G40, then G303", hint "write a straight motion with G40 or after it";
         }
     };
 }
