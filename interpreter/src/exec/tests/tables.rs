@@ -4,29 +4,12 @@ use super::{Event, Options, Run, Step, Sync, machine, places, run_with, shown};
 use crate::exec::SpindleMotion;
 use crate::machine::Machine;
 use crate::source::MemorySources;
+use kontur_kit::rows::{fits, is, rows};
 use kontur_motion::block::{Block, ContourMode, Feed};
 use kontur_motion::path::Path;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
-
-/// What all rows of a paragraph share.
-#[derive(Default)]
-struct Paragraph {
-    /// Settings of the lists.
-    settings: Vec<String>,
-    /// Other files: name and text.
-    files: Vec<(String, String)>,
-    /// Lines before those of the row.
-    before: String,
-    /// Lines after them.
-    after: String,
-}
-
-/// Lines of a program out of their form in a row.
-fn lines(text: &str) -> String {
-    text.replace(" | ", "\n") + "\n"
-}
 
 /// Words that begin a list in a row.
 const LISTS: [&str; 14] = [
@@ -138,30 +121,6 @@ fn done(event: &Event) -> Option<String> {
     }
 }
 
-/// Whether a thing is that of a row, as far as it is given there, numbers within 1e-9.
-fn is(wanted: &str, found: &str) -> bool {
-    let number = |text: &str| text.trim_end_matches(char::is_alphabetic).parse::<f64>().ok();
-    let unit = |text: &str| text.trim_start_matches(|c: char| !c.is_alphabetic()).to_owned();
-    let same = |w: &str, f: &str| {
-        let near = |(w, f): (f64, f64)| (w - f).abs() < 1e-9;
-        w == "_" || w == f || unit(w) == unit(f) && number(w).zip(number(f)).is_some_and(near)
-    };
-    let mut found = found.split([',', '@']);
-    let wanted = wanted.trim_matches(['(', ')']);
-    wanted.split([',', '@']).all(|w| found.next().is_some_and(|f| same(w, f)))
-}
-
-/// Whether a list is that of a row; `..` are any others.
-fn fits(wanted: &[&str], found: &[String]) -> bool {
-    match wanted {
-        [] => found.is_empty(),
-        ["..", rest @ ..] => (0..=found.len()).any(|n| fits(rest, &found[n..])),
-        [first, rest @ ..] => {
-            found.split_first().is_some_and(|(f, more)| is(first, f) && fits(rest, more))
-        }
-    }
-}
-
 /// Compares a run with the right side of its row; says what it does in its place.
 fn compare(run: &Run, expected: &str) -> Result<(), String> {
     let (words, texts) = expected.split_at(expected.find('"').unwrap_or(expected.len()));
@@ -196,37 +155,19 @@ fn compare(run: &Run, expected: &str) -> Result<(), String> {
 
 /// Rows of a table that do something else, with what they do, and the number of rows.
 fn faults(table: &str, machines: &mut BTreeMap<String, Arc<Machine>>) -> (String, usize) {
-    let (mut wrong, mut rows) = (String::new(), 0);
-    let mut here = Paragraph::default();
-    let joined = table.replace("\n    ", " ");
-    for line in joined.lines().filter(|line| !line.starts_with("# ")) {
-        if line.is_empty() {
-            here = Paragraph::default();
-        } else if let Some(setting) = line.strip_prefix("with ") {
-            here.settings.push(setting.to_owned());
-        } else if let Some(text) = line.strip_prefix("after ") {
-            here.after = lines(text);
-        } else if let Some(text) = line.strip_prefix("before ") {
-            here.before = lines(text);
-        } else if let Some((name, text)) =
-            line.strip_prefix("file ").and_then(|f| f.split_once(": "))
-        {
-            here.files.push((name.to_owned(), lines(text)));
-        } else {
-            let (program, expected) = line.rsplit_once(" -> ").expect(line);
-            let settings: Vec<&str> = here.settings.iter().map(String::as_str).collect();
-            let machine = machines.entry(settings.join(" ")).or_insert_with(|| machine(&settings));
-            let text = format!("{}{}{}M30\n", here.before, lines(program), here.after);
-            let main = MemorySources::new().with("main.nc", text);
-            let sources = here.files.iter().fold(main, |s, (n, t)| s.with(n, t.as_str()));
-            let run = run_with(sources, Arc::clone(machine), Options::default());
-            rows += 1;
-            if let Err(what) = compare(&run, expected) {
-                let _ = writeln!(wrong, "{line}\n    {what}");
-            }
+    let rows = rows(table);
+    let mut wrong = String::new();
+    for row in &rows {
+        let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
+        let machine = machines.entry(settings.join(" ")).or_insert_with(|| machine(&settings));
+        let main = MemorySources::new().with("main.nc", row.program.as_str());
+        let sources = row.files.iter().fold(main, |s, (name, text)| s.with(name, text.as_str()));
+        let run = run_with(sources, Arc::clone(machine), Options::default());
+        if let Err(what) = compare(&run, &row.expected) {
+            let _ = writeln!(wrong, "{}\n    {what}", row.text);
         }
     }
-    (wrong, rows)
+    (wrong, rows.len())
 }
 
 #[test]

@@ -107,7 +107,7 @@ macro_rules! commands {
     ContourLineTwice = Vendor 21895: Error ProgramAbort 3 1, "angle of a contour line with two coordinates", cause "#ANG=45 X20 Y25", hint "leave one of the two coordinates out";
     OutsideMotionRange = Vendor 21897: Error ProgramAbort 3 1, "position outside the motion range", hint "kenngr.swe_neg and kenngr.swe_pos of the axis list (P-AXIS-00177, P-AXIS-00178) set the limits", parameter "P-AXIS-00177";
     ContourLineOpen = Vendor 21904: Error ProgramAbort 3 1, "contour line not completely defined", cause "#ANG=30 without a coordinate, and no #ANG in the next block", hint "write one coordinate, or #ANG and both coordinates into the next block";
-    FlushInContourLine = Vendor 21909: Error ProgramAbort 3 1, "flush between the two blocks of a contour line", cause "#ANG=30, #FLUSH, #ANG=80 X30 Y40", hint "write #FLUSH before the first or behind the second of the two blocks";
+    FlushInContourLine = Vendor 21909: Error ProgramAbort 3 1, "flush between the two blocks of a contour line", cause "#ANG=30, #FLUSH, #ANG=80 X30 Y40", hint "write #FLUSH before the first or after the second of the two blocks";
     ContourLineRelative = Vendor 21910: Error ProgramAbort 3 1, "second of two contour lines in relative coordinates", hint "write G90 into its block";
     ContourLinesOff = Vendor 21932: Error ProgramAbort 3 1, "#ANG, #CHR, #CHF or #RND although the channel list switches them off", cause "disable_chamfers_roundings 1", hint "set P-CHAN-00273 to 0", parameter "P-CHAN-00273";
     AxisIdentifier = Vendor 21947: Error ProgramAbort 3 1, "unknown axis identifier", hint "write the name of an axis or spindle of the channel";
