@@ -16,7 +16,7 @@ fn goto(passes: u32) -> String {
     format!("P1=0\nN10: P1=P1+1\n$IF P1 < {passes}\n$GOTO N10\n$ENDIF\nM30\n")
 }
 
-/// Subroutines in front of the main program, of which the first and the last are called.
+/// Subroutines before the main program, of which the first and the last are called.
 fn subroutines(count: u32) -> String {
     let mut text = String::new();
     for i in 0..count {

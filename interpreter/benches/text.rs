@@ -50,7 +50,7 @@ fn brackets(c: &mut Criterion) {
     let mut group = c.benchmark_group("brackets");
     for depth in [8, 32] {
         for length in [512, 4096] {
-            // lists that are never closed, brackets that are no lists, and indices
+            // lists that are never closed, brackets that are not lists, and indices
             for (name, level) in [("open", "[A "), ("closed", "[1-"), ("index", "V.P.A.5[")] {
                 let unit = match name {
                     "open" => level.repeat(depth),

@@ -84,7 +84,7 @@ fn key_of(thing: &str) -> Option<&'static Row> {
     kinds.iter().find_map(|kind| table::by_key(*kind, &key.shape))
 }
 
-/// The key that a printed variant stands for: misprints of the documents, and keys printed without what is in front.
+/// The key that a printed variant stands for: misprints of the documents, and keys printed without their beginning.
 fn printed(key: &str) -> String {
     const WORDS: [(&str, &str); 3] =
         [("jerk_fact_nom", "jerk_fact_num"), ("v_time_bae", "v_time_base"), ("stages[", "stage[")];

@@ -1,6 +1,6 @@
 //! Demands of the tolerance (`AX_DEV`) on a block, kept with the block when it is planned again.
 
-/// What is asked of one block and of the boundary in front of it.
+/// What is asked of one block and of the boundary before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked {
     /// Velocity cap at the boundary in mm/s.

@@ -83,7 +83,7 @@ impl Contour {
     /// Adds the block that is entered at `cycles` (not before the moments added so far) and at path length `s_mm`.
     pub(crate) fn enter(&mut self, cycles: f64, s_mm: f64, queued: Arc<Queued>) {
         let above_feed = self.blocks.back().is_some_and(|before| {
-            // the rest of a block goes on as the block began
+            // the rest of a block continues as the block began
             if queued.offset > 0.0 {
                 before.above_feed
             } else {
@@ -221,7 +221,7 @@ impl Contour {
         number.checked_sub(self.forgotten).map(|index| index as usize)
     }
 
-    /// Moments in cycles and places of the kinks between the first `end` blocks that were passed behind `from`.
+    /// Moments in cycles and places of the kinks between the first `end` blocks that were passed after `from`.
     pub(crate) fn kinks(&self, from: f64, end: usize) -> impl Iterator<Item = (f64, AxisVec)> + '_ {
         let mut first = end;
         while first > 1 && self.blocks[first - 1].cycles > from {

@@ -86,7 +86,7 @@ pub struct IndependentMove {
     /// Distance at which the axis rests without a course.
     rest_mm: f64,
     steering: Steering,
-    /// The course ends at rest in front of the target, and continues from there.
+    /// The course ends at rest before the target, and continues from there.
     pauses: bool,
     stopped: bool,
 }

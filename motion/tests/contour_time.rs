@@ -35,7 +35,7 @@ fn limits(r: &mut Random) -> AxisDynamics {
     a
 }
 
-/// Lines and arcs; most corners are sharp, some arcs go on tangentially.
+/// Lines and arcs; most corners are sharp, some arcs continue tangentially.
 fn contour(r: &mut Random) -> Vec<Path> {
     let (mut at, mut heading) = ([0.0_f64, 0.0], 0.0);
     let count = 2 + (r.ratio() * 10.0) as usize;

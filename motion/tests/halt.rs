@@ -76,7 +76,7 @@ fn place_and_time_of_a_halt_on_a_line() {
     assert!((out[425].s_mm - 20.0).abs() < 1e-9);
     assert!((out[halt].s_mm - 30.0).abs() < 1e-9 && (out[halt].position[0] - 30.0).abs() < 1e-9);
     assert_eq!(halt, 425 + 175 + 50);
-    // no dip in front of the braking
+    // no dip before the braking
     assert!(out[100..600].iter().all(|p| (p.v_mm_s - 50.0).abs() < 1e-9));
     assert!(out[halt..=halt + RESTS].iter().all(|p| p.s_mm == out[halt].s_mm));
     assert_eq!(out.len() - 1, halt + RESTS + cycles(70.0, 50.0, 1000.0));

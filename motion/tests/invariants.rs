@@ -263,7 +263,7 @@ fn more_lookahead_and_a_second_run() {
 }
 
 /// With a short window the knots of one plan are not those of the next; these programs end in a plan that is out of
-/// reach from the speed that is already final, and go on with the one before.
+/// reach from the speed that is already final, and continue with the one before.
 #[test]
 fn a_final_speed_is_never_too_high() {
     let mut r = Random::from_state(77);

@@ -106,7 +106,7 @@ fn two_blocks() {
 }
 
 /// 2000, 1600, 1200, 800 and 400 mm/min: G901 from the first block on, G09 in the second, G900 in the fourth. The words
-/// act on the end of the block they stand in (TF5200 programming manual, the last example of G901).
+/// act on the end of the block that contains them (TF5200 programming manual, the last example of G901).
 #[test]
 fn the_words_act_on_the_end_of_their_block() {
     let feeds = [2000.0, 1600.0, 1200.0, 800.0, 400.0].map(|f: f64| f / 60.0);

@@ -87,7 +87,7 @@ impl Case {
     }
 }
 
-/// Two lines and two arcs (5956 cycles, with rests 4215), and two short lines in front of an arc (60788, with rests 3726): filters
+/// Two lines and two arcs (5956 cycles, with rests 4215), and two short lines before an arc (60788, with rests 3726): filters
 /// that differ between the axes made whole blocks crawl because of what happens at their ends.
 #[test]
 fn filters_that_differ() {

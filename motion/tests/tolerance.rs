@@ -270,7 +270,7 @@ fn negative_weights_keep_the_tolerance_too() {
     }
 }
 
-/// What is told of set points that something moves, on a contour of straight lines with a tolerance of 0.01 mm.
+/// What is reported of set points that something moves, on a contour of straight lines with a tolerance of 0.01 mm.
 fn told_of_output(points: &[[f64; 2]], moved: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Unkept> {
     let job = guarded(Job::new(1.0, Trapez), 1, 40.0, 0.1, Some(0.01));
     let cycle = CycleTime::from_us(job.cycle_us).unwrap();

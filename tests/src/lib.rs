@@ -36,6 +36,16 @@ impl Run {
         self.diagnostics.iter().filter_map(number).collect()
     }
 
+    /// IDs of the messages as they are written.
+    pub fn said(&self) -> Vec<String> {
+        self.diagnostics.iter().map(|d| d.id.to_string()).collect()
+    }
+
+    /// IDs of the errors.
+    pub fn errors(&self) -> Vec<String> {
+        self.diagnostics.iter().filter(|d| d.is_error()).map(|d| d.id.to_string()).collect()
+    }
+
     /// Cycles in which the path rests for something.
     pub fn rested(&self, rest: Rest) -> usize {
         self.records.iter().filter(|r| r.path.rest == Some(rest)).count()

@@ -75,7 +75,7 @@ fn a_window_of_zero_is_the_default() {
     assert!(run.records[begins - 2].axes[0].lag.abs() > 0.05);
 }
 
-/// The trace ends when the axes have arrived; the totals tell how long that took: ln(lag / window) / Kv within some
+/// The trace ends when the axes have arrived; the totals say how long that took: ln(lag / window) / Kv within some
 /// cycles of the drive's lag.
 #[test]
 fn the_end_waits_for_the_axes() {
@@ -122,7 +122,7 @@ fn an_axis_with_an_error_stops() {
         assert!((r.axes[0].act - here).abs() < 0.08, "{} {here}", r.axes[0].act);
     }
     let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
-    assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "it stands: 0.1 mm/s");
+    assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "at rest: 0.1 mm/s");
 }
 
 /// G60 waits for both sides of a bridge; an error of one brakes both along the path.
@@ -161,7 +161,7 @@ fn most_rpm(run: &Run) -> f64 {
     run.axis(3, |a| a.vel / 6.0).iter().fold(0.0, |most: f64, v| most.max(v.abs()))
 }
 
-/// M19 turns with the speed of its bracket, in whatever order the words stand, and the program ends when it stands there.
+/// M19 turns with the speed of its bracket, whatever the order of the words, and the program ends when it has arrived.
 #[test]
 fn spindle_positioning_with_a_speed() {
     for bracket in ["M19 POS=90 REV=100", "REV=100 POS=90 M19", "POS=90 REV=100 M19"] {
@@ -196,7 +196,7 @@ fn a_speed_above_the_limit_is_said() {
     assert!((most_rpm(&run) - 12_000.0).abs() < 1e-6);
 }
 
-/// An error of an axis: the spindle runs down with its own deceleration, and the trace continues until it stands.
+/// An error of an axis: the spindle runs down with its own deceleration, and the trace continues until it is at rest.
 #[test]
 fn spindles_stop_with_the_axes() {
     let run = run(

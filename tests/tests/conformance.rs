@@ -38,7 +38,7 @@ struct Row {
     note: String,
 }
 
-/// A test function: the file it stands in, its documentation and its body.
+/// A test function: its file, its documentation and its body.
 struct Test {
     file: String,
     text: String,
@@ -148,7 +148,7 @@ fn faults(document: &Document, rows: &[Row], tests: &Tests) -> Vec<String> {
         match count(id) {
             1 => {}
             0 => faults.push(format!("{id} is missing")),
-            n => faults.push(format!("{id} stands {n} times")),
+            n => faults.push(format!("{id} is listed {n} times")),
         }
     }
     for Row { id, statement, state, tests: named, note } in rows {
@@ -270,7 +270,7 @@ fn what_is_wrong_is_found() {
     let none: [&str; 0] = [];
     assert_eq!(of(&[good.clone(), open.clone()]), none);
     assert_eq!(of(std::slice::from_ref(&good)), ["Q002 is missing"]);
-    assert_eq!(of(&[good.clone(), good.clone(), open.clone()]), ["Q001 stands 2 times"]);
+    assert_eq!(of(&[good.clone(), good.clone(), open.clone()]), ["Q001 is listed 2 times"]);
     assert_eq!(of(&[row("Q001", "done", "proof"), open.clone()]), ["Q001: `done` is no state"]);
     for (second, fault) in [
         (row("Q002", "reproduced", ""), "Q002 is called reproduced without a test"),

@@ -32,7 +32,7 @@ fn an_unstable_axis_ends_the_run() {
     }
 }
 
-/// `#MACHINE DATA` between two motions: the axis stands before it takes the new weight, and has it from then on.
+/// `#MACHINE DATA` between two motions: the axis comes to rest before it takes the new weight, and has it from then on.
 /// Conformance: I024.
 #[test]
 fn new_parameters_wait_for_standstill() {

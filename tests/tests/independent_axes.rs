@@ -46,27 +46,6 @@ fn largest_step(run: &Run, axis: usize) -> f64 {
     ipo(run, axis).windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
 }
 
-/// 100 mm at 100 mm/s take 1.1 s, however the speed is written; the path begins only then. 10 mm take 0.2 s.
-#[test]
-fn synchronous() {
-    for words in [
-        "G90 G01 FEED=6000 POS=100",
-        "G91 G01 FEED 6000 POS 100 SLOPE_TYPE=STEP",
-        "G01 TIME=1.1 POS=100 SLOPE_PROFIL=0",
-        "G01 FEED_MAX_WEIGHT=10 POS=100",
-    ] {
-        let run = go(&format!("X[INDP_SYN {words}]\nG90 G01 Y10 F6000"));
-        near(at(&run, 0, 0.1), 5.0);
-        near(arrival_s(&run, 0, 100.0), 1.1);
-        near(at(&run, 1, 1.1), 0.0);
-        near(arrival_s(&run, 1, 10.0), 1.3);
-    }
-    // rapid: 1000 mm/s are not reached, 100 mm take 2 sqrt(0.1) s
-    let run = go("X[INDP_SYN G00 POS=100]");
-    near(at(&run, 0, 0.1), 5.0);
-    near(arrival_s(&run, 0, 100.0), 0.633);
-}
-
 /// With the ramps of the list, 30 ms, and 3500 mm/s2: `100 / 100 + 2 sqrt(100 / j)`, `j = 3500 / 0.03`, is less than full
 /// acceleration.
 #[test]
@@ -78,49 +57,7 @@ fn slope_of_its_own() {
     near(at(&run, 0, 0.5), 100.0 * (0.5 - change_s / 2.0));
 }
 
-/// Path and axis begin together; the next block waits for the later one.
-#[test]
-fn synchronous_beside_a_path() {
-    let run = go("G90 G01 Y100 F6000 X[INDP_SYN G91 G01 TIME=2 POS=-50]\nY110");
-    near(at(&run, 1, 0.1), 5.0);
-    assert!(at(&run, 0, 0.002) < 0.0);
-    near(arrival_s(&run, 1, 100.0), 1.1);
-    near(arrival_s(&run, 0, -50.0), 2.0);
-    near(at(&run, 1, 2.0), 100.0);
-    near(arrival_s(&run, 1, 110.0), 2.2);
-}
-
-/// 20 mm at 10 mm/s take 2.01 s while the path continues through two blocks without a stop; then it waits.
-#[test]
-fn asynchronous() {
-    for wait in ["#WAIT INDP [X]", "#WAIT INDP ALL", "#WAIT INDP[X, Y]"] {
-        let run = go(&format!(
-            "X[INDP_ASYN G90 G01 FEED=600 POS=20]\nG90 G01 Y50 F6000\nY100\n{wait}\nY0"
-        ));
-        near(at(&run, 0, 1.0), 9.95);
-        near(arrival_s(&run, 1, 100.0), 1.1);
-        near(arrival_s(&run, 0, 20.0), 2.01);
-        near(at(&run, 1, 2.01), 100.0);
-        near(arrival_s(&run, 1, 0.0), 3.11);
-        near(run.records.last().unwrap().axes[0].ipo, 20.0);
-    }
-}
-
-/// A path that moves the axis, a second motion of it, and the end of the program wait for it.
-#[test]
-fn implicit_joins() {
-    let run = go("X[INDP_ASYN G90 G01 FEED=600 POS=20]\nG90 G01 Y50 F6000\nX30");
-    near(arrival_s(&run, 0, 20.0), 2.01);
-    near(arrival_s(&run, 0, 30.0), 2.21);
-    assert!(largest_step(&run, 0) < 0.1 + 1e-9);
-    let run = go("X[INDP_ASYN G01 FEED=600 POS=20]\nX[INDP_ASYN G01 FEED=6000 POS=30]");
-    near(arrival_s(&run, 0, 20.0), 2.01);
-    near(arrival_s(&run, 0, 30.0), 2.21);
-    let run = go("X[INDP_ASYN G01 FEED=600 POS=20]\nG90 G01 Y10 F6000");
-    near(run.records.last().unwrap().axes[0].ipo, 20.0);
-}
-
-/// What the axis has gone alone is in the coordinates: lines and arcs continue from there; offsets do not act on it.
+/// What the axis has gone alone is in the coordinates: lines and arcs continue from there.
 #[test]
 fn coordinates_go_on() {
     let run = go(
@@ -131,9 +68,6 @@ fn coordinates_go_on() {
     assert!(radius.clone().count() > 100 && radius.into_iter().all(|r| (r - 10.0).abs() < 1e-9));
     near(run.records.last().unwrap().axes[0].ipo, 35.0);
     assert!(largest_step(&run, 0) < 0.1 + 1e-9);
-    let run = go("V.G.NP[1].V.X=7\nG54\nX[INDP_SYN G90 G01 FEED=6000 POS=20]\nG90 G01 X1 F6000");
-    near(arrival_s(&run, 0, 20.0), 0.3);
-    near(run.records.last().unwrap().axes[0].ipo, 8.0);
 }
 
 /// The path does not know about the motion: it gives the same setpoints bit for bit, also through rounded corners.
@@ -154,7 +88,7 @@ fn the_path_is_the_same() {
     near(error(&with), error(&plain));
 }
 
-/// A filter delays the axis; that is no deviation from the contour of the path, and joins wait for its end.
+/// A filter delays the axis; that is not a deviation from the contour of the path, and joins wait for its end.
 #[test]
 fn filtered() {
     let delay = [
@@ -171,49 +105,6 @@ fn filtered() {
     assert!(run.records.iter().all(|r| r.contour_err_mm <= 1e-12));
     near(arrival_s(&run, 0, 20.0), 2.01);
     near(arrival_s(&run, 1, 0.0), 2.015 + 0.6);
-}
-
-/// Feedhold holds the path and the axis beside it (P-AXIS-00540 = 0): X from 10 mm/s with 1000 mm/s2. Where the list gives it to the
-/// interface of the axis, X continues.
-#[test]
-fn under_feedhold() {
-    let program = "%P\nG90 G01 Y100 F6000 X[INDP_ASYN G01 FEED=600 POS=20]\nM30\n";
-    let inputs = [(0.5, "feedhold", 1.0), (3.0, "feedhold", 0.0)];
-    let run = run_with_inputs(linear(&[]), program, &inputs);
-    near(at(&run, 1, 2.9), 50.0);
-    // 4.95 mm up to the feedhold, 0.05 mm of braking; 15 mm more at 10 mm/s
-    near(at(&run, 0, 2.9), 5.0);
-    near(arrival_s(&run, 0, 20.0), 3.0 + 1.51);
-    near(arrival_s(&run, 1, 100.0), 3.6);
-    let run = run_with_inputs(linear(&["X.kenngr.indp_feedhold_mode=1"]), program, &inputs);
-    near(arrival_s(&run, 0, 20.0), 2.01);
-}
-
-/// The override of the channel (P-AXIS-00491 = 0), from the start and under way; of an axis that follows its own interface none acts.
-#[test]
-fn under_override() {
-    let program = "%P\nX[INDP_SYN G90 G01 FEED=6000 POS=100]\nM30\n";
-    let arrival = |mode: &str, inputs: &[(f64, &str, f64)]| {
-        let settings = [format!("X.kenngr.indp_override_mode={mode}")];
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-        arrival_s(&run_with_inputs(linear(&settings), program, inputs), 0, 100.0)
-    };
-    let half = [(0.0, "override_percent", 50.0)];
-    near(arrival("0", &half), 2.05);
-    near(arrival("1", &half), 2.05);
-    near(arrival("2", &half), 1.1);
-    // 45 mm up to 0.5 s, 3.75 mm of braking to 50 mm/s in 0.05 s, 50 mm at that, 1.25 mm of braking
-    near(arrival("0", &[(0.5, "override_percent", 50.0)]), 1.6);
-    // with the axis at 100 % more is not taken from the channel
-    let more = [(0.0, "override_percent", 125.0)];
-    near(arrival("0", &more), 0.925);
-    near(arrival("1", &more), 1.1);
-    // P-AXIS-00109
-    let run = run_with_inputs(linear(&["X.kenngr.max_vb_override=250"]), program, &half);
-    near(arrival_s(&run, 0, 100.0), 4.025);
-    // held from the start by override 0
-    let late = [(0.0, "override_percent", 0.0), (1.0, "override_percent", 100.0)];
-    near(arrival("0", &late), 2.1);
 }
 
 /// An oscillation of 20 mm at 20 mm/s is held from 1 s to 2 s; at half the override a stroke takes twice as long.
@@ -233,15 +124,6 @@ fn an_oscillation_under_feedhold_and_override() {
     near(reversal(&half), 10.0 / 10.0 + 20.0 / 10.0 + 2.0 * 0.01);
 }
 
-/// A wait for an axis that nothing releases any more ends the run.
-#[test]
-fn held_indefinitely() {
-    let program = "%P\nX[INDP_SYN G90 G01 FEED=6000 POS=100]\nG01 Y1 F1000\nM30\n";
-    let run = run_with_inputs(linear(&[]), program, &[(0.5, "feedhold", 1.0)]);
-    assert_eq!(run.diagnostics.iter().map(|d| d.id.to_string()).collect::<Vec<_>>(), ["K-0083"]);
-    near(*ipo(&run, 0).last().unwrap(), 50.0);
-}
-
 /// An error of another axis stops an independent axis on its own way, inside its limits.
 #[test]
 fn stopped_by_an_error() {
@@ -254,36 +136,6 @@ fn stopped_by_an_error() {
     let n = x.len();
     assert!((x[n - 1] - x[n - 2]).abs() <= 0.0, "at rest");
     assert!(x.windows(3).all(|w| (w[2] - 2.0 * w[1] + w[0]).abs() <= 1000.0 * 1e-6 * 1.001));
-}
-
-#[test]
-fn mistakes() {
-    for (block, id) in [
-        ("X[INDP_SYN]", "21068"),
-        ("X[INDP_SYN G90 G01 FEED=100]", "21068"),
-        ("X[INDP_SYN G90 POS=1]", "21068"),
-        ("X[INDP_SYN G00 FEED=100 POS=1]", "21068"),
-        ("X[INDP_SYN G01 FEED=100 TIME=1 POS=1]", "21068"),
-        ("X[INDP_SYN G01 FEED=0 POS=1]", "21068"),
-        ("X[INDP_SYN G01 FEED_MAX_WEIGHT=101 POS=1]", "21068"),
-        ("X[INDP_SYN G02 FEED=100 POS=1]", "21068"),
-        ("X[INDP_SYN G01 FEED=100 POS=1 SLOPE_TYPE=FOO]", "21068"),
-        ("X[INDP_SYN G01 FEED=100 POS=1 FOO=3]", "21068"),
-        ("X[INDP_SYN G01 FEED=100 POS=1 DRY_RUN]", "K-0019"),
-        ("X[INDP_SYN G01 FEED=100 POS=600]", "21897"),
-        ("#WAIT INDP", "21220"),
-        ("#WAIT INDP [K]", "20797"),
-        ("#WAIT INDP SOME", "21220"),
-    ] {
-        let run = run(&format!("%P\n{block}\nM30\n"), &[]);
-        let ids: Vec<String> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
-        assert_eq!(ids, [id], "{block}");
-        assert_eq!(run.diagnostics[0].source.as_ref().unwrap().line, 2, "{block}");
-        assert!(run.totals.aborted && run.records.is_empty());
-    }
-    // functions alone are legal
-    let run = run("%P\nX[INDP_SYN M200 H5]\nM30\n", &[]);
-    assert!(!run.totals.aborted && run.totals.not_counted.len() == 2);
 }
 
 /// An axis oscillates between -10 and 10 while the path goes its way; it always ends at the second position, and the path

@@ -23,10 +23,6 @@ fn said(run: &Run) -> Vec<String> {
     own.map(|d| d.text.clone()).collect()
 }
 
-fn errors(run: &Run) -> Vec<String> {
-    run.diagnostics.iter().filter(|d| d.is_error()).map(|d| d.id.to_string()).collect()
-}
-
 fn end(run: &Run, axis: usize) -> f64 {
     run.records.last().unwrap().axes[axis].ipo
 }
@@ -40,7 +36,7 @@ fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
     let program = format!("{TYPE_1}N40 G01 X7\nN50 M30\n");
     let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 8.0)]);
     assert_eq!(said(&run), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
-    assert!(errors(&run).is_empty() && !run.totals.aborted);
+    assert!(run.errors().is_empty() && !run.totals.aborted);
     let of_run = |line: u32| run.records.iter().filter(move |r| r.line == line);
     // every set position of the run lies on its line, and it ends soon after the surface: by the lag and the way of
     // braking, not at the target
@@ -79,15 +75,15 @@ fn a_missing_signal() {
     let run = run_with_inputs(linear(&[]), &program, &[]);
     assert_eq!(said(&run), ["0.0000 0.0000 0 0.0000 0.0000"]);
     near(end(&run, 1), 10.0, 1e-9);
-    assert!(errors(&run).is_empty());
+    assert!(run.errors().is_empty());
     let listed = run_with_inputs(linear(&["channel.meas_error_no_signal=1"]), &program, &[]);
-    assert_eq!(errors(&listed), ["K-0133"]);
+    assert_eq!(listed.errors(), ["K-0133"]);
     let commanded = program.replace("N10", "#MEAS [ERR_NO_SIGNAL=1]\nN10");
-    assert_eq!(errors(&run_with_inputs(linear(&[]), &commanded, &[])), ["K-0133"]);
+    assert_eq!(run_with_inputs(linear(&[]), &commanded, &[]).errors(), ["K-0133"]);
     // the list is overruled both ways
     let excused = program.replace("N10", "#MEAS [ERR_NO_SIGNAL=0]\nN10");
     let run = run_with_inputs(linear(&["channel.meas_error_no_signal=1"]), &excused, &[]);
-    assert!(errors(&run).is_empty());
+    assert!(run.errors().is_empty());
 }
 
 /// Type 2: one axis at the speed of P-AXIS-00215, whatever F is; a missing signal is an error.
@@ -99,7 +95,7 @@ fn one_axis_at_its_own_speed() {
     assert_eq!(said(&run), ["8.0000 2"]);
     let most = run.records.iter().filter(|r| r.line == 5).map(|r| r.path.v_mm_s);
     near(most.fold(0.0, f64::max), 16.666, 1e-9);
-    assert_eq!(errors(&run_with_inputs(linear(&[]), program, &[])), ["K-0133"]);
+    assert_eq!(run_with_inputs(linear(&[]), program, &[]).errors(), ["K-0133"]);
 }
 
 /// Type 3: with G106 the path continues to the target, without it it stops.
@@ -123,13 +119,13 @@ fn through_to_the_target() {
     assert!(end(&stopped, 0) < 8.2);
 }
 
-/// G310: with a signal the program continues at the label and from where the axes stand, without one after the block.
+/// G310: with a signal the program continues at the label and from where the axes are, without one after the block.
 #[test]
 fn an_interrupted_motion_jumps() {
     let program = "#MEAS MODE [5]\nN10 G00 X0 Y0\nN20 G310 G01 F1000 X10 Y20 $GOTO[N_LABEL]\nN30 G01 X20\n\
         N40 $GOTO[ENDE]\nN50 [N_LABEL] X0 Y0\nN60 [ENDE] M30\n";
     let hit = run_with_inputs(linear(&[]), program, &[(0.0, "X_probe_mm", 5.0)]);
-    assert!(errors(&hit).is_empty());
+    assert!(hit.errors().is_empty());
     near(end(&hit, 0), 0.0, 1e-9);
     assert!(hit.records.iter().all(|r| r.axes[0].ipo < 5.5 && r.line != 4));
     let missed = run_with_inputs(linear(&[]), program, &[]);
@@ -149,7 +145,7 @@ fn measuring_offsets() {
     assert_eq!(said(&run)[1..], ["-2.0000 -28.0000", "-1.0000"]);
     near(end(&run, 0), -2.0, 1e-9);
     near(end(&run, 1), 0.0, 1e-9);
-    assert_eq!(errors(&run_with_inputs(linear(&[]), &program, &[])), ["K-0134"]);
+    assert_eq!(run_with_inputs(linear(&[]), &program, &[]).errors(), ["K-0134"]);
 }
 
 /// The measured value contains the offsets, the value in the coordinates of the program does not.
@@ -162,14 +158,14 @@ fn measured_values_and_offsets() {
     assert_eq!(said(&run), ["8.0000 8.0000 5.0000 -5.0000", "-3000"]);
 }
 
-/// A probe that signals already, and one that signals when nobody measures.
+/// A probe that signals already, and one that signals outside of a measuring run.
 #[test]
 fn signals_at_other_times() {
     let program = format!("{TYPE_1}N50 M30\n");
     let run = run_with_inputs(linear(&[]), &program, &[(0.01, "probe", 1.0)]);
     assert_eq!(run.ids(), [50052]);
     let run = run_with_inputs(linear(&[]), &program, &[(0.01, "probe", 1.0), (0.02, "probe", 0.0)]);
-    assert!(errors(&run).is_empty());
+    assert!(run.errors().is_empty());
     near(end(&run, 0), 10.0, 1e-9);
 }
 
@@ -188,7 +184,7 @@ fn a_check_refuses_no_measured_value() {
     let program =
         format!("{TYPE_1}N60 G101 X1\nN70 $IF V.A.MERF.X == 0\n#ERROR [ID100]\n$ENDIF\nM30\n");
     let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 8.0)]);
-    assert!(errors(&run).is_empty() && !run.records.is_empty());
+    assert!(run.errors().is_empty() && !run.records.is_empty());
 }
 
 /// The check takes the target for the surface and never comes to the subroutine; the run does, and its rows say so.

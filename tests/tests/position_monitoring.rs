@@ -38,7 +38,7 @@ fn an_axis_that_does_not_arrive_ends_the_program() {
         assert_eq!(r.axes[0].set.to_bits(), 50_f64.to_bits());
         assert_eq!(r.axes[1].set.to_bits(), 20_f64.to_bits(), "no further block");
     }
-    assert!(run.records.len() > at, "the trace goes on to standstill");
+    assert!(run.records.len() > at, "the trace continues to standstill");
     assert!(run.records.iter().all(|r| r.line < 3));
 }
 
@@ -86,7 +86,7 @@ fn the_program_of_the_timeout() {
     let back = raised - 200;
     assert!(run.records[back - 1].axes[0].set > 0.0 && run.records[back].axes[0].set.abs() <= 0.0);
     assert!(run.records.iter().all(|r| r.block != Some(100)), "nothing follows");
-    // the trace continues until the axis itself stands
+    // the trace continues until the axis itself is at rest
     let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
     assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "0.1 mm/s");
     assert!(last.axes[0].lag.abs() < 0.02, "{}", last.axes[0].lag);
@@ -130,7 +130,7 @@ fn following_error_of_type_4() {
     for w in steps.windows(2) {
         assert!((w[1] - w[0] * libm::exp(-1.0 / 5.0)).abs() < 1e-12, "{w:?}");
     }
-    assert!(steps[0] > 1e-3 && *steps.last().unwrap() < 1e-4, "until it stands");
+    assert!(steps[0] > 1e-3 && *steps.last().unwrap() < 1e-4, "until it is at rest");
     // Y: braking with the limits of the path, not frozen
     let y: Vec<f64> = stopping.iter().map(|r| r.axes[1].set).collect();
     assert!(y[0] > run.records[at].axes[1].set && y.windows(2).all(|w| w[1] >= w[0]));

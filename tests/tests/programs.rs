@@ -192,7 +192,7 @@ fn every_program_is_listed() {
     }
 }
 
-/// Every command of the list as it stands there: those of `fail/` and `exact_stop_timeout.nc` end with an error, the others
+/// Every command of the list as it is written there: those of `fail/` and `exact_stop_timeout.nc` end with an error, the others
 /// finish. The sweep runs in `figures.rs`.
 #[test]
 fn every_listed_command_runs() {
@@ -392,7 +392,7 @@ fn surface_scan() {
     assert!(at_feed as f64 > 0.9 * inside.len() as f64, "{at_feed} of {}", inside.len());
 }
 
-/// 10 ms of dwell at 1 ms are ten rows of the dwell's own line, also in front of the first motion.
+/// 10 ms of dwell at 1 ms are ten rows of the dwell's own line, also before the first motion.
 #[test]
 fn the_cycles_of_a_dwell_name_its_line() {
     let run = run("%P\nG04 0.01\nG90 G01 X1 F6000\nG04 X0.01\n#TIME 0.01\nY1\nM30\n", &[]);

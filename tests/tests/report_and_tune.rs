@@ -44,12 +44,12 @@ fn curve(run: &Value, name: &str) -> Vec<f64> {
     numbers(&curves.iter().find(|c| c["name"] == name).unwrap_or_else(|| panic!("{name}"))["low"])
 }
 
-/// A load on a spring of 10 Hz: without the guard it swings on, with it it stands. Conformance: V006.
+/// A load on a spring of 10 Hz: without the guard it keeps swinging, with it it is at rest. Conformance: V006.
 #[test]
 fn the_load_of_a_spring_with_and_without_the_guard() {
     let program = |guard: &str| format!("%P\n{guard}\nG90 G01 X20 F3000\nG04 1\nM30\n");
     let texts = [program(""), program("#VIB GUARD ON [MODE=2 FREQ=10 DAMPING=0.02]")];
-    // 10.26 Hz of two free masses is 10 Hz of the load when the motor, 19 times as heavy, stands
+    // 10.26 Hz of two free masses is 10 Hz of the load when the motor, 19 times as heavy, is at rest
     let plant = "model=TWO_MASS mass_motor=95 mass_load=5 f0=10.26 damping=0.02"
         .split(' ')
         .map(|entry| format!("kontur.axis[1].plant.{entry} "))
@@ -174,7 +174,7 @@ fn a_choice_for_a_program_does_what_it_says() {
         assert!(rows.iter().any(|r| r.starts_with(mode)), "{mode}: {text}");
     }
     assert!(rows.iter().any(|r| r.contains(" 0.01 ") && r.ends_with("yes")), "{text}");
-    // a bound that nothing leaves costs nothing, and stands in the line all the same
+    // a bound that nothing leaves costs nothing, and is in the line all the same
     let text = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]).out;
     assert!(text.contains(" AX_DEV=5]\n"), "{text}");
 }

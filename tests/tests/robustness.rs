@@ -187,7 +187,7 @@ fn calls_and_macros_that_reach_themselves() {
     let selves = "%L A\nLL B\n%L B\nLL A\n%MAIN\nLL A\nM30\n";
     let said = refused(selves, &[]);
     assert!(said.len() == 1 && said[0].starts_with("K-0006 "), "{said:?}");
-    // the file calls itself; that its end ends the call too is told beside
+    // the file calls itself; that its end ends the call too is reported as well
     let said = refused("X1 F1000\nL part.nc\nM30\n", &[]);
     assert_eq!(said[0], "20360 2:3", "{said:?}");
     let said = refused("\"A\" = \"\\\"B\\\"\" \"B\" = \"\\\"A\\\"\"\nF1000 \"A\"\nM30\n", &[]);
@@ -213,7 +213,7 @@ fn deep_brackets() {
     }
 }
 
-/// An expression as long as a block may be is computed; with more operators, or beyond that length, the ID tells.
+/// An expression as long as a block may be is computed; with more operators, or beyond that length, the ID says so.
 #[test]
 fn long_expressions() {
     let line = |length: usize| {

@@ -34,7 +34,7 @@ fn the_angle_holds_and_the_way_round_is_told() {
     assert!((turns(angle(&run, 7)) - 45.0).abs() < 1e-6, "{}", angle(&run, 7));
     let least = speeds(&run, 7).into_iter().fold(0.0, f64::min);
     assert!((least + 150.0).abs() < 1e-6, "{least}");
-    // it stands where M19 would turn it
+    // it is where M19 would turn it
     assert!((angle(&run, 11) - angle(&run, 9)).abs() < 1e-9);
     assert!((angle(&run, 13) - angle(&run, 11) - 45.0).abs() < 1e-6);
     let most = speeds(&run, 13).into_iter().fold(0.0, f64::max);

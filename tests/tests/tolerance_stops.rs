@@ -1,4 +1,4 @@
-//! `AX_DEV` where the path stands or changes its speed for other reasons: dwells and stops shorter than the kernel,
+//! `AX_DEV` where the path rests or changes its speed for other reasons: dwells and stops shorter than the kernel,
 //! override and feedhold from outside. The contour is that of this test, not the program's own column.
 
 use kontur_interpreter::record::SpeedLimit;
@@ -15,7 +15,7 @@ fn off_polyline(run: &Run, corners: &[[f64; 2]]) -> f64 {
     run.set(2).iter().map(off).fold(0.0, f64::max)
 }
 
-/// The end of the motion in front of a stop is final when the motion after it is planned; that one waits until the
+/// The end of the motion before a stop is final when the motion after it is planned; that one waits until the
 /// tolerance is kept, and no longer than without the stop.
 #[test]
 fn stops_shorter_than_the_kernel() {

@@ -4,7 +4,7 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_tests::{Run, run, run_on, sample_machine};
 
-/// Square of 1 mm from where the axes stand, at F4000.
+/// Square of 1 mm from where the axes are, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
 
 fn program(lines: &[&str]) -> String {
@@ -26,10 +26,6 @@ fn listed(entries: &str) -> Vec<String> {
 
 fn strings(settings: &[&str]) -> Vec<String> {
     settings.iter().map(|s| (*s).to_owned()).collect()
-}
-
-fn said(run: &Run) -> Vec<String> {
-    run.diagnostics.iter().map(|d| d.id.to_string()).collect()
 }
 
 /// Names of the axes in errors.
@@ -160,7 +156,7 @@ fn the_tolerance_acts_only_where_it_must() {
     assert_eq!(square(" AX_DEV=0"), square(""));
     assert_ne!(square(" AX_DEV=0.01"), square(""));
     let run = on(&["#VIB GUARD ON [AX_DEV=-0.01]", SQUARE], &[]);
-    assert_eq!(said(&run), ["K-0034"]);
+    assert_eq!(run.said(), ["K-0034"]);
     assert!(run.totals.aborted);
 }
 
@@ -282,7 +278,7 @@ fn keys_of_the_command() {
         ("ACC_FACT=11", "K-0034"),
     ] {
         let run = on(&[&format!("#VIB GUARD ON [{key}]"), motion], &[]);
-        assert_eq!(said(&run), [id], "{key}");
+        assert_eq!(run.said(), [id], "{key}");
         assert!(run.totals.aborted, "{key}");
     }
     for key in ["DAMPING=0", "ACC_FACT=1", "ACC_FACT=10", "MODE=4", "FREQ=1"] {

@@ -12,10 +12,6 @@ fn grinding() -> (Machine, Vec<Diagnostic>) {
     suite_machine("grinding", &[])
 }
 
-fn ids(run: &Run) -> Vec<String> {
-    run.diagnostics.iter().map(|d| d.id.to_string()).collect()
-}
-
 /// Additional positions of X, Y and Z in the middle of a line; its end belongs to the corner.
 fn added(run: &Run, line: u32) -> [f64; 3] {
     let records: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
@@ -131,13 +127,13 @@ fn what_the_tool_does_not_allow_is_said() {
     let text = square("#OTC ON [RADIUS DISC]", "G42");
     // 2 mm at most
     let run = run_with_inputs(grinding(), &text, &[(0.0, "wear_mm", 3.0)]);
-    assert_eq!(ids(&run), ["K-0138"]);
+    assert_eq!(run.said(), ["K-0138"]);
     near(added(&run, 4), [0.0, 2.0, 0.0]);
     // a cutter, no tool at all, and a cutter while it is on
     let cutter = run_with_inputs(grinding(), &text.replace("D1", "D2"), &[]);
-    assert_eq!(ids(&cutter), ["21391"]);
+    assert_eq!(cutter.said(), ["21391"]);
     let later = "D1 F6000\n#OTC ON\nX10\nD2\nX20\nM30\n";
-    assert_eq!(ids(&run_with_inputs(grinding(), later, &[])), ["21391"]);
+    assert_eq!(run_with_inputs(grinding(), later, &[]).said(), ["21391"]);
 }
 
 /// The built-in machine whose X looks for a fixed stop: 2 mm of lag.
@@ -174,5 +170,5 @@ fn a_fixed_stop_ends_the_run() {
         assert!(run.records.last().unwrap().axes[2].ipo.abs() < 1e-9);
     }
     let refused = run_with_inputs(stopping(&[]), text, &[]);
-    assert_eq!(ids(&refused), ["50059"]);
+    assert_eq!(refused.said(), ["50059"]);
 }

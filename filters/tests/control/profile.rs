@@ -45,7 +45,7 @@ impl Profile {
     pub(crate) fn at(&self, t: f64) -> f64 {
         let phase = self.phases.iter().rev().find(|p| p[0] <= t + 1e-12).unwrap();
         let [t0, x, v, a, j] = *phase;
-        // after the last phase the axis stands or moves on at constant speed, exactly
+        // after the last phase the axis is at rest or continues at constant speed, exactly
         let (a, v) =
             if t0 == self.end_s() { (0.0, if v.abs() < 1e-9 { 0.0 } else { v }) } else { (a, v) };
         let d = t - t0;

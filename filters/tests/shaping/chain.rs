@@ -131,7 +131,7 @@ fn switching_at_rest_does_not_jump() {
     let sequence = kernels.iter().flat_map(|kernel| [kernel.clone(), None]);
     let mut y = 0.0;
     for (i, kernel) in sequence.chain(kernels.iter().cloned()).enumerate() {
-        // Moves, then stands until the change is free of a jump.
+        // Moves, then rests until the change is free of a jump.
         for _ in 0..7 {
             x += 0.0667;
             y = shaping.step(x);
@@ -266,7 +266,7 @@ fn entries_of_a_list() {
     let spindle = Cascade::design(&[hsc, low], true, MS);
     assert_eq!(spindle.issues, [(0, FilterIssue::HscOnSpindle)]);
     assert!(spindle.hsc.is_none() && spindle.filters.len() == 1);
-    // The default time constant is no time delay at 1 ms.
+    // The default time constant is not a time delay at 1 ms.
     let delay = typed(ListedType::Standard(FilterKind::TimeDelay), low);
     let refused = FilterIssue::TimeConstant { time_constant_us: 10_000, min_us: 0, max_us: 5999 };
     assert_eq!(of(&[delay]), (0, None, vec![(0, refused)]));

@@ -77,7 +77,7 @@ export class Contour {
     this.draw();
   }
 
-  /** The line whose part of the path stands out. */
+  /** The line whose part of the path is highlighted. */
   mark(line: number): void {
     if (line !== this.line) {
       this.line = line;

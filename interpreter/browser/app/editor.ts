@@ -80,7 +80,7 @@ export function thingAt(line: string, column: number): { from: number; to: numbe
     }
     const number = word.match(/^([GM])0*(\d+)$/i);
     const things = number ? [word, `${number[1]}${number[2]}`, `${number[1]}0${number[2]}`] : [word];
-    // a key belongs to the command in front of its bracket
+    // a key belongs to the command before its bracket
     const command = line.slice(0, from).match(/#[^[\];(]*(?=\[[^\]]*$)/);
     return { from, to: from + word.length, things: command && !word.startsWith("#") ? [command[0].trimEnd(), ...things] : things };
   }

@@ -126,7 +126,7 @@ export class Engine {
     return this.guarded((e) => e.rows());
   }
 
-  /** A copy of the values of a column; behind the last one stand the lines of the rows. */
+  /** A copy of the values of a column; after the last one come the lines of the rows. */
   column(i: number): Float64Array<ArrayBuffer> {
     return this.guarded((e) => new Float64Array(e.memory.buffer, e.column(i), e.rows()).slice());
   }

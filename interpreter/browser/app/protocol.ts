@@ -1,4 +1,4 @@
-// What page and worker tell each other.
+// Messages between page and worker.
 
 import type { Checked, Explained, Finished, Request, Started } from "./engine";
 

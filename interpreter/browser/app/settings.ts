@@ -121,7 +121,7 @@ export function guardBlock(c: Controls): string | null {
   return `#VIB GUARD ON [MODE=${c.mode} FREQ=${c.freq_hz} DAMPING=${c.damping}${bound}]`;
 }
 
-/** The command that runs the same; a tolerance has to stand in the program. */
+/** The command that runs the same; a tolerance has to be written in the program. */
 export function commandLine(c: Controls): string {
   return ["kontur run part.nc", ...settings(c).map((setting) => `--set '${setting}'`)].join(" ");
 }

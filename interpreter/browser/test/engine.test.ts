@@ -110,7 +110,7 @@ describe("an end", () => {
     const { messages, refused } = engine.check(request(program));
     expect(refused).toBe(true);
     expect(messages[0]?.severity).toBe("error");
-    // and the module goes on
+    // and the module continues
     expect(engine.check(request("M30\n")).refused).toBe(false);
   });
 
@@ -163,7 +163,7 @@ describe("controls", () => {
     }
   });
 
-  test("as they stand they are the machine", () => {
+  test("unchanged they are the machine", () => {
     expect(settings(DEFAULTS)).toEqual([]);
   });
 

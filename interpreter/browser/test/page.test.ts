@@ -99,7 +99,7 @@ describe.skipIf(executablePath === "")("the page", () => {
     await page.context().close();
   });
 
-  test("tells mistakes while they are typed, and what they mean", async () => {
+  test("shows mistakes while they are typed, and what they mean", async () => {
     const page = await open();
     await drawn(page);
     await write(page, "N10 G01 X10\nN20 G777\nM30\n");
@@ -117,7 +117,7 @@ describe.skipIf(executablePath === "")("the page", () => {
     await page.context().close();
   });
 
-  test("stops what never ends, and goes on", async () => {
+  test("stops what never ends, and continues", async () => {
     const page = await open();
     await drawn(page);
     await drawn(page, () => write(page, "$WHILE 1\nG01 X100 F60000\nX0\n$ENDWHILE\nM30\n"));

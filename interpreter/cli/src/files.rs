@@ -220,7 +220,7 @@ impl ProgramFiles {
 
     /// The main program.
     fn main(&self, name: &str) -> Result<Box<dyn Source>, OpenError> {
-        // its name in messages need not lead to it: names of files may hold what is no text
+        // its name in messages need not lead to it: names of files may hold what is not text
         let path = &self.program;
         let name = if is_standard(path) { STANDARD_INPUT } else { name };
         let error = |e: io::Error| OpenError {

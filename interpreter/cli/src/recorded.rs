@@ -1,8 +1,8 @@
 //! Recorded signals out of CSV files as they come from measuring systems and from TwinCAT Scope.
 //!
 //! Separators are tab, semicolon or comma; numbers have a point or, unless the comma separates, a decimal comma. Above the
-//! numbers stand any number of header lines. In an export of TwinCAT Scope every line of the header repeats its
-//! key in front of each group of channels (`Name`, `SymbolName`, `SampleTime[ms]`, ..): where the key stands, the group
+//! numbers there may be any number of header lines. In an export of TwinCAT Scope every line of the header repeats its
+//! key before each group of channels (`Name`, `SymbolName`, `SampleTime[ms]`, ..): where the key is, the group
 //! has its column of times, so that channels with different sampling times keep their own. Times are counted in
 //! milliseconds or in ticks of 100 ns there; `SampleTime[ms]` shows which.
 //!
@@ -59,7 +59,7 @@ pub(crate) struct Channel {
     pub(crate) name: String,
     /// Times in s from the first time of the file; empty without a column of times.
     pub(crate) times_s: Vec<f64>,
-    /// Values as they stand in the file.
+    /// Values as the file has them.
     pub(crate) values: Vec<f64>,
 }
 
@@ -183,7 +183,7 @@ fn column(
     Ok((times, values))
 }
 
-/// A table whose header repeats its key in front of every group of channels.
+/// A table whose header repeats its key before every group of channels.
 fn scope(
     key: &str,
     names: &[&str],
@@ -304,7 +304,7 @@ fn plain(
         if time.is_some_and(|(t, _)| t == i) {
             continue;
         }
-        // a column of words (the line, what limits) is no signal
+        // a column of words (the line, what limits) is not a signal
         let word = |row: &&Vec<&str>| {
             row.get(i).is_some_and(|c| !c.is_empty() && number(c, separator).is_none())
         };

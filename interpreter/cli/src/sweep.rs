@@ -20,29 +20,29 @@
 
 mod columns;
 mod journal;
+mod one;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod picture;
+mod plan;
 mod rows;
 
-use crate::args::{Amplitude, SweepArgs, Vary};
+use crate::args::{SweepArgs, Vary};
 use crate::combinations::{combinations, put, settings, without_effect};
 use crate::console::Console;
 use crate::interrupt::Running;
-use crate::request::{OpenError, Opened, Request};
-use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
+use crate::request::{OpenError, Opened};
 use crate::table::Cell;
 use crate::target::{Target, create_all, keep_apart};
 use crate::{Error, Exit};
 use journal::Journal;
 use kontur_interpreter::diag::Severity;
-use kontur_interpreter::job::{Run, Sink};
-use kontur_interpreter::record::CycleRecord;
-use kontur_interpreter::record::columns::Column;
-use kontur_interpreter::summary::{Collector, State};
+use kontur_interpreter::summary::State;
+use one::row;
+pub use plan::Plan;
 use rayon::prelude::*;
 pub use rows::Row;
-use rows::{Outcome, Rows};
+use rows::Rows;
 use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -306,146 +306,4 @@ fn run_all(
         rows.cells.push(cells);
     }
     Ok((rows, reads))
-}
-
-/// Collects the row of one run.
-struct Collected<'a> {
-    summary: Collector,
-    cycle_s: f64,
-    wanted: Vec<Wanted<'a>>,
-}
-
-/// A column whose amplitude is wanted.
-struct Wanted<'a> {
-    amplitude: &'a Amplitude,
-    column: Column,
-    samples: Vec<f64>,
-}
-
-impl Sink for Collected<'_> {
-    type Stop = Failure;
-
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Failure> {
-        self.summary.add(record);
-        let time_s = record.k as f64 * self.cycle_s;
-        for Wanted { amplitude, column, samples } in &mut self.wanted {
-            if !amplitude.holds(time_s) {
-                continue;
-            }
-            if samples.len() == MOST_SAMPLES {
-                return Err(Failure::usage(format!(
-                    "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
-                    amplitude.text, amplitude.text
-                )));
-            }
-            samples.push(column.number(record).unwrap_or_default());
-        }
-        Ok(())
-    }
-
-    fn pause(&mut self, run: &mut Run) -> Result<(), Failure> {
-        for message in run.take_diagnostics() {
-            self.summary.message(&message);
-        }
-        if !run.is_over() && Running::is_interrupted() {
-            return Err(Failure::Interrupted);
-        }
-        Ok(())
-    }
-}
-
-/// A sweep whose runs somebody else distributes: over threads, processes or machines.
-#[derive(Clone, Debug)]
-pub struct Plan {
-    args: SweepArgs,
-    combinations: Vec<Vec<usize>>,
-}
-
-impl Plan {
-    /// All combinations of the arguments; `output` and `shard` have no part in it.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] for too many of them, or a parameter given twice.
-    pub fn new(args: SweepArgs) -> Result<Self, Error> {
-        let combinations = combinations(&args.vary)?;
-        Ok(Self { args, combinations })
-    }
-
-    /// Number of runs.
-    pub const fn len(&self) -> usize {
-        self.combinations.len()
-    }
-
-    /// True if nothing is to be run.
-    pub const fn is_empty(&self) -> bool {
-        self.combinations.is_empty()
-    }
-
-    /// Names of what varies: the first columns of every row.
-    pub fn keys(&self) -> impl Iterator<Item = &str> {
-        self.args.vary.iter().map(|v| v.key.as_str())
-    }
-
-    /// Does one of the runs, by its number in the order of the table.
-    ///
-    /// # Errors
-    /// [`OpenError`] if it cannot be run; an aborted run has a row.
-    pub fn row(&self, number: usize) -> Result<Row, OpenError> {
-        let usage = |text: &str| OpenError::Usage(text.to_owned());
-        let combination = self.combinations.get(number).ok_or_else(|| usage("no such run"))?;
-        let done = row(&self.args, combination).map_err(|failure| match failure {
-            Failure::Open(e) => e,
-            Failure::Interrupted => usage("interrupted"),
-        });
-        Ok(done?.0)
-    }
-
-    /// Keys of the parameters that make no difference to any row; `rows` are all of them, in their order.
-    pub fn without_effect(&self, rows: &[Vec<Cell>]) -> Vec<&str> {
-        if rows.len() == self.len() {
-            idle(&self.args.vary, &self.combinations, rows)
-        } else {
-            Vec::new()
-        }
-    }
-}
-
-/// Runs one combination: its row, and the files that it has read.
-fn row(args: &SweepArgs, combination: &[usize]) -> Result<(Row, Vec<PathBuf>), Failure> {
-    let mut request = args.simulation.request(&args.program);
-    put(&args.vary, combination, &mut request);
-    let outcome = one(args, &request)?;
-    let row = columns::row(args, combination, &outcome).map_err(Failure::usage)?;
-    Ok((row, outcome.reads))
-}
-
-/// One run.
-fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
-    let Opened { mut run, reads } = request.open().map_err(Failure::Open)?;
-    let facts = run.facts();
-    let cycle_s = facts.cycle_s();
-    let mut wanted = Vec::new();
-    for amplitude in &args.amplitude {
-        let column = amplitude.column(facts).map_err(Failure::usage)?;
-        let highest_hz = 0.5 / cycle_s;
-        if amplitude.band_hz.0 >= highest_hz {
-            let text = &amplitude.text;
-            return Err(Failure::usage(format!(
-                "--amplitude {text}: a cycle of {cycle_s} s shows up to {highest_hz} Hz"
-            )));
-        }
-        wanted.push(Wanted { amplitude, column, samples: Vec::new() });
-    }
-    let mut collected = Collected { summary: Collector::new(facts), cycle_s, wanted };
-    run.to_end(&mut collected)?;
-    let Collected { summary, wanted, .. } = collected;
-    let amplitudes = wanted.iter().map(|Wanted { amplitude, samples, .. }| {
-        let whole =
-            amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
-        let peak =
-            AmplitudeSpectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
-        peak.map_or(f64::NAN, |p| p[1])
-    });
-    let amplitudes = amplitudes.collect();
-    Ok(Outcome { summary: summary.finish(&run.totals()), amplitudes, reads: reads.so_far() })
 }

@@ -1,5 +1,5 @@
 //! Every command of the book: blocks marked `sh` run here, in a copy of the sample programs; those marked `sh ci` need tools that
-//! only `.ci/run` installs, so they have to stand there.
+//! only `.ci/run` installs, so they have to be there.
 
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test")]

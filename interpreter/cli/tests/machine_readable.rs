@@ -8,7 +8,7 @@ use kit::Folder;
 use kontur::Exit;
 use serde_json::Value;
 
-/// A folder with three programs, one of them with an error, and files that are no programs.
+/// A folder with three programs, one of them with an error, and files that are not programs.
 fn parts(f: &Folder) {
     for (name, text) in [
         ("parts/a.nc", "L sub.spf\nG01 X1 F1000\nM30\n"),

@@ -73,7 +73,7 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         ("bad.nc", "G01 X1 F6000\nG7\nM30\n"),
         ("in.csv", "t_s,override_percent\n0,100\n"),
         ("rec.csv", &ringing()),
-        // only the moving axes tell that it is called
+        // only the moving axes show that it is called
         ("late.nc", LATE),
         ("table.csv.rows", "G01 X1 F6000\nM30\n"),
         ("old.csv", "old"),

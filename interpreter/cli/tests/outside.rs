@@ -33,7 +33,7 @@ fn run_writes_trace_and_summary() {
     let shares = summary["time_by_v_limit_s"].as_object().unwrap();
     let sum: f64 = shares.values().map(|v| v.as_f64().unwrap()).sum();
     assert!((sum - duration).abs() < 1e-9);
-    // the largest contour error of the summary stands in the trace, at its time and line
+    // the largest contour error of the summary is in the trace, at its time and line
     let column = |name: &str| rows[0].split(',').position(|n| n == name).unwrap();
     let cell = |row: &str, name: &str| row.split(',').nth(column(name)).unwrap().to_owned();
     let most = &summary["max_contour_error"];

@@ -2,27 +2,19 @@
 
 mod akima;
 mod arcs;
-mod as_printed;
-mod assignments;
 mod calls;
 mod compensation;
-mod coordinates;
-mod edges;
 mod errors;
 mod feed_course;
-mod first_cases;
 mod flow;
 mod frames;
-mod inserted_feed;
 mod modes;
-mod positions;
 mod radius_change;
 mod random;
-mod returns;
 mod scaling;
 mod shaping;
-mod spindle_data;
 mod straight;
+mod tables;
 mod tangential;
 
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};

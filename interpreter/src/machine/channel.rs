@@ -126,7 +126,7 @@ pub struct Channel {
     pub joins_named: bool,
     /// Reading a `@P` parameter that was not passed creates it (P-CHAN-00463).
     pub creates_cycle_parameters: bool,
-    /// Offsets of axes that are no main axes belong to their coordinate system (P-CHAN-00397).
+    /// Offsets of axes that are not main axes belong to their coordinate system (P-CHAN-00397).
     pub offsets_in_systems: bool,
     /// The offsets of a tool move with its D word (P-CHAN-00100).
     pub tool_offsets_at_once: bool,

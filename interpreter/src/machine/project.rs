@@ -5,7 +5,7 @@
 //! (names, numbers and count of the axes, cycle of the GEO task) is entered here too, and said in one note.
 //!
 //! The vendor does not describe the files. Assumption: elements as public tools that edit such projects find them. An axis
-//! holds `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; beside the list of an axis stand `ItemName` and the
+//! holds `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; beside the list of an axis are `ItemName` and the
 //! fields of its dialog `DefaultChannel` (from 1), `DefaultIndex` (from 0) and `DefaultProgName`. A text with keys of a
 //! start-up list is one, whatever its element is called; lists of defaults are called `DefaultAchsMds`, `DefaultSdaMds`.
 //!
@@ -33,6 +33,7 @@
 //! assert_eq!(machine.axes[0].name(), "X");
 //! ```
 
+mod axes;
 mod content;
 
 use super::axis::{AxisKind, kind_of, logical_number};
@@ -41,6 +42,7 @@ use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
 use super::table::{ListKind, channel as of, kontur as own};
 use crate::diag::{Condition, Diagnostic, Severity};
+use axes::same_number;
 pub use content::Part;
 use content::{Content, ListText};
 use kontur_filters::time::CycleTime;
@@ -284,81 +286,8 @@ impl<'a> Project<'a> {
         Ok(())
     }
 
-    /// Enters the axes of the first channel by their dialogs, as the tool does, and says where its list has others. Empty
-    /// if no dialog names one: the list of the channel rules.
-    fn name_axes(
-        &mut self,
-        content: &mut Content,
-        numbers: &[u32],
-        spindle: &[bool],
-    ) -> Vec<(String, u32)> {
-        let mut named: Vec<(u32, String, u32)> = content
-            .axes
-            .iter()
-            .zip(numbers)
-            .zip(spindle)
-            .filter(|((axis, _), spindle)| {
-                !**spindle && axis.channel == Some(1) && !axis.program_name.is_empty()
-            })
-            .map(|((axis, number), _)| (axis.index, axis.program_name.clone(), *number))
-            .collect();
-        named.sort_by_key(|(index, ..)| *index);
-        if named.iter().zip(0..).any(|((index, ..), place)| *index != place) {
-            let places: Vec<String> =
-                named.iter().map(|(index, name, _)| format!("{name} {index}")).collect();
-            let message = format!(
-                "the dialogs of the axes leave places of the channel empty or give one twice (DefaultIndex: {}): they are taken one after the other, the first three are the main axes",
-                places.join(", ")
-            );
-            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
-            self.said.push(said.hint("number the axes of the channel without gaps"));
-        }
-        let named: Vec<(String, u32)> =
-            named.into_iter().map(|(_, name, number)| (name, number)).collect();
-        let list = &mut content.channels[0].list;
-        let before = parameters(ListKind::Channel, &[list]);
-        let listed: Vec<(String, u32)> = (0..32)
-            .map_while(|i| {
-                let number = before.listed(of::AXIS_NUMBER.and(i).place())?;
-                Some((before.get(of::AXIS_NAME.and(i))?, number as u32))
-            })
-            .collect();
-        if named.is_empty() || named == listed {
-            return named;
-        }
-        if !listed.is_empty() {
-            let names = |of: &[(String, u32)]| -> String {
-                let each: Vec<String> =
-                    of.iter().map(|(name, number)| format!("{name} ({number})")).collect();
-                each.join(", ")
-            };
-            let message = format!(
-                "the dialogs of the axes say {}, the list of the channel says {}: the dialogs count",
-                names(&named),
-                names(&listed)
-            );
-            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
-            self.said.push(said.hint("activate the configuration once, or make both say the same"));
-        }
-        let mut entries = format!("gruppe[0].achs_anzahl {}\n", named.len());
-        for (i, (name, number)) in named.iter().enumerate() {
-            let _ = writeln!(
-                entries,
-                "gruppe[0].achse[{i}].bezeichnung {name}\ngruppe[0].achse[{i}].log_achs_nr {number}"
-            );
-        }
-        let own: Vec<String> = (0..32)
-            .flat_map(|i| {
-                ["bezeichnung", "log_achs_nr"].map(|key| format!("gruppe[0].achse[{i}].{key}"))
-            })
-            .chain(["gruppe[0].achs_anzahl".to_owned()])
-            .collect();
-        list.replace(&own.iter().map(String::as_str).collect::<Vec<_>>(), &entries);
-        named
-    }
-
     /// Enters the cycle of the project, in units of 100 ns, into `kontur.lis`, unless the file next to the project has one;
-    /// returns what becomes of it, and warns where the run would use a cycle that nobody named.
+    /// returns what becomes of it, and warns where the run would use a cycle that was not named.
     fn cycle(&mut self, units_100ns: Option<u32>, given: bool) -> String {
         let path = self.path(OWN_LIST);
         let real = match lists::find(self.files, &path) {
@@ -394,23 +323,6 @@ impl<'a> Project<'a> {
         }
         format!("; {why}{replaced}")
     }
-}
-
-/// Two axis lists have the same number, others have their own: K-0141.
-fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
-    let twice = numbers.iter().enumerate().find(|(i, number)| numbers[..*i].contains(*number));
-    let number = twice.map_or(0, |(_, number)| *number);
-    let names: Vec<String> = content
-        .axes
-        .iter()
-        .zip(numbers)
-        .filter(|(_, n)| **n == number)
-        .map(|(axis, _)| format!("`{}` of {}", axis.list.name, axis.list.file))
-        .collect();
-    let message = format!("axis lists with the same kopf.achs_nr {number}: {}", names.join(", "));
-    let hint = "give each axis a number of its own, or take the list out that is left over; only \
-                where all lists have the same number they are numbered in their order";
-    Diagnostic::new(Condition::ProjectWrong, message).hint(hint)
 }
 
 /// The parameters of texts, without their messages: the lists are read once more as files.

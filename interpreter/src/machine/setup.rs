@@ -6,6 +6,7 @@
 mod control;
 mod filters;
 mod ipc;
+mod monitors;
 mod plant;
 
 pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};

@@ -251,7 +251,7 @@ fn overrides_that_name_nothing_are_errors() {
             "Q.getriebe[0].kv=1",
             "targets are X, Y, S (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
         ),
-        // one mistake is told once, however many axes are meant
+        // one mistake is reported once, however many axes are meant
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
         ("X.vorsteuer.jerk_fact_nom=1", "did you mean `vorsteuer.jerk_fact_num`?"),
         ("X.kv=1", "did you mean `getriebe[i].kv`?"),

@@ -336,7 +336,7 @@ impl BlockReader {
                 break;
             }
         }
-        // The kept bytes go in front of the rest; the window then begins earlier in memory, not in the program.
+        // The kept bytes go before the rest; the window then begins earlier in memory, not in the program.
         let tail = self.window[self.at..self.filled].to_vec();
         self.base += self.at as u64;
         self.base -= LINE_BYTES as u64;

@@ -1,6 +1,6 @@
 //! Text files of users: lists, recordings, inputs, traces to compare.
 //!
-//! One reader with one limit for all of them. What is no text, or has a line without end, is refused in plain words
+//! One reader with one limit for all of them. What is not text, or has a line without end, is refused in plain words
 //! before it fills the memory.
 //!
 //! Order of calls: a file is opened, then read line by line to its end or first error.
@@ -12,7 +12,7 @@
 //! let mut read = String::new();
 //! Text::new(&b"t_s,X_set_mm\n0,1\n"[..])?.read_to_string(&mut read)?;
 //! assert_eq!(read.lines().count(), 2);
-//! // a file that is no text ends with a sentence
+//! // a file that is not text ends with a sentence
 //! let mut zeros = Text::new(std::io::repeat(0))?;
 //! assert!(zeros.read_to_string(&mut read).unwrap_err().to_string().contains("no text"));
 //! assert_eq!(beginning(&"1".repeat(1000)).len(), 83);

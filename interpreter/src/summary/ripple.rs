@@ -287,7 +287,7 @@ mod tests {
         // a polygon: three kinks of 20 degrees, which a circle of them adds up to more than a corner
         let speeds = [0.0, 10.0, 8.0, 10.0, 10.0, 8.0, 10.0, 10.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 20.0), (5, 20.0), (8, 20.0)], &[]), Some(0.2));
-        // a curve at constant speed in front of the dip does not make it a corner
+        // a curve at constant speed before the dip does not make it a corner
         let speeds = [0.0, 10.0, 10.0, 10.0, 10.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 5.0)], &[]), Some(0.2));
         // round a corner in small steps

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 impl Contour {
     /// The blocks that can be the nearest one of those interpolated between two moments (cycles) to a point of the line
-    /// between two points, or be taken for it; also of those interpolated up to `slack` cycles before and behind. Half the
+    /// between two points, or be taken for it; also of those interpolated up to `slack` cycles before and after. Half the
     /// length of the line from its middle a block is nearer, or further, by that much at most.
     ///
     /// `sight` is what earlier lines have shown; which blocks are found does not depend on it.
@@ -80,7 +80,7 @@ impl Contour {
         around
     }
 
-    /// Blocks interpolated between two moments (cycles), and those interpolated up to `slack` cycles before and behind.
+    /// Blocks interpolated between two moments (cycles), and those interpolated up to `slack` cycles before and after.
     fn within_reach(
         &self,
         (from, to): (f64, f64),

@@ -123,7 +123,7 @@ mod tests {
         )
     }
 
-    /// The caps in front of blocks, with a stop after the last one.
+    /// The caps before blocks, with a stop after the last one.
     fn closed(caps: &[f64]) -> Vec<Cap> {
         let corner = |v: &f64| Cap::new(*v, SpeedLimit::Corner);
         caps.iter().map(corner).chain([Cap::STOP]).collect()

@@ -110,7 +110,7 @@ impl Window<'_> {
             && from.brakes_late_into(to)
     }
 
-    /// Carries the braking that begins in front of the window as far as it needs.
+    /// Carries the braking that begins before the window as far as it needs.
     fn carry_start(&mut self) {
         let v0 = self.v_start.v_mm_s;
         for end in 1..self.blocks.len() {
@@ -145,7 +145,7 @@ impl Window<'_> {
     }
 
     /// Ends of runs across which braking should continue: with the speeds around as they are, the two runs and what lies
-    /// in front of them take less time.
+    /// before them take less time.
     fn joints(&self, plan: &[Span]) -> Vec<usize> {
         let mut out = Vec::new();
         let mut k = 1;

@@ -2,8 +2,8 @@
 //!
 //! A plan gets to a kink that holds it down as early as it can: at a local minimum of the speed with acceleration zero, on
 //! the way up with what a rise to this speed has left. Over both sides that is not the best: where the path may change its
-//! acceleration faster in front of the kink than after it, or has less to lose there, a slower approach pays that passes
-//! the kink at the same speed with an acceleration `a` under way. The lowest speed then lies in front of the kink: with
+//! acceleration faster before the kink than after it, or has less to lose there, a slower approach pays that passes
+//! the kink at the same speed with an acceleration `a` under way. The lowest speed then lies before the kink: with
 //! the jerk `j` of that block `a^2 / 2j` below the speed `v` at the kink, `v t - j t^3 / 3` away from it, `t = a / j`.
 //!
 //! To the first order in `a` one side loses the time `a rho / j`, the other one gains as much with its own `rho` and `j`;
@@ -38,7 +38,7 @@ const AT_LIMIT: f64 = 1e-6;
 
 /// A kink between two spans, and what may be had there.
 struct Kink {
-    /// What lies in front of it and after it.
+    /// What lies before it and after it.
     sides: [Alone; 2],
     v: f64,
     /// Acceleration with which it is passed, and the largest one that is tried, with their signs.

@@ -1,6 +1,6 @@
 //! A stretch: the blocks between two knots, as one length with the weakest of their limits.
 //!
-//! It knows its blocks; what stands at its ends is the window's.
+//! It knows its blocks; its ends belong to the window.
 
 use super::is_above;
 use crate::cap::Cap;

@@ -1,8 +1,9 @@
-//! The kit of all tests: random numbers, a comparison, and a mass on a spring by small steps. It depends on none of the crates
+//! The kit of all tests: random numbers, a comparison, tables of programs, and a mass on a spring by small steps. It depends on none of the crates
 //! that it tests.
 
 mod oscillator;
 mod random;
+pub mod rows;
 
 pub use oscillator::Oscillator;
 pub use random::{Random, count, environment, seed};

@@ -82,7 +82,7 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
     let blocks = case.blocks.iter().enumerate();
     for (i, (line_number, pieces)) in blocks.filter(|(_, (line, _))| is_filtered(case, *line)) {
         // a wait at the end of a block can follow a dwell of a later line
-        // and a rounded corner in front of the next block can be part of that
+        // and a rounded corner before the next block can be part of that
         let behind = case.blocks.get(i + 2).map_or(u32::MAX, |block| block.0);
         let Some(first) = records.iter().position(|r| r.line >= *line_number) else { continue };
         let last = records.iter().rposition(|r| r.line < behind).map_or(first, |k| k.max(first));

@@ -232,8 +232,8 @@ fn programs_of_every_kind() {
 }
 
 /// - Short blocks with dwells between them, under filters that hold several of them: what comes nearest to a missed corner was
-///   final already, and nobody was asked to wait until the filter had come nearer.
-/// - An override in front of a rest that the old plan kept short: longer rests exceed the tolerance there.
+///   final already, and the path was not asked to wait until the filter had come nearer.
+/// - An override before a rest that the old plan kept short: longer rests exceed the tolerance there.
 /// - A windowed sinc whose first taps move nothing for a while: it is not stuck.
 /// - Filters that arrive for one cycle, and owe a corner: what they did before counts.
 /// - Corners in the first cycle of a run, which the line from the start passes.

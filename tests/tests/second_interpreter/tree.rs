@@ -83,11 +83,11 @@ pub enum Insert {
 /// How the tool comes to a contour and leaves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
-    /// G139: with the line in front of the contour and the line behind it.
+    /// G139: with the line before the contour and the line after it.
     Lines,
     /// G237: perpendicular to the contour; the lines are those of the program.
     Perpendicular,
-    /// G239: as G139, but it stays at the end, and the program goes on from there.
+    /// G239: as G139, but it stays at the end, and the program continues from there.
     Stays,
 }
 

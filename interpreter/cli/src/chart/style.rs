@@ -173,7 +173,7 @@ mod tests {
                 );
             }
         }
-        // headline and facts stand on the ground
+        // headline and facts are drawn on the background
         for tone in [&INK, &FAINT] {
             assert!(
                 contrast(tone.light, GROUND.light) >= 4.5

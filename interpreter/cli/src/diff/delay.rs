@@ -44,7 +44,7 @@ struct Row {
 #[derive(Debug)]
 pub(super) struct Delays {
     candidates: Vec<Candidate>,
-    /// The rows before, the last one in front.
+    /// The rows before, the last one first.
     before: [VecDeque<Row>; 2],
 }
 

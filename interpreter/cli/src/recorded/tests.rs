@@ -21,7 +21,7 @@ fn separators_and_decimal_commas() {
     assert_eq!(two[1], ("b".to_owned(), Vec::new(), vec![2.0, 4.0, 6.0]));
 }
 
-/// The layout of TwinCAT Scope: keys in front of every group, two sampling times, repeated slow samples, ticks.
+/// The layout of TwinCAT Scope: keys before every group, two sampling times, repeated slow samples, ticks.
 #[test]
 fn scope_export() {
     let text = "Name\tScope01\nFile\tx.svdx\nStarttime of export\t132500000000000000\tMonday\n\n\

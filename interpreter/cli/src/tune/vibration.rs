@@ -250,7 +250,7 @@ fn of_decay(
     let peak = |v: &Vibration| v.amplitude / v.decay.value.max(1e-9);
     let inside = |v: &&Vibration| v.freq.value > range_hz.0 && v.freq.value < range_hz.1;
     let decaying = || found.iter().filter(|v| decays(v, used.seconds())).filter(inside);
-    // beside a transient what is left of it, or the digits of the file, are no vibrations
+    // beside a transient what is left of it, and the digits of the file, are not vibrations
     let highest = decaying().map(peak).fold(f64::MIN_POSITIVE, f64::max);
     let mut modes: Vec<&Vibration> =
         decaying().filter(|v| v.damping.value < MOST_DAMPING).collect();

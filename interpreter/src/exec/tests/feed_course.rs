@@ -1,7 +1,7 @@
 //! Feeds that change along a motion, against the formulas of the manual: G13 and G193 linear along the path, G293 linear over the
 //! time.
 
-use super::{clean, run};
+use super::clean;
 use kontur_motion::block::Feed;
 
 /// Length, feed and end of each piece whose way in X lies between two places.
@@ -67,7 +67,7 @@ fn the_feed_falls_in_front_of_a_corner() {
 fn a_motion_shorter_than_the_distance_begins_where_the_fall_has_come_to() {
     let v = 1000.0 / 60.0;
     let all = pieces(&CORNER.replace("X50", "X14"), 10.0, 14.0);
-    // 4 mm in front of the corner 70 % of the feed are due
+    // 4 mm before the corner 70 % of the feed are due
     follow(&all, 10.0, 14.0, |s| v * (0.7 - 0.05 * s));
 }
 
@@ -101,30 +101,4 @@ fn the_feed_is_interpolated_over_path_and_time() {
     // upwards, too
     let up = text.replace("F400", "F2000");
     follow(&pieces(&up, 50.0, 90.0), 50.0, 90.0, |s| v * (1.0 + s / 40.0));
-}
-
-#[test]
-fn what_does_not_go_with_it() {
-    for (text, ids) in [
-        ("#CORNER PARAM [DIST=0 UNIT=PERCENT FEED=50]\n", &["21296"][..]),
-        ("#CORNER PARAM [DIST=1 UNIT=PART FEED=50]\n", &["21220"]),
-        ("#CORNER PARAM [DIST=1 FEED=50]\n", &["21220"]),
-        ("#SET CORNER PARAM [10, 2, 50]\n", &["K-0009"]),
-        ("#SET CORNER PARAM [10, 1]\n", &["21220"]),
-        // with the slope of the machine, TRAPEZ or STEP, as it is switched
-        ("#SLOPE [TYPE=TRAPEZ]\nG01 X1 F100\nG193 X2 F50\n", &["K-0100"]),
-        ("#SLOPE [TYPE=HSC]\nG01 X1 F100\nG193 X2 F50\n", &["K-0019"]),
-        ("#SLOPE [TYPE=HSC]\nG01 X1 F100\nG293 X2 F50\n", &["K-0100"]),
-        ("#SLOPE [TYPE=STEP]\nG01 G193 X2 F50\n", &["20008"]),
-        ("#SLOPE [TYPE=STEP]\nF100\nG01 G61 G193 X2 F50\n", &["K-0019"]),
-        ("#SLOPE [TYPE=STEP]\nF100\nV.G.WZ_AKT.R=1\nG41 G01 X1\nG193 X2 F50\n", &["K-0019"]),
-        (
-            "#CORNER PARAM [DIST=1 UNIT=PERCENT FEED=50]\n#SLOPE [TYPE=STEP]\nG13 F100\nG01 G193 X2 F50\n",
-            &["K-0019"],
-        ),
-    ] {
-        assert_eq!(run(&format!("{text}M30\n")).ids(), ids, "{text}");
-    }
-    // rapid traverse has no feed that could fall
-    assert_eq!(clean(&CORNER.replace("N40", "N40 G00")).blocks().len(), 3);
 }

@@ -3,67 +3,11 @@
 //!
 //! Expected points by elementary geometry, and distances from the contour by brute force over random contours.
 
-use super::{Step, assert_near, clean, run};
+use super::{Step, run};
 use kontur_kit::Random;
 use std::fmt::Write as _;
 
 const TRC: &str = "#TRC [PERPENDICULAR_RADIUS_CHANGE=1]\nG138 F100\n";
-
-fn ends(text: &str) -> Vec<Vec<f64>> {
-    clean(&format!("{TRC}{text}\nM30\n")).ends()
-}
-
-fn assert_points(found: &[Vec<f64>], expected: &[[f64; 2]]) {
-    assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (found, expected) in found.iter().zip(expected) {
-        assert_near(&found[..2], expected);
-    }
-}
-
-#[test]
-fn the_inside_corner_has_the_larger_radius() {
-    // up along Y and on along X, the tool in the corner: radius 2, then 3
-    let larger = ends("V.G.WZ_AKT.R=2\nG42 X0 Y-20\nY0\nV.G.WZ_AKT.R=3\nX30\nG40 X50 Y0");
-    assert_points(&larger, &[[2.0, -20.0], [2.0, -3.0], [3.0, -3.0], [30.0, -3.0], [50.0, 0.0]]);
-    let smaller = ends("V.G.WZ_AKT.R=3\nG42 X0 Y-20\nY0\nV.G.WZ_AKT.R=2\nX30\nG40 X50 Y0");
-    assert_points(&smaller, &[[3.0, -20.0], [3.0, -3.0], [3.0, -2.0], [30.0, -2.0], [50.0, 0.0]]);
-}
-
-#[test]
-fn the_outside_corner_has_the_larger_radius() {
-    let larger = ends("G26 V.G.WZ_AKT.R=2\nG41 X0 Y-20\nY0\nV.G.WZ_AKT.R=3\nX30\nG40 X50 Y0");
-    assert_points(
-        &larger,
-        &[[-2.0, -20.0], [-2.0, 0.0], [-3.0, 0.0], [0.0, 3.0], [30.0, 3.0], [50.0, 0.0]],
-    );
-    let smaller = ends("G26 V.G.WZ_AKT.R=3\nG41 X0 Y-20\nY0\nV.G.WZ_AKT.R=2\nX30\nG40 X50 Y0");
-    assert_points(
-        &smaller,
-        &[[-3.0, -20.0], [-3.0, 0.0], [0.0, 3.0], [0.0, 2.0], [30.0, 2.0], [50.0, 0.0]],
-    );
-}
-
-#[test]
-fn without_the_option_a_line_leads_to_the_new_radius() {
-    let text =
-        "V.G.WZ_AKT.R=2\nG138 G42 F100 X0 Y-20\nY0\nV.G.WZ_AKT.R=3\nX30\nX60\nG40 X80\nM30\n";
-    let e = clean(text).ends();
-    assert_near(&e[1][..2], &[2.0, 0.0]);
-    assert_near(&e[2][..2], &[30.0, -3.0]);
-}
-
-#[test]
-fn a_suppressed_compensation_follows_the_contour() {
-    let run = clean(
-        "V.G.WZ_AKT.R=2\n#TRC [SUPPRESS_TRC=1]\nG41 F100 X0 Y-20\nY0\nX30\nG40 X50\n\
-         #TRC [SUPPRESS_TRC=0]\nG138 G41 X50 Y0\nX80\nG40 X90 Y5\nM30\n",
-    );
-    let e = run.ends();
-    assert_points(&e[..4], &[[0.0, -20.0], [0.0, 0.0], [30.0, 0.0], [50.0, 0.0]]);
-    assert_near(&e[e.len() - 2][..2], &[80.0, 2.0]);
-    let inside = "V.G.WZ_AKT.R=2\nG41 F100 X10\nX20\n#TRC [SUPPRESS_TRC=1]\nM30\n";
-    assert_eq!(super::run(inside).ids()[0], "K-0019");
-}
 
 /// Distance of a point from a line between two others.
 fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {

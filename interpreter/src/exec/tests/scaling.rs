@@ -1,6 +1,6 @@
 //! `#SCALE`: what a program does with it is what the same program does whose coordinates are written larger or smaller.
 
-use super::{clean, run, said};
+use super::clean;
 use kontur_kit::Random;
 
 /// Points of every motion of a program.
@@ -119,37 +119,4 @@ fn independent_axes_are_scaled() {
     let bracket = |to: f64| format!("Z[INDP_SYN G90 G01 FEED=500 POS={to}]\n");
     let scaled = format!("#SCALE ON Z2\nG01 F500 X1\n{}M30\n", bracket(7.0));
     assert_eq!(targets(&scaled), targets(&format!("G01 F500 X1\n{}M30\n", bracket(14.0))));
-}
-
-#[test]
-fn what_the_page_does_not_say_is_refused() {
-    let on = "G01 F500 X1\n#SCALE ON X2 Y2\n";
-    for text in [
-        "X10\nG301 I2\nY10",
-        "X10 #CHR=1\nY10",
-        "#SCALE OFF\n#SCALE ON X3\nG02 X10 Y0 R20",
-        "P1=V.A.ABS.X",
-        "X[OSC ON 1ST_POS=1 2ND_POS=2 FEED=100]",
-        "X[SET_POSITION POS=3]",
-        "#ANG=30 X10",
-        "G303 I1 J1 K0 X10 Y5 Z0",
-        "G151\nX10\nX20",
-        "G100 X5",
-        "#MCS ON\nX10",
-    ] {
-        let ids = run(&format!("{on}{text}\nM30\n")).ids();
-        assert!(ids.iter().any(|id| id == "K-0019"), "{text}: {ids:?}");
-    }
-    for (text, id) in [
-        ("#SCALE", "21220"),
-        ("#SCALE OFF X2", "21220"),
-        ("#SCALE X0", "21296"),
-        ("#SCALE ON X-1", "21296"),
-        ("#SCALE ON X2\n#SCALE X3", "K-0002"),
-    ] {
-        let ids = said(text);
-        assert!(ids.iter().any(|x| x == id), "{text}: {ids:?}");
-    }
-    // an axis that is not scaled keeps its coordinate
-    assert_eq!(said("#SCALE ON Y2\nP1=V.A.ABS.X"), [""; 0]);
 }

@@ -36,7 +36,7 @@ fn motion(random: &mut Random, number: usize) -> [String; 2] {
             2 if random.below(4) == 0 => "600".to_owned(),
             _ => format!("{}.{}", random.below(30), random.below(1000)),
         };
-        // M takes no blank, and what is wrong inside a bracket would stand in another column
+        // M takes no blank, and what is wrong inside a bracket would be in another column
         let blank = letter != " M" && !value.starts_with('[') && (!changed || random.below(2) == 0);
         changed |= blank;
         let (before, behind) = if blank { (" ", " ") } else { ("", "") };

@@ -4,7 +4,7 @@ use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Optional, Param, whole};
 
-/// When the path waits for a spindle that has been told something.
+/// When the path waits for a spindle that got a command.
 ///
 /// Source: TF5200 M and H functions 286059787; P-CHAN-00041.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

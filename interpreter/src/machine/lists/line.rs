@@ -88,7 +88,7 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     }
     if let Raw::Flags(names) = raw {
         let value = flags(rest);
-        // a further flag that nothing joins is not meant as a comment; behind a number its name is one, as in the vendor's lists
+        // a further flag that nothing joins is not meant as a comment; after a number its name is one, as in the vendor's lists
         let is_number = value.starts_with(|c: char| c.is_ascii_digit());
         let next = rest[value.len()..].split_whitespace().next().filter(|_| !is_number);
         let flag = |word: &&str| {

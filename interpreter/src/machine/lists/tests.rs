@@ -124,7 +124,7 @@ fn unknown_keys_are_counted_and_named_once() {
     );
 }
 
-/// An index beyond its array is no misspelt key: the message names the index and the array, not the key itself again.
+/// An index beyond its array is not a misspelt key: the message names the index and the array, not the key itself again.
 #[test]
 fn an_index_beyond_its_array_is_named() {
     for (line, text) in [

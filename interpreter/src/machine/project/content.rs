@@ -49,7 +49,7 @@ impl ListText {
         format!("{}{}", "\n".repeat(self.before), self.text)
     }
 
-    /// Puts an entry after the last line that is read: in front of the end mark if there is one.
+    /// Puts an entry after the last line that is read: before the end mark if there is one.
     pub(super) fn enter(&mut self, entry: &str) {
         let lines: Vec<&str> = self.text.split('\n').collect();
         let end = lines.iter().position(|line| is_end(line)).unwrap_or(lines.len());

@@ -1,6 +1,6 @@
-//! Feedforward, position controller, monitors and drive formats of one axis.
+//! Feedforward, position controller and drive formats of one axis.
 
-use super::plant;
+use super::{monitors, plant};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::axis::AxisKind;
 use crate::machine::table::param::{Number, Param, Place};
@@ -12,9 +12,6 @@ use crate::machine::{Axis, issues};
 use kontur_filters::control::{
     AxisControlConfig, Encoder, FeedforwardConfig, FeedforwardMode, PositionConfig, PositionLoop,
     feedforward::AdditiveInputs,
-    monitor::{
-        ExactStopConfig, LagMonitorConfig, LagMonitorType, SetpointMonitorConfig, Thresholds,
-    },
     position::DynamicKv,
     scaling::{self, Motor, SpeedFormat, TimeBase, TorqueFormat, encoder_resolution},
 };
@@ -70,9 +67,9 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
         encoder: encoder(axis),
         increment_mm: increment_mm(axis),
         plant: plant::config(axis),
-        lag: lag(axis, drive),
-        exact_stop: exact_stop(axis),
-        setpoint: setpoint(axis, limits.v_max_mm_s, limits.a_max_mm_s2, j_max_mm_s3),
+        lag: monitors::lag(axis, matches!(drive, Drive::Bus | Drive::Profidrive)),
+        exact_stop: monitors::exact_stop(axis),
+        setpoint: monitors::setpoint(axis, limits.v_max_mm_s, limits.a_max_mm_s2, j_max_mm_s3),
         command_format,
         torque: torque(axis, diagnostics),
         ..AxisControlConfig::new(limits.v_max_mm_s, limits.a_max_mm_s2, j_max_mm_s3)
@@ -349,54 +346,6 @@ fn increment_mm(axis: &Axis) -> f64 {
         )
     };
     scaling::increment_mm(resolution, axis.get(of::DROPPED_BITS))
-}
-
-fn lag(axis: &Axis, drive: Drive) -> LagMonitorConfig {
-    // P-AXIS-00191: the default holds for digital drives
-    let digital = matches!(drive, Drive::Bus | Drive::Profidrive);
-    let delay = digital || axis.set_by(of::LAG_DELAY).is_some();
-    LagMonitorConfig {
-        kind: match axis.get(axis_control::LAG_MONITOR) {
-            1 => LagMonitorType::Standard,
-            2 => LagMonitorType::Linear,
-            4 => LagMonitorType::VelocityIndependent,
-            _ => LagMonitorType::Off,
-        },
-        dynamics: axis.get(axis_control::LAG_DYNAMICS),
-        lag_max_mm: axis.get(axis_control::LAG_MAX),
-        lag_min_mm: axis.get(axis_control::LAG_MIN),
-        shift_s: axis.get(axis_control::LAG_SHIFT),
-        tolerance_s: axis.get(axis_control::LAG_TOLERANCE),
-        delay_cycles: if delay { axis.get(of::LAG_DELAY) as usize } else { 0 },
-        suppress: axis.get(axis_general::LAG_SUPPRESSED),
-    }
-}
-
-/// P-AXIS-00532 rules; below 0 the older P-AXIS-00151 does. 0 of either switches off.
-fn exact_stop(axis: &Axis) -> ExactStopConfig {
-    let time_s = axis.get(axis_control::SETTLING_TIME);
-    let time_s = if time_s < 0.0 { axis.get(axis_control::SETTLING_TIME_OLD) } else { time_s };
-    ExactStopConfig { window_mm: axis.window_mm(), settling_s: Some(time_s).filter(|t| *t > 0.0) }
-}
-
-fn setpoint(
-    axis: &Axis,
-    v_max_mm_s: f64,
-    a_max_mm_s2: f64,
-    j_max_mm_s3: f64,
-) -> SetpointMonitorConfig {
-    let thresholds = |warning: Param<Number>, error: Param<Number>| Thresholds {
-        warn_ratio: axis.get(warning),
-        error_ratio: axis.get(error),
-    };
-    SetpointMonitorConfig {
-        v_max_mm_s,
-        a_max_mm_s2,
-        j_max_mm_s3,
-        velocity: thresholds(axis_general::SPEED_WARNING, axis_general::SPEED_ERROR),
-        acceleration: thresholds(axis_general::ACC_WARNING, axis_general::ACC_ERROR),
-        jerk: thresholds(axis_general::JERK_WARNING, axis_general::JERK_ERROR),
-    }
 }
 
 fn resolution(axis: &Axis) -> SpeedFormat {

@@ -94,7 +94,7 @@ fn documented_reactions_to_values_out_of_range() {
         let mut files = Memory::machine();
         files.put("m/lists/y.lis", &format!("kopf.achs_nr 1\n{line}\n"));
         let (machine, mut warnings) = files.load(&[]).unwrap();
-        // a corrected value may still be no recommended one
+        // a corrected value may still not be a recommended one
         warnings.retain(|d| d.id != Condition::ListAdvice);
         let found: Vec<String> = warnings.iter().map(|d| d.id.to_string()).collect();
         assert_eq!(found, [id], "{line}");

@@ -2,7 +2,7 @@
 //!
 //! The change of speed up to the peak and the one down from it are independent, and the displacement of both is a
 //! closed form of the peak velocity `v`. It grows with `v` (next to a reversal it may fall first, but then crosses
-//! the wanted one only once), so comparing it at the velocities where a limit comes into play tells which limits
+//! the wanted one only once), so comparing it at the velocities where a limit comes into play shows which limits
 //! are reached; only the equation of that case is solved.
 
 use super::scaled::{Problem, settled_velocity};

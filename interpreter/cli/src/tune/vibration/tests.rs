@@ -212,7 +212,7 @@ fn two_modes() {
 }
 
 /// A decay without noise, its eighth decimal rounded: up to a damping of 0.3 it is found, above it is a transient, and the
-/// rounding beside it is no vibration.
+/// rounding beside it is not a vibration.
 #[test]
 fn the_digits_of_a_file_are_no_vibration() {
     for (z, is_vibration) in [(0.04, true), (0.15, true), (0.28, true), (0.32, false), (0.4, false)]

@@ -2,7 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+#[path = "../kit/mod.rs"]
 mod kit;
+mod parts;
 
 use kit::Folder;
 use kontur::Exit;
@@ -102,6 +104,11 @@ fn expected() -> String {
     let (exit, trace, said) = run(&folder, "xyz");
     assert_eq!((exit, said.as_str()), (Exit::Finished, ""));
     trace
+}
+
+/// The item of an axis or channel in a separate file.
+fn item(inside: &str) -> String {
+    format!("<TcSmItem>{inside}</TcSmItem>")
 }
 
 #[test]
@@ -252,66 +259,6 @@ fn hostile_xml_ends_in_a_message() {
     }
 }
 
-/// The item of an axis or channel in a separate file.
-fn item(inside: &str) -> String {
-    format!("<TcSmItem>{inside}</TcSmItem>")
-}
-
-/// The number of a channel says which is the first, not the place of its file or element.
-#[test]
-fn the_first_channel_is_that_with_the_smallest_number() {
-    let folder = folder();
-    let expected = expected();
-    let of =
-        |id: u32, list: &str| channel(list).replace("<Channel>", &format!("<Channel Id=\"{id}\">"));
-    let first = list("channel.lis");
-    // steps of acceleration instead of ramps: another trace
-    let second =
-        first.replace("prog_start.slope.profile           1", "prog_start.slope.profile 0");
-    assert_ne!(first, second);
-    let inside = format!("{TASK}{}{}{}", all_axes(), of(2, &second), of(1, &first));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
-    assert!(said.contains("one channel is simulated") && !said.contains("kanal_anzahl"), "{said}");
-    // the same by files: Aux.xti comes first by its name
-    fs::create_dir_all(folder.path("_Config")).unwrap();
-    fs::write(folder.path("_Config/Aux.xti"), item(&channel(&second))).unwrap();
-    fs::write(folder.path("_Config/Main.xti"), item(&channel(&first))).unwrap();
-    let named = "<Channel File=\"Main.xti\" Id=\"1\"/><Channel File=\"Aux.xti\" Id=\"2\"/>";
-    fs::write(folder.path("machine.tsproj"), project(&format!("{TASK}{}{named}", all_axes())))
-        .unwrap();
-    let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
-}
-
-/// Files that the project does not name and items that are switched off are not axes; they are named.
-#[test]
-fn what_does_not_belong_to_the_project_is_left_out() {
-    let folder = folder();
-    let expected = expected();
-    let x = axis("X", "x.lis", (1, 0));
-    fs::create_dir_all(folder.path("_Config/CNC")).unwrap();
-    fs::write(folder.path("_Config/CNC/Axis_0 (old).xti"), item(&x)).unwrap();
-    fs::write(folder.path("_Config/CNC/Axis_1.xti"), item(&x)).unwrap();
-    let others = all_axes().replace(&x, "");
-    let off =
-        axis("Q", "x.lis", (1, 5)).replace("<Axis Id=\"1\">", "<Axis Id=\"9\" Disabled=\"true\">");
-    let channel = channel(&list("channel.lis"));
-    let inside = format!("{TASK}<Axis File=\"Axis_1.xti\" Id=\"1\"/>{others}{off}{channel}");
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
-    assert!(said.contains("Axis_0 (old).xti (not named by the project)"), "{said}");
-    assert!(said.contains("`Q-Achse`") && said.contains("(switched off)"), "{said}");
-    // without references all of them are exported items: one number twice, the others different
-    fs::remove_file(folder.path("machine.tsproj")).unwrap();
-    fs::write(folder.path("_Config/CNC/Rest.xti"), item(&format!("{others}{channel}"))).unwrap();
-    let (exit, _, said) = run(&folder, "_Config");
-    assert_eq!(exit, Exit::Usage, "{said}");
-    assert!(said.contains("K-0141") && said.contains("kopf.achs_nr 1"), "{said}");
-}
-
 /// The cycle of the GEO task reaches a `kontur.lis` with an end mark, gives way to a key of any case, and is not cut off.
 #[test]
 fn the_cycle_of_the_task() {
@@ -340,7 +287,7 @@ fn the_cycle_of_the_task() {
     }
 }
 
-/// A run does not take a cycle that nobody named without a warning; whoever names one is not warned.
+/// A run does not take a cycle that was not named without a warning; whoever names one is not warned.
 #[test]
 fn a_cycle_that_is_assumed_is_a_warning() {
     let folder = folder();
@@ -378,102 +325,6 @@ fn a_cycle_that_is_assumed_is_a_warning() {
     with(TASK);
     let (passed, text) = said(&[]);
     assert!(passed && !text.contains("assumed"), "{text}");
-}
-
-/// A part that the project names and that was not copied is named in a warning; a terminal, or an axis that is switched off,
-/// is not missed.
-#[test]
-fn a_missing_part_is_named() {
-    let folder = folder();
-    let parts = folder.path("_Config/CNC");
-    fs::create_dir_all(&parts).unwrap();
-    let axes =
-        ["X", "Y", "Z"].map(|name| axis(name, &format!("{}.lis", name.to_lowercase()), (1, 0)));
-    for (i, (text, place)) in axes.iter().zip(0..).enumerate() {
-        let index = format!("<DefaultIndex>{place}</DefaultIndex>");
-        let text = item(&text.replace("<DefaultIndex>0</DefaultIndex>", &index));
-        fs::write(parts.join(format!("Axis_{}.xti", i + 1)), text).unwrap();
-    }
-    let named =
-        [1, 2, 3].map(|i| format!("<Axis File=\"CNC\\AXIS_{i}.xti\" Id=\"{i}\"/>")).concat();
-    let others = "<Axis File=\"Off.xti\" Disabled=\"true\"/><Box File=\"Terminal 1.xti\"/>";
-    let inside = format!(
-        "{TASK}{named}{others}{}{}",
-        axis("", "s.lis", (1, 3)),
-        channel(&list("channel.lis"))
-    );
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace), (Exit::Finished, expected()), "{said}");
-    assert!(!said.contains("not there"), "{said}");
-    fs::remove_file(parts.join("Axis_2.xti")).unwrap();
-    let (_, _, said) = folder.call(&["check", "@part.nc", "-m", "@machine.tsproj"]);
-    assert!(said.contains("warning[K-0140]"), "{said}");
-    assert!(said.contains("not there: CNC\\AXIS_2.xti;"), "{said}");
-    fs::remove_file(parts.join("Axis_1.xti")).unwrap();
-    fs::remove_file(parts.join("Axis_3.xti")).unwrap();
-    let (_, _, said) = folder.call(&["check", "@part.nc", "-m", "@machine.tsproj"]);
-    assert!(
-        said.contains("not there: CNC\\AXIS_1.xti, CNC\\AXIS_2.xti, CNC\\AXIS_3.xti"),
-        "{said}"
-    );
-}
-
-/// Names of lists in other capital letters, as copies from Windows have them: the same machine, with a note for each.
-#[test]
-fn names_of_lists_in_other_capital_letters() {
-    let expected = expected();
-    let folder = folder();
-    let machine = folder.path("copy");
-    fs::create_dir(&machine).unwrap();
-    for (name, copy) in [
-        ("hochlauf.lis", "Hochlauf.lis"),
-        ("channel.lis", "Channel.LIS"),
-        ("axes.lis", "axes.lis"),
-        ("x.lis", "X.LIS"),
-        ("y.lis", "y.lis"),
-        ("z.lis", "z.lis"),
-        ("s.lis", "s.lis"),
-        ("kontur.lis", "KONTUR.lis"),
-    ] {
-        fs::write(machine.join(copy), list(name)).unwrap();
-    }
-    let (exit, trace, said) = run(&folder, "copy");
-    assert_eq!((exit, trace), (Exit::Finished, expected), "{said}");
-    for note in ["channel.lis is Channel.LIS", "x.lis is X.LIS", "kontur.lis is KONTUR.lis"] {
-        assert!(said.contains("note[K-0109]") && said.contains(note), "{note}: {said}");
-    }
-    assert!(!said.contains("y.lis is"), "{said}");
-    // none at all is none
-    fs::remove_file(machine.join("X.LIS")).unwrap();
-    let (exit, _, said) = run(&folder, "copy");
-    assert!(exit == Exit::Usage && said.contains("x.lis` cannot be read"), "{said}");
-}
-
-/// Names and places of the axes: none at all, and places that are left empty.
-#[test]
-fn names_and_places_of_the_axes() {
-    let folder = folder();
-    let nameless = all_axes()
-        .replace("<DefaultProgName>", "<Other>")
-        .replace("</DefaultProgName>", "</Other>");
-    let inside = format!("{TASK}{nameless}{}", channel("prog_start.slope.profile 1"));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Usage, "{said}");
-    assert!(said.contains("K-0141") && said.contains("names an axis"), "{said}");
-    let gap =
-        all_axes().replace("<DefaultIndex>2</DefaultIndex>", "<DefaultIndex>4</DefaultIndex>");
-    let inside = format!("{TASK}{gap}{}", channel(&list("channel.lis")));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Finished, "{said}");
-    assert!(said.contains("DefaultIndex: X 0, Y 1, Z 4"), "{said}");
-    // another encoding
-    fs::write(folder.path("machine.tsproj"), b"<P>\xb5</P>").unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Usage, "{said}");
-    assert!(said.contains("K-0141") && said.contains("UTF-8"), "{said}");
 }
 
 /// The folder of a solution, whose project has a separate folder.

@@ -1,5 +1,7 @@
 //! Where a run was and where its time went: files of subroutines, dwells, rapid blocks, declared technology times.
 
+mod sweeps;
+
 use kontur::Exit;
 use kontur_tests::command::command;
 use serde_json::Value;
@@ -219,7 +221,7 @@ fn kinds_of_synchronisation() {
     }
 }
 
-/// A function with a duration stops the path where it acts: M07 in front of its block, M05 after it. Its cycles are of its
+/// A function with a duration stops the path where it acts: M07 before its block, M05 after it. Its cycles are of its
 /// block.
 #[test]
 fn functions_that_take_time_stop_the_path() {
@@ -249,140 +251,6 @@ fn functions_that_take_time_stop_the_path() {
         near.map(|r| r[v].parse::<f64>().unwrap()).fold(f64::INFINITY, f64::min)
     };
     assert!(slowest(20.0) > 99.0 && slowest(30.0) > 99.0);
-}
-
-/// Rows of a sweep over a square, by columns.
-fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
-    let folder = Folder::new(&[("part.nc", program)]);
-    let part = folder.path("part.nc");
-    let mut words = vec!["sweep", &part, "--columns", "duration_s,contour_err_mm"];
-    words.extend(vary.iter().flat_map(|v| ["--vary", v]));
-    let done = command(&words);
-    assert_eq!(done.exit, Exit::Finished, "{}", done.err);
-    let rows = done.out.lines().skip(1);
-    (rows.map(|l| l.split(',').map(str::to_owned).collect()).collect(), done.err)
-}
-
-const SQUARE: &str = "G01 X1 F4000\nY1\nX0\nY0\nM30\n";
-
-/// All axes vary together with `*` and with a list of names, as with one `--set` each.
-#[test]
-fn axes_vary_together() {
-    let square = format!("#VIB GUARD ON\n{SQUARE}");
-    let (rows, err) = sweep(&square, &["*.vib_guard.freq=20,40"]);
-    assert!(!err.contains("every value gives the same"), "{err}");
-    for (row, hz) in rows.iter().zip(["20", "40"]) {
-        let each: Vec<String> = ["X", "Y", "Z"].map(|a| format!("{a}.vib_guard.freq={hz}")).into();
-        let (one, _) = sweep(&square, &each.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(row[1..], one[0][3..], "{hz} Hz");
-        let (named, _) = sweep(&square, &[&format!("X,Y,Z.vib_guard.freq={hz}")]);
-        // the key has commas: its cell is quoted, the results are the last ones
-        assert_eq!(row[1..], named[0][named[0].len() - row.len() + 1..], "{hz} Hz");
-    }
-    assert_ne!(rows[0][1..], rows[1][1..]);
-}
-
-/// What a program sets itself does not vary: the sweep says so.
-#[test]
-fn a_value_that_the_program_sets_itself_is_told() {
-    let own = format!("#VIB GUARD ON [MODE=1 FREQ=30]\n{SQUARE}");
-    let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
-    assert_eq!(rows[0][1..], rows[1][1..]);
-    assert!(err.contains("*.vib_guard.freq: every value gives the same results"), "{err}");
-    // in every row, too
-    assert!(rows.iter().all(|row| row.last().unwrap() == "*.vib_guard.freq"), "{rows:?}");
-}
-
-/// A number in the program varies as if another program had been written; a name goes to several places at once.
-#[test]
-fn numbers_in_a_program_vary() {
-    let part = |x: &str, hz: &str| {
-        format!("P1={x} (P1=3)\n#VIB GUARD ON [MODE=1 FREQ={hz}]\nG01 X=P1 F4000\nY1\nM30\n")
-    };
-    let (rows, err) = sweep(&part("7", "30"), &["program.P1=1,2", "program.FREQ=20,40"]);
-    assert!(!err.contains("every value gives the same"), "{err}");
-    let places = [("1", "20"), ("1", "40"), ("2", "20"), ("2", "40")];
-    assert_eq!(rows.len(), places.len());
-    for (row, (x, hz)) in rows.iter().zip(places) {
-        let (written, _) = sweep(&part(x, hz), &["X.vib_guard.mode=1"]);
-        assert_eq!((&*row[0], &*row[1], &row[2..]), (x, hz, &written[0][1..]), "{x} {hz}");
-    }
-    let (named, _) =
-        sweep(&part("2", "30"), &["F=20,40", "program[2].FREQ={F}", "X.vib_guard.freq={F}"]);
-    for (row, of) in named.iter().zip(&rows[2..]) {
-        assert_eq!((&row[1], &row[2], &row[3..]), (&row[0], &row[0], &of[2..]));
-    }
-}
-
-/// External variables carry the words of a command.
-#[test]
-fn values_of_a_program_vary() {
-    let with = |value: &str| format!("#VIB GUARD ON [MODE=1 FREQ={value}]\n{SQUARE}");
-    let (rows, err) = sweep(&with("V.E.HZ"), &["V.E.HZ=20,40"]);
-    assert!(!err.contains("every value"), "{err}");
-    for (row, hz) in rows.iter().zip(["20", "40"]) {
-        let (fixed, _) = sweep(&with(hz), &["X.vib_guard.freq=33"]);
-        assert_eq!(row[1..], fixed[0][1..]);
-    }
-}
-
-/// Part by part, in any order: the rows of the parts, one after the other, are the table. All parts are refused alike where
-/// there are more of them than runs.
-#[test]
-fn shards_together_are_the_sweep() {
-    let folder = Folder::new(&[("part.nc", SQUARE)]);
-    let part = folder.path("part.nc");
-    let words = ["sweep", &part, "--vary", "*.vib_guard.freq=20..24", "--vary", "V.E.A=1,2"];
-    let with = |more: &[&str]| command([&words[..], more].concat());
-    let whole = with(&[]).out;
-    // the last column is what a part knows of itself alone
-    assert!(whole.lines().next().is_some_and(|header| header.ends_with(",without_effect")));
-    let known = |table: &str| -> String {
-        table.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0)).collect()
-    };
-    let (header, rows) = whole.split_once('\n').unwrap();
-    for parts in [1, 3, 10] {
-        let mut all = vec![String::new(); parts];
-        for i in (0..parts).rev() {
-            let done = with(&["--shard", &format!("{}/{parts}", i + 1)]);
-            assert_eq!(done.exit, Exit::Finished, "{}", done.err);
-            let (head, part) = done.out.split_once('\n').unwrap();
-            assert_eq!(head, header);
-            // rows of one frequency and the next, of V.E.A 1 and 2, or a single row, of which nothing is known
-            let expected: &[&str] = match (parts, i) {
-                (10, _) => &[],
-                _ => &["*.vib_guard.freq", "V.E.A"],
-            };
-            for key in expected {
-                let said = format!("{key}: in this part every value gives the same results");
-                assert!(done.err.contains(&said), "{}", done.err);
-            }
-            let noted = part.lines().all(|row| row.ends_with(&format!(",{}", expected.join(" "))));
-            assert!(noted && expected.is_empty() != done.err.contains("every value"), "{part}");
-            all[i] = part.to_owned();
-        }
-        assert_eq!(known(&all.concat()), known(rows), "{parts} parts");
-    }
-    for wrong in ["1/11", "11/11"] {
-        let done = with(&["--shard", wrong]);
-        assert_eq!(done.exit, Exit::Usage);
-        assert!(done.err.contains("11 parts of 10 combinations"), "{}", done.err);
-    }
-    let picture = folder.path("a.svg");
-    assert_eq!(with(&["--shard", "1/2", "-o", &picture]).exit, Exit::Usage);
-}
-
-/// A job whose every run ends with an error has still been done.
-#[test]
-fn a_shard_of_aborted_runs_is_finished() {
-    let folder = Folder::new(&[("part.nc", "G01 X[V.E.A] F1000\nM30\n")]);
-    let part = folder.path("part.nc");
-    let words = ["sweep", &part, "--vary", "V.E.A=1,2,70000,80000", "--columns", "duration_s"];
-    let second = command([&words[..], &["--shard", "2/2"]].concat());
-    assert_eq!(second.exit, Exit::Finished, "{}", second.err);
-    assert_eq!(second.out.matches(",aborted,").count(), 2, "{}", second.out);
-    let whole = command(["sweep", &part, "--vary", "V.E.A=70000,80000"]);
-    assert_eq!(whole.exit, Exit::Aborted);
 }
 
 /// With JSON messages every line of stderr is an object: what is wrong with files, lists and settings too.

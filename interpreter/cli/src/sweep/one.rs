@@ -1,0 +1,100 @@
+//! One run of a sweep: its row, with the amplitudes that are wanted.
+
+use super::rows::{Outcome, Row};
+use super::{Failure, columns};
+use crate::args::{Amplitude, SweepArgs};
+use crate::combinations::put;
+use crate::interrupt::Running;
+use crate::request::{Opened, Request};
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
+use kontur_interpreter::job::{Run, Sink};
+use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::columns::Column;
+use kontur_interpreter::summary::Collector;
+use std::path::PathBuf;
+
+/// Collects the row of one run.
+struct Collected<'a> {
+    summary: Collector,
+    cycle_s: f64,
+    wanted: Vec<Wanted<'a>>,
+}
+
+/// A column whose amplitude is wanted.
+struct Wanted<'a> {
+    amplitude: &'a Amplitude,
+    column: Column,
+    samples: Vec<f64>,
+}
+
+impl Sink for Collected<'_> {
+    type Stop = Failure;
+
+    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Failure> {
+        self.summary.add(record);
+        let time_s = record.k as f64 * self.cycle_s;
+        for Wanted { amplitude, column, samples } in &mut self.wanted {
+            if !amplitude.holds(time_s) {
+                continue;
+            }
+            if samples.len() == MOST_SAMPLES {
+                return Err(Failure::usage(format!(
+                    "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
+                    amplitude.text, amplitude.text
+                )));
+            }
+            samples.push(column.number(record).unwrap_or_default());
+        }
+        Ok(())
+    }
+
+    fn pause(&mut self, run: &mut Run) -> Result<(), Failure> {
+        for message in run.take_diagnostics() {
+            self.summary.message(&message);
+        }
+        if !run.is_over() && Running::is_interrupted() {
+            return Err(Failure::Interrupted);
+        }
+        Ok(())
+    }
+}
+
+/// Runs one combination: its row, and the files that it has read.
+pub(super) fn row(args: &SweepArgs, combination: &[usize]) -> Result<(Row, Vec<PathBuf>), Failure> {
+    let mut request = args.simulation.request(&args.program);
+    put(&args.vary, combination, &mut request);
+    let outcome = one(args, &request)?;
+    let row = columns::row(args, combination, &outcome).map_err(Failure::usage)?;
+    Ok((row, outcome.reads))
+}
+
+/// One run.
+fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
+    let Opened { mut run, reads } = request.open().map_err(Failure::Open)?;
+    let facts = run.facts();
+    let cycle_s = facts.cycle_s();
+    let mut wanted = Vec::new();
+    for amplitude in &args.amplitude {
+        let column = amplitude.column(facts).map_err(Failure::usage)?;
+        let highest_hz = 0.5 / cycle_s;
+        if amplitude.band_hz.0 >= highest_hz {
+            let text = &amplitude.text;
+            return Err(Failure::usage(format!(
+                "--amplitude {text}: a cycle of {cycle_s} s shows up to {highest_hz} Hz"
+            )));
+        }
+        wanted.push(Wanted { amplitude, column, samples: Vec::new() });
+    }
+    let mut collected = Collected { summary: Collector::new(facts), cycle_s, wanted };
+    run.to_end(&mut collected)?;
+    let Collected { summary, wanted, .. } = collected;
+    let amplitudes = wanted.iter().map(|Wanted { amplitude, samples, .. }| {
+        let whole =
+            amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
+        let peak =
+            AmplitudeSpectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
+        peak.map_or(f64::NAN, |p| p[1])
+    });
+    let amplitudes = amplitudes.collect();
+    Ok(Outcome { summary: summary.finish(&run.totals()), amplitudes, reads: reads.so_far() })
+}

@@ -1,0 +1,78 @@
+//! Parameters of axis and channel lists: the vendor's numbers from 100000 on.
+
+/// Hands these rows, after those that it got, to the next macro of the list.
+macro_rules! lists {
+    ([$next:ident $($more:ident)*] $($rows:tt)*) => {
+        $next! { [$($more)*] $($rows)*
+    DeadTime = Vendor 110040: Warning None 1 2, "dead time of the simulated drive above the maximum, limited to 5", cause "P-AXIS-00194", hint "write 0 to 5 cycles";
+    AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
+    ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
+    ResolutionPath = Vendor 110086: Warning None 1 2, "encoder resolution (path) is 0, set to 1", cause "P-AXIS-00233", hint "write 1 or more";
+    WindowZero = Vendor 110087: Warning None 1 2, "position window 0, the default is used", hint "write the window of exact stops in 0.1 um", parameter "P-AXIS-00236";
+    FeedAccelerationZero = Vendor 110100: Warning None 1 2, "acceleration 0, the default is used", hint "write the acceleration of the feed in mm/s2", parameter "P-AXIS-00001";
+    FeedDecelerationZero = Vendor 110102: Warning None 1 2, "deceleration 0, the default is used", hint "write the deceleration of the feed in mm/s2", parameter "P-AXIS-00002";
+    SoftwareLimitRange = Vendor 110110: Warning None 1 2, "software limits leave no range, corrected", cause "P-AXIS-00177, P-AXIS-00178", hint "write kenngr.swe_neg below kenngr.swe_pos";
+    OverrideRange = Vendor 110111: Warning None 1 2, "largest override below the smallest one, limited", cause "P-AXIS-00109", hint "write 1 to 2000 (0.1 %)";
+    FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more";
+    FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
+    GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
+    FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "types are LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2, HSC_MEAN";
+    GeometricRampTime = Vendor 110276: Warning None 1 2, "geometric ramp time below the shortest ramp time, limited", hint "raise P-AXIS-00199, or lower P-AXIS-00201", parameter "P-AXIS-00199";
+    SpindleWithoutType = Vendor 110304: Error ProgramAbort 7 2, "spindle of the channel list whose axis list is not that of a spindle", hint "kenngr.achs_typ ACHSTYP_SPINDEL makes an axis a spindle", parameter "P-AXIS-00018";
+    SpindleMode = Vendor 110352: Warning None 1 2, "axis mode of a spindle that is not modulo, modulo is used", cause "kenngr.achs_mode 1 in the list of a spindle", hint "spindles count modulo: 4", parameter "P-AXIS-00015";
+    AxisMode = Vendor 110353: Warning None 1 2, "unknown axis mode, corrected", cause "kenngr.achs_mode 8", hint "the mode has one of 1 linear, 2 optimised positioning, 4 modulo", parameter "P-AXIS-00015";
+    FilterFrequencyTooLow = Vendor 110361: Warning None 1 2, "filter frequency below the lowest possible one, lowest frequency used", cause "P-AXIS-00067", hint "write a frequency above it, and below half the sampling rate";
+    AccelerationDenominator = Vendor 110381: Warning None 1 2, "denominator of the acceleration feedforward is 0, set to 1", cause "P-AXIS-00226", hint "write 1 or more; a numerator of 0 switches the part off";
+    ResolutionIncrements = Vendor 110386: Warning None 1 2, "encoder resolution (increments) is 0, set to 1", cause "P-AXIS-00234", hint "write 1 or more";
+    WeightedRampFloor = Vendor 110406: Warning None 1 2, "floor of weighted ramp times below the shortest ramp time, corrected", cause "P-AXIS-00293", hint "write 0, or a time between tr_min and the ramp times";
+    TorqueScaleDenominator = Vendor 110465: Warning None 1 2, "denominator of the torque scaling is 0, no torque output", cause "P-AXIS-00326", hint "write the value at which the motor gives its nominal torque";
+    FeedConstantDenominator = Vendor 110472: Error JobAbort 7 2, "denominator of the feed constant is 0", cause "P-AXIS-00363", hint "write the revolutions of the feed constant, 1 or more";
+    JerkDenominator = Vendor 110473: Warning None 1 2, "denominator of the jerk feedforward is 0, set to 100", cause "P-AXIS-00338", hint "write 1 or more";
+    SecondHsc = Vendor 110500: Warning None 1 2, "more than one HSC filter on an axis, the wrong one is off", cause "P-AXIS-00153", hint "leave one HSC filter";
+    HscNotFirst = Vendor 110501: Warning None 1 2, "HSC filter is not filter[0], filter off", cause "P-AXIS-00153", hint "write it as filter[0]";
+    DeadBand = Vendor 110528: Warning None 1 2, "dead band of the position controller above the window, limited", cause "P-AXIS-00395, P-AXIS-00236", hint "write a dead band up to getriebe[i].window";
+    GearRatio = Vendor 110579: Warning None 1 2, "gear ratio: output revolutions are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more";
+    AxisNumberZero = Vendor 110597: Error JobAbort 7 2, "list for axis number 0, not loaded", cause "P-AXIS-00016", hint "kopf.achs_nr is 1 or more";
+    WithoutDelayNeedsVelocityOnly = Vendor 110624: Warning None 1 2, "feedforward without delay together with acceleration or jerk, these are switched off", cause "P-AXIS-00566, P-AXIS-00223", hint "allow velocity feedforward only (P-AXIS-00223 VEL), or drop feedforward_without_delay";
+    WeightMode = Vendor 120020: Error ProgramAbort 6 0, "unknown mode of the weights of ramp times", cause "#SET SLOPE PROFIL [1,7,0]", hint "0 all, 1 to 4 one of the ramp times";
+    FirstStageZero = Vendor 120028: Warning None 1 2, "acceleration of stage 1 weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00011";
+    SecondStageZero = Vendor 120030: Warning None 1 2, "acceleration of stage 2 weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00012";
+    AccelerationZero = Vendor 120032: Warning None 1 2, "acceleration weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00001";
+    DecelerationZero = Vendor 120034: Warning None 1 2, "deceleration weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00002";
+    SplineTransition = Vendor 120097: Error ProgramAbort 6 0, "unknown transition of an Akima spline", cause "#SET ASPLINE MODE [9, 1]", hint "1 automatic, 2 tangential, 3 by a vector";
+    SplineEndTangent = Vendor 120100: Error ProgramAbort 6 0, "target tangent of an Akima spline without direction", cause "#AKIMA ENDVECTOR X0 Y0", hint "write a component other than 0";
+    FlushInSpline = Vendor 120102: Error ProgramAbort 3 0, "flush while a spline is active", cause "#FLUSH WAIT after #HSC ON [BSPLINE]", hint "write #HSC OFF before it";
+    SplineWithoutMotion = Vendor 120112: Error ProgramAbort 6 0, "no motion before a spline with a tangential start", cause "#AKIMA TRANS [START=TANGENTIAL] before the first motion", hint "write a motion before G151, or START=AUTO";
+    PathDevTooSmall = Vendor 120129: Error ProgramAbort 3 0, "PATH_DEV below the minimum", hint "write 0.0001 mm or more";
+    CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";
+    CuttingSpeedNegative = Vendor 120167: Error ProgramAbort 6 1, "cutting speed not above 0", cause "G96 S-5", hint "S is the cutting speed in m/min under G96";
+    CuttingSpeedMax = Vendor 120169: Error ProgramAbort 3 1, "highest spindle speed of G196 not above 0", hint "G196 S2500";
+    FaceTurningAxis = Vendor 120170: Error ProgramAbort 6 1, "G96 without exactly one face turning axis in the plane", cause "G96 S100, P-AXIS-00015 without the bit 0x40", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
+    SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "P-CHAN-00073", hint "0 all, 1 to 4 one of the ramp times", parameter "P-CHAN-00073";
+    SplineWithoutMainAxis = Vendor 120180: Error ProgramAbort 6 0, "a point of a spline moves no main axis", cause "G151 with tracking axes alone", hint "move tracking axes together with main axes";
+    ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
+    ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
+    BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";
+    SplineWithContouring = Vendor 120255: Error ProgramAbort 3 0, "spline together with contouring or #HSC", cause "G151 under G261", hint "write G260 or #HSC OFF before G151";
+    CouplingWithContouring = Vendor 120333: Error ProgramAbort 3 0, "axis coupling switched while contouring is active", cause "#ENABLE AX LINK under G261", hint "write G260 before it";
+    SplineInSurface = Vendor 120370: Error ProgramAbort 3 0, "spline selected while free-form surface mode is active", cause "G151 after #HSC ON [BSPLINE]", hint "write #HSC OFF before G151";
+    FeedGroupOfArc = Vendor 120462: Warning None 1 1, "feed group does not fit an arc", cause "#FGROUP [X] and G02 in the plane X, Y", hint "#FGROUP names all axes of the arc, or none of the main axes";
+    NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
+    AreaOverlaps = Vendor 120477: Error ProgramAbort 6 1, "sides of a control area cross each other", hint "write the corners in their order round the area";
+    OutsideWorkspace = Vendor 120484: Error ProgramAbort 6 1, "point outside a workspace", cause "start or end of a motion, or of the tool at #CONTROL AREA ON", hint "write #CONTROL AREA OFF [ID=..] before it, or another target";
+    ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring although the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
+    ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes change after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
+    MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is on", cause "G261 before G100", hint "write G260 before the run";
+    AreaOfArcs = Vendor 120691: Error ProgramAbort 6 1, "motion that the contour of a control area must not have", cause "G02 in a control area POLY", hint "polygons have lines alone, CIRC has one full circle";
+    IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline before, or move the axis with the path";
+    SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";
+    AreaHeightInBase = Vendor 120734: Error ProgramAbort 6 1, "axis of EXCUR_AX in the base of its control area", cause "EXCUR_AX=X with a contour in X and Y", hint "the third axis is none of those of the contour";
+    AreaOneAxis = Vendor 120736: Error ProgramAbort 6 1, "control area with one axis in its base", cause "X2 without Y2", hint "the contour needs two axes";
+    AreaAxisMissing = Vendor 120740: Error ProgramAbort 6 1, "axis of a control area that is not in the channel", cause "#PUT AX [Y] before #CONTROL AREA ON", hint "call the axis back with #CALL AX";
+    AreaAxisAlone = Vendor 120742: Error ProgramAbort 6 1, "independent axis of a control area", cause "X[INDP_ASYN ..] while an area of X is watched", hint "write #CONTROL AREA OFF [ID=..] before it";
+    AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis that the circle of a control area must not have", cause "G02 with an axis that is no main axis", hint "the base of CIRC lies in main axes";
+    ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
+    ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "numbers are written 10, -10, 1.5 or 0x101";
+        }
+    };
+}

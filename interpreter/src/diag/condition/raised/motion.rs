@@ -1,0 +1,57 @@
+//! Path, axes, drives and compensation while they move: the vendor's numbers from 50000 to 99999.
+
+/// Hands these rows, after those that it got, to the next macro of the list.
+macro_rules! motion {
+    ([$next:ident $($more:ident)*] $($rows:tt)*) => {
+        $next! { [$($more)*] $($rows)*
+    ProbeActuated = Vendor 50052: Error FeedHold 6 1, "the probe is actuated before the measuring run", hint "clear the probe first: the input `probe` is 1 where the run begins";
+    NoMeasuringAxis = Vendor 50059: Error FeedHold 6 1, "axis that does not take part in measuring runs", cause "kenngr.messachse 0", hint "set kenngr.messachse to 1", parameter "P-AXIS-00118";
+    MeasuringAxes = Vendor 50061: Error FeedHold 6 1, "more axes in a measuring run than its type allows", cause "type 2 has one axis, type 4 the three main axes", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
+    SpeedError = Vendor 50118: Error FeedHold 6 0, "axis speed above the limit", cause "> vb_max·(1+P-AXIS-00440/1000), default +9 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
+    CuttingSpeedZero = Vendor 50182: Error ProgramAbort 6 1, "cutting speed 0", cause "G96 S0", hint "S is the cutting speed in m/min under G96";
+    AccelerationCurve = Vendor 50254: Error AllStop 7 2, "unknown acceleration curve of a spindle", cause "beschl_kennlinie.typ 7", hint "0 none, 1 hyperbola, 2 polynomial, 3 asynchronous drive", parameter "P-AXIS-00202";
+    MovedWithoutBanding = Vendor 50263: Error FeedHold 6 1, "moved main axis that does not take part in edge banding", cause "kenngr.kasto_achse 0", hint "set kenngr.kasto_achse to 1", parameter "P-AXIS-00098";
+    NoBandingAxis = Vendor 50398: Error FeedHold 6 1, "no axis for edge banding", cause "kenngr.kasto_achse is 0 for all main axes", hint "set kenngr.kasto_achse to 1 for the axes of the plane", parameter "P-AXIS-00098";
+    OscillationLimited = Vendor 50487: Warning None 1 0, "oscillation slower than programmed", cause "FREQ, TIME or FEED beyond what velocity and acceleration of the axis allow", hint "lower FREQ or FEED, or bring the reversal positions closer together", parameter "P-AXIS-00212";
+    SpindleStandsInThread = Vendor 50499: Error AllStop 6 0, "spindle speed 0 with G33", cause "G33 before M3 and S", hint "write S1000 M3 before it";
+    OscillationFeed = Vendor 50593: Error AbruptStop 6 1, "oscillation without a feed", cause "X[OSC ON ..] with FEED=0, or without FEED, FREQ and TIME", hint "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]";
+    BandingPath = Vendor 50655: Error FeedHold 6 1, "not enough path for the way after the signal of edge banding", cause "the block ends before, or the path is too fast to stop that soon", hint "lengthen the block, lower F, or raise V.G.RW", parameter "P-CHAN-00030";
+    FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
+    AreaPoints = Vendor 50786: Error ProgramAbort 6 1, "too many points of a control area", hint "a polygon has 20 blocks at most";
+    GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "use a smaller cycle, less damping or a higher frequency (the manual's advice); kontur tune proposes both";
+    FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";
+    FilterOrderTooHigh = Vendor 50911: Warning None 1 0, "filter order too high", hint "lower the order";
+    FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
+    SpindleSpeedError = Vendor 60101: Error AllStop 6 0, "spindle speed limit exceeded", cause "+9 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpindleSpeedWarning = Vendor 60102: Warning None 1 0, "spindle speed above the warning level", cause "+5 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle at rest", cause "G95 before M3 and S", hint "start the spindle before: S1000 M3";
+    SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed before: S1000 M3";
+    SpindleStoppedInThread = Vendor 60154: Error AllStop 6 0, "G33 with a spindle at rest", cause "S1000 and G33 without M3", hint "write M3 or M4 before it";
+    SpindleSlopeType = Vendor 60226: Warning None 1 0, "slope type of a spindle invalid", cause "P-AXIS-00270", hint "getriebe[i].slope_type is 0 to 3 (P-AXIS-00270)";
+    SpindleFilterTime = Vendor 60311: Error JobAbort 7 0, "filter time constant (spindle)", cause "as 50663", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
+    FollowingError = Vendor 70020: Error OpenLoopStop 6 11, "following error too large", cause "limits 00167…00172, 00191", hint "raise slep_max, use feedforward (G135), or lower the feed", parameter "P-AXIS-00172";
+    SettlingTimeout = Vendor 70082: Error AbruptStop 6 11, "exact-stop window not reached in time", cause "00236, 00532", hint "raise position_settling_time (P-AXIS-00532) or window, or the gain kv", parameter "P-AXIS-00236";
+    AxisWithoutPositionControl = Vendor 70345: Error AbruptStop 7 11, "axis without position control that is not a spindle", cause "P-AXIS-00320", hint "antr.operation_mode CNC_POSITION_CONTROL or DRIVE_DEFAULT for axes of the path";
+    AccelerationDelay = Vendor 70348: Warning None 1 11, "acceleration (or jerk) feedforward delay too large, set to 0", cause "P-AXIS-00390, P-AXIS-00547", hint "the delay is below 6 cycles (P-AXIS-00390, P-AXIS-00547)";
+    VelocityDelay = Vendor 70349: Warning None 1 11, "velocity feedforward delay too large, set to 0", cause "P-AXIS-00389", hint "the delay is below 6 cycles (P-AXIS-00389)";
+    NoAdditiveVelocity = Vendor 70350: Warning None 1 11, "additive velocity not in the process data", cause "P-AXIS-00223 ADD_VEL", hint "name S_0_0037 in antr.sercos.mdt[i].nc_ref";
+    NoAdditiveTorque = Vendor 70351: Warning None 1 11, "additive torque not in the process data", cause "P-AXIS-00223 ADD_ACC", hint "name S_0_0080 in antr.sercos.mdt[i].nc_ref";
+    ControllerSpeed = Vendor 70382: Error ControlledStop 6 11, "axis speed above the limit in the controller", cause "00407 (default 100 % over vb_max; 0 = off)", hint "lower the gain kv or the feed, or raise lr_param.dyn_monitoring_v_err; 0 switches the monitor off", parameter "P-AXIS-00407";
+    IpcGantrySlave = Vendor 70600: Warning None 7 11, "Improved Position Control enabled in a gantry slave", cause "P-AXIS-00758", hint "write the parameters into the list of the master";
+    IpcChangedMoving = Vendor 70601: Error ControlledStop 6 11, "IPC parameters changed while moving", hint "change them at standstill";
+    IpcNumerator = Vendor 70603: Warning None 1 11, "weight numerator of Improved Position Control is not above 0", cause "P-AXIS-00754", hint "write a value above 0 (P-AXIS-00754)";
+    IpcDenominator = Vendor 70604: Warning None 1 11, "weight denominator of Improved Position Control is not above 0", cause "P-AXIS-00755", hint "write a value above 0 (P-AXIS-00755)";
+    SimulationDamping = Vendor 80044: Warning None 1 11, "damping of the simulated drive ≥ 1", cause "00051/00050", hint "write daempfung_z below daempfung_n (P-AXIS-00051, P-AXIS-00050)";
+    CompensationInArc = Vendor 90008: Error ProgramAbort 6 1, "tool radius compensation selected in a circular block", cause "a linear block must follow G41 and G42", hint "write a linear block after G41 and G42";
+    ToolTooLarge = Vendor 90017: Error ProgramAbort 6 1, "tool radius not below the radius of an arc of the contour", hint "use a smaller tool, or a larger radius of the contour";
+    ToolBetweenArcs = Vendor 90031: Error ProgramAbort 6 1, "tool radius compensation: tool too large for the corner between two arcs", hint "use a smaller tool, or larger radii of the contour";
+    RadiusChangeInArc = Vendor 90047: Error ProgramAbort 6 1, "tool radius changes before an arc", cause "D or V.G.WZ_AKT.R within G41, then G02", hint "write a line before the arc";
+    FlushAfterCompensation = Vendor 90050: Error ProgramAbort 3 1, "channel flush between G40 and the motion that leads away from the contour", cause "G40, then #FLUSH", hint "write a straight motion with G40 or after it";
+    InsideCornerRadius = Vendor 90127: Error ProgramAbort 3 1, "change of the tool radius within the contour of G238", hint "change the tool before G41 or after G40";
+    WearSelectedInArc = Vendor 90183: Error ProgramAbort 3 1, "compensation that begins with an arc during online tool compensation", cause "#OTC ON, then G41 with an arc (G237)", hint "begin with a line, or write #OTC OFF before it";
+    SpaceArcAfterCompensation = Vendor 90193: Error ProgramAbort 3 1, "arc in space after G40", cause "G40, then G303", hint "write a straight motion with G40 or after it";
+        }
+    };
+}

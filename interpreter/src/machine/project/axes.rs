@@ -1,0 +1,99 @@
+//! Names and numbers of the axes of a project.
+
+use super::content::Content;
+use super::{Project, parameters};
+use crate::diag::{Condition, Diagnostic, Severity};
+use crate::machine::table::{ListKind, channel as of};
+use std::fmt::Write as _;
+
+impl Project<'_> {
+    /// Enters the axes of the first channel by their dialogs, as the tool does, and says where its list has others. Empty
+    /// if no dialog names one: the list of the channel rules.
+    pub(super) fn name_axes(
+        &mut self,
+        content: &mut Content,
+        numbers: &[u32],
+        spindle: &[bool],
+    ) -> Vec<(String, u32)> {
+        let mut named: Vec<(u32, String, u32)> = content
+            .axes
+            .iter()
+            .zip(numbers)
+            .zip(spindle)
+            .filter(|((axis, _), spindle)| {
+                !**spindle && axis.channel == Some(1) && !axis.program_name.is_empty()
+            })
+            .map(|((axis, number), _)| (axis.index, axis.program_name.clone(), *number))
+            .collect();
+        named.sort_by_key(|(index, ..)| *index);
+        if named.iter().zip(0..).any(|((index, ..), place)| *index != place) {
+            let places: Vec<String> =
+                named.iter().map(|(index, name, _)| format!("{name} {index}")).collect();
+            let message = format!(
+                "the dialogs of the axes leave places of the channel empty or give one twice (DefaultIndex: {}): they are taken one after the other, the first three are the main axes",
+                places.join(", ")
+            );
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            self.said.push(said.hint("number the axes of the channel without gaps"));
+        }
+        let named: Vec<(String, u32)> =
+            named.into_iter().map(|(_, name, number)| (name, number)).collect();
+        let list = &mut content.channels[0].list;
+        let before = parameters(ListKind::Channel, &[list]);
+        let listed: Vec<(String, u32)> = (0..32)
+            .map_while(|i| {
+                let number = before.listed(of::AXIS_NUMBER.and(i).place())?;
+                Some((before.get(of::AXIS_NAME.and(i))?, number as u32))
+            })
+            .collect();
+        if named.is_empty() || named == listed {
+            return named;
+        }
+        if !listed.is_empty() {
+            let names = |of: &[(String, u32)]| -> String {
+                let each: Vec<String> =
+                    of.iter().map(|(name, number)| format!("{name} ({number})")).collect();
+                each.join(", ")
+            };
+            let message = format!(
+                "the dialogs of the axes say {}, the list of the channel says {}: the dialogs count",
+                names(&named),
+                names(&listed)
+            );
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            self.said.push(said.hint("activate the configuration once, or make both say the same"));
+        }
+        let mut entries = format!("gruppe[0].achs_anzahl {}\n", named.len());
+        for (i, (name, number)) in named.iter().enumerate() {
+            let _ = writeln!(
+                entries,
+                "gruppe[0].achse[{i}].bezeichnung {name}\ngruppe[0].achse[{i}].log_achs_nr {number}"
+            );
+        }
+        let own: Vec<String> = (0..32)
+            .flat_map(|i| {
+                ["bezeichnung", "log_achs_nr"].map(|key| format!("gruppe[0].achse[{i}].{key}"))
+            })
+            .chain(["gruppe[0].achs_anzahl".to_owned()])
+            .collect();
+        list.replace(&own.iter().map(String::as_str).collect::<Vec<_>>(), &entries);
+        named
+    }
+}
+
+/// Two axis lists have the same number, others have their own: K-0141.
+pub(super) fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
+    let twice = numbers.iter().enumerate().find(|(i, number)| numbers[..*i].contains(*number));
+    let number = twice.map_or(0, |(_, number)| *number);
+    let names: Vec<String> = content
+        .axes
+        .iter()
+        .zip(numbers)
+        .filter(|(_, n)| **n == number)
+        .map(|(axis, _)| format!("`{}` of {}", axis.list.name, axis.list.file))
+        .collect();
+    let message = format!("axis lists with the same kopf.achs_nr {number}: {}", names.join(", "));
+    let hint = "give each axis a number of its own, or take the list out that is left over; only \
+                where all lists have the same number they are numbered in their order";
+    Diagnostic::new(Condition::ProjectWrong, message).hint(hint)
+}

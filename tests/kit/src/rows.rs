@@ -1,0 +1,92 @@
+//! Tables of programs: one program a line, an arrow, and what must come of it. `interpreter/tests/language/README.md` describes
+//! the form; what the words after the arrow mean is up to the reader.
+
+/// A row of a table.
+#[derive(Clone, Debug, Default)]
+pub struct Row {
+    /// Settings of the lists.
+    pub settings: Vec<String>,
+    /// Other files: name and text.
+    pub files: Vec<(String, String)>,
+    /// Real-time inputs: time in s, signal, value.
+    pub inputs: Vec<(f64, String, f64)>,
+    /// The program, with what its paragraph puts around it and M30.
+    pub program: String,
+    /// The right side.
+    pub expected: String,
+    /// The row as it is written.
+    pub text: String,
+}
+
+/// Lines of a program out of their form in a row.
+fn lines(text: &str) -> String {
+    text.replace(" | ", "\n") + "\n"
+}
+
+/// The rows of a table.
+///
+/// # Panics
+/// A line is neither of the head of a paragraph nor a row.
+pub fn rows(table: &str) -> Vec<Row> {
+    let (mut rows, mut always) = (Vec::new(), Vec::new());
+    let (mut here, mut before, mut after) = (Row::default(), String::new(), String::new());
+    for line in table.replace("\n    ", " ").lines().filter(|line| !line.starts_with("# ")) {
+        if line.is_empty() {
+            here = Row { settings: always.clone(), ..Row::default() };
+            (before, after) = Default::default();
+        } else if let Some(setting) = line.strip_prefix("always with ") {
+            always.push(setting.to_owned());
+        } else if let Some(setting) = line.strip_prefix("with ") {
+            here.settings.push(setting.to_owned());
+        } else if let Some(text) = line.strip_prefix("before ") {
+            before = lines(text);
+        } else if let Some(text) = line.strip_prefix("after ") {
+            after = lines(text);
+        } else if let Some((name, text)) =
+            line.strip_prefix("file ").and_then(|f| f.split_once(": "))
+        {
+            here.files.push((name.to_owned(), lines(text)));
+        } else if let Some(text) = line.strip_prefix("inputs ") {
+            let words = text.split(", ").map(|input| input.split(' ').collect::<Vec<_>>());
+            here.inputs = words.map(|w| (number(w[0]), w[1].to_owned(), number(w[2]))).collect();
+        } else {
+            let sides = line.rsplit_once(" -> ");
+            assert!(sides.is_some(), "no arrow: {line}");
+            let (program, expected) = sides.unwrap_or_default();
+            let program = format!("{before}{}{after}M30\n", lines(program));
+            let (expected, text) = (expected.to_owned(), line.to_owned());
+            rows.push(Row { program, expected, text, ..here.clone() });
+        }
+    }
+    rows
+}
+
+fn number(text: &str) -> f64 {
+    let number = text.parse();
+    assert!(number.is_ok(), "{text} is not a number");
+    number.unwrap_or_default()
+}
+
+/// Whether a thing is that of a row, as far as it is given there, numbers within 1e-9.
+pub fn is(wanted: &str, found: &str) -> bool {
+    let number = |text: &str| text.trim_end_matches(char::is_alphabetic).parse::<f64>().ok();
+    let unit = |text: &str| text.trim_start_matches(|c: char| !c.is_alphabetic()).to_owned();
+    let same = |w: &str, f: &str| {
+        let near = |(w, f): (f64, f64)| (w - f).abs() < 1e-9;
+        w == "_" || w == f || unit(w) == unit(f) && number(w).zip(number(f)).is_some_and(near)
+    };
+    let mut found = found.split([',', '@']);
+    let wanted = wanted.trim_matches(['(', ')']);
+    wanted.split([',', '@']).all(|w| found.next().is_some_and(|f| same(w, f)))
+}
+
+/// Whether a list is that of a row; `..` are any others.
+pub fn fits(wanted: &[&str], found: &[String]) -> bool {
+    match wanted {
+        [] => found.is_empty(),
+        ["..", rest @ ..] => (0..=found.len()).any(|n| fits(rest, &found[n..])),
+        [first, rest @ ..] => {
+            found.split_first().is_some_and(|(f, more)| is(first, f) && fits(rest, more))
+        }
+    }
+}
