@@ -19,7 +19,7 @@
 //! planner.finish();
 //! assert_eq!(planner.advance().unwrap(), Next::Setpoint);
 //! let mut ahead = Ahead::default();
-//! planner.look_ahead(20, &mut ahead);
+//! planner.look_ahead(20, u64::MAX, &mut ahead);
 //! assert_eq!((ahead.len(), planner.setpoint().k), (20, 1));
 //! let mut single = planner.clone();
 //! for i in 0..ahead.len() {
@@ -85,14 +85,14 @@ impl Ahead {
         self.rows[i].s
     }
 
-    /// Reads up to `most` cycles from `k` on, as far as the timeline reaches.
+    /// Reads up to `most` cycles from `k` on, as far as the timeline reaches, up to block `before`.
     pub(crate) fn read(
         &mut self,
-        timeline: &Timeline,
-        mut k: u64,
-        cycle: CycleTime,
+        (timeline, cycle): (&Timeline, CycleTime),
         axes: usize,
+        mut k: u64,
         most: usize,
+        before: u64,
     ) {
         self.rows.clear();
         self.most = most;
@@ -108,6 +108,9 @@ impl Ahead {
             // where it stops, the next entry may begin later than in the next cycle
             loop {
                 walk.state(k, &mut self.state);
+                if self.state.seq >= before {
+                    return;
+                }
                 let row = self.rows.len();
                 for (axis, x) in self.state.position.iter().enumerate() {
                     self.positions[axis * most + row] = *x;

@@ -297,12 +297,13 @@ impl Planner {
     }
 
     /// Reads up to `most` setpoints of the coming cycles: those that are final, and that [`Self::advance`] would produce without
-    /// planning anything.
-    pub fn look_ahead(&self, most: usize, out: &mut Ahead) {
+    /// planning anything; none of block `before` or of a later one.
+    pub fn look_ahead(&self, most: usize, before: u64, out: &mut Ahead) {
         let settled = self.wanted == self.active && self.unkept.is_empty() && !self.is_held();
         let most = if settled { most } else { 0 };
         let k = self.setpoint.k + 1;
-        out.read(&self.timeline, k, self.cycle, self.setpoint.position.len(), most);
+        let axes = self.setpoint.position.len();
+        out.read((&self.timeline, self.cycle), axes, k, most, before);
     }
 
     /// Produces setpoints `first` to `last` of those that were read, see [`crate::ahead`]: what only one cycle shows is that of the

@@ -15,7 +15,7 @@
 use super::axes::Driver;
 use super::chain::{AxisChain, Records};
 use super::spindle::Spindle;
-use super::{Phase, SettledStop, Simulation};
+use super::{Phase, SettledStop, Simulation, Underway};
 use crate::record::{AxisRecord, CycleRecord};
 use kontur_filters::control::fault::{Fault, Faults};
 use kontur_filters::ring::Ring;
@@ -24,10 +24,10 @@ use kontur_motion::ahead::Ahead;
 /// Cycles of a row, at most: their columns stay in the first cache.
 pub(super) const MOST: usize = Ring::ROOM;
 /// The same where every record is read: records are large.
-pub(super) const MOST_READ: usize = 32;
+pub(super) const MOST_READ: usize = 64;
 
-/// The same after a fault.
-const FEW: usize = 4;
+/// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
+const FEW: usize = 8;
 
 /// Who looks at the records of cycles in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +47,8 @@ pub(super) struct Batch {
     taken: usize,
     /// How many are tried: after a fault few, because what lies after the next one is computed in vain.
     tried: usize,
+    /// Up to here cycles go alone, because too few follow.
+    single_before: u64,
     /// Records of the computed ones, if each of them is read.
     records: Vec<CycleRecord>,
     each: bool,
@@ -111,27 +113,24 @@ impl Simulation {
 
     /// How many of the cycles after this one, `most` at the most, follow without anything that acts on the axes but the path.
     fn count_ahead(&mut self, most: usize) -> usize {
-        if most == 0 || !self.is_left_alone() {
+        let k = self.planner.setpoint().k;
+        if most < FEW || k < self.batch.single_before || !self.is_left_alone() {
             return 0;
         }
-        self.planner.look_ahead(most, &mut self.batch.ahead);
-        let (k, mut count) = (self.planner.setpoint().k, 0);
-        let mut blocks = self.underway.iter().peekable();
-        while count < self.batch.ahead.len() {
-            let next = k + 1 + count as u64;
-            let time_s = self.cycle.time_of(next);
-            if next > self.max_cycles || self.inputs.is_due(time_s, self.cycle) {
-                break;
-            }
-            let seq = self.batch.ahead.seq(count);
-            let mut changes = false;
-            while let Some(block) = blocks.next_if(|block| block.seq <= seq) {
-                changes |= !block.events.is_empty() || block.jerk_limited != self.jerk_limited;
-            }
-            if changes {
-                break;
-            }
-            count += 1;
+        // nothing is read in vain: where something happens in every block, that would be most of it
+        let changes =
+            |block: &&Underway| !block.events.is_empty() || block.jerk_limited != self.jerk_limited;
+        let before = self.underway.iter().find(changes).map_or(u64::MAX, |block| block.seq);
+        self.planner.look_ahead(most, before, &mut self.batch.ahead);
+        let waits_for_input = |later: usize| {
+            let next = k + 1 + later as u64;
+            next > self.max_cycles || self.inputs.is_due(self.cycle.time_of(next), self.cycle)
+        };
+        let read = self.batch.ahead.len();
+        let count = (0..read).find(|later| waits_for_input(*later)).unwrap_or(read);
+        if count < FEW {
+            self.batch.single_before = k + 1 + count as u64;
+            return 0;
         }
         count
     }
@@ -158,8 +157,8 @@ impl Simulation {
     pub(super) fn run_chains(&mut self, most: usize, watched: Watched) {
         self.batch.each = watched == Watched::Each || self.is_measured();
         let most = if self.batch.each { most.min(MOST_READ - 1) } else { most };
-        let later = self.count_ahead(most.min(self.batch.tried));
         self.batch.tried = (2 * self.batch.tried).clamp(FEW, MOST);
+        let later = self.count_ahead(most.min(self.batch.tried));
         let mut count = 1 + later;
         let mut records = std::mem::take(&mut self.batch.records);
         while self.batch.each && records.len() < count - 1 {
@@ -179,7 +178,7 @@ impl Simulation {
                 self.settled(i);
             }
             if done < count {
-                (count, self.batch.tried) = (done, FEW);
+                (count, self.batch.tried) = (done, 0);
                 for other in 0..=i {
                     (self.chains[other], self.record.axes[other]) =
                         self.batch.before[other].clone();
