@@ -213,10 +213,11 @@ impl KernelFilter {
         self.rest_cycles as usize > self.history.len()
     }
 
-    /// A cycle with the input of the last one, while the filter [rests](Self::rests).
+    /// So many cycles with the input of the last one, while the filter [rests](Self::rests).
     #[inline]
-    pub fn rest(&mut self) {
-        self.rest_cycles = self.rest_cycles.saturating_add(1);
+    pub fn rest(&mut self, cycles: usize) {
+        let cycles = u32::try_from(cycles).unwrap_or(u32::MAX);
+        self.rest_cycles = self.rest_cycles.saturating_add(cycles);
     }
 
     /// Whether `kernel` would see equal inputs only.
@@ -245,6 +246,40 @@ impl KernelFilter {
         Ok(())
     }
 
+    /// Tap after tap over all cycles: the sum of each of them is the same as if it were alone.
+    #[inline]
+    fn run_in_room(&mut self, values: &mut [f64]) {
+        let (before, cycles) = (self.history.newest(), values.len());
+        self.history.extend(values);
+        let inputs = self.history.recent(cycles, 0);
+        match self.kernel.taps() {
+            [Tap { delay, .. }] => values.copy_from_slice(self.history.recent(cycles, *delay)),
+            taps => {
+                // no pull at all is -0: the first one is kept with its sign
+                values.fill(-0.0);
+                for Tap { delay, weight } in taps {
+                    let past = self.history.recent(cycles, *delay);
+                    for ((sum, past), x) in values.iter_mut().zip(past).zip(inputs) {
+                        *sum += weight * (past - x);
+                    }
+                }
+                for (sum, x) in values.iter_mut().zip(inputs) {
+                    *sum += x;
+                }
+            }
+        }
+        let (mut before, mut rest_cycles) = (before, self.rest_cycles);
+        for (value, x) in values.iter_mut().zip(inputs) {
+            let at_rest = x.to_bits() == before.to_bits();
+            rest_cycles = if at_rest { rest_cycles.saturating_add(1) } else { 1 };
+            if rest_cycles > self.kernel.length() {
+                *value = *x;
+            }
+            before = *x;
+        }
+        self.rest_cycles = rest_cycles;
+    }
+
     /// The kernel that runs.
     pub fn kernel(&self) -> &Arc<Kernel> {
         &self.kernel
@@ -254,16 +289,14 @@ impl KernelFilter {
 impl Stage for KernelFilter {
     #[inline]
     fn step(&mut self, x: f64) -> f64 {
-        let at_rest = x.to_bits() == self.history.newest().to_bits();
-        self.rest_cycles = if at_rest { self.rest_cycles.saturating_add(1) } else { 1 };
-        self.history.push(x);
-        match self.kernel.taps() {
-            _ if self.settled() => x,
-            [Tap { delay, .. }] => self.history.past(*delay),
-            taps => {
-                let pull = |tap: &Tap| tap.weight * (self.history.past(tap.delay) - x);
-                x + taps.iter().map(pull).sum::<f64>()
-            }
+        let mut value = [x];
+        self.run_in_room(&mut value);
+        value[0]
+    }
+
+    fn run(&mut self, values: &mut [f64]) {
+        for values in values.chunks_mut(Ring::ROOM) {
+            self.run_in_room(values);
         }
     }
 

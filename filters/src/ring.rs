@@ -1,54 +1,69 @@
-//! The values of the last cycles, by age.
+//! The values of the last cycles, by age: one behind the other in memory, so that many cycles are read as a slice.
 //!
 //! ```
 //! use kontur_filters::ring::Ring;
 //!
 //! let mut ring = Ring::new(2, 0.5);
-//! ring.push(1.0);
-//! ring.push(2.0);
+//! ring.extend(&[1.0, 2.0]);
 //! assert_eq!([0, 1, 2].map(|delay| ring.past(delay)), [2.0, 1.0, 0.5]);
+//! // of both cycles the value one cycle before
+//! assert_eq!(ring.recent(2, 1), [0.5, 1.0]);
 //! ```
 
-/// The newest inputs, at least one, as many as a power of two.
+/// The newest inputs, at least one.
 #[derive(Clone, Debug)]
 pub struct Ring {
+    /// Those that are kept, and room for those to come.
     values: Vec<f64>,
-    newest: usize,
+    /// Number of values up to the newest one.
+    end: usize,
+    /// Number of values that can be asked for.
+    kept: usize,
 }
 
 impl Ring {
+    /// Most cycles that are taken at once.
+    pub const ROOM: usize = 256;
+
     /// Room for delays up to `length`, filled with `x`.
     pub fn new(length: u32, x: f64) -> Self {
-        Self { values: vec![x; Self::capacity(length)], newest: 0 }
-    }
-
-    fn capacity(length: u32) -> usize {
-        (length as usize + 1).next_power_of_two()
+        let kept = length as usize + 1;
+        Self { values: vec![x; kept + Self::ROOM], end: kept, kept }
     }
 
     /// Number of values kept.
     #[inline]
-    pub(crate) fn len(&self) -> usize {
-        self.values.len()
+    pub(crate) const fn len(&self) -> usize {
+        self.kept
     }
 
-    /// Takes the value of this cycle.
+    /// Takes the values of the next cycles, at most [`Self::ROOM`].
     #[inline]
-    pub fn push(&mut self, x: f64) {
-        self.newest = (self.newest + 1) & (self.values.len() - 1);
-        self.values[self.newest] = x;
+    pub fn extend(&mut self, values: &[f64]) {
+        if self.end + values.len() > self.values.len() {
+            self.values.copy_within(self.end - self.kept..self.end, 0);
+            self.end = self.kept;
+        }
+        self.values[self.end..][..values.len()].copy_from_slice(values);
+        self.end += values.len();
     }
 
     /// The value of this cycle.
     #[inline]
     pub fn newest(&self) -> f64 {
-        self.values[self.newest]
+        self.values[self.end - 1]
     }
 
     /// The value `delay` cycles ago, up to the length there is room for.
     #[inline]
     pub fn past(&self, delay: u32) -> f64 {
-        self.values[self.newest.wrapping_sub(delay as usize) & (self.values.len() - 1)]
+        self.values[self.end - 1 - delay as usize]
+    }
+
+    /// Of the last `cycles`, taken at once, the values `delay` cycles before them.
+    #[inline]
+    pub fn recent(&self, cycles: usize, delay: u32) -> &[f64] {
+        &self.values[self.end - cycles - delay as usize..][..cycles]
     }
 
     /// As if `x` had always been the value.
@@ -58,15 +73,14 @@ impl Ring {
 
     /// Makes room for delays up to `length`; what is older than the history so far counts as its oldest value.
     pub(crate) fn grow(&mut self, length: u32) {
-        let (old, new) = (self.values.len(), Self::capacity(length));
-        if new <= old {
+        let kept = length as usize + 1;
+        if kept <= self.kept {
             return;
         }
-        // Oldest first, then the room for older ones in front of it.
-        self.values.rotate_left((self.newest + 1) & (old - 1));
-        let oldest = self.values[0];
-        self.values.splice(0..0, std::iter::repeat_n(oldest, new - old));
-        self.newest = new - 1;
+        let mut grown = Self::new(length, self.past(self.kept as u32 - 1));
+        let known = &self.values[self.end - self.kept..self.end];
+        grown.values[kept - self.kept..kept].copy_from_slice(known);
+        *self = grown;
     }
 }
 
@@ -78,13 +92,12 @@ mod tests {
     fn growing_keeps_the_history() {
         let mut ring = Ring::new(3, 0.0);
         for i in 1..=6 {
-            ring.push(f64::from(i));
+            ring.extend(&[f64::from(i)]);
         }
         ring.grow(10);
-        assert_eq!(ring.values.len(), 16);
         let past: Vec<f64> = (0..7).map(|delay| ring.past(delay)).collect();
         assert_eq!(past, [6.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0]);
-        ring.push(7.0);
+        ring.extend(&[7.0]);
         let past: Vec<f64> = [0, 1, 4].map(|delay| ring.past(delay)).to_vec();
         assert_eq!(past, [7.0, 6.0, 3.0]);
     }

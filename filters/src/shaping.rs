@@ -95,10 +95,10 @@ impl Shaping {
         self.filters.is_empty() && x.to_bits() == self.newest.0.to_bits() && self.kernel.rests()
     }
 
-    /// Instead of a cycle while the chain [rests](Self::rests_under).
+    /// Instead of so many cycles while the chain [rests](Self::rests_under).
     #[inline]
-    pub fn rest(&mut self) {
-        self.kernel.rest();
+    pub fn rest(&mut self, cycles: usize) {
+        self.kernel.rest(cycles);
     }
 
     /// Cycles of constant input that flush the kernel; the standard filters come on top.
@@ -122,6 +122,15 @@ impl Stage for Shaping {
         let y = self.filters.iter_mut().fold(shaped, |x, filter| filter.step(x));
         self.newest = (x, y);
         y
+    }
+
+    fn run(&mut self, values: &mut [f64]) {
+        let Some(newest) = values.last().copied() else { return };
+        self.kernel.run(values);
+        for filter in &mut self.filters {
+            filter.run(values);
+        }
+        self.newest = (newest, values[values.len() - 1]);
     }
 
     fn settle(&mut self, x: f64) {

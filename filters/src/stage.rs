@@ -17,10 +17,16 @@
 //! assert_eq!(ramp(&mut delay)[49], 50.0 - delay.delay_cycles());
 //! ```
 
-/// One causal stage of one axis, called exactly once per cycle.
+/// One causal stage of one axis, called once per cycle, or once for many in a row.
 pub trait Stage {
     /// Next output for the next input. Never allocates, never panics.
     fn step(&mut self, x: f64) -> f64;
+    /// The next outputs in place of the next inputs.
+    fn run(&mut self, values: &mut [f64]) {
+        for x in values {
+            *x = self.step(*x);
+        }
+    }
     /// Puts the stage at rest on the constant input `x`; no transient follows.
     fn settle(&mut self, x: f64);
     /// Delay of slow signals in cycles; curves are aligned with it.

@@ -19,3 +19,5 @@ mod profile;
 mod rest;
 #[path = "control/robustness.rs"]
 mod robustness;
+#[path = "control/rows.rs"]
+mod rows;

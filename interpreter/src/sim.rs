@@ -1,13 +1,15 @@
 //! The cycle loop: program steps into the planner, setpoints through the axes, records out.
 //!
-//! A [`Simulation`] is pulled one cycle at a time. The planner asks for blocks only as far as its look-ahead reaches, so
-//! neither the program nor the trace is ever held as a whole. Where the program needs the path at rest (exact stop,
-//! dwell, a new kernel), the planner runs dry, the loop holds the position until the condition is met, and only then
+//! A [`Simulation`] is pulled one cycle at a time; where nothing can come between, its axes are some cycles ahead, see `batch`.
+//! The planner asks for blocks only as far as its look-ahead reaches, so neither the program nor the trace is ever held as a whole.
+//! Where the program needs the path at rest (exact stop, dwell, a new kernel), the planner runs dry, the loop holds the position
+//! until the condition is met, and only then
 //! asks the program for its next step.
 
 mod act;
 mod axes;
 mod banding;
+mod batch;
 mod chain;
 mod fault;
 mod independent;
@@ -32,6 +34,7 @@ use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use axes::Driver;
 use banding::Banding;
+use batch::{Batch, MOST, MOST_READ, Watched};
 use chain::AxisChain;
 use independent::IndependentAxes;
 use inputs::Inputs;
@@ -126,6 +129,10 @@ pub(crate) struct Simulation {
     phase: Phase,
     /// The cycle computed last; before the first one the state at time zero.
     record: CycleRecord,
+    /// Where the block ends as it is programmed, for every chain.
+    targets: Vec<f64>,
+    /// Cycles that are computed in a row.
+    batch: Batch,
     /// Set positions of the path axes that are measured against the contour.
     set: AxisVec,
     /// Set positions of the path axes in the cycle before, in front of their filters.
@@ -216,6 +223,28 @@ impl Simulation {
 
     /// Computes the next cycle; false when the program has ended or was stopped and the axes are at rest.
     pub(crate) fn next_cycle(&mut self) -> bool {
+        if self.batch.is_pending() {
+            self.take_computed();
+            return true;
+        }
+        self.begin_row(MOST_READ, Watched::Each)
+    }
+
+    /// Computes up to `most` cycles of which nobody reads more than the last record, and stops where the output is to be
+    /// measured; the number of them, 0 as with [`Self::next_cycle`].
+    pub(crate) fn next_cycles(&mut self, most: u64) -> u64 {
+        if self.batch.is_pending() || self.is_measured() {
+            return u64::from(self.next_cycle());
+        }
+        let most = usize::try_from(most).unwrap_or(MOST).min(MOST);
+        if !self.begin_row(most, Watched::Last) {
+            return 0;
+        }
+        if self.batch.each_is_read() { 1 } else { 1 + self.take_all() }
+    }
+
+    /// Computes the next cycle and the axes of up to `most` cycles, this one included.
+    fn begin_row(&mut self, most: usize, watched: Watched) -> bool {
         loop {
             match &mut self.phase {
                 Phase::Done => return false,
@@ -277,7 +306,7 @@ impl Simulation {
                 }
             }
         }
-        self.through_the_axes();
+        self.through_the_axes(most.saturating_sub(1), watched);
         self.watch_probe();
         self.watch_banding();
         self.check_time();

@@ -27,6 +27,7 @@
 //! assert!(fastest <= 100.0);
 //! ```
 
+pub mod ahead;
 mod asked;
 pub mod axis;
 pub mod block;

@@ -36,6 +36,7 @@ mod replan;
 mod rests;
 mod sharp;
 
+use crate::ahead::Ahead;
 use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
 use crate::cap::{Cap, SpeedLimit};
@@ -293,6 +294,30 @@ impl Planner {
             }
             self.extend()?;
         }
+    }
+
+    /// Reads up to `most` setpoints of the coming cycles: those that are final, and that [`Self::advance`] would produce without
+    /// planning anything; none of block `before` or of a later one.
+    pub fn look_ahead(&self, most: usize, before: u64, out: &mut Ahead) {
+        let settled = self.wanted == self.active && self.unkept.is_empty() && !self.is_held();
+        let most = if settled { most } else { 0 };
+        let k = self.setpoint.k + 1;
+        let axes = self.setpoint.position.len();
+        out.read((&self.timeline, self.cycle), axes, k, most, before);
+    }
+
+    /// Produces setpoints `first` to `last` of those that were read, see [`crate::ahead`]: what only one cycle shows is that of the
+    /// last one.
+    pub fn take(&mut self, ahead: &Ahead, first: usize, last: usize) {
+        let passed = ahead.entries(first, last);
+        self.timeline.drop_first(passed);
+        let remembered = (last + 1).saturating_sub(self.monitor.remembers());
+        for i in first.max(remembered)..last {
+            ahead.state(i, &mut self.state);
+            self.monitor.record(&self.state.position, self.state.s);
+        }
+        ahead.state(last, &mut self.state);
+        self.output(self.setpoint.k + (last - first + 1) as u64);
     }
 
     /// One more cycle at the current position; only at rest.

@@ -235,42 +235,15 @@ impl Entry {
     }
 
     /// State at `k` cycles; exact at the end of a motion.
-    fn state(&self, k: u64, cycle: CycleTime, out: &mut PathState) {
-        // before the start the path rests at its beginning
-        let t = self.seconds_at(k, cycle);
-        let over = self.stops && k >= self.end.next_tick(cycle);
-        let state = self.profile.at(if over { self.profile.duration() } else { t });
-        let i = self.blocks.partition_point(|b| b.1 <= state.s_mm).min(self.blocks.len() - 1);
-        let (queued, s_end) = &self.blocks[i];
-        let path = &queued.block.path;
-        if over {
-            if queued.goes_on || *s_end > self.profile.length() * (1.0 + SAME_LENGTH) {
-                path.position(
-                    queued.offset + state.s_mm - (s_end - queued.length),
-                    &mut out.position,
-                );
-            } else {
-                out.position.copy_from_slice(path.end());
-            }
-            (out.v, out.a, out.j) = (0.0, 0.0, 0.0);
-            out.limit = self.why_down;
-        } else {
-            path.position(queued.offset + state.s_mm - (s_end - queued.length), &mut out.position);
-            (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
-            let top = self.feeds.get(i).unwrap_or(&queued.velocity);
-            // what is driven evenly after a change of speed keeps the rounding of that change
-            out.limit = if state.a_mm_s2 > FLAT_MM_S2 {
-                self.why_up
-            } else if state.a_mm_s2 < -FLAT_MM_S2 {
-                self.why_down
-            } else if state.v_mm_s >= top.v_mm_s * (1.0 - ROUNDING) {
-                top.why
-            } else {
-                self.why_down
-            };
-        }
-        out.s = self.s0 + state.s_mm;
-        out.seq = queued.block.seq;
+    pub(crate) fn state(&self, k: u64, cycle: CycleTime, out: &mut PathState) {
+        self.walk(cycle).state(k, out);
+    }
+
+    /// The entry, to be read in many cycles.
+    pub(crate) fn walk(&self, cycle: CycleTime) -> Walk<'_> {
+        let (start_s, end_s) = (self.start.seconds(), self.end.seconds());
+        let last_k = if self.stops { self.end.next_tick(cycle) } else { u64::MAX };
+        Walk { entry: self, cycle, start_s, end_s, last_k }
     }
 
     /// Moments in cycles and path lengths of the program at which the blocks of the span are entered.
@@ -317,28 +290,104 @@ impl Timeline {
 
     /// Drops what lies before cycle `k` and fills `out`; false if `k` lies after the last span.
     pub(crate) fn advance(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) -> bool {
-        while let Some(front) = self.entries.front() {
-            let resting = front.stops && self.entries.get(1).is_some_and(|e| k <= e.start.origin);
-            if resting || front.covers(k, cycle) {
-                front.state(k, cycle, out);
-                return true;
+        let mut at = 0;
+        let found = self.find(&mut at, k, cycle);
+        if let Some(entry) = found {
+            entry.state(k, cycle, out);
+        }
+        let found = found.is_some();
+        self.drop_first(at);
+        found
+    }
+
+    /// The entry of cycle `k`, from number `at` on, which becomes its own; none if `k` lies after the last span. A path that has
+    /// stopped for good stays at its last entry.
+    pub(crate) fn find(&self, at: &mut usize, k: u64, cycle: CycleTime) -> Option<&Entry> {
+        while let Some(entry) = self.entries.get(*at) {
+            let next = self.entries.get(*at + 1);
+            let resting = entry.stops && next.is_some_and(|e| k <= e.start.origin);
+            if resting || entry.walk(cycle).covers(k) {
+                return Some(entry);
             }
-            if self.entries.len() == 1 && front.stops {
-                return false;
+            if next.is_none() && entry.stops {
+                return None;
             }
+            *at += 1;
+        }
+        None
+    }
+
+    /// Drops the first entries.
+    pub(crate) fn drop_first(&mut self, count: usize) {
+        for _ in 0..count {
             self.entries.pop_front();
         }
-        false
     }
 }
 
-impl Entry {
-    fn covers(&self, k: u64, cycle: CycleTime) -> bool {
-        if self.stops {
-            k <= self.end.next_tick(cycle)
+/// An entry and what is the same in all of its cycles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walk<'a> {
+    entry: &'a Entry,
+    cycle: CycleTime,
+    start_s: f64,
+    end_s: f64,
+    /// Cycle of the end of a motion.
+    last_k: u64,
+}
+
+impl Walk<'_> {
+    /// Cycle `k` is not after the end.
+    #[inline]
+    pub(crate) fn covers(&self, k: u64) -> bool {
+        if self.entry.stops {
+            k <= self.last_k
         } else {
-            cycle.time_of(k.saturating_sub(self.start.origin)) < self.end.seconds()
+            self.cycle.time_of(k.saturating_sub(self.entry.start.origin)) < self.end_s
         }
+    }
+
+    /// State at `k` cycles; exact at the end of a motion.
+    #[inline]
+    pub(crate) fn state(&self, k: u64, out: &mut PathState) {
+        let Entry { profile, blocks, feeds, .. } = self.entry;
+        // before the start the path rests at its beginning
+        let since = self.cycle.time_of(k.saturating_sub(self.entry.start.origin));
+        let t = (since - self.start_s).max(0.0);
+        let over = k >= self.last_k;
+        let state = profile.at(if over { profile.duration() } else { t });
+        let i = match &blocks[..] {
+            [_] => 0,
+            blocks => blocks.partition_point(|b| b.1 <= state.s_mm).min(blocks.len() - 1),
+        };
+        let (queued, s_end) = &blocks[i];
+        let path = &queued.block.path;
+        let s = queued.offset + state.s_mm - (s_end - queued.length);
+        if over {
+            if queued.goes_on || *s_end > profile.length() * (1.0 + SAME_LENGTH) {
+                path.position(s, &mut out.position);
+            } else {
+                out.position.copy_from_slice(path.end());
+            }
+            (out.v, out.a, out.j) = (0.0, 0.0, 0.0);
+            out.limit = self.entry.why_down;
+        } else {
+            path.position(s, &mut out.position);
+            (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
+            let top = feeds.get(i).unwrap_or(&queued.velocity);
+            // what is driven evenly after a change of speed keeps the rounding of that change
+            out.limit = if state.a_mm_s2 > FLAT_MM_S2 {
+                self.entry.why_up
+            } else if state.a_mm_s2 < -FLAT_MM_S2 {
+                self.entry.why_down
+            } else if state.v_mm_s >= top.v_mm_s * (1.0 - ROUNDING) {
+                top.why
+            } else {
+                self.entry.why_down
+            };
+        }
+        out.s = self.entry.s0 + state.s_mm;
+        out.seq = queued.block.seq;
     }
 }
 

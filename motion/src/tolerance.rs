@@ -170,6 +170,11 @@ impl Monitor {
         self.history = std::iter::repeat_n((position.clone(), s_mm), self.length).collect();
     }
 
+    /// Number of setpoints that it keeps.
+    pub(crate) const fn remembers(&self) -> usize {
+        self.length
+    }
+
     /// Takes the setpoint of a cycle.
     pub(crate) fn record(&mut self, position: &AxisVec, s_mm: f64) {
         if self.length > 0 {

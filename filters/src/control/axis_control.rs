@@ -85,6 +85,10 @@ pub struct ControlOutput {
     pub load_mm: f64,
     /// Reference - actual position, mm.
     pub lag_mm: f64,
+    /// Largest lag that its monitor permits in mm, none while it is off.
+    pub lag_limit_mm: Option<f64>,
+    /// See [`ExactStopMonitor::settling_s`].
+    pub settling_s: f64,
     /// Feedforward.
     pub feedforward: FeedforwardOutput,
     /// Speed command: controller, conventional feedforward and additive speed, limited, mm/s.
@@ -294,6 +298,11 @@ impl AxisControl {
         Ok(())
     }
 
+    /// Its monitors have to look at every cycle: a stop is awaited, or a set position is above a threshold.
+    pub const fn goes_alone(&self) -> bool {
+        !self.exact_stop.rests() || self.setpoint.is_raised()
+    }
+
     /// What the monitors raised in the last cycle.
     pub const fn faults(&self) -> &Faults {
         &self.faults
@@ -310,23 +319,20 @@ impl AxisControl {
         inputs: &AxisInputs,
     ) -> bool {
         self.still_cycles >= Self::REST_CYCLES
-            && self.given == Given::new(set_mm, gain, jerk_limited, inputs)
+            && self.given.set == set_mm.to_bits()
+            && self.given.is_like(&Given::new(gain, jerk_limited, inputs))
     }
 
-    /// Counts cycles that are given the same and change nothing that has no fixed memory.
+    /// Counts cycles that change nothing that has no fixed memory; `calm`: they are given the same, and nothing else is in motion.
     #[inline]
-    fn count_still(&mut self, given: Given) {
+    fn count_still(&mut self, calm: bool) {
         // a plant that moves settles most cycles
-        let still = self.plant.rests()
-            && given == self.given
+        let still = calm
+            && self.plant.rests()
             && self.lag.rests()
-            && self.exact_stop.rests()
             && !self.limiter.is_active()
-            && self.ipc.is_off()
-            && !self.diverged
-            && self.faults.is_empty();
+            && !self.diverged;
         self.still_cycles = if still { self.still_cycles.saturating_add(1) } else { 0 };
-        self.given = given;
     }
 
     /// Position that the controller, the monitors and the exact stop see.
@@ -351,92 +357,148 @@ impl AxisControl {
     /// ([`gain`](super::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
     ///
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
-    #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
-        let given = Given::new(set_mm, gain, jerk_limited, &self.inputs);
-        let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
-        let position_mm = set_mm + self.inputs.additional_mm;
-        self.moving = (position_mm - self.position_mm).abs() > 0.0;
-        (self.set_mm, self.position_mm) = (set_mm, position_mm);
-        let cycle_s = self.cycle_s;
-        let measured = *self.plant.measured();
-        let actual_mm = self.controlled_mm();
+        let mut output = ControlOutput::default();
+        self.run(&[set_mm], gain, jerk_limited, 0, |_, seen| output = seen);
+        output
+    }
 
-        self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
-        let (reference_mm, reference_step_mm) = match self.held_mm {
-            Some(held_mm) => (held_mm, 0.0),
-            None => (self.buffer.reference_mm(), self.buffer.reference_step_mm()),
-        };
-        let position = &self.config.position;
-        let kv = position.gain_at(reference_step_mm / cycle_s);
-        let error_mm = position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
-        let mut feedforward = if self.buffer.is_without_gain() && self.feedforward.needs_gain() {
-            FeedforwardOutput::default()
-        } else {
-            self.feedforward.step(&self.buffer.window(), kv)
-        };
-        if self.held_mm.is_some() {
-            feedforward = FeedforwardOutput::default();
-        }
-        let mut wanted = kv * error_mm + feedforward.speed_mm_s;
-        let mut additive = self.ipc.step(&IpcInput {
-            motor_mm_s: measured.motor_mm_s,
-            direct_mm_s: (self.config.encoder == Encoder::Direct).then_some(measured.load_mm_s),
-            command_mm_s: wanted,
-        });
-        if self.open {
-            feedforward = FeedforwardOutput::default();
-            wanted = 0.0;
-            additive = IpcOutput::default();
-        }
-        let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
-
+    /// Cycles in a row under the same inputs, gain and slope, each as [`Self::step`], at least one. The number up to the first one
+    /// in which the monitors raise something or may: if it is not the last one, parts of the axis are beyond it, and it has to be
+    /// put back to where it was.
+    ///
+    /// `show` gets the output of the cycles from number `shown_from` on, and of one with a fault.
+    #[inline] // the output is large: used where it is made
+    pub fn run(
+        &mut self,
+        set_mm: &[f64],
+        gain: f64,
+        jerk_limited: bool,
+        shown_from: usize,
+        mut show: impl FnMut(usize, ControlOutput),
+    ) -> usize {
         self.faults.clear();
-        self.setpoint.step(set_mm, &mut self.faults);
-        self.faults.push(speed_fault);
-        self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
-        let late = self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm);
-        // an axis that a reaction holds does not arrive; the reaction has been reported already
-        self.faults.push(late.filter(|_| self.held_mm.is_none()));
-        let unstable = self.advance(
-            PlantInput {
-                speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),
-                acc_mm_s2: self.felt_mm_s2(feedforward.additive_acc_mm_s2),
-                force_mm_s2: self.inputs.force_mm_s2,
-                reference_mm,
-            },
-            reference_mm - actual_mm,
-        );
-        self.faults.push(unstable);
-        if self.open {
-            self.faults.clear();
-        }
-        self.count_still(given);
-
-        let tcp_acc_mm_s2 = (measured.tcp_mm_s - self.tcp_mm_s) / cycle_s;
-        self.tcp_mm_s = measured.tcp_mm_s;
-        let shown_mm = match self.config.encoder {
-            Encoder::Motor => actual_mm,
-            Encoder::Direct => measured.motor_mm,
+        let inputs = self.inputs;
+        let mut given = Given::new(gain, jerk_limited, &inputs);
+        let same = given.is_like(&self.given);
+        let calm = self.ipc.is_off() && !self.diverged && self.exact_stop.rests();
+        let set_by_set = !self.exact_stop.rests();
+        let count = match set_mm.len() {
+            0 => return 0,
+            1 => 1,
+            _ if set_by_set => 1,
+            most => most.min(self.setpoint.quiet(set_mm) + 1),
         };
-        ControlOutput {
-            reference_mm,
-            act_mm: shown_mm,
-            load_mm: if self.config.encoder == Encoder::Direct {
-                actual_mm
+        self.setpoint.pass(&set_mm[..count - 1]);
+        let (cycle_s, encoder) = (self.cycle_s, self.config.encoder);
+        for (i, set_mm) in set_mm[..count].iter().copied().enumerate() {
+            let last = i + 1 == count;
+            let before = std::mem::replace(&mut given.set, set_mm.to_bits());
+            let before = if i == 0 { self.given.set } else { before };
+            let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
+            let position_mm = set_mm + inputs.additional_mm;
+            self.moving = (position_mm - self.position_mm).abs() > 0.0;
+            (self.set_mm, self.position_mm) = (set_mm, position_mm);
+            let measured = *self.plant.measured();
+            let actual_mm = self.controlled_mm();
+
+            self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
+            let (reference_mm, reference_step_mm) = match self.held_mm {
+                Some(held_mm) => (held_mm, 0.0),
+                None => (self.buffer.reference_mm(), self.buffer.reference_step_mm()),
+            };
+            let position = &self.config.position;
+            let kv = position.gain_at(reference_step_mm / cycle_s);
+            let error_mm =
+                position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
+            let mut feedforward = if self.buffer.is_without_gain() && self.feedforward.needs_gain()
+            {
+                FeedforwardOutput::default()
             } else {
-                measured.load_mm
-            },
-            lag_mm: reference_mm - shown_mm,
-            feedforward,
-            command_mm_s,
-            additive_speed_mm_s: additive.speed_mm_s,
-            additive_speed_limited: additive.limited,
-            tcp_mm: measured.tcp_mm,
-            tcp_acc_mm_s2,
-            drive: self.drive_values(command_mm_s, &feedforward, additive.speed_mm_s),
-            faulty: !self.faults.is_empty(),
+                self.feedforward.step(&self.buffer.window(), kv)
+            };
+            if self.held_mm.is_some() {
+                feedforward = FeedforwardOutput::default();
+            }
+            let mut wanted = kv * error_mm + feedforward.speed_mm_s;
+            let mut additive = self.ipc.step(&IpcInput {
+                motor_mm_s: measured.motor_mm_s,
+                direct_mm_s: (encoder == Encoder::Direct).then_some(measured.load_mm_s),
+                command_mm_s: wanted,
+            });
+            if self.open {
+                feedforward = FeedforwardOutput::default();
+                wanted = 0.0;
+                additive = IpcOutput::default();
+            }
+            let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
+
+            if last {
+                self.setpoint.step(set_mm, &mut self.faults);
+            }
+            self.faults.push(speed_fault);
+            if last || self.lag.needs_every_cycle() || i + LagMonitor::MEMORY >= count {
+                self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
+            }
+            if set_by_set {
+                let late = self.exact_stop.step(set_mm, actual_mm - inputs.additional_mm);
+                // an axis that a reaction holds does not arrive; the reaction has been reported already
+                self.faults.push(late.filter(|_| self.held_mm.is_none()));
+            }
+            let unstable = self.advance(
+                PlantInput {
+                    speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),
+                    acc_mm_s2: self.felt_mm_s2(feedforward.additive_acc_mm_s2),
+                    force_mm_s2: inputs.force_mm_s2,
+                    reference_mm,
+                },
+                reference_mm - actual_mm,
+            );
+            self.faults.push(unstable);
+            if self.open {
+                self.faults.clear();
+            }
+            let faulty = !self.faults.is_empty();
+            let as_before = before == given.set && (same || i > 0);
+            self.count_still(as_before && calm && !faulty);
+
+            let tcp_before_mm_s = std::mem::replace(&mut self.tcp_mm_s, measured.tcp_mm_s);
+            if faulty || i >= shown_from || last {
+                let shown_mm = match encoder {
+                    Encoder::Motor => actual_mm,
+                    Encoder::Direct => measured.motor_mm,
+                };
+                let output = ControlOutput {
+                    reference_mm,
+                    act_mm: shown_mm,
+                    load_mm: match encoder {
+                        Encoder::Motor => measured.load_mm,
+                        Encoder::Direct => actual_mm,
+                    },
+                    lag_mm: reference_mm - shown_mm,
+                    lag_limit_mm: self.lag.limit_mm(),
+                    settling_s: self.exact_stop.settling_s(),
+                    feedforward,
+                    command_mm_s,
+                    additive_speed_mm_s: additive.speed_mm_s,
+                    additive_speed_limited: additive.limited,
+                    tcp_mm: measured.tcp_mm,
+                    tcp_acc_mm_s2: (measured.tcp_mm_s - tcp_before_mm_s) / cycle_s,
+                    drive: self.drive_values(command_mm_s, &feedforward, additive.speed_mm_s),
+                    faulty,
+                };
+                show(i, output);
+            }
+            if faulty {
+                self.given = given;
+                return i + 1;
+            }
         }
+        if !set_by_set {
+            self.exact_stop.pass(&set_mm[..count]);
+        }
+        self.given = given;
+        count
     }
 
     /// Advances the plant unless it diverged; then it is held where it was last finite.

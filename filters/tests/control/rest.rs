@@ -20,7 +20,7 @@ fn plants() -> impl Strategy<Value = PlantModel> {
 }
 
 prop_compose! {
-    fn configs()(
+    pub(crate) fn configs()(
         model in plants(),
         kind in prop::sample::select(&[
             LagMonitorType::Off,
@@ -50,7 +50,7 @@ prop_compose! {
 }
 
 /// A stretch of a run: cycles, speed in mm per cycle, gain, jerk limitation, what else changes at its beginning.
-fn stretches() -> impl Strategy<Value = Vec<(u32, f64, f64, bool, u8)>> {
+pub(crate) fn stretches() -> impl Strategy<Value = Vec<(u32, f64, f64, bool, u8)>> {
     let cycles = prop_oneof![2 => 1..60_u32, 1 => 2000..9000_u32];
     let speed = prop_oneof![2 => Just(0.0), 1 => -0.2..0.2];
     let gain = prop::sample::select(&[0.0, 0.0, 0.8][..]);

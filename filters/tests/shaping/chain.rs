@@ -424,7 +424,7 @@ proptest! {
             for _ in 0..cycles {
                 let set = f64::from(set);
                 if seldom.rests_under(set) {
-                    seldom.rest();
+                    seldom.rest(1);
                 } else {
                     before = seldom.step(set);
                 }

@@ -37,7 +37,8 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     }
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
-    let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), |record| {
+    let takes = times.is_some() || !traces.is_empty();
+    let take = |record: &CycleRecord| {
         if let Some(times) = &mut times {
             times.add(record);
         }
@@ -49,7 +50,9 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
             }
             other => other,
         })
-    });
+    };
+    let take = takes.then_some(take);
+    let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), take);
     // a subroutine that it came to on the way may be one of the outputs
     keep_apart(&reads.so_far(), &outputs)?;
     // every trace is brought to its file even if another one failed
@@ -112,7 +115,7 @@ impl Shown<'_> {
     pub(crate) const ALONE: Self = Self { label: "", errors_only: false };
 }
 
-/// Drives a run to its end: every record to `take` and to the summary, if there is one, every message to the console.
+/// Drives a run to its end: every record to `take` and to the summary, as far as there are any, every message to the console.
 ///
 /// # Errors
 /// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
@@ -121,7 +124,7 @@ pub(crate) fn drive(
     shown: Shown<'_>,
     console: &mut Console,
     summary: Option<&mut Collector>,
-    take: impl FnMut(&CycleRecord) -> Result<(), Error>,
+    take: Option<impl FnMut(&CycleRecord) -> Result<(), Error>>,
 ) -> Result<(), Error> {
     let progress = console.progress();
     let _running = Running::start();
@@ -144,17 +147,21 @@ struct Watch<'a, F> {
     console: &'a mut Console,
     progress: Progress,
     summary: Option<&'a mut Collector>,
-    take: F,
+    take: Option<F>,
 }
 
 impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
     type Stop = Error;
 
+    fn reads(&self) -> bool {
+        self.summary.is_some() || self.take.is_some()
+    }
+
     fn cycle(&mut self, record: &CycleRecord) -> Result<(), Error> {
         if let Some(summary) = &mut self.summary {
             summary.add(record);
         }
-        (self.take)(record)
+        self.take.as_mut().map_or(Ok(()), |take| take(record))
     }
 
     fn pause(&mut self, run: &mut Run) -> Result<(), Error> {

@@ -15,6 +15,12 @@ pub trait Sink {
     /// Why it takes no more.
     type Stop;
 
+    /// It looks at every cycle. Where it does not, cycles are not handed to it, and cost less: of many in a row the records are
+    /// not written.
+    fn reads(&self) -> bool {
+        true
+    }
+
     /// Takes a cycle.
     ///
     /// # Errors
@@ -210,34 +216,60 @@ impl Run {
     /// What the sink stops with.
     pub fn advance<S: Sink>(&mut self, cycles: u64, sink: &mut S) -> Result<(), S::Stop> {
         self.over |= self.stop.is_set();
-        for _ in 0..cycles {
-            if self.over {
-                break;
-            }
-            if !self.next_cycle() {
+        let mut left = cycles;
+        while left > 0 && !self.over {
+            let reads = sink.reads();
+            let count = if reads { u64::from(self.next_cycle()) } else { self.skip(left) };
+            if count == 0 {
                 self.over = true;
                 self.look_for_changes();
                 break;
             }
-            sink.cycle(self.record())?;
+            left -= count;
+            if reads {
+                sink.cycle(self.record())?;
+            }
         }
         Ok(())
     }
 
+    /// Advances by up to `most` cycles that nobody reads; the number of them, 0 if there are no more.
+    fn skip(&mut self, most: u64) -> u64 {
+        // what is measured is measured cycle by cycle
+        if self.apart.is_some() || self.simulation.is_measured() {
+            return u64::from(self.next_cycle());
+        }
+        let count = self.simulation.next_cycles(most);
+        self.raised.absorb(self.simulation.take_messages());
+        if count > 0 {
+            self.measure();
+        }
+        self.facts.files.update(self.simulation.files());
+        count
+    }
+
+    /// Measures the cycle computed last, on this thread.
+    fn measure(&mut self) {
+        let Self { simulation, measuring, samples, raised, .. } = self;
+        if simulation.is_measured() {
+            samples.clear();
+            simulation.sample(samples);
+            measuring.measure(samples);
+            samples.fill(0, simulation.record_mut());
+            simulation.exceeded(samples, 0).into_iter().for_each(|d| raised.push(d));
+        }
+    }
+
     /// Advances to the next cycle, with the messages up to it; false if there are no more.
     fn next_cycle(&mut self) -> bool {
-        let Self { simulation, measuring, samples, raised, .. } = self;
+        let Self { simulation, raised, .. } = self;
         let computed = if let Some(apart) = &mut self.apart {
             apart.next_cycle(simulation, raised)
         } else {
             let computed = simulation.next_cycle();
             raised.absorb(simulation.take_messages());
-            if computed && simulation.is_measured() {
-                samples.clear();
-                simulation.sample(samples);
-                measuring.measure(samples);
-                samples.fill(0, simulation.record_mut());
-                simulation.exceeded(samples, 0).into_iter().for_each(|d| raised.push(d));
+            if computed {
+                self.measure();
             }
             computed
         };

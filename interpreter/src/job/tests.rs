@@ -115,6 +115,80 @@ fn a_second_thread_changes_nothing() {
     }
 }
 
+/// A run whose cycles nobody reads is at each pause where the others are, raises the same messages and ends alike: under inputs,
+/// with faults of the axes among cycles in a row, with a tolerance from some block on, and cut into any number of cycles.
+#[test]
+fn cycles_that_nobody_reads_are_driven_alike() {
+    struct Pauses {
+        reads: bool,
+        records: Vec<CycleRecord>,
+        said: Vec<Diagnostic>,
+    }
+    impl Sink for Pauses {
+        type Stop = std::convert::Infallible;
+        fn reads(&self) -> bool {
+            self.reads
+        }
+        fn cycle(&mut self, _: &CycleRecord) -> Result<(), Self::Stop> {
+            assert!(self.reads);
+            Ok(())
+        }
+    }
+    let guard = "#VIB GUARD ON [MODE=2 FREQ=20]\n";
+    let square = "G01 X5 F3000\nY5\nX0 Y0\n";
+    let talk = "$FOR P1 = 1, 200, 1\n#MSG [\"%d\", P1]\nX[P1 * 0.01] M3 S500\n$ENDFOR\n";
+    let programs: [(String, &[&str], Option<&str>); 6] = [
+        (format!("{guard}G135\n{square}{square}M30\n"), &[], None),
+        (
+            format!("{guard}{square}#VIB GUARD ON [AX_DEV=0.05]\n{square}G04 0.3\n{square}M30\n"),
+            &[],
+            None,
+        ),
+        (format!("{guard}G01 F6000 G261\n{talk}G60 X0\nM19 S.POS 30\nM30\n"), &[], None),
+        // lags and accelerations above what is permitted
+        (
+            format!("{square}G00 X300 Y-200\nX0\nM30\n"),
+            &[
+                "X.getriebe[0].slep_ueberw_typ=4",
+                "X.getriebe[0].slep_max=30000",
+                "Y.kenngr.dyn_monitoring_a_warn=1",
+            ],
+            None,
+        ),
+        (
+            format!("{guard}{square}G01 X400 F9000\nY100\nM30\n"),
+            &[],
+            Some(
+                "t_s,override_percent,feedhold,Y_force_mm_s2\n0.05,40,,\n0.3,90,1,500\n0.5,,0,\n2,100,1,\n2.5,,0,0\n",
+            ),
+        ),
+        ("G01 X50 F1000\nP1=1/0\nM30\n".to_owned(), &[], None),
+    ];
+    for (text, settings, inputs) in &programs {
+        let drive = |reads: bool, stretch: u64| {
+            let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+            let lists = MachineLists { settings: &settings, ..MachineLists::default() };
+            let Ok((machine, warnings)) = lists.load() else { panic!("{text}") };
+            let sources = MemorySources::new().with("main.nc", text.as_str());
+            let files: Vec<_> =
+                inputs.iter().map(|text: &&str| ("a.csv", || Ok(text.as_bytes()))).collect();
+            let job = Job::new(machine, sources, "main.nc").with_warnings(warnings);
+            let changes = inputs::open(&files, job.machine()).unwrap();
+            let mut run = job.start().unwrap().with_inputs(changes).without_deviation();
+            let mut sink = Pauses { reads, records: Vec::new(), said: Vec::new() };
+            while !run.is_over() {
+                let Ok(()) = run.advance(stretch, &mut sink);
+                sink.records.push(run.record().clone());
+                sink.said.extend(run.take_diagnostics());
+            }
+            (format!("{:?}", sink.records), sink.said, run.totals())
+        };
+        for stretch in [1, 7, 300, Run::STRETCH] {
+            assert!(drive(true, stretch) == drive(false, stretch), "{text} {stretch}");
+        }
+    }
+}
+
 /// Columns that a trace leaves out by default say in no cycle what the others do not; where they would, they are there.
 #[test]
 fn columns_that_repeat_others_do_so_in_every_cycle() {

@@ -1,6 +1,7 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
-use super::{Phase, SettledStop, Simulation};
+use super::batch::Watched;
+use super::{Phase, Simulation};
 use crate::exec::{ShapingSetup, SourceRef};
 use crate::machine::{Axis, Machine};
 use crate::record::{PathRecord, Rest};
@@ -50,17 +51,16 @@ impl Simulation {
         }
     }
 
-    /// Hands the setpoint of the cycle through every axis and fills the record.
-    pub(super) fn through_the_axes(&mut self) {
-        let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
+    /// Enters the blocks up to number `seq` at a path length, with everything that happens in cycle `k` before the axes move.
+    pub(super) fn enter_blocks(&mut self, seq: u64, s_mm: f64, k: u64) {
         while self.underway.front().is_some_and(|u| u.seq <= seq) {
             if let Some(block) = self.underway.pop_front() {
-                self.progress.begin(block.programmed, self.record.path.s_mm);
+                self.progress.begin(block.programmed, s_mm);
                 self.current = block.source;
                 self.motion = block.motion;
-                for (record, driver) in self.record.axes.iter_mut().zip(&self.drivers) {
+                for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {
                     if let Driver::Path(p) = driver {
-                        record.target = block.target[*p] + self.independent.done_mm(*p);
+                        *target = block.target[*p] + self.independent.done_mm(*p);
                     }
                 }
                 self.jerk_limited = block.jerk_limited;
@@ -70,6 +70,13 @@ impl Simulation {
                 }
             }
         }
+    }
+
+    /// Hands the setpoint of the cycle through every axis and fills the record; with it up to `most` cycles after it, as far as
+    /// nothing but the path moves, see [`super::batch`].
+    pub(super) fn through_the_axes(&mut self, most: usize, watched: Watched) {
+        let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
+        self.enter_blocks(seq, self.record.path.s_mm, k);
         self.take_inputs(k);
         self.watch_thread();
         let alone = !self.independent.is_unused();
@@ -78,7 +85,6 @@ impl Simulation {
         }
         let setpoint = self.planner.setpoint();
         let ds = setpoint.s_mm - self.record.path.s_mm;
-        let mut faults = Vec::new();
         let mut positions = setpoint.position.clone();
         for (p, position) in positions.iter_mut().enumerate() {
             *position += if alone { self.independent.way_mm(p, k) } else { 0.0 };
@@ -115,23 +121,20 @@ impl Simulation {
                 chain.expect_stop(target_deg);
                 self.stops_at[i] = self.current;
             }
-            let ipo = match (self.frozen[i], self.drivers[i]) {
-                (Some(x), _) => x,
-                (None, Driver::Path(p)) => positions[p],
-                (None, Driver::Spindle(s)) => self.spindle_deg[s],
-                (None, Driver::Standing) => chain.set_mm(),
-            };
-            let record = &mut self.record.axes[i];
-            let settled = chain.settles();
-            if let Some(found) = chain.step(ipo, self.gains[i], self.jerk_limited, record) {
-                faults.extend(found.iter().map(|f| (i, *f)));
-            } else if settled && chain.arrived() {
-                let (source, settling_s) = (self.stops_at[i], record.settling_s);
-                self.totals.stops.add(SettledStop { axis: i, source, k, settling_s });
-            }
+        }
+        self.run_chains(most, watched);
+        self.end_cycle();
+    }
+
+    /// Completes the record of a cycle whose axes have been computed.
+    pub(super) fn end_cycle(&mut self) {
+        for (record, target) in self.record.axes.iter_mut().zip(&self.targets) {
+            record.target = *target;
         }
         // what is measured against the contour: the set position without the ways of independent axes; while one of them
         // moves, it does not count
+        let alone = !self.independent.is_unused();
+        let setpoint = self.planner.setpoint();
         for (p, set) in self.set.iter_mut().enumerate() {
             *set = if !alone {
                 self.record.axes[p].set
@@ -141,7 +144,7 @@ impl Simulation {
                 self.record.axes[p].set - self.independent.done_mm(p)
             };
         }
-        self.record.k = k;
+        self.record.k = setpoint.k;
         let rest = match &self.phase {
             Phase::Waiting(wait) => Some(wait.rest()),
             Phase::Running if self.is_held => Some(Rest::Held),
@@ -167,8 +170,10 @@ impl Simulation {
         for unkept in self.planner.take_unkept() {
             self.unkept(&unkept);
         }
-        for (i, f) in faults {
-            self.fault(i, &f);
+        if !self.batch.is_pending() {
+            for (i, f) in std::mem::take(&mut self.batch.faults) {
+                self.fault(i, &f);
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
-//! One axis from its interpolated setpoint to its actual position, one cycle at a time.
+//! One axis from its interpolated setpoint to its actual position, for cycles in a row.
 
 use crate::machine::{AdditionalInterface, ChainSetup};
-use crate::record::AxisRecord;
+use crate::record::{AxisRecord, CycleRecord};
 use kontur_filters::control::axis_control::{AxisControl, AxisInputs};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
@@ -33,8 +33,38 @@ impl Remaining {
     }
 }
 
+/// Where the records of one axis go, for cycles in a row.
+pub(crate) struct Records<'a> {
+    /// Number of the axis.
+    pub(crate) axis: usize,
+    /// That of the first cycle; where no one reads each of them, that of the last one.
+    pub(crate) first: &'a mut AxisRecord,
+    /// Those of the cycles after it, or none.
+    pub(crate) later: &'a mut [CycleRecord],
+}
+
+impl Records<'_> {
+    fn are_all_read(&self) -> bool {
+        !self.later.is_empty()
+    }
+
+    fn of(&mut self, i: usize) -> &mut AxisRecord {
+        match i.checked_sub(1).and_then(|i| self.later.get_mut(i)) {
+            Some(record) => &mut record.axes[self.axis],
+            None => self.first,
+        }
+    }
+
+    /// The first ones are that of the cycle before them.
+    fn repeat(&mut self, count: usize) {
+        for record in self.later.iter_mut().take(count.saturating_sub(1)) {
+            record.axes[self.axis] = *self.first;
+        }
+    }
+}
+
 /// Shaping and control of one axis with what the trace derives from them.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct AxisChain {
     shaping: Shaping,
     control: AxisControl,
@@ -52,6 +82,8 @@ pub(crate) struct AxisChain {
     vel: f64,
     acc: f64,
     cycle_s: f64,
+    /// The monitors have raised something in the last cycle.
+    faulty: bool,
 }
 
 impl AxisChain {
@@ -87,6 +119,7 @@ impl AxisChain {
             vel: 0.0,
             acc: 0.0,
             cycle_s: cycle.seconds(),
+            faulty: false,
         };
         chain.align(x);
         Ok(chain)
@@ -269,58 +302,84 @@ impl AxisChain {
         self.wear_mm = wear_mm;
     }
 
-    /// One cycle: fills the record and returns what the monitors have raised, if anything.
-    pub(crate) fn step(
+    /// It runs no more than one cycle at a time: it awaits a stop, or what is added to its position may change.
+    pub(crate) fn goes_alone(&self) -> bool {
+        let filtered = |a: &AdditionalInterface| a.filter.is_some();
+        self.control.goes_alone() || self.additional.as_ref().is_some_and(filtered)
+    }
+
+    /// Cycles in a row with these interpolated setpoints. The number up to the first one in which the monitors have raised
+    /// something, see [`Self::faults`]: if it is not the last one, the chain has to be put back to where it was.
+    pub(crate) fn run(
         &mut self,
-        ipo: f64,
+        ipo: &[f64],
         gain: f64,
         jerk_limited: bool,
-        record: &mut AxisRecord,
-    ) -> Option<&Faults> {
-        if self.rests_under(ipo, gain, jerk_limited) {
-            self.shaping.rest();
-            return None;
+        set: &mut Vec<f64>,
+        records: &mut Records<'_>,
+    ) -> usize {
+        let mut rested = 0;
+        self.faulty = false;
+        if self.rests_under(ipo[0], gain, jerk_limited) {
+            rested = ipo.iter().take_while(|x| x.to_bits() == ipo[0].to_bits()).count();
+            self.shaping.rest(rested);
+            records.repeat(rested);
         }
-        self.ipo.push(ipo);
-        let set = self.shaping.step(ipo);
-        let t = self.cycle_s;
-        let vel = (set - self.set) / t;
-        let acc = (vel - self.vel) / t;
-        let jerk = (acc - self.acc) / t;
-        (self.set, self.vel, self.acc) = (set, vel, acc);
+        let ipo = &ipo[rested..];
+        let Some(last) = ipo.len().checked_sub(1) else { return rested };
+        self.ipo.extend(ipo);
+        set.clear();
+        set.extend_from_slice(ipo);
+        self.shaping.run(set);
         let additional_mm = self.additional_mm();
         self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
-        let out = self.control.step(set, gain, jerk_limited);
-        *record = AxisRecord {
-            ipo,
-            set,
-            vel,
-            acc,
-            jerk,
-            err: set - self.aligned(),
-            dev: 0.0,
-            dev_both_ways: 0.0,
-            ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
-            cmd: out.command_mm_s,
-            vadd: out.additive_speed_mm_s,
-            vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
-            reference: out.reference_mm,
-            act: out.act_mm,
-            load: out.load_mm,
-            lag: out.lag_mm,
-            lag_limit: self.control.lag_monitor().limit_mm().unwrap_or(0.0),
-            add: additional_mm,
-            settling_s: self.control.exact_stop().settling_s(),
-            tcp: out.tcp_mm,
-            tcp_acc: out.tcp_acc_mm_s2,
-            target: record.target,
-            cmd_drive: out.drive.command,
-            vff_drive: out.drive.feedforward,
-            vadd_drive: out.drive.additive_speed,
-            torque_drive: out.drive.torque,
-            torque_n_m: out.drive.torque_n_m,
-        };
-        out.faulty.then(|| self.control.faults())
+        let shown_from = if records.are_all_read() { 0 } else { last };
+        let Self { control, ipo: past, delay, cycle_s, .. } = self;
+        let mut derived = Derived::new(set, [self.set, self.vel, self.acc], *cycle_s);
+        let mut faulty = false;
+        let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
+            let [vel, acc, jerk] = derived.at(i);
+            faulty |= out.faulty;
+            *records.of(rested + i) = AxisRecord {
+                ipo: ipo[i],
+                set: set[i],
+                vel,
+                acc,
+                jerk,
+                err: set[i] - aligned(past, *delay, (last - i) as u32),
+                dev: 0.0,
+                dev_both_ways: 0.0,
+                ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
+                cmd: out.command_mm_s,
+                vadd: out.additive_speed_mm_s,
+                vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
+                reference: out.reference_mm,
+                act: out.act_mm,
+                load: out.load_mm,
+                lag: out.lag_mm,
+                lag_limit: out.lag_limit_mm.unwrap_or(0.0),
+                add: additional_mm,
+                settling_s: out.settling_s,
+                tcp: out.tcp_mm,
+                tcp_acc: out.tcp_acc_mm_s2,
+                // of the block, not of the axis
+                target: 0.0,
+                cmd_drive: out.drive.command,
+                vff_drive: out.drive.feedforward,
+                vadd_drive: out.drive.additive_speed,
+                torque_drive: out.drive.torque,
+                torque_n_m: out.drive.torque_n_m,
+            };
+        });
+        let [vel, acc, _] = derived.at(last);
+        (self.set, self.vel, self.acc) = (set[last], vel, acc);
+        self.faulty = faulty;
+        rested + count
+    }
+
+    /// What the monitors have raised in the last cycle of [`Self::run`], if anything.
+    pub(crate) fn faults(&self) -> Option<&Faults> {
+        self.faulty.then(|| self.control.faults())
     }
 
     /// A cycle with these values would leave the record of the last one as it is.
@@ -339,11 +398,44 @@ impl AxisChain {
         let inputs = AxisInputs { additional_mm: additional_mm + self.wear_mm, ..self.inputs };
         self.control.rests_under(self.set, gain, jerk_limited, &inputs)
     }
+}
 
-    /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.
-    fn aligned(&self) -> f64 {
-        let (whole, part) = self.delay;
-        let newer = self.ipo.past(whole);
-        if part > 0.0 { newer + part * (self.ipo.past(whole + 1) - newer) } else { newer }
+/// Interpolated setpoint of the moment that the mean delay points to, `ago` cycles before the newest, linear between two samples.
+fn aligned(ipo: &Ring, (whole, part): (u32, f64), ago: u32) -> f64 {
+    let newer = ipo.past(whole + ago);
+    if part > 0.0 { newer + part * (ipo.past(whole + 1 + ago) - newer) } else { newer }
+}
+
+/// Derivatives of set positions, asked for in rising order.
+struct Derived<'a> {
+    set: &'a [f64],
+    cycle_s: f64,
+    /// The first cycle not asked for yet; in the one before it set position, velocity, acceleration and jerk.
+    next: usize,
+    before_mm: f64,
+    now: [f64; 3],
+}
+
+impl<'a> Derived<'a> {
+    /// With set position, velocity and acceleration in the cycle before.
+    fn new(set: &'a [f64], [before_mm, vel, acc]: [f64; 3], cycle_s: f64) -> Self {
+        Self { set, cycle_s, next: 0, before_mm, now: [vel, acc, 0.0] }
+    }
+
+    /// Velocity, acceleration and jerk in cycle `i`: differences, of which the third reaches three cycles back.
+    fn at(&mut self, i: usize) -> [f64; 3] {
+        let from = self.next.max(i.saturating_sub(2));
+        if from > self.next {
+            self.before_mm = self.set[from - 1];
+        }
+        for set in &self.set[from..=i] {
+            let [vel, acc, _] = self.now;
+            let now = (set - self.before_mm) / self.cycle_s;
+            let change = (now - vel) / self.cycle_s;
+            self.now = [now, change, (change - acc) / self.cycle_s];
+            self.before_mm = *set;
+        }
+        self.next = i + 1;
+        self.now
     }
 }

@@ -7,6 +7,7 @@ use crate::diag::{Condition, Diagnostic, rounded};
 use crate::machine::{Axis, AxisKind, Machine, RapidOverride};
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::control::plant::PlantModel;
+use kontur_filters::time::CycleTime;
 use kontur_motion::realtime::OverrideRatios;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -217,6 +218,13 @@ impl Inputs {
         self.next.is_none()
     }
 
+    /// The next change is due at a time.
+    pub(super) fn is_due(&self, time_s: f64, cycle: CycleTime) -> bool {
+        // a billionth of a cycle: times are decimal numbers, cycles binary ones
+        let late = time_s + 1e-9 * cycle.seconds();
+        self.next.is_some_and(|c| c.time_s <= late)
+    }
+
     /// Takes over what is due at a time; true if there was something.
     ///
     /// # Errors
@@ -227,11 +235,11 @@ impl Inputs {
         machine: &Machine,
         notes: &mut Vec<Diagnostic>,
     ) -> Result<bool, Box<Diagnostic>> {
-        // a billionth of a cycle: times are decimal numbers, cycles binary ones
-        let late = time_s + 1e-9 * machine.cycle.seconds();
         let mut any = false;
         let limited = |ratio: f64| ratio.min(machine.channel.most_override.unwrap_or(ratio));
-        while let Some(Change { signal, value, .. }) = self.next.filter(|c| c.time_s <= late) {
+        while self.is_due(time_s, machine.cycle)
+            && let Some(Change { signal, value, .. }) = self.next
+        {
             any = true;
             if self.seen.insert(signal) {
                 notes.extend(signal.without_effect(machine));

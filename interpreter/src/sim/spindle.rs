@@ -142,6 +142,11 @@ impl Spindle {
         self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits()
     }
 
+    /// Neither the path nor an angle decides where it is.
+    pub(super) fn turns_freely(&self) -> bool {
+        self.following.is_none() && self.cutting.is_none() && !self.positions()
+    }
+
     /// The set position is at rest.
     pub(super) fn rests(&self) -> bool {
         self.turning.speed_deg_s().abs() <= 0.0 && !self.approaches()

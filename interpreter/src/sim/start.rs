@@ -1,6 +1,7 @@
 //! A simulation before its first cycle: every axis at rest where the program starts.
 
 use super::axes::{Driver, drivers};
+use super::batch::Batch;
 use super::chain::AxisChain;
 use super::independent::IndependentAxes;
 use super::inputs::Inputs;
@@ -56,6 +57,8 @@ impl Simulation {
             smoothing: Smoothing::new(cycle),
             planner: Planner::new(cycle, window, &start[..n]),
             gains: vec![0.0; chains.len()],
+            targets: vec![0.0; chains.len()],
+            batch: Batch::default(),
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
             motion: Motion::None,

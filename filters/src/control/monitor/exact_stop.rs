@@ -124,6 +124,14 @@ impl ExactStopMonitor {
         }
     }
 
+    /// Cycles in a row while no stop is awaited, see [`Self::rests`].
+    pub(crate) fn pass(&mut self, set_mm: &[f64]) {
+        let Some(last_mm) = set_mm.last() else { return };
+        self.last_mm = *last_mm;
+        let away = |set_mm: &f64| (set_mm - self.rest_mm).abs() > Self::REACHED_MM;
+        self.moved = self.moved || set_mm.iter().any(away);
+    }
+
     /// One cycle: set position after the filters, actual position at the start of the cycle.
     #[inline]
     pub fn step(&mut self, set_mm: f64, actual_mm: f64) -> Option<Fault> {

@@ -68,7 +68,7 @@ pub struct LagMonitor {
     config: LagMonitorConfig,
     cycle: CycleTime,
     /// Past references, newest first.
-    past_mm: [f64; Self::MAX_DELAY + 2],
+    past_mm: [f64; Self::MEMORY],
     /// Past commanded movements for the shift of the limit, a ring.
     steps_mm: Vec<f64>,
     next: usize,
@@ -86,6 +86,8 @@ pub struct LagMonitor {
 impl LagMonitor {
     /// Largest delay of the actual value in cycles.
     pub(crate) const MAX_DELAY: usize = 10;
+    /// Cycles that its delay reaches back.
+    pub(crate) const MEMORY: usize = Self::MAX_DELAY + 2;
     /// Longest shift of the limit curve in cycles.
     const MAX_SHIFT: usize = 10_000;
     /// Relative difference of lags that is rounding.
@@ -102,7 +104,7 @@ impl LagMonitor {
         Self {
             config,
             cycle,
-            past_mm: [0.0; Self::MAX_DELAY + 2],
+            past_mm: [0.0; Self::MEMORY],
             steps_mm: vec![0.0; shift + 1],
             next: 0,
             still: 0,
@@ -146,6 +148,12 @@ impl LagMonitor {
             *past_mm += by_mm;
         }
         (self.still, self.rests) = (0, false);
+    }
+
+    /// It is on: every cycle counts. Otherwise as many of the last ones as it [remembers](Self::MEMORY).
+    #[inline]
+    pub(crate) fn needs_every_cycle(&self) -> bool {
+        self.config.kind != LagMonitorType::Off
     }
 
     /// One cycle: reference and actual position, gain of the position controller.

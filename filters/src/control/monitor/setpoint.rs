@@ -5,6 +5,7 @@
 //! Source: TF5200 axis parameters, P-AXIS-00439 to 00444; IDs 50118 and 50119 (velocity). No document gives the ID for
 //! acceleration and jerk.
 
+use crate::control::axis_control::AxisControl;
 use crate::control::fault::{Derivative, Fault, Faults};
 use crate::time::CycleTime;
 
@@ -112,6 +113,38 @@ impl SetpointMonitor {
     pub(crate) fn shift(&mut self, by_mm: f64) {
         for past_mm in &mut self.past_mm {
             *past_mm += by_mm;
+        }
+    }
+
+    /// A level is above good.
+    pub(crate) const fn is_raised(&self) -> bool {
+        self.raised
+    }
+
+    /// Number of the first cycles in a row about which there is nothing to say.
+    pub(crate) fn quiet(&self, set_mm: &[f64]) -> usize {
+        if self.raised {
+            return 0;
+        }
+        let [mut p1, p2, p3] = self.past_mm;
+        let mut d2 = [p1 - p2, p2 - p3];
+        let [v, a, j] = self.good_mm;
+        let loud = |set_mm: &f64| {
+            let d1 = set_mm - p1;
+            let good = d1.abs() <= v
+                && (d1 - d2[0]).abs() <= a
+                && (d1 - 2.0 * d2[0] + d2[1]).abs() <= j
+                && set_mm.abs() <= AxisControl::RANGE_MM;
+            (p1, d2) = (*set_mm, [d1, d2[0]]);
+            !good
+        };
+        set_mm.iter().position(loud).unwrap_or(set_mm.len())
+    }
+
+    /// Cycles about which there is nothing to say.
+    pub(crate) fn pass(&mut self, set_mm: &[f64]) {
+        for set_mm in &set_mm[set_mm.len().saturating_sub(3)..] {
+            self.past_mm = [*set_mm, self.past_mm[0], self.past_mm[1]];
         }
     }
 

@@ -14,6 +14,7 @@ use crate::target::{create_all, keep_apart};
 use crate::trace::select;
 use crate::{Error, Exit};
 use kontur_interpreter::job::Facts;
+use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::summary::Collector;
 use std::io::{self, BufWriter, Write};
@@ -76,7 +77,7 @@ pub(super) fn report(
         let values: usize = runs.iter().map(Recorded::values).sum();
         let most =
             most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
-        drive(&mut run, Shown::ALONE, console, Some(&mut summary), |record| {
+        let take = |record: &CycleRecord| {
             let t_s = record.k as f64 * recorded.cycle_s;
             if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
                 return Ok(());
@@ -92,7 +93,8 @@ pub(super) fn report(
                 samples.push(column.number(record).unwrap_or_default());
             }
             Ok(())
-        })?;
+        };
+        drive(&mut run, Shown::ALONE, console, Some(&mut summary), Some(take))?;
         // including the subroutines that the run reached
         keep_apart(&reads.so_far(), &[output.to_owned()])?;
         aborted |= run.totals().aborted;

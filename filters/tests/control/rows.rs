@@ -1,0 +1,131 @@
+//! Cycles in a row: an axis that runs through many at once gives what one gives that is stepped, bit for bit, with faults in the
+//! middle of rows as well.
+
+use super::rest::{configs, stretches};
+use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput};
+use kontur_filters::kernel::{Kernel, KernelFilter, Tap};
+use kontur_filters::stage::Stage;
+use kontur_filters::time::CycleTime;
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// Runs the first cycles of a row, up to the first fault; what is shown of them, from number `shown_from` on.
+fn run(
+    axis: &mut AxisControl,
+    row: &[f64],
+    gain: f64,
+    jerk_limited: bool,
+    shown_from: usize,
+) -> (usize, Vec<(usize, ControlOutput)>) {
+    let before = axis.clone();
+    let mut shown = Vec::new();
+    let mut count =
+        axis.run(row, gain, jerk_limited, shown_from, |i, output| shown.push((i, output)));
+    while count < row.len() {
+        *axis = before.clone();
+        shown.clear();
+        let again = axis.run(&row[..count], gain, jerk_limited, shown_from, |i, output| {
+            shown.push((i, output));
+        });
+        if again == count {
+            break;
+        }
+        count = again;
+    }
+    (count, shown)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn a_row_is_its_cycles(
+        config in configs(),
+        stretches in stretches(),
+        lengths in prop::collection::vec(1..300_usize, 1..9),
+        last_only in any::<bool>(),
+    ) {
+        let mut single = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+        let mut rows = single.clone();
+        let (mut set_mm, mut inputs) = (0.0, AxisInputs::default());
+        let mut lengths = lengths.into_iter().cycle();
+        for (cycles, speed, gain, jerk_limited, change) in stretches {
+            match change {
+                0 => inputs.force_mm_s2 = 40.0 - inputs.force_mm_s2,
+                1 => inputs.additional_mm = 0.1 - inputs.additional_mm,
+                2 => inputs.encoder_offset_mm = 0.01 - inputs.encoder_offset_mm,
+                3 => [&mut single, &mut rows].into_iter().for_each(|a| a.expect_stop(set_mm)),
+                4 => [&mut single, &mut rows].into_iter().for_each(AxisControl::halt),
+                5 => [&mut single, &mut rows].into_iter().for_each(AxisControl::open_loop),
+                _ => {}
+            }
+            single.set_inputs(inputs);
+            rows.set_inputs(inputs);
+            let path: Vec<f64> = (0..cycles)
+                .map(|k| {
+                    // a jump now and then: the monitors of the set position are heard
+                    set_mm += if k % 97 == 96 { 30.0 * speed } else { speed };
+                    set_mm
+                })
+                .collect();
+            let mut left = &path[..];
+            while !left.is_empty() {
+                let row = &left[..lengths.next().unwrap().min(left.len())];
+                let shown_from = if last_only { row.len() - 1 } else { 0 };
+                let (count, shown) = run(&mut rows, row, gain, jerk_limited, shown_from);
+                let mut shown = shown.into_iter().peekable();
+                for (i, x) in row[..count].iter().enumerate() {
+                    let output = single.step(*x, gain, jerk_limited);
+                    prop_assert!(i + 1 == count || single.faults().is_empty());
+                    if let Some((_, seen)) = shown.next_if(|(at, _)| *at == i) {
+                        prop_assert_eq!(format!("{seen:?}"), format!("{output:?}"));
+                    } else {
+                        prop_assert!(last_only && i + 1 < count);
+                    }
+                }
+                prop_assert!(shown.next().is_none());
+                prop_assert_eq!(single.faults(), rows.faults());
+                prop_assert_eq!(single.distance_mm().to_bits(), rows.distance_mm().to_bits());
+                left = &left[count..];
+            }
+        }
+    }
+
+    /// However the inputs are cut into rows; the reference is the sum over the taps as it is written down.
+    #[test]
+    fn a_kernel_in_rows_is_its_sum(
+        taps in prop::collection::vec((0..40_u32, 0.1..1.0), 1..7),
+        steps in prop::collection::vec(prop_oneof![2 => Just(0.0), 3 => -1.0..1.0], 1..900),
+        lengths in prop::collection::vec(1..700_usize, 1..5),
+    ) {
+        let taps = taps.into_iter().map(|(delay, weight)| Tap { delay, weight });
+        let kernel = Arc::new(Kernel::from_taps(taps).unwrap());
+        let mut filter = KernelFilter::new(Arc::clone(&kernel), 5.0);
+        let inputs: Vec<f64> = steps
+            .iter()
+            .scan(5.0, |x, step| {
+                *x += step;
+                Some(*x)
+            })
+            .collect();
+        let mut outputs = inputs.clone();
+        let mut left = &mut outputs[..];
+        for length in lengths.into_iter().cycle() {
+            let (row, rest) = left.split_at_mut(length.min(left.len()));
+            filter.run(row);
+            left = rest;
+            if left.is_empty() {
+                break;
+            }
+        }
+        for (k, output) in outputs.iter().enumerate() {
+            let past = |delay: u32| k.checked_sub(delay as usize).map_or(5.0, |k| inputs[k]);
+            let pull = |tap: &Tap| tap.weight * (past(tap.delay) - inputs[k]);
+            let sum = match kernel.taps() {
+                [tap] => past(tap.delay),
+                taps => inputs[k] + taps.iter().map(pull).sum::<f64>(),
+            };
+            prop_assert_eq!(output.to_bits(), sum.to_bits(), "cycle {}", k);
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Cycles in a row: where nothing but the path moves, the axes are computed one after the other over many cycles.
+//!
+//! Most cycles of a program follow from what is already planned: no event of a block, no input, no wait lies between them, and
+//! no axis asks what another one does. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its own column
+//! before the next one starts: its code and its state stay in the processor, and what nobody reads is not written. Then the
+//! cycles are taken one by one, in their order: path, blocks and records are in every cycle what they would have been alone. A
+//! single cycle is a row of one.
+//!
+//! A fault ends the row with the cycle that raised it. Chains that were already beyond it are put back to where they were before
+//! the row, and run once more up to that cycle.
+//!
+//! Alone go cycles in which something acts on the axes that changes from cycle to cycle, or that looks at them: waits, feedhold
+//! at rest, independent axes, threads, probes, wear, spindles that position or go with the path, exact stops.
+
+use super::axes::Driver;
+use super::chain::{AxisChain, Records};
+use super::spindle::Spindle;
+use super::{Phase, SettledStop, Simulation, Underway};
+use crate::record::{AxisRecord, CycleRecord};
+use kontur_filters::control::fault::{Fault, Faults};
+use kontur_filters::ring::Ring;
+use kontur_motion::ahead::Ahead;
+
+/// Cycles of a row, at most: their columns stay in the first cache.
+pub(super) const MOST: usize = Ring::ROOM;
+/// The same where every record is read: records are large.
+pub(super) const MOST_READ: usize = 64;
+
+/// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
+const FEW: usize = 8;
+
+/// Who looks at the records of cycles in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Watched {
+    /// Somebody, at each of them.
+    Each,
+    /// Nobody, but at that of the last one.
+    Last,
+}
+
+/// Cycles after the current one whose axes have been computed.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    ahead: Ahead,
+    /// How many of them have been computed, and taken.
+    computed: usize,
+    taken: usize,
+    /// How many are tried: after a fault few, because what lies after the next one is computed in vain.
+    tried: usize,
+    /// Up to here cycles go alone, because too few follow.
+    single_before: u64,
+    /// Records of the computed ones, if each of them is read.
+    records: Vec<CycleRecord>,
+    each: bool,
+    /// Faults of the last one.
+    pub(super) faults: Vec<(usize, Fault)>,
+    /// The chains and their records before the row, and the spindles.
+    before: Vec<(AxisChain, AxisRecord)>,
+    spindles_before: Vec<Spindle>,
+    /// Set positions of the spindles from the current cycle on.
+    spindle_deg: Vec<Vec<f64>>,
+    /// Of one chain from the current cycle on: interpolated setpoints, and set positions.
+    ipo: Vec<f64>,
+    set: Vec<f64>,
+}
+
+impl Batch {
+    /// The records of the cycles are read, each of them.
+    pub(super) const fn each_is_read(&self) -> bool {
+        self.each
+    }
+
+    /// Cycles have been computed and not been taken.
+    pub(super) const fn is_pending(&self) -> bool {
+        self.taken < self.computed
+    }
+}
+
+impl Simulation {
+    /// Takes the next of the cycles that have been computed.
+    pub(super) fn take_computed(&mut self) {
+        self.take_up_to(self.batch.taken);
+    }
+
+    /// Takes all of them, of which only the last one is looked at; the number of them.
+    pub(super) fn take_all(&mut self) -> u64 {
+        let count = self.batch.computed - self.batch.taken;
+        if let Some(last) = self.batch.computed.checked_sub(1) {
+            self.take_up_to(last);
+        }
+        count as u64
+    }
+
+    fn take_up_to(&mut self, last: usize) {
+        let first = std::mem::replace(&mut self.batch.taken, last + 1);
+        let k = self.planner.setpoint().k + 1;
+        self.planner.take(&self.batch.ahead, first, last);
+        let mut s_mm = self.record.path.s_mm;
+        for i in first..=last {
+            self.enter_blocks(self.batch.ahead.seq(i), s_mm, k + (i - first) as u64);
+            s_mm = self.batch.ahead.s_mm(i);
+        }
+        let position = &self.planner.setpoint().position;
+        for (now, x) in self.path_position.iter_mut().zip(position.iter()) {
+            *now = x + 0.0;
+        }
+        if self.batch.each {
+            std::mem::swap(&mut self.batch.records[last], &mut self.record);
+        }
+        self.end_cycle();
+        self.check_time();
+    }
+
+    /// How many of the cycles after this one, `most` at the most, follow without anything that acts on the axes but the path.
+    fn count_ahead(&mut self, most: usize) -> usize {
+        let k = self.planner.setpoint().k;
+        if most < FEW || k < self.batch.single_before || !self.is_left_alone() {
+            return 0;
+        }
+        // nothing is read in vain: where something happens in every block, that would be most of it
+        let changes =
+            |block: &&Underway| !block.events.is_empty() || block.jerk_limited != self.jerk_limited;
+        let before = self.underway.iter().find(changes).map_or(u64::MAX, |block| block.seq);
+        self.planner.look_ahead(most, before, &mut self.batch.ahead);
+        let waits_for_input = |later: usize| {
+            let next = k + 1 + later as u64;
+            next > self.max_cycles || self.inputs.is_due(self.cycle.time_of(next), self.cycle)
+        };
+        let read = self.batch.ahead.len();
+        let count = (0..read).find(|later| waits_for_input(*later)).unwrap_or(read);
+        if count < FEW {
+            self.batch.single_before = k + 1 + count as u64;
+            return 0;
+        }
+        count
+    }
+
+    /// Nothing acts on the axes, or looks at them, but what the next cycles bring.
+    fn is_left_alone(&self) -> bool {
+        let turns = |spindle: &Spindle| spindle.turns_freely();
+        let runs = |(chain, driver): (&AxisChain, &Driver)| {
+            !chain.goes_alone() && *driver != Driver::Standing
+        };
+        matches!(self.phase, Phase::Running)
+            && !self.is_held
+            && self.thread.is_none()
+            && self.thread_delay <= 0.0
+            && self.probing.is_none()
+            && self.banding.is_none()
+            && self.independent.is_unused()
+            && self.wear.is_unused()
+            && self.spindles.iter().all(turns)
+            && self.chains.iter().zip(&self.drivers).all(runs)
+    }
+
+    /// Runs every chain through this cycle and up to `most` after it.
+    pub(super) fn run_chains(&mut self, most: usize, watched: Watched) {
+        self.batch.each = watched == Watched::Each || self.is_measured();
+        let most = if self.batch.each { most.min(MOST_READ - 1) } else { most };
+        self.batch.tried = (2 * self.batch.tried).clamp(FEW, MOST);
+        let later = self.count_ahead(most.min(self.batch.tried));
+        let mut count = 1 + later;
+        let mut records = std::mem::take(&mut self.batch.records);
+        while self.batch.each && records.len() < count - 1 {
+            records.push(self.record.clone());
+        }
+        self.turn_spindles(count);
+        self.batch.before.clear();
+        let mut faulty = false;
+        for i in 0..self.chains.len() {
+            if count > 1 {
+                self.batch.before.push((self.chains[i].clone(), self.record.axes[i]));
+            }
+            let settles = self.chains[i].settles();
+            let done = self.run_chain(i, count, &mut records);
+            faulty |= self.chains[i].faults().is_some();
+            if settles && self.chains[i].arrived() && self.chains[i].faults().is_none() {
+                self.settled(i);
+            }
+            if done < count {
+                (count, self.batch.tried) = (done, 0);
+                for other in 0..=i {
+                    (self.chains[other], self.record.axes[other]) =
+                        self.batch.before[other].clone();
+                    self.run_chain(other, count, &mut records);
+                }
+                self.spindles.clone_from(&self.batch.spindles_before);
+                self.turn_spindles(count);
+            }
+        }
+        if faulty {
+            for (i, chain) in self.chains.iter().enumerate() {
+                let found = chain.faults().into_iter().flat_map(Faults::iter);
+                self.batch.faults.extend(found.map(|f| (i, *f)));
+            }
+        }
+        self.batch.records = records;
+        (self.batch.computed, self.batch.taken) = (count - 1, 0);
+    }
+
+    /// The actual position of a chain is inside the window of its stop.
+    fn settled(&mut self, axis: usize) {
+        let (source, settling_s) = (self.stops_at[axis], self.record.axes[axis].settling_s);
+        let k = self.planner.setpoint().k;
+        self.totals.stops.add(SettledStop { axis, source, k, settling_s });
+    }
+
+    /// Runs one chain through this cycle and the computed ones after it, to `count` cycles; the number of them.
+    fn run_chain(&mut self, i: usize, count: usize, records: &mut [CycleRecord]) -> usize {
+        let chain = &mut self.chains[i];
+        let ipo = &mut self.batch.ipo;
+        ipo.clear();
+        match (self.frozen[i], self.drivers[i]) {
+            (Some(x), _) => ipo.push(x),
+            (None, Driver::Path(p)) => {
+                ipo.push(self.path_position[p]);
+                if count > 1 {
+                    let ahead = &self.batch.ahead.positions(p)[..count - 1];
+                    // as with the ways of independent axes, which are 0
+                    ipo.extend(ahead.iter().map(|x| x + 0.0));
+                }
+            }
+            (None, Driver::Spindle(s)) => {
+                ipo.extend_from_slice(&self.batch.spindle_deg[s][..count]);
+            }
+            (None, Driver::Standing) => ipo.push(chain.set_mm()),
+        }
+        let first = &mut self.record.axes[i];
+        let later: &mut [CycleRecord] =
+            if self.batch.each { &mut records[..count - 1] } else { &mut [] };
+        let mut records = Records { axis: i, first, later };
+        chain.run(ipo, self.gains[i], self.jerk_limited, &mut self.batch.set, &mut records)
+    }
+
+    /// Turns the spindles through the cycles after this one, to `count` cycles.
+    fn turn_spindles(&mut self, count: usize) {
+        let Self { batch, spindles, spindle_deg, cycle, .. } = self;
+        if count > 1 {
+            batch.spindles_before.clone_from(spindles);
+        }
+        batch.spindle_deg.resize_with(spindles.len(), Vec::new);
+        for ((column, spindle), now) in batch.spindle_deg.iter_mut().zip(spindles).zip(spindle_deg)
+        {
+            column.clear();
+            column.push(*now);
+            column.extend((1..count).map(|_| spindle.step(&[], *cycle)));
+        }
+    }
+}
