@@ -67,6 +67,21 @@ impl Shaping {
         self.kernel.settled() && kernel.is_none_or(|kernel| self.kernel.settled_for(kernel))
     }
 
+    /// Other standard filters from now on. `kept[i]` says which of those before filter `i` is: it continues, the others begin
+    /// at rest on what arrives there.
+    pub fn change_filters(&mut self, filters: Vec<AxisFilter>, kept: &[Option<usize>]) {
+        let before = std::mem::replace(&mut self.filters, filters);
+        let mut x = self.newest.0;
+        for (filter, kept) in self.filters.iter_mut().zip(kept) {
+            match kept.and_then(|i| before.get(i)) {
+                Some(same) => filter.clone_from(same),
+                None => filter.settle(x),
+            }
+            x = filter.final_value(x);
+        }
+        self.newest.1 = x;
+    }
+
     /// The kernel in the slot, the identity if it is empty.
     pub fn kernel(&self) -> &Arc<Kernel> {
         self.kernel.kernel()

@@ -248,6 +248,47 @@ fn machine_data_move_no_axis() {
     }
 }
 
+/// `#MACHINE DATA` of one standard filter leaves the others where they are: a high-pass keeps the part that it holds back,
+/// so an axis at rest does not move.
+#[test]
+fn machine_data_of_a_filter_leave_the_others() {
+    let high_pass = ["enable=1", "type=HIGHPASS", "order=1", "share_percent=50"];
+    let low_pass = ["enable=1", "order=1", "fg_f0=15"];
+    let settings: Vec<String> = [("0", &low_pass[..]), ("1", &high_pass), ("2", &low_pass)]
+        .iter()
+        .flat_map(|(i, keys)| keys.iter().map(move |key| format!("X.filter[{i}].{key}")))
+        .collect();
+    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    for changed in
+        ["filter[0].fg_f0 25", "filter[2].fg_f0 25", "filter[0].enable 0", "filter[2].enable 0"]
+    {
+        let command = format!("#MACHINE DATA [AX=X AXPARAM=\"{changed}\"]");
+        let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), &settings);
+        let after = run.records.iter().filter(|r| r.line > 2).map(|r| r.axes[0].set);
+        // half of the way is held back, of the micrometre at the end too
+        let far = after.fold(0.0, |far: f64, set| far.max((set - 10.0).abs()));
+        assert!(far < 0.0011, "{changed}: {far} mm from 10");
+    }
+}
+
+/// The timer of an exact stop starts where the filters count as settled, P-AXIS-00351: the larger it is, the earlier; and no stop
+/// is lost.
+#[test]
+fn the_exact_stop_waits_for_settled_filters() {
+    let filter = ["enable=1", "type=PT1", "order=1", "time_constant=30000"];
+    let with = |window: &str| {
+        let mut settings: Vec<String> = filter.iter().map(|k| format!("X.filter[0].{k}")).collect();
+        settings.push(format!("X.kenngr.filter_position_window={window}"));
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let run = run(&program(&["G60 G01 X20 F6000", "G01 X40"]), &settings);
+        let (count, slowest) = run.totals.stops.axes[&0];
+        assert_eq!(count, 2, "window {window}");
+        slowest.settling_s
+    };
+    // 0.1 mm before the target the actual position is still outside its window of 0.01 mm
+    assert!(with("1000") > 0.05 && with("0.4") < 0.002);
+}
+
 /// The weights of exchanged axes are 100 % again, those of the others stay. Source: spec 50/1 (programming manual).
 #[test]
 fn weights_return_with_an_exchange() {

@@ -475,7 +475,7 @@ impl AxisControl {
                         Encoder::Motor => measured.load_mm,
                         Encoder::Direct => actual_mm,
                     },
-                    lag_mm: reference_mm - shown_mm,
+                    lag_mm: reference_mm - actual_mm,
                     lag_limit_mm: self.lag.limit_mm(),
                     settling_s: self.exact_stop.settling_s(),
                     feedforward,

@@ -226,6 +226,8 @@ fn encoder_of_the_position_loop() {
         let out = (0..20_000).map(|_| axis.step(1.0, 0.0, false)).last().unwrap();
         assert!((out.act_mm - motor_mm).abs() < 1e-6, "{encoder:?} {} {motor_mm}", out.act_mm);
         assert!((out.load_mm - load_mm).abs() < 1e-6, "{encoder:?} {} {load_mm}", out.load_mm);
+        // the following error is that of the encoder that is at the reference
+        assert!(out.lag_mm.abs() < 1e-6, "{encoder:?} {}", out.lag_mm);
     }
 }
 

@@ -168,16 +168,10 @@ impl Simulation {
 
     /// Another chain for an axis, where the axis is, with the kernel in force.
     fn replace(&mut self, i: usize, old: &ChainSetup, new: ChainSetup) {
-        let (same_filters, same_interface) =
-            (old.filters == new.filters, old.additional == new.additional);
         let before = &self.chains[i];
-        match AxisChain::new(new, before.set_mm(), self.inputs.axes[i], self.cycle) {
+        match AxisChain::new(new.clone(), before.set_mm(), self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
-                chain.take_over(before, same_filters, same_interface);
-                let kernel = self.drivers[i].kernel(self.executor.shaping()).cloned();
-                if !same_filters && chain.set_kernel(kernel).is_err() {
-                    self.messages.own.push(super::fault::switch_while_moving());
-                }
+                chain.take_over(before, old, &new);
                 self.chains[i] = chain;
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),

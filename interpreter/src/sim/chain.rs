@@ -5,6 +5,7 @@ use crate::record::{AxisRecord, CycleRecord};
 use kontur_filters::control::axis_control::{AxisControl, AxisInputs};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
+use kontur_filters::iir::AxisFilter;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
 use kontur_filters::ring::Ring;
 use kontur_filters::shaping::Shaping;
@@ -125,15 +126,19 @@ impl AxisChain {
         Ok(chain)
     }
 
-    /// This chain takes the place of another one. Filters and the filter of the additional interface continue where they are the
-    /// same; others begin at rest where the set position is.
-    pub(crate) fn take_over(&mut self, before: &Self, same_filters: bool, same_interface: bool) {
-        if same_filters {
-            self.shaping = before.shaping.clone();
+    /// This chain, of `new`, takes the place of another one, of `old`. What is the same continues: the kernel, each filter, and
+    /// the filter of the additional interface; other filters begin at rest.
+    pub(crate) fn take_over(&mut self, before: &Self, old: &ChainSetup, new: &ChainSetup) {
+        self.shaping = before.shaping.clone();
+        if old.filters == new.filters {
             self.align(before.ipo.newest());
             self.ipo = before.ipo.clone();
+        } else {
+            let kept = same_filters(&old.filters, &new.filters);
+            self.shaping.change_filters(new.filters.clone(), &kept);
+            self.align(before.ipo.newest());
         }
-        if same_interface {
+        if old.additional == new.additional {
             self.additional.clone_from(&before.additional);
         }
         self.inputs = before.inputs;
@@ -438,4 +443,19 @@ impl<'a> Derived<'a> {
         self.next = i + 1;
         self.now
     }
+}
+/// Which of the filters before each of the new ones is. One that is changed, added or taken away lies between those that are the
+/// same in front and at the end.
+fn same_filters(old: &[AxisFilter], new: &[AxisFilter]) -> Vec<Option<usize>> {
+    let front = old.iter().zip(new).take_while(|(a, b)| a == b).count();
+    let most = old.len().min(new.len()) - front;
+    let back =
+        old.iter().rev().zip(new.iter().rev()).take(most).take_while(|(a, b)| a == b).count();
+    let first_at_end = new.len() - back;
+    let kept = |i: usize| match i {
+        i if i < front => Some(i),
+        i if i >= first_at_end => Some(i + old.len() - new.len()),
+        _ => None,
+    };
+    (0..new.len()).map(kept).collect()
 }

@@ -18,6 +18,9 @@ pub struct ExactStopConfig {
     /// Time in s to reach it (P-AXIS-00532, if negative P-AXIS-00151), default 1; none: not monitored (value 0).
     /// Recommended 0.010 to 0.200.
     pub settling_s: Option<f64>,
+    /// Distance in mm below which a set position has reached its target, because recursive filters only approach it
+    /// (P-AXIS-00351); at least half an increment.
+    pub reached_mm: f64,
 }
 
 impl ExactStopConfig {
@@ -27,7 +30,7 @@ impl ExactStopConfig {
 
 impl Default for ExactStopConfig {
     fn default() -> Self {
-        Self { window_mm: 0.05, settling_s: Some(1.0) }
+        Self { window_mm: 0.05, settling_s: Some(1.0), reached_mm: Self::HALF_INCREMENT_MM }
     }
 }
 
@@ -55,8 +58,8 @@ pub struct ExactStopMonitor {
 }
 
 impl ExactStopMonitor {
-    /// Distance below which a set position has reached its target: recursive filters only approach it.
-    const REACHED_MM: f64 = ExactStopConfig::HALF_INCREMENT_MM;
+    /// Distance from which on a set position has moved.
+    const MOVED_MM: f64 = ExactStopConfig::HALF_INCREMENT_MM;
 
     /// A monitor at rest.
     pub fn new(config: ExactStopConfig, cycle: CycleTime) -> Self {
@@ -117,7 +120,7 @@ impl ExactStopMonitor {
     /// set position got there. An axis that has not moved since its last stop, and need not, has no new one; one that still
     /// settles at this target keeps its time, since a dwell after an exact stop is not another stop.
     pub fn expect(&mut self, target_mm: f64) {
-        if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
+        if (target_mm - self.last_mm).abs() > self.config.reached_mm {
             self.state = State::Approaching { target_mm };
         } else if self.moved && !self.settles() {
             self.begin(target_mm);
@@ -128,7 +131,7 @@ impl ExactStopMonitor {
     pub(crate) fn pass(&mut self, set_mm: &[f64]) {
         let Some(last_mm) = set_mm.last() else { return };
         self.last_mm = *last_mm;
-        let away = |set_mm: &f64| (set_mm - self.rest_mm).abs() > Self::REACHED_MM;
+        let away = |set_mm: &f64| (set_mm - self.rest_mm).abs() > Self::MOVED_MM;
         self.moved = self.moved || set_mm.iter().any(away);
     }
 
@@ -136,8 +139,9 @@ impl ExactStopMonitor {
     #[inline]
     pub fn step(&mut self, set_mm: f64, actual_mm: f64) -> Option<Fault> {
         self.last_mm = set_mm;
-        self.moved |= (set_mm - self.rest_mm).abs() > Self::REACHED_MM;
-        let at = |target_mm: f64| (set_mm - target_mm).abs() <= Self::REACHED_MM;
+        self.moved |= (set_mm - self.rest_mm).abs() > Self::MOVED_MM;
+        let reached_mm = self.config.reached_mm;
+        let at = |target_mm: f64| (set_mm - target_mm).abs() <= reached_mm;
         match self.state {
             State::Idle => None,
             State::Approaching { target_mm } => {
@@ -187,7 +191,7 @@ mod tests {
     use super::*;
 
     fn monitor(settling_s: Option<f64>) -> ExactStopMonitor {
-        let config = ExactStopConfig { window_mm: 0.05, settling_s };
+        let config = ExactStopConfig { settling_s, ..ExactStopConfig::default() };
         let mut m = ExactStopMonitor::new(config, CycleTime::DEFAULT);
         m.start(0.0);
         m

@@ -31,7 +31,12 @@ pub(super) fn lag(axis: &Axis, digital: bool) -> LagMonitorConfig {
 pub(super) fn exact_stop(axis: &Axis) -> ExactStopConfig {
     let time_s = axis.get(axis_control::SETTLING_TIME);
     let time_s = if time_s < 0.0 { axis.get(axis_control::SETTLING_TIME_OLD) } else { time_s };
-    ExactStopConfig { window_mm: axis.window_mm(), settling_s: Some(time_s).filter(|t| *t > 0.0) }
+    let least = ExactStopConfig::default();
+    ExactStopConfig {
+        window_mm: axis.window_mm(),
+        settling_s: Some(time_s).filter(|t| *t > 0.0),
+        reached_mm: axis.filter_window_mm().max(least.reached_mm),
+    }
 }
 
 /// The monitor of the set positions under these limits.

@@ -26,7 +26,7 @@ const FILTER_TYPES: &[(&str, u32)] = &[
 parameters! {
     axis("P-AXIS-00067", "filter[i].fg_f0", Raw::Real64, "corner frequency of LOWPASS (start of the stop band) and HIGHPASS (start of the pass band), centre frequency of BANDPASS and BANDSTOP, first natural frequency of HSC NoVib")
         .range(Bound::At(0.0), Bound::Text("below 0.5 / cycle")).default(30.0).unit("Hz", "Hz").at_setup().source("TF5200 axis filters"), as FREQUENCY: Number;
-    axis("P-AXIS-00080", "filter[i].guete", Raw::Real64, "Q = centre frequency / bandwidth, for BANDPASS and BANDSTOP only")
+    axis("P-AXIS-00080", "filter[i].guete", Raw::Real64, "Q = centre frequency / bandwidth, for BANDPASS and BANDSTOP only: the -3 dB edges are exactly fg_f0 / guete apart at any cycle time, unlike those of Improved Position Control, which keep the Q of the continuous filter")
         .range(Bound::At(1.0), Bound::At(10.0)).default(1.0).at_setup().source("TF5200 axis filters"), as QUALITY: Number;
     axis("P-AXIS-00140", "filter[i].order", Raw::Uns32, "filter order, 0 = off")
         .range(Bound::At(0.0), Bound::Text("6 (LOWPASS, HIGHPASS, ALLPASS), 3 (BANDPASS, BANDSTOP), 1 (PT1), 2 (PT2), 200 (HSC); TIME_DELAY: any above 0 switches on")).default(0.0).at_setup().source("TF5200 axis filters"), as ORDER: Whole;
