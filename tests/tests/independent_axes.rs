@@ -261,3 +261,45 @@ fn an_exact_stop_waits_for_independent_axes() {
     let (oscillating, _) = arrives(1, "Z[OSC ON 1ST_POS=-1 2ND_POS=1 FEED=600]");
     assert!(oscillating < 0.6, "{oscillating}");
 }
+
+/// Position monitoring of an independent axis begins where its own motion ends, while the path is still on its way: too little
+/// time is 70082 in the line of the motion, and enough is a settled stop, which the end of the program waits for.
+#[test]
+fn the_stop_of_an_independent_axis_is_monitored() {
+    let program = "%P\nZ[INDP_ASYN G90 G01 FEED=6000 POS=10]\nG01 X200 F6000\nM30\n";
+    let with = |time_us: u32| {
+        let setting = format!("Z.getriebe[0].position_settling_time={time_us}");
+        run(program, &[&setting])
+    };
+    let late = with(20_000);
+    assert_eq!(late.errors(), ["70082"]);
+    let line = |d: &Diagnostic| d.source.as_ref().map(|source| source.line);
+    assert!(late.diagnostics.iter().all(|d| line(d) == Some(2)));
+    let enough = with(100_000);
+    assert!(enough.errors().is_empty());
+    let (count, slowest) = enough.totals.stops.axes[&2];
+    // 10 mm at 100 mm/s; the lag of a second order decays in 44 ms, long before the end of the path
+    assert!(count == 1 && slowest.source.line == 2 && slowest.settling_s > 0.02);
+    assert!((slowest.k as f64) * enough.cycle_s < 0.5);
+    let last = enough.records.last().unwrap();
+    // the path is shorter: the program ends with the axis in its window
+    let far = run(&program.replace("POS=10", "POS=100").replace("X200", "X1"), &[]);
+    let end = far.records.last().unwrap();
+    assert!((last.axes[2].act - 10.0).abs() < 0.011 && (end.axes[2].act - 100.0).abs() <= 0.01);
+}
+
+/// A fault in a dwell: the rows of the stop belong to the dwell.
+#[test]
+fn a_fault_in_a_dwell_belongs_to_the_dwell() {
+    let program = "%P\nG01 X1 F6000\nM3 S1000\nG04 0.3\nG01 X20\nM30\n";
+    let lag = [
+        "S.getriebe[0].slep_ueberw_typ=4",
+        "S.getriebe[0].slep_max=1000000",
+        "S.getriebe[0].slep_min=1000000",
+    ];
+    let run = run(program, &lag);
+    assert!(!run.errors().is_empty());
+    let dwell = run.records.iter().position(|r| r.line == 4).unwrap();
+    assert!(run.records[dwell..].iter().all(|r| r.line == 4));
+    assert!(run.records.len() > dwell + 100);
+}

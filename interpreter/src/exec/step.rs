@@ -344,6 +344,8 @@ pub(crate) struct IndependentMotion {
     pub speed: IndependentSpeed,
     /// Shape of the acceleration.
     pub slope: SlopeKind,
+    /// Its block.
+    pub source: SourceRef,
 }
 
 /// Motion of an oscillating axis; it always ends at its second position.
@@ -361,6 +363,8 @@ pub(crate) struct OscillatingMotion {
     pub slope: SlopeKind,
     /// Number of oscillations; `None`: until the program waits for the axis.
     pub count: Option<u32>,
+    /// Its block.
+    pub source: SourceRef,
 }
 
 /// What a spindle does.

@@ -159,7 +159,7 @@ impl Simulation {
         let (setups, _) = self.machine.chains();
         for (i, (old, new)) in before.iter().zip(setups).enumerate() {
             if *old != new {
-                self.replace(i, old, new);
+                self.replace(i, old, &new);
             }
         }
         let setup = self.executor.shaping().clone();
@@ -167,11 +167,11 @@ impl Simulation {
     }
 
     /// Another chain for an axis, where the axis is, with the kernel in force.
-    fn replace(&mut self, i: usize, old: &ChainSetup, new: ChainSetup) {
+    fn replace(&mut self, i: usize, old: &ChainSetup, new: &ChainSetup) {
         let before = &self.chains[i];
         match AxisChain::new(new.clone(), before.set_mm(), self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
-                chain.take_over(before, old, &new);
+                chain.take_over(before, old, new);
                 self.chains[i] = chain;
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),

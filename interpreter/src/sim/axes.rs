@@ -47,6 +47,7 @@ impl Simulation {
         match &self.phase {
             Phase::Waiting(wait) if is_over || wait.is_of_its_own_block() => self.waits_at,
             Phase::Running if self.is_held => self.shown,
+            Phase::Stopping(stopping) => stopping.waited_at.unwrap_or(self.current),
             _ => self.current,
         }
     }
@@ -114,6 +115,9 @@ impl Simulation {
             }
         }
         self.path_position.copy_from_slice(&positions);
+        if alone {
+            self.expect_independent_stops();
+        }
         for (i, chain) in self.chains.iter_mut().enumerate() {
             if let Driver::Spindle(s) = self.drivers[i]
                 && let Some(target_deg) = self.spindles[s].take_target()
@@ -124,6 +128,20 @@ impl Simulation {
         }
         self.run_chains(most, watched);
         self.end_cycle();
+    }
+
+    /// An independent axis is monitored from the end of its own motion on, whatever the path does. Source: TF5200 position
+    /// monitoring: from when the axis is no longer interpolated.
+    fn expect_independent_stops(&mut self) {
+        for axis in 0..self.path_position.len() {
+            let Some(source) = self.independent.take_ended(axis) else { continue };
+            for (i, chain) in self.chains.iter_mut().enumerate() {
+                if self.drivers[i] == Driver::Path(axis) {
+                    chain.expect_stop(self.path_position[axis]);
+                    self.stops_at[i] = source;
+                }
+            }
+        }
     }
 
     /// Completes the record of a cycle whose axes have been computed.

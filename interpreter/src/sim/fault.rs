@@ -26,6 +26,8 @@ const LONGEST_COASTING_S: f64 = 2.0;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Stopping {
     settled_cycles: u32,
+    /// Block of the wait that was interrupted.
+    pub(super) waited_at: Option<SourceRef>,
     coasting_cycles: u32,
     /// What has been reported already: an axis that oscillates meets its limits again and again.
     told: Vec<(usize, Condition)>,
@@ -87,7 +89,8 @@ impl Simulation {
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.messages.own.push(internal(&format!("look-ahead: {e}")));
             }
-            self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
+            let waited_at = matches!(self.phase, Phase::Waiting(_)).then_some(self.shown);
+            self.phase = Phase::Stopping(Stopping { told, waited_at, ..Stopping::default() });
         }
     }
 

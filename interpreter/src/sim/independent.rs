@@ -5,7 +5,8 @@
 //! interface of the axis, which nothing moves here. Assumption: the weights of G130 to G133 do not act on them; an error stops
 //! them, and a feedhold holds them, with their own deceleration (P-AXIS-00556 is not read). Rests of oscillations continue.
 
-use crate::exec::{IndependentMotion, OscillatingMotion};
+use crate::exec::{IndependentMotion, OscillatingMotion, SourceRef};
+
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::independent::{IndependentMove, Steering};
@@ -70,6 +71,10 @@ struct Lane {
     done_mm: f64,
     /// The axis that it follows.
     coupling: Option<Coupling>,
+    /// Block of its motion.
+    source: SourceRef,
+    /// Its motion ended in the last cycle.
+    ended: bool,
     /// Its way is not at rest yet after its filters.
     settles: bool,
     /// External influences on it.
@@ -105,11 +110,12 @@ impl IndependentAxes {
         dynamics: &AxisDynamics,
         cycle: CycleTime,
     ) -> Result<(), Infeasible> {
-        let IndependentMotion { from_mm, to_mm, speed, slope } = motion;
+        let IndependentMotion { from_mm, to_mm, speed, slope, source } = motion;
         let mut motion = IndependentMove::new(from_mm, to_mm, speed, slope, dynamics, cycle)?;
         if let Some(lane) = self.lanes.get_mut(axis) {
             motion.steer(0, lane.steering);
             lane.underway = Some(Underway { motion, from_mm, k });
+            lane.source = source;
             self.used = true;
         }
         Ok(())
@@ -124,7 +130,8 @@ impl IndependentAxes {
         dynamics: &AxisDynamics,
         cycle: CycleTime,
     ) -> Result<(), Infeasible> {
-        let OscillatingMotion { from_mm, reversal_mm, rest_s, speed, slope, count } = *motion;
+        let OscillatingMotion { from_mm, reversal_mm, rest_s, speed, slope, count, source } =
+            *motion;
         let [first, second] = reversal_mm;
         let way = |a: f64, b: f64| IndependentMove::new(a, b, speed, slope, dynamics, cycle);
         let oscillation = Oscillation {
@@ -138,6 +145,7 @@ impl IndependentAxes {
         if let Some(lane) = self.lanes.get_mut(axis) {
             motion.steer(0, lane.steering);
             lane.underway = Some(Underway { motion, from_mm, k });
+            lane.source = source;
             lane.oscillation = Some(Box::new(oscillation));
             self.used = true;
         }
@@ -182,6 +190,12 @@ impl IndependentAxes {
         ended
     }
 
+    /// The block of a motion that has ended, once.
+    pub(super) fn take_ended(&mut self, axis: usize) -> Option<SourceRef> {
+        let lane = self.lanes.get_mut(axis)?;
+        std::mem::take(&mut lane.ended).then_some(lane.source)
+    }
+
     /// Way of an axis in cycle `k`; cycles do not fall.
     pub(super) fn way_mm(&mut self, axis: usize, k: u64) -> f64 {
         let Some(lane) = self.lanes.get_mut(axis) else { return 0.0 };
@@ -194,6 +208,7 @@ impl IndependentAxes {
             lane.underway = lane.oscillation.as_mut().and_then(|o| o.next(end, lane.steering));
             if lane.underway.is_none() {
                 lane.oscillation = None;
+                lane.ended = true;
             }
         }
         way_mm

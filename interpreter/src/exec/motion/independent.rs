@@ -113,7 +113,9 @@ impl Decoder {
         }
         self.motion.independent.way[axis] += target - start[axis];
         let slope = words.slope.unwrap_or(self.machine.channel.slope);
-        let motion = IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope };
+        let source = self.report.source;
+        let motion =
+            IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope, source };
         self.contour.event(Event::Independent { axis, motion });
         let list = if synchronous {
             &mut self.motion.independent.synchronous

@@ -156,6 +156,7 @@ impl Decoder {
             speed,
             slope: self.machine.channel.slope,
             count: keys.count.map(|(n, _)| n as u32),
+            source: self.report.source,
         };
         self.contour.event(Event::Oscillation { axis, motion });
         self.motion.independent.open.push(axis);

@@ -48,8 +48,8 @@ struct Builder<'a> {
     /// `%` blocks inside the main program, with the end of the program seen before each.
     remarks: Vec<(EntryId, bool)>,
     end_seen: bool,
-    /// The main program has no head, and a local subroutine follows blocks without M30.
-    unfinished: bool,
+    /// The main program if it has no head, and a local subroutine follows its blocks without M30.
+    unfinished: Option<usize>,
     /// `%` after the end of the main program, until a block follows.
     behind_end: Option<Location>,
     diagnostics: Vec<Diagnostic>,
@@ -148,8 +148,9 @@ impl Builder<'_> {
         let next = Position { offset: raw.position.offset, line: raw.position.line };
         if let Some(name) = local {
             self.behind_end = None;
-            let nameless = |main: usize| self.index.sections[main].name.is_none();
-            self.unfinished |= !self.end_seen && self.section.is_some_and(nameless);
+            let nameless = |main: &usize| self.index.sections[*main].name.is_none();
+            self.unfinished =
+                self.unfinished.or(self.section.filter(nameless)).filter(|_| !self.end_seen);
             self.close(raw.position.offset);
             let name = name_of(name);
             if self.has_main {
@@ -163,7 +164,7 @@ impl Builder<'_> {
                 self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
             }
             self.open_section(name, true, next);
-        } else if let (true, Some(name)) = (self.unfinished, name_of(behind.trim_start())) {
+        } else if let (Some(_), Some(name)) = (self.unfinished, name_of(behind.trim_start())) {
             // whoever reads %MAIN takes it for the program
             let text = format!(
                 "program {name} never runs: the blocks before the first % are the main program"
@@ -172,7 +173,7 @@ impl Builder<'_> {
             let d = Diagnostic::new(Condition::TextBehindEnd, text);
             let d = d.severity(Severity::Error).hint(hint);
             self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
-            self.unfinished = false;
+            self.unfinished = None;
         } else if self.has_main {
             // whether it is a remark is known at the end of the file
             let id = self.push(raw.position, raw.text.len() - rest.len(), Keyword::Remark);
@@ -401,7 +402,7 @@ pub(in crate::exec) fn build(
         section: None,
         has_main: false,
         remarks: Vec::new(),
-        unfinished: false,
+        unfinished: None,
         end_seen: false,
         behind_end: None,
         diagnostics: Vec::new(),
