@@ -4,6 +4,7 @@ mod akima;
 mod arcs;
 mod as_printed;
 mod assignments;
+mod bottlenecks;
 mod calls;
 mod compensation;
 mod coordinates;
