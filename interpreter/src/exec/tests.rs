@@ -20,6 +20,7 @@ mod positions;
 mod radius_change;
 mod random;
 mod returns;
+mod said;
 mod scaling;
 mod shaping;
 mod spindle_data;
