@@ -289,6 +289,8 @@ fn refused_words_are_named() {
     for (words, said) in [
         (&["run", "@corner.nc", "--start", "X1000"][..], "--start: X1000 is outside the limits"),
         (&["check", "@corner.nc", "--start", "Y-500.1"], "--start: Y-500.1 is outside the limits"),
+        (&["run", "@corner.nc", "--cycle-us", "20001"], "--cycle-us"),
+        (&["run", "@corner.nc", "--cycle-us", "99"], "100..=20000"),
     ] {
         let (exit, _, err) = f.call(words);
         assert_eq!((exit, err.contains(said)), (Exit::Usage, true), "{words:?}: {err}");
