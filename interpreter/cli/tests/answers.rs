@@ -291,6 +291,8 @@ fn refused_words_are_named() {
         (&["check", "@corner.nc", "--start", "Y-500.1"], "--start: Y-500.1 is outside the limits"),
         (&["run", "@corner.nc", "--cycle-us", "20001"], "--cycle-us"),
         (&["run", "@corner.nc", "--cycle-us", "99"], "100..=20000"),
+        (&["report", "@corner.nc", "-o", "@a.csv"], "with --signals"),
+        (&["sweep", "@corner.nc", "--vary", "program.Q=1000,2000"], "written with `=`, as Q=1000"),
     ] {
         let (exit, _, err) = f.call(words);
         assert_eq!((exit, err.contains(said)), (Exit::Usage, true), "{words:?}: {err}");

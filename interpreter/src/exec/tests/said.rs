@@ -46,3 +46,19 @@ fn a_size_needs_an_equals_sign() {
         assert!(format!("{:?}", alone[0]).contains(&hint), "{alone:?}");
     }
 }
+
+#[test]
+fn levels_count_the_main_program() {
+    // L1 calls L2 and so on; the last one calls nothing
+    let program = |depth: usize| {
+        let local = |i: usize| {
+            let call = if i < depth { format!("LL S{}\n", i + 1) } else { String::new() };
+            format!("%L S{i}\n{call}M17\n")
+        };
+        let locals: String = (1..=depth).map(local).collect();
+        format!("{locals}%MAIN\nLL S1\nM30\n")
+    };
+    assert!(said(&program(31)).is_empty());
+    let refused = said(&program(32));
+    assert!(refused[0].contains("more than 31 deep"), "{refused:?}");
+}
