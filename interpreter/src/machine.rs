@@ -80,6 +80,20 @@ impl Machine {
         self.all_axes().find(|a| a.name().eq_ignore_ascii_case(name))
     }
 
+    /// The software limits of a path axis in mm, if a position in mm is outside them and that is an error
+    /// (P-AXIS-00177, P-AXIS-00178).
+    pub fn limits_without(&self, axis: usize, mm: f64) -> Option<(f64, f64)> {
+        let limits @ (low, high) = self.axes.get(axis)?.software_limits_mm()?;
+        let outside = !(low..=high).contains(&mm) && !self.limits_only_warn(axis);
+        outside.then_some(limits)
+    }
+
+    /// A position of a path axis outside its software limits is a warning.
+    pub(crate) fn limits_only_warn(&self, axis: usize) -> bool {
+        let masked = self.channel.limit_warnings.checked_shr(axis as u32).unwrap_or(0) & 1 == 1;
+        masked || self.axes[axis].software_limits_only_warn()
+    }
+
     /// Index of the path axis that is the master of a gantry slave; none for other axes.
     pub(crate) fn master_of(&self, axis: &Axis) -> Option<usize> {
         let number = axis.gantry_master()?;

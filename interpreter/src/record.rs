@@ -34,6 +34,8 @@ pub struct PathRecord {
     pub limit: SpeedLimit,
     /// The block that is interpolated.
     pub motion: Motion,
+    /// The spindle that turns with the way of the path (tapping), by its place in [`CycleRecord::axes`].
+    pub spindle: Option<u8>,
     /// What the path rests for; none while it moves, and at the moment in which it turns or stops without waiting.
     pub rest: Option<Rest>,
 }

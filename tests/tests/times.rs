@@ -87,6 +87,23 @@ fn the_axis_at_its_limit_is_named() {
     assert!(run.reason("axis_v") > 4.5, "{}", run.summary);
 }
 
+/// In tapping the spindle may be at its limit before the axis: with 60000 deg/s2 and 1.5 mm per turn Z has 250 mm/s2, a fourteenth of
+/// its 3500. A spindle that only gathers speed meanwhile is not part of the path.
+#[test]
+fn the_spindle_that_limits_a_thread_is_named() {
+    let run = Run::new("G331 Z-20 K1.5 S6000\nG332 Z0\nM30\n", &[]);
+    assert_eq!(run.axis_of("axis_a"), ["S"], "{}", run.summary);
+    let proposals = run.summary["times"]["proposals"].as_array().unwrap();
+    let of_spindle = proposals.iter().find(|p| p["what"] == "accelerations +10 % of S").unwrap();
+    // two ways of 20 mm from rest to rest: 2 sqrt(20 / 250) each, less by the root of 1.1
+    let want = 4.0 * (20.0_f64 / 250.0).sqrt() * (1.0 - 1.0 / 1.1_f64.sqrt());
+    assert!((of_spindle["saves_s"].as_f64().unwrap() - want).abs() < 0.01, "{of_spindle}");
+    let milled = Run::new("#SLOPE [TYPE=STEP]\nS6000 M3\nG01 X100 F6000\nM30\n", &[]);
+    let reasons = milled.summary["times"]["reasons"].as_array().unwrap();
+    assert!(reasons.iter().any(|r| r["axis"] == "X"), "{}", milled.summary);
+    assert!(reasons.iter().all(|r| r["axis"] != "S"), "{}", milled.summary);
+}
+
 /// What the path waits for has its name, and the whole is the sum of the lines, the lines are the sums of their reasons.
 #[test]
 fn random_programs_add_up() {

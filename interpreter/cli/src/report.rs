@@ -129,7 +129,9 @@ fn form(output: &Path) -> Result<Form, Error> {
         Ok(Form::Page)
     } else {
         let name = PathBuf::from(output).display().to_string();
-        Err(Error::Usage(format!("{name}: a report is a page (.html) or a picture (.svg)")))
+        Err(Error::Usage(format!(
+            "{name}: a report is a page (.html) or a picture (.svg); with --signals it may be a table (.csv)"
+        )))
     }
 }
 

@@ -239,11 +239,17 @@ fn folders(request: &Request) -> Result<(), OpenError> {
 }
 
 fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
-    for (i, (name, _)) in request.start.iter().enumerate() {
+    for (i, (name, mm)) in request.start.iter().enumerate() {
         if request.start[..i].iter().any(|(other, _)| other.eq_ignore_ascii_case(name)) {
             return Err(OpenError::Usage(format!("--start: axis `{name}` twice")));
         }
-        if !machine.axes.iter().any(|a| a.name().eq_ignore_ascii_case(name)) {
+        let axis = machine.axes.iter().position(|a| a.name().eq_ignore_ascii_case(name));
+        if let Some((low, high)) = axis.and_then(|axis| machine.limits_without(axis, *mm)) {
+            return Err(OpenError::Usage(format!(
+                "--start: {name}{mm} is outside the limits of the axis, {low} to {high} (P-AXIS-00177, P-AXIS-00178)"
+            )));
+        }
+        if axis.is_none() {
             let known: Vec<&str> = machine.axes.iter().map(Axis::name).collect();
             let known = known.join(", ");
             return Err(OpenError::Usage(format!(

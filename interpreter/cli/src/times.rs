@@ -135,12 +135,14 @@ impl Collector {
         }
     }
 
-    /// The path axis whose speed, or acceleration, is the largest share of its limit.
+    /// The path axis whose speed, or acceleration, is the largest share of its limit; in tapping this may be the spindle.
     fn nearest_to_its_limit(&self, record: &CycleRecord, acceleration: bool) -> Option<u8> {
         let [newer, older] = &self.before;
         let axes = self.facts.axes.iter().zip(&record.axes).enumerate();
-        let shares =
-            axes.filter(|(_, (facts, _))| !facts.spindle).filter_map(|(i, (facts, axis))| {
+        let tapping = record.path.spindle.map(usize::from);
+        let shares = axes
+            .filter(|(i, (facts, _))| !facts.spindle || tapping == Some(*i))
+            .filter_map(|(i, (facts, axis))| {
                 let step = axis.ipo - newer.get(i)?;
                 let share = if acceleration {
                     (step - (newer.get(i)? - older.get(i)?)).abs() / facts.a_max

@@ -42,7 +42,9 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
             [] => {
                 let place =
                     word.line.map_or("in the program".to_owned(), |l| format!("in line {l}"));
-                return Err(format!("there is no {name}= {place}"));
+                return Err(format!(
+                    "there is no {name}= {place}: a number that varies is written with `=`, as {name}={value}"
+                ));
             }
             [Place { number: Some((from, to)), .. }] => {
                 text.splice(*from..*to, value.bytes());

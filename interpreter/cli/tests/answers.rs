@@ -282,6 +282,30 @@ fn sweep_of_aborted_runs_and_wrong_words() {
     assert_eq!(f.call(&["sweep", "@absent.nc", "--vary", vary]).0, Exit::Io);
 }
 
+/// What is wrong with a word of the command line is said of this word.
+#[test]
+fn refused_words_are_named() {
+    let f = Folder::new();
+    for (words, said) in [
+        (&["run", "@corner.nc", "--start", "X1000"][..], "--start: X1000 is outside the limits"),
+        (&["check", "@corner.nc", "--start", "Y-500.1"], "--start: Y-500.1 is outside the limits"),
+        (&["run", "@corner.nc", "--cycle-us", "20001"], "--cycle-us"),
+        (&["run", "@corner.nc", "--cycle-us", "99"], "100..=20000"),
+        (&["report", "@corner.nc", "-o", "@a.csv"], "with --signals"),
+        (&["sweep", "@corner.nc", "--vary", "program.Q=1000,2000"], "written with `=`, as Q=1000"),
+    ] {
+        let (exit, _, err) = f.call(words);
+        assert_eq!((exit, err.contains(said)), (Exit::Usage, true), "{words:?}: {err}");
+    }
+    // at a limit, and beyond one that only warns (P-AXIS-00554)
+    for more in
+        [&["--start", "X500"][..], &["--start", "X600", "--set", "X.kenngr.swe_behaviour=WARNING"]]
+    {
+        let (exit, _, err) = f.call(&[&["check", "@corner.nc"][..], more].concat());
+        assert!(!err.contains("--start"), "{exit:?} {err}");
+    }
+}
+
 /// Columns over time, and the variants of one program in one picture.
 #[test]
 fn report_draws_signals_and_variants() {

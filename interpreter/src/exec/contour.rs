@@ -28,13 +28,13 @@ pub(super) use motion::{
 };
 
 /// K-0119.
-fn bottleneck(cut: &Cut) -> Box<Fault> {
+fn bottleneck(cut: &Cut) -> Fault {
     let text = format!(
         "the tool cuts the contour of line {}: its centre comes as near as {:.4} mm",
         cut.contour.line, cut.distance_mm
     );
     let hint = "the control drives such bottlenecks unnoticed; a smaller tool fits";
-    Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)
+    *Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)
 }
 
 /// Motions and events on their way to the simulation.
@@ -307,13 +307,12 @@ impl Contour {
         let mut faults = self.flush();
         let left = self.compensator.leave(&mut self.done);
         self.emit();
-        match left {
-            Ok(left) => (left, faults),
-            Err(fault) => {
-                faults.push(*fault);
-                (None, faults)
-            }
-        }
+        let left = left.unwrap_or_else(|fault| {
+            faults.push(*fault);
+            None
+        });
+        faults.extend(self.cut());
+        (left, faults)
     }
 
     /// End of the program.
@@ -324,6 +323,7 @@ impl Contour {
             self.compensator.abandon();
         }
         faults.extend(self.compensator.end(&mut self.done).err().map(|f| *f));
+        faults.extend(self.cut());
         self.emit();
         let events = self.take_events();
         self.end = Some(Box::new(Step::End { reason, source, events }));
@@ -367,7 +367,12 @@ impl Contour {
         }
         let fault = self.compensator.motion(motion, &mut self.done).err();
         self.emit();
-        fault.or_else(|| self.compensator.take_cut().map(|cut| bottleneck(&cut)))
+        fault.or_else(|| self.cut().map(Box::new))
+    }
+
+    /// K-0119, once per program.
+    fn cut(&mut self) -> Option<Fault> {
+        self.compensator.take_cut().map(|cut| bottleneck(&cut))
     }
 
     /// What is done continues its way, in the coordinates of the machine.

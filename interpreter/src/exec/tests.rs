@@ -2,6 +2,7 @@
 
 mod akima;
 mod arcs;
+mod bottlenecks;
 mod calls;
 mod compensation;
 mod errors;
@@ -11,6 +12,7 @@ mod frames;
 mod modes;
 mod radius_change;
 mod random;
+mod said;
 mod scaling;
 mod shaping;
 mod straight;

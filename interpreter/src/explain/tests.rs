@@ -33,6 +33,15 @@ fn the_language_is_explained() {
         let e = explain(thing).unwrap();
         assert_eq!(e.kind, Kind::Command, "{thing}");
     }
+    // every function and operator of the grammar, and the form that says how many values it takes
+    for thing in "SQRT SQR EXP DEXP LN LOG SIN COS TAN COT ASIN ACOS ATAN ACOT ATAN2 ABS SIGN INT FRACT ROUND FLOOR CEIL MIN MAX \
+                  MOD AND OR XOR NOT INV PI LEN LEFT RIGHT MID FIND INSERT DELETE REPLACE ORD INT_TO_STR REAL_TO_STR STR_TO_INT \
+                  STR_TO_REAL IS_STRING IS_NUMBER EXIST SIZEOF MACRO_CONTENT MACRO_LENGTH"
+        .split_whitespace()
+    {
+        let e = explain(thing).unwrap_or_else(|_| panic!("{thing}"));
+        assert_eq!(e.kind, Kind::Command, "{thing}");
+    }
     let systems = explain("#CS").unwrap();
     for name in ["CS ADD", "CS DEF", "CS ON"] {
         assert!(systems.facts.iter().any(|(other, _)| *other == name), "{systems:?}");

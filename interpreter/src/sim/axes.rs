@@ -1,6 +1,7 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
 use super::batch::Watched;
+use super::spindle::Spindle;
 use super::{Phase, Simulation};
 use crate::exec::{ShapingSetup, SourceRef};
 use crate::machine::{Axis, Machine};
@@ -180,6 +181,7 @@ impl Simulation {
             j_mm_s3: setpoint.j_mm_s3,
             limit: setpoint.limit,
             motion: self.motion,
+            spindle: self.tapping_spindle(),
             rest,
         };
         if !self.planner.reports_changes() {
@@ -193,5 +195,12 @@ impl Simulation {
                 self.fault(i, &f);
             }
         }
+    }
+
+    /// The spindle that goes with the path, by its place in the record.
+    fn tapping_spindle(&self) -> Option<u8> {
+        let spindle = self.spindles.iter().position(Spindle::follows)?;
+        let place = self.drivers.iter().position(|d| *d == Driver::Spindle(spindle))?;
+        u8::try_from(place).ok()
     }
 }

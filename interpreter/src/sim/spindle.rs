@@ -123,6 +123,11 @@ impl Spindle {
         self.acc_ratio = ratio;
     }
 
+    /// It goes with the way of a path axis (tapping).
+    pub(super) fn follows(&self) -> bool {
+        self.following.is_some()
+    }
+
     /// It has been ordered to an angle.
     pub(super) fn positions(&self) -> bool {
         matches!(self.wanted, SpindleMotion::Position { .. })

@@ -12,6 +12,7 @@ use super::ast::{Function, Span};
 use super::{Rule, scan};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use pest::error::{Error, ErrorVariant, InputLocation};
+use std::borrow::Cow;
 
 /// Something wrong with a block, before its place in the program is worked out.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub(super) struct Problem {
     pub(super) condition: Condition,
     pub(super) span: Span,
     text: String,
-    hint: Option<&'static str>,
+    hint: Option<Cow<'static, str>>,
     severity: Option<Severity>,
 }
 
@@ -33,8 +34,8 @@ impl Problem {
         Self::new(Condition::Syntax, span, text)
     }
 
-    pub(super) fn hint(mut self, hint: &'static str) -> Self {
-        self.hint = Some(hint);
+    pub(super) fn hint(mut self, hint: impl Into<Cow<'static, str>>) -> Self {
+        self.hint = Some(hint.into());
         self
     }
 

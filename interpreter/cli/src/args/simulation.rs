@@ -43,7 +43,7 @@ pub struct SimulationArgs {
     pub input: Vec<PathBuf>,
 
     /// Cycle time in microseconds instead of the machine's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
     pub cycle_us: Option<u32>,
 
     /// Start positions in mm (deg), e.g. `X10,Y5`

@@ -6,7 +6,7 @@ use crate::interrupt::Running;
 use crate::lists::Lists;
 use crate::request::Request;
 use kontur_interpreter::job::{Run, Sink};
-use kontur_interpreter::machine::{Axis, Lever};
+use kontur_interpreter::machine::{Axis, Lever, Machine};
 use kontur_interpreter::record::CycleRecord;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -46,7 +46,7 @@ pub(crate) fn try_out(times: &mut Times, request: &Request) {
         return;
     }
     let Ok((machine, _)) = request.machine(&Lists::default()) else { return };
-    let wanted = wanted(times, &machine.axes);
+    let wanted = wanted(times, &machine);
     let _running = Running::start();
     let tried: Vec<(Proposal, Times)> =
         wanted.into_par_iter().filter_map(|proposal| run(proposal, request)).collect();
@@ -67,15 +67,17 @@ pub(crate) fn try_out(times: &mut Times, request: &Request) {
     times.proposals.sort_by(|a, b| b.saves_s.total_cmp(&a.saves_s));
 }
 
-/// What the reasons suggest, for axes that are named by one of them or for all path axes.
-fn wanted(times: &Times, axes: &[Axis]) -> Vec<Proposal> {
+/// What the reasons suggest, for axes and spindles that are named by one of them or for all path axes.
+fn wanted(times: &Times, machine: &Machine) -> Vec<Proposal> {
+    let axes = &machine.axes[..];
     let share = |reason: Reason, axis: Option<&str>| -> f64 {
         let of = times.reasons.iter().filter(|r| r.reason == reason);
         of.filter(|r| axis.is_none() || r.axis.as_deref() == axis).map(|r| r.share).sum()
     };
     let mut found = Vec::new();
     for (reason, lever) in [(Reason::AxisV, Lever::Speed), (Reason::AxisA, Lever::Acceleration)] {
-        for axis in axes.iter().filter(|a| share(reason, Some(a.name())) >= WORTHWHILE) {
+        let named = axes.iter().chain(&machine.spindles);
+        for axis in named.filter(|a| share(reason, Some(a.name())) >= WORTHWHILE) {
             found.extend(proposal(lever, std::slice::from_ref(axis), axis.name()));
         }
     }

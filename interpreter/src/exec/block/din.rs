@@ -336,9 +336,18 @@ impl Decoder {
                 self.report.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
             }
         }
-        if let (false, Some((_, span))) = (self.dialect.own, words.end_feed) {
-            let text =
-                "E is the feed at the end of the block in this dialect, not an extruder axis";
+        // a negative one is an error of its own
+        let end_feed = words.end_feed.filter(|(value, _)| *value >= 0.0);
+        if let (false, Some((value, span))) = (self.dialect.own, end_feed) {
+            let joined = words.axes.iter().any(|(_, _, axis)| axis.end() == span.start);
+            let text = if joined {
+                format!(
+                    "numbers have no exponent in this dialect: E{value} is the feed at the end of the block"
+                )
+            } else {
+                "E is the feed at the end of the block in this dialect, not an extruder axis"
+                    .to_owned()
+            };
             self.report.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
         }
     }

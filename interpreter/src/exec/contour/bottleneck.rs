@@ -1,11 +1,12 @@
 //! Places where a compensated tool cuts into its own contour: gaps narrower than the tool, loops over several blocks.
 //!
-//! Compensation looks at neighbouring elements only, as the control does: a bottleneck between elements that are further
-//! apart goes unnoticed there (source: TF5200 programming manual, limits of tool radius compensation) and is driven. So
-//! it is a warning here, once per program.
+//! Compensation looks at the corners between neighbouring elements only, as the control does: a bottleneck anywhere else goes
+//! unnoticed there (source: TF5200 programming manual, limits of tool radius compensation) and is driven. So it is a
+//! warning here, once per program.
 
+use super::compensation::Item;
 use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, norm, sub};
+use crate::exec::geometry::planar::{Side, intersections, norm, sub};
 use crate::exec::step::SourceRef;
 use std::collections::VecDeque;
 
@@ -15,9 +16,6 @@ const WINDOW: usize = 50;
 /// How much closer than its radius the tool must come, in mm: the smallest increment of the language.
 const TOLERANCE_MM: f64 = 1e-4;
 
-/// Points of an element that are tried.
-const SAMPLES_MAX: f64 = 64.0;
-
 /// An element of the contour or of the way of the tool's centre.
 #[derive(Clone, Copy, Debug)]
 struct Part {
@@ -26,7 +24,7 @@ struct Part {
     low: Point,
     high: Point,
     source: SourceRef,
-    /// Number of the element of the contour; what compensation inserts has that of the element before it.
+    /// Number of the element of the contour; what compensation inserts after an element has its number.
     number: u64,
 }
 
@@ -35,7 +33,7 @@ struct Part {
 pub(in crate::exec) struct Watch {
     contour: VecDeque<Part>,
     way: VecDeque<Part>,
-    /// Number of the next element of the contour.
+    /// Number of the next element.
     next: u64,
 }
 
@@ -49,28 +47,36 @@ pub(in crate::exec) struct Cut {
 }
 
 impl Watch {
-    /// A new element of the contour, for a tool of this radius.
-    pub(in crate::exec) fn contour(
+    /// An element of the contour is complete: the way of the tool along it, with what is inserted after it, is `way`.
+    pub(in crate::exec) fn element(
         &mut self,
         side: Side,
         source: SourceRef,
+        way: &[Item],
+        plane: [usize; 2],
         radius: f64,
     ) -> Option<Cut> {
-        let part = Part::new(side, source, self.next);
+        let mut found = self.contour(side, source, radius);
+        for item in way {
+            if let Item::Motion(motion) = item
+                && let Some(side) = Side::of(&motion.block.path, plane)
+            {
+                found = found.or(self.way(side, motion.source, radius));
+            }
+        }
         self.next += 1;
+        found
+    }
+
+    fn contour(&mut self, side: Side, source: SourceRef, radius: f64) -> Option<Cut> {
+        let part = Part::new(side, source, self.next);
         let found = self.way.iter().find_map(|way| cut(way, &part, radius));
         push(&mut self.contour, part);
         found
     }
 
-    /// A new element of the way of the tool's centre: it belongs to the element of the contour before the last one.
-    pub(in crate::exec) fn way(
-        &mut self,
-        side: Side,
-        source: SourceRef,
-        radius: f64,
-    ) -> Option<Cut> {
-        let part = Part::new(side, source, self.next.saturating_sub(2));
+    fn way(&mut self, side: Side, source: SourceRef, radius: f64) -> Option<Cut> {
+        let part = Part::new(side, source, self.next);
         let found = self.contour.iter().find_map(|contour| cut(&part, contour, radius));
         push(&mut self.way, part);
         found
@@ -91,52 +97,70 @@ fn push(parts: &mut VecDeque<Part>, part: Part) {
     parts.push_back(part);
 }
 
-/// Where the tool on `way` comes closer to `contour` than its radius. Neighbours are the business of the corner.
+/// Where the tool on `way` comes closer to `contour` than its radius. Along its own element it has its distance.
 fn cut(way: &Part, contour: &Part, radius: f64) -> Option<Cut> {
     let apart = (0..2)
         .any(|i| way.low[i] > contour.high[i] + radius || contour.low[i] > way.high[i] + radius);
-    if apart || way.number.abs_diff(contour.number) < 2 {
+    if apart || way.number == contour.number {
         return None;
     }
-    let samples = (way.side.length() / (0.25 * radius)).ceil().clamp(2.0, SAMPLES_MAX);
-    let distance_mm = (0..=samples as u32)
-        .map(|k| contour.side.distance(way.side.at(f64::from(k) / samples)))
-        .fold(f64::INFINITY, f64::min);
+    let distance_mm = apart_by(&way.side, &contour.side);
     let found = Cut { tool: way.source, contour: contour.source, distance_mm };
     (distance_mm < radius - TOLERANCE_MM).then_some(found)
 }
 
-impl Side {
-    fn length(&self) -> f64 {
-        match self {
-            Self::Line { from, to } => norm(sub(*to, *from)),
-            Self::Arc { radius, sweep_rad, .. } => radius * sweep_rad.abs(),
-        }
+/// The smallest distance between two elements: where they cross, at an end of one of them, or within both where a
+/// line passes an arc or an arc another one.
+fn apart_by(a: &Side, b: &Side) -> f64 {
+    let crossing = intersections(&a.parallel(0.0), &b.parallel(0.0))
+        .into_iter()
+        .any(|p| a.contains(p) && b.contains(p));
+    if crossing {
+        return 0.0;
     }
-
-    /// The point at a share 0..1 of the way.
-    fn at(&self, share: f64) -> Point {
-        match self {
-            Self::Line { from, to } => {
-                let d = sub(*to, *from);
-                [from[0] + share * d[0], from[1] + share * d[1]]
-            }
-            Self::Arc { centre, radius, start_rad, sweep_rad } => {
-                let (sin, cos) = libm::sincos(start_rad + share * sweep_rad);
-                [centre[0] + radius * cos, centre[1] + radius * sin]
-            }
+    let ends = [
+        b.distance(a.start_point()),
+        b.distance(a.end_point()),
+        a.distance(b.start_point()),
+        a.distance(b.end_point()),
+    ];
+    let passing = match (a, b) {
+        (Side::Line { .. }, Side::Line { .. }) => f64::INFINITY,
+        (line @ Side::Line { .. }, arc @ Side::Arc { centre, .. })
+        | (arc @ Side::Arc { centre, .. }, line @ Side::Line { .. }) => {
+            passing(line, arc, line.foot(*centre))
         }
+        (Side::Arc { centre: p, .. }, Side::Arc { centre: q, .. }) => {
+            let near = a.foot(*q);
+            let far = [2.0 * p[0] - near[0], 2.0 * p[1] - near[1]];
+            passing(a, b, near).min(passing(a, b, far))
+        }
+    };
+    ends.into_iter().fold(passing, f64::min)
+}
+
+/// Distance of a point of the curve of `a` from `b`, if it lies on the element `a`.
+fn passing(a: &Side, b: &Side, p: Point) -> f64 {
+    if a.contains(p) { b.distance(p) } else { f64::INFINITY }
+}
+
+impl Side {
+    /// True if a point of the element's curve lies between its ends.
+    fn contains(&self, p: Point) -> bool {
+        (0.0..=1.0).contains(&self.share_of(p))
     }
 
     /// Distance of a point from the element.
     fn distance(&self, p: Point) -> f64 {
         let share = self.share_of(p);
         match self {
-            Self::Line { .. } => norm(sub(p, self.at(share.clamp(0.0, 1.0)))),
+            Self::Line { .. } if (0.0..=1.0).contains(&share) => norm(sub(p, self.foot(p))),
             Self::Arc { centre, radius, .. } if share <= 1.0 => {
                 (norm(sub(p, *centre)) - radius).abs()
             }
-            Self::Arc { .. } => norm(sub(p, self.at(0.0))).min(norm(sub(p, self.at(1.0)))),
+            Self::Line { .. } | Self::Arc { .. } => {
+                norm(sub(p, self.start_point())).min(norm(sub(p, self.end_point())))
+            }
         }
     }
 

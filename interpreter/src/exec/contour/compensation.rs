@@ -91,7 +91,9 @@ impl Compensator {
             return Err(Fault::unsupported(what, Span::default()).in_block(self.source));
         }
         let plane = active.plane;
-        let at = active.finish(out).map_err(|f| f.in_block(self.source))?;
+        let mut found = None;
+        let at = active.finish(out, &mut found).map_err(|f| f.in_block(self.source))?;
+        self.found(found);
         Ok(Some((plane, at)))
     }
 
@@ -100,6 +102,12 @@ impl Compensator {
         let cut = self.cut.take();
         self.told |= cut.is_some();
         cut
+    }
+
+    fn found(&mut self, cut: Option<Cut>) {
+        if !self.told {
+            self.cut = self.cut.or(cut);
+        }
     }
 
     fn next(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
@@ -113,9 +121,7 @@ impl Compensator {
                 return Err(circular(&motion));
             }
             let (at, cut) = closed.close(out)?;
-            if !self.told {
-                self.cut = cut;
-            }
+            self.found(cut);
             return self.select(motion, Some((at, None)), out);
         }
         let Some(active) = self.active.take() else {
@@ -140,9 +146,7 @@ impl Compensator {
             let mut found = None;
             let next = active.join(motion, side, out, &mut found)?;
             self.active = Some(Box::new(next));
-            if !self.told {
-                self.cut = found;
-            }
+            self.found(found);
             return Ok(());
         }
         if motion
@@ -151,7 +155,9 @@ impl Compensator {
             && !active.last.approach
             && runs_back(&active.last.side, &side)
         {
-            self.active = Some(Box::new(active.turn_back(motion, side, out)?));
+            let mut found = None;
+            self.active = Some(Box::new(active.turn_back(motion, side, out, &mut found)?));
+            self.found(found);
             return Ok(());
         }
         if let Some(c) = motion.compensation
@@ -162,16 +168,16 @@ impl Compensator {
             let mut found = None;
             let next = active.change_radius(motion, side, c.distance_mm, out, &mut found)?;
             self.active = Some(Box::new(next));
-            if !self.told {
-                self.cut = found;
-            }
+            self.found(found);
             return Ok(());
         }
         // another side or radius, or none: a line leads there
         if active.perpendicular
             || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
         {
-            active.return_to_contour(out)?;
+            let mut found = None;
+            active.return_to_contour(out, &mut found)?;
+            self.found(found);
             return self.select(motion, None, out);
         }
         if !matches!(side, Side::Line { .. }) {
@@ -185,7 +191,9 @@ impl Compensator {
             return Err(circular(&motion));
         }
         let away = tangential.then(|| active.last.side.tangent(true));
-        let at = active.finish(out)?;
+        let mut found = None;
+        let at = active.finish(out, &mut found)?;
+        self.found(found);
         self.select(motion, Some((at, away)), out)
     }
 
@@ -228,13 +236,14 @@ impl Compensator {
 
     /// The program ends: the last element ends perpendicular above its end.
     pub(in crate::exec) fn end(&mut self, out: &mut Vec<Item>) -> Fallible<()> {
-        if let Some(closed) = self.closed.take() {
-            return closed.close(out).map(|_| ()).map_err(|f| f.in_block(self.source));
-        }
-        match self.active.take() {
-            Some(active) => active.finish(out).map(|_| ()).map_err(|f| f.in_block(self.source)),
-            None => Ok(()),
-        }
+        let mut found = None;
+        let ended = match (self.closed.take(), self.active.take()) {
+            (Some(closed), _) => closed.close(out).map(|(_, cut)| found = cut),
+            (None, Some(active)) => active.finish(out, &mut found).map(|_| ()),
+            (None, None) => Ok(()),
+        };
+        self.found(found);
+        ended.map_err(|f| f.in_block(self.source))
     }
 
     /// A motion without active compensation; `at` is the place that an earlier one has left, with its direction there if
@@ -297,10 +306,7 @@ impl Compensator {
         } else {
             return Err(circular(&motion));
         };
-        let mut watch = Watch::default();
-        if !approach {
-            watch.contour(side, motion.source, distance.abs());
-        }
+        let watch = Watch::default();
         let last = Element { motion, side, start, approach, tangential };
         let between = Vec::new();
         let active = Active { distance, perpendicular, plane, tilt, last, between, watch };

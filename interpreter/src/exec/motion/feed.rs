@@ -22,7 +22,10 @@ impl Decoder {
         }
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let key = "20008".to_owned();
-            let text = "the feed is 0: no F word has been programmed";
+            let text = match self.modal.feed() {
+                Some(_) => "the feed is 0: that is the value of the last F word",
+                None => "the feed is 0: no F word has been programmed",
+            };
             self.report.note_once(&key, Fault::new(Condition::FeedZero, text, span));
             // the block is left out, the positions continue
             return Ok(Feed::PathVelocity(1.0));
@@ -103,9 +106,13 @@ impl Decoder {
             let text = "E acts only with G94 and not in rapid traverse";
             return Err(Fault::new(Condition::Syntax, text, span));
         };
-        if self.modal.feed_type != FeedType::PerMinute || value < 0.0 {
-            let text = "E acts only with G94 and is not negative";
-            return Err(Fault::new(Condition::Syntax, text, span));
+        if self.modal.feed_type != FeedType::PerMinute {
+            return Err(Fault::new(Condition::Syntax, "E acts only with G94", span));
+        }
+        if value < 0.0 {
+            let text = format!("E{value} is negative: E is the feed at the end of the block");
+            return Err(Fault::new(Condition::Syntax, text, span)
+                .hint("numbers have no exponent in this dialect: 1e-05 is written 0.00001"));
         }
         Ok(Some((value * self.feed_unit_mm_s()).min(v)))
     }

@@ -129,9 +129,6 @@ impl Decoder {
                 .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
                 .parameter(limit)
         });
-        let machine = &self.machine;
-        let masked = machine.channel.limit_warnings.checked_shr(axis as u32).unwrap_or(0) & 1 == 1;
-        let warns = masked || machine.axes[axis].software_limits_only_warn();
-        if warns { fault.warning() } else { fault }
+        if self.machine.limits_only_warn(axis) { fault.warning() } else { fault }
     }
 }

@@ -15,6 +15,14 @@ use std::sync::Arc;
 /// Program levels. Assumption: the vendor prints no number.
 pub(super) const LEVELS_MAX: usize = 32;
 
+/// Text for a call beyond [`LEVELS_MAX`].
+pub(super) fn too_deep() -> String {
+    let subroutines = LEVELS_MAX - 1;
+    format!(
+        "subroutines nested more than {subroutines} deep: with the main program that makes {LEVELS_MAX} levels"
+    )
+}
+
 /// Local subroutines that a hint names.
 const NAMED_MAX: usize = 12;
 
@@ -47,7 +55,7 @@ impl Executor {
 
     fn call_named(&mut self, name: &Ident, local: bool, cycle: Option<Passed>) {
         if self.levels.len() >= LEVELS_MAX {
-            let text = format!("subroutines nested more than {LEVELS_MAX} deep");
+            let text = too_deep();
             let condition = if local { Condition::Nesting } else { Condition::SubroutineNesting };
             let fault = Fault::new(condition, text, name.span);
             self.decoder

@@ -7,7 +7,7 @@
 //!
 //! Source: TF5200 programming manual, calling block sequences; 21696.
 
-use super::calls::{LEVELS_MAX, Target};
+use super::calls::{LEVELS_MAX, Target, too_deep};
 use super::executor::Executor;
 use super::index::LabelPlace;
 use crate::diag::Condition;
@@ -37,7 +37,7 @@ impl Executor {
     fn sequence(&mut self, group: &Group) -> Outcome<()> {
         let words = self.sequence_words(group)?;
         if self.levels.len() >= LEVELS_MAX {
-            let text = format!("subroutines nested more than {LEVELS_MAX} deep");
+            let text = too_deep();
             return Err(Fault::new(Condition::SubroutineNesting, text, group.span));
         }
         let Some(Target { file, section }) = (match &words.name {

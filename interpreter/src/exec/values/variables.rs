@@ -85,14 +85,15 @@ impl Variables {
         self.created.take()
     }
 
-    fn unknown(&self, class: Class, name: &str, span: Span) -> Box<Fault> {
+    fn unknown(&self, class: Class, name: &str, what: &str, span: Span) -> Box<Fault> {
         let letter = match class {
             Class::Program => "P",
             Class::Local => "L",
             Class::Shared => "S",
             Class::Cycle => "CYC",
         };
-        let fault = undefined(&format!("V.{letter}.{name}"), span);
+        let text = format!("V.{letter}.{name} {what}");
+        let fault = Fault::new(Condition::Undefined, text, span);
         match suggest::nearest(name, self.names(class)) {
             Some(near) => fault.hint(format!("did you mean `V.{letter}.{near}`?")),
             None => fault,
@@ -219,7 +220,7 @@ impl Decoder {
             Target::Own(class, name, subscripts) => {
                 match self.values.variables.find(class, &name) {
                     Some(variable) => variable.get(&subscripts, Owner::Variable, span),
-                    None => Err(self.values.variables.unknown(class, &name, span)),
+                    None => Err(self.values.variables.unknown(class, &name, "has no value", span)),
                 }
             }
             Target::External(name) => match self.values.variables.external.get(&name) {
@@ -279,7 +280,8 @@ impl Decoder {
                 }
                 let by_write = matches!(class, Class::Program | Class::Shared);
                 if !by_write || !subscripts.is_empty() {
-                    let fault = self.values.variables.unknown(class, &name, span);
+                    let what = "is not declared";
+                    let fault = self.values.variables.unknown(class, &name, what, span);
                     return Err(fault.hint("declare it between #VAR and #ENDVAR"));
                 }
                 if let Some(table) = self.values.variables.table(class) {
@@ -354,7 +356,8 @@ impl Decoder {
                 let gone =
                     self.values.variables.table(class).and_then(|table| table.remove(&*name));
                 if gone.is_none() {
-                    let unknown = self.values.variables.unknown(class, &name, span);
+                    let what = "does not exist";
+                    let unknown = self.values.variables.unknown(class, &name, what, span);
                     return Err(
                         unknown.with(|d| Diagnostic { id: Condition::DeletedUnknown.id(), ..d })
                     );

@@ -108,7 +108,16 @@ impl Builder<'_> {
                     .trim_start_matches('#')
                     .split_ascii_whitespace()
                     .collect();
-                let name = words.join(" ").to_ascii_uppercase().into();
+                let name: Box<str> = words.join(" ").to_ascii_uppercase().into();
+                if let Some(value) = &value {
+                    let (before, size) = self.masked.split_at(value.span.start as usize);
+                    if before.ends_with(|c: char| c.is_ascii_alphabetic()) {
+                        let size = &size[..value.span.len as usize];
+                        let text = format!("#{name} without `=` before its value");
+                        let hint = format!("write #{name}={size}");
+                        self.report(Problem::syntax(value.span, text).hint(hint));
+                    }
+                }
                 WordKind::Hash(Box::new(HashWord { name, value, bracket: group }))
             }
             (_, value) => {

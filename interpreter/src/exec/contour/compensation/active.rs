@@ -9,6 +9,7 @@ use crate::exec::contour::motion::Motion;
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, dot};
+use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
 use kontur_motion::path::Tilt;
 use smallvec::SmallVec;
@@ -54,20 +55,10 @@ impl Active {
         out: &mut Vec<Item>,
         cut: &mut Option<Cut>,
     ) -> Fallible<Self> {
-        let (radius, plane, approach) = (self.distance.abs(), self.plane, self.last.approach);
-        let mut watch = std::mem::take(&mut self.watch);
-        *cut = watch.contour(side, motion.source, radius);
-        let done = out.len();
+        let mut watched = Watched::new(&mut self, out);
         let mut next = self.corner(motion, side, out)?;
-        // the line that leads to the contour is free
-        for item in out[done..].iter().filter(|_| !approach) {
-            if let Item::Motion(motion) = item
-                && let Some(side) = Side::of(&motion.block.path, plane)
-            {
-                *cut = cut.or(watch.way(side, motion.source, radius));
-            }
-        }
-        next.watch = watch;
+        watched.compare(out, cut);
+        next.watch = watched.watch;
         Ok(next)
     }
 
@@ -146,18 +137,20 @@ impl Active {
         motion: Box<Motion>,
         side: Side,
         out: &mut Vec<Item>,
+        cut: &mut Option<Cut>,
     ) -> Fallible<Self> {
         let Self { distance, perpendicular, plane, tilt, .. } = self;
-        let (tilt, mut watch) = (tilt.clone(), Watch::default());
-        watch.contour(side, motion.source, distance.abs());
-        let start = Self { tilt: None, ..self }.finish(out)?;
+        let (tilt, watch) = (tilt.clone(), Watch::default());
+        let start = Self { tilt: None, ..self }.finish(out, cut)?;
         let last = Element { motion, side, start, approach: false, tangential: false };
         let between = Vec::new();
         Ok(Self { distance: -distance, perpendicular, plane, tilt, last, between, watch })
     }
 
-    /// Completes the last element perpendicular above its end and returns that point.
-    pub(super) fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
+    /// Completes the last element perpendicular above its end and returns that point; a bottleneck on the way is left
+    /// in `cut`.
+    pub(super) fn finish(mut self, out: &mut Vec<Item>, cut: &mut Option<Cut>) -> Fallible<Point> {
+        let mut watched = Watched::new(&mut self, out);
         let Self { distance, plane, last, between, .. } = self;
         if last.tangential {
             let text = "G05: no contour follows the approach";
@@ -167,18 +160,59 @@ impl Active {
         }
         let at = above(last.side.end_point(), last.side.tangent(true), distance);
         last.emit(at, plane, distance, out)?;
+        watched.compare(out, cut);
         emit_between(between, at, plane, out);
         Ok(at)
     }
 
     /// As [`finish`](Self::finish), and perpendicular back to the contour (G237).
-    pub(super) fn return_to_contour(self, out: &mut Vec<Item>) -> Fallible<()> {
+    pub(super) fn return_to_contour(
+        self,
+        out: &mut Vec<Item>,
+        cut: &mut Option<Cut>,
+    ) -> Fallible<()> {
         let (plane, template) = (self.plane, self.last.motion.clone());
         let end = self.last.motion.block.path.end();
         let to = [end[plane[0]], end[plane[1]]];
-        let at = self.finish(out)?;
+        let at = self.finish(out, cut)?;
         let line = straight(&template, template.block.path.end(), plane, at, to);
         out.extend(line.map(Item::Motion));
         Ok(())
+    }
+}
+
+/// The last element while its way is made: what comes after `done` is compared with the contour.
+pub(super) struct Watched {
+    pub(super) watch: Watch,
+    side: Side,
+    source: SourceRef,
+    /// The line that leads to the contour is free.
+    approach: bool,
+    plane: [usize; 2],
+    radius: f64,
+    done: usize,
+}
+
+impl Watched {
+    pub(super) fn new(active: &mut Active, out: &[Item]) -> Self {
+        let last = &active.last;
+        Self {
+            side: last.side,
+            source: last.motion.source,
+            approach: last.approach,
+            plane: active.plane,
+            radius: active.distance.abs(),
+            done: out.len(),
+            watch: std::mem::take(&mut active.watch),
+        }
+    }
+
+    /// A bottleneck is left in `cut`.
+    pub(super) fn compare(&mut self, out: &[Item], cut: &mut Option<Cut>) {
+        if !self.approach {
+            let way = &out[self.done..];
+            let found = self.watch.element(self.side, self.source, way, self.plane, self.radius);
+            *cut = cut.or(found);
+        }
     }
 }

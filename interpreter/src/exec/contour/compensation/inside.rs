@@ -4,7 +4,7 @@
 //!
 //! Source: TF5200 programming manual, selecting inside corner of TRC, restrictions of inside corner selection; 90127.
 
-use super::active::Active;
+use super::active::{Active, Watched};
 use super::corner::{above, inner_corner};
 use super::element::{Element, emit_between, moving_side};
 use super::ends::line;
@@ -102,9 +102,7 @@ impl Closed {
             };
             match (active.take(), moving_side(&motion, plane)?) {
                 (Some(last), Some(side)) => {
-                    let mut cut = None;
-                    active = Some(last.join(motion, side, out, &mut cut)?);
-                    found = found.or(cut);
+                    active = Some(last.join(motion, side, out, &mut found)?);
                 }
                 (Some(mut last), None) => {
                     let span = motion.span;
@@ -113,8 +111,6 @@ impl Closed {
                 }
                 (None, Some(side)) => {
                     emit_between(std::mem::take(&mut before), at, plane, out);
-                    let mut watch = Watch::default();
-                    watch.contour(side, motion.source, distance.abs());
                     active = Some(Active {
                         distance,
                         perpendicular: false,
@@ -128,14 +124,17 @@ impl Closed {
                             tangential: false,
                         },
                         between: Vec::new(),
-                        watch,
+                        watch: Watch::default(),
                     });
                 }
                 (None, None) => before.push(Item::Motion(motion)),
             }
         }
-        if let Some(Active { last, between, .. }) = active {
+        if let Some(mut active) = active {
+            let mut watched = Watched::new(&mut active, out);
+            let Active { last, between, .. } = active;
             last.emit(at, plane, distance, out)?;
+            watched.compare(out, &mut found);
             emit_between(between, at, plane, out);
         }
         Ok((at, found))

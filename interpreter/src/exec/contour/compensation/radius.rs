@@ -6,7 +6,7 @@
 //! its new radius to what follows: a larger radius is taken up perpendicular to the element before the corner, a smaller one
 //! perpendicular to the element after it.
 
-use super::active::{Active, at_contour};
+use super::active::{Active, Watched, at_contour};
 use super::corner::{above, inner_corner, straight, straight_before};
 use super::element::{Element, emit_between};
 use super::item::{Fallible, Item, too_tight};
@@ -64,13 +64,13 @@ impl Active {
         out.extend(line.map(|line| at_contour(line, distance)));
         next.distance = distance;
         next.last.start = to;
-        next.watch = fresh(&next.last, distance);
+        next.watch = Watch::default();
         Ok(next)
     }
 
     /// A larger radius: away from the element before the corner, then the corner with the new one.
     fn grow(
-        self,
+        mut self,
         motion: Box<Motion>,
         side: Side,
         distance: f64,
@@ -92,13 +92,15 @@ impl Active {
         let from = above(to, tangent, before - distance);
         let at: AxisVec = motion.block.path.start().clone();
         let template = self.last.motion.clone();
+        let mut watched = Watched::new(&mut self, out);
         let Self { perpendicular, tilt, last, between, .. } = self;
         last.emit(from, plane, before, out)?;
+        watched.compare(out, cut);
         let line = straight(&template, &at, plane, from, to);
         out.extend(line.map(|line| at_contour(line, distance)));
         emit_between(between, to, plane, out);
         let active = |last: Element| {
-            let watch = fresh(&last, distance);
+            let watch = Watch::default();
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
         // the corner begins above its own tangent, with nothing left of the element before it
@@ -120,11 +122,4 @@ impl Active {
             }
         }
     }
-}
-
-/// What the tool may cut from here on.
-fn fresh(last: &Element, distance: f64) -> Watch {
-    let mut watch = Watch::default();
-    watch.contour(last.side, last.motion.source, distance.abs());
-    watch
 }

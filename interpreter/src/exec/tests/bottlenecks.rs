@@ -1,0 +1,171 @@
+//! K-0119 against brute force: the smallest distance between the way of the tool and every element of random contours of lines and
+//! arcs, sampled densely. Neighbours may come close to each other elsewhere than at their corner.
+
+use super::{Step, run};
+use kontur_kit::Random;
+use kontur_motion::path::Path;
+use std::fmt::Write as _;
+
+const SAMPLES: u32 = 800;
+
+/// An element as its points, in equal steps.
+type Points = Vec<[f64; 2]>;
+
+fn shares() -> impl Iterator<Item = f64> {
+    (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES))
+}
+
+fn line(from: [f64; 2], to: [f64; 2]) -> Points {
+    shares().map(|t| [0, 1].map(|i| from[i] + t * (to[i] - from[i]))).collect()
+}
+
+fn arc(centre: [f64; 2], radius: f64, start_rad: f64, sweep_rad: f64) -> Points {
+    let point = |t: f64| {
+        let (sin, cos) = libm::sincos(start_rad + t * sweep_rad);
+        [centre[0] + radius * cos, centre[1] + radius * sin]
+    };
+    shares().map(point).collect()
+}
+
+/// Smallest distance of two rows of points, and the longest step within them.
+fn least(way: &Points, contour: &Points) -> (f64, f64) {
+    let far = |a: &[f64; 2], b: &[f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
+    let step = [way, contour].map(|points| far(&points[0], &points[1]));
+    let mut best = f64::INFINITY;
+    // a coarse search, then around its place: the distance changes by no more than the way between two points
+    let coarse = 20;
+    for a in way.iter().step_by(coarse) {
+        for b in contour.iter().step_by(coarse) {
+            best = best.min(far(a, b));
+        }
+    }
+    let reach = coarse as f64 * (step[0] + step[1]);
+    for (i, a) in way.iter().enumerate().step_by(coarse) {
+        for (j, b) in contour.iter().enumerate().step_by(coarse) {
+            if far(a, b) > best + reach {
+                continue;
+            }
+            for a in &way[i..(i + coarse).min(way.len())] {
+                for b in &contour[j..(j + coarse).min(contour.len())] {
+                    best = best.min(far(a, b));
+                }
+            }
+        }
+    }
+    (best, step[0] + step[1])
+}
+
+/// A contour whose elements are the blocks N1 to N5, and its program.
+fn contour(random: &mut Random, k: usize) -> (Vec<Points>, f64, String) {
+    let radius = random.between(0.5, 3.0);
+    let (side, corner) = (["G41", "G42"][k % 2], ["G25", "G26"][k / 2 % 2]);
+    let mode = ["G138", "G139"][k / 4 % 2];
+    let mut text = format!("F1000 {corner} {mode}\nV.G.WZ_AKT.R={radius:.6}\n");
+    let (mut at, mut heading) = ([0.0, 0.0], random.between(0.0, 360.0));
+    let _ = writeln!(text, "G01 X-40 Y-40\n{side} X0 Y0");
+    let mut elements = Vec::new();
+    for i in 1..=5 {
+        heading += random.between(-150.0, 150.0);
+        let (sin, cos) = libm::sincos(heading.to_radians());
+        if random.between(0.0, 1.0) < 0.5 {
+            let length = random.between(3.0, 25.0);
+            let to = [at[0] + length * cos, at[1] + length * sin];
+            let _ = writeln!(text, "N{i} G01 X{:.9} Y{:.9}", to[0], to[1]);
+            elements.push(line(at, to));
+            at = to;
+        } else {
+            let bend = random.between(2.0, 20.0);
+            let sweep = random.between(20.0, 300.0)
+                * if random.between(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
+            // the centre is to the left of the heading of a counter-clockwise arc
+            let sign = sweep.signum();
+            let centre = [at[0] - sign * bend * sin, at[1] + sign * bend * cos];
+            let start_rad = libm::atan2(at[1] - centre[1], at[0] - centre[0]);
+            let points = arc(centre, bend, start_rad, sweep.to_radians());
+            let to = points[points.len() - 1];
+            let g = if sweep > 0.0 { "G03" } else { "G02" };
+            let _ = writeln!(
+                text,
+                "N{i} {g} X{:.9} Y{:.9} I{:.9} J{:.9}",
+                to[0],
+                to[1],
+                centre[0] - at[0],
+                centre[1] - at[1]
+            );
+            elements.push(points);
+            at = to;
+            heading += sweep;
+        }
+    }
+    let _ = writeln!(text, "N9 G40 G01 X{:.6} Y{:.6}\nM30", at[0] + 50.0, at[1] + 50.0);
+    (elements, radius, text)
+}
+
+#[test]
+fn bottlenecks_of_random_contours_are_found_and_no_others() {
+    let mut random = Random::new(19);
+    let (mut cut, mut free, mut of_neighbours) = (0, 0, 0);
+    for k in 0..300 {
+        let (elements, radius, text) = contour(&mut random, k);
+        let outcome = run(&text);
+        let told = match &outcome.diagnostics[..] {
+            [] => None,
+            [told] if told.id.to_string() == "K-0119" => Some(told),
+            // too tight at a corner
+            _ => continue,
+        };
+        let mut found = Vec::new();
+        for step in &outcome.steps {
+            let Step::Motion { block, source, .. } = step else { continue };
+            let Some(n @ 1..=5) = source.block else { continue };
+            let (a, b) = (block.path.start(), block.path.end());
+            let way = match &block.path {
+                Path::Arc(way) => {
+                    let shape = way.shape();
+                    arc(shape.centre_mm, way.radius(), way.start_angle(), shape.sweep_rad)
+                }
+                _ => line([a[0], a[1]], [b[0], b[1]]),
+            };
+            for (i, element) in elements.iter().enumerate() {
+                let i = i as u64 + 1;
+                if i == n {
+                    continue;
+                }
+                let (distance, step) = least(&way, element);
+                if distance < radius - 1e-4 - 1e-9 {
+                    found.push((source.line, i, n.abs_diff(i), distance, step));
+                }
+            }
+        }
+        match told {
+            None => {
+                free += 1;
+                assert!(found.is_empty(), "not told: {found:?}\n{text}");
+            }
+            Some(told) => {
+                cut += 1;
+                let line = told.source.as_ref().map_or(0, |place| place.line);
+                let numbers = |from: &str| {
+                    let rest = told.text.split(from).nth(1).unwrap();
+                    let end = rest.find(|c: char| c != '.' && !c.is_ascii_digit());
+                    rest[..end.unwrap_or(rest.len())].trim_matches('.').parse::<f64>().unwrap()
+                };
+                let (contour, distance) = (numbers("line ") as u64 - 4, numbers("near as "));
+                // a cut less deep than the step of the brute force may be missed by it
+                let same = found.iter().find(|f| f.0 == line && f.1 == contour);
+                if let Some((_, _, apart, by_force, step)) = same {
+                    of_neighbours += usize::from(*apart == 1);
+                    let slack = step + 1e-4;
+                    assert!(
+                        (by_force - distance).abs() <= slack,
+                        "{by_force}: {}\n{text}",
+                        told.text
+                    );
+                } else {
+                    assert!(distance > radius - 0.3, "{}: not so, {found:?}\n{text}", told.text);
+                }
+            }
+        }
+    }
+    assert!(cut > 50 && free > 50 && of_neighbours > 3, "{cut} cut, {free} free, {of_neighbours}");
+}

@@ -1,0 +1,7 @@
+; check: exit 1
+; error K-0002 at 5:16
+F1000
+G01 X5
+G01 X10 Y0 #RND0.5
+G01 X10 Y10
+M30
