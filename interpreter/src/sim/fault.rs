@@ -90,7 +90,7 @@ impl Simulation {
                 self.messages.own.push(internal(&format!("look-ahead: {e}")));
             }
             let waited_at = matches!(self.phase, Phase::Waiting(_)).then_some(self.shown);
-            self.phase = Phase::Stopping(Stopping { told, waited_at, ..Stopping::default() });
+            self.phase = Phase::Stopping(Stopping { waited_at, told, ..Stopping::default() });
         }
     }
 
