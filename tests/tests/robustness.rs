@@ -154,7 +154,7 @@ fn refused_lists_do_not_continue() {
     let program = program.to_str().unwrap();
     let plant =
         ["--set", "kontur.axis[1].plant.model=TWO_MASS", "--set", "kontur.axis[1].plant.f0=0"];
-    for words in [&["--cycle-us", "7"][..], &plant] {
+    for words in [&["--set", "kontur.cycle_time_us=7"][..], &plant] {
         let done = command([&["run", program], words].concat());
         assert_eq!(done.exit, Exit::Usage, "{}", done.err);
         assert!(done.err.contains("the machine lists were refused"), "{}", done.err);

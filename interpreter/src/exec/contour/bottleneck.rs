@@ -20,9 +20,12 @@ const TOLERANCE_MM: f64 = 1e-4;
 #[derive(Clone, Copy, Debug)]
 struct Part {
     side: Side,
-    /// Smallest box around it.
+    /// A box around it.
     low: Point,
     high: Point,
+    /// A circle around it: the middle of its way and half of its length.
+    middle: Point,
+    half: f64,
     source: SourceRef,
     /// Number of the element of the contour; what compensation inserts after an element has its number.
     number: u64,
@@ -85,8 +88,16 @@ impl Watch {
 
 impl Part {
     fn new(side: Side, source: SourceRef, number: u64) -> Self {
+        let (middle, half) = side.middle();
         let (low, high) = side.extent();
-        Self { side, low, high, source, number }
+        let low = [low[0].max(middle[0] - half), low[1].max(middle[1] - half)];
+        let high = [high[0].min(middle[0] + half), high[1].min(middle[1] + half)];
+        Self { side, low, high, middle, half, source, number }
+    }
+
+    /// The boxes are further apart than `gap`.
+    fn is_beyond(&self, other: &Self, gap: f64) -> bool {
+        (0..2).any(|i| self.low[i] > other.high[i] + gap || other.low[i] > self.high[i] + gap)
     }
 }
 
@@ -99,23 +110,24 @@ fn push(parts: &mut VecDeque<Part>, part: Part) {
 
 /// Where the tool on `way` comes closer to `contour` than its radius. Along its own element it has its distance.
 fn cut(way: &Part, contour: &Part, radius: f64) -> Option<Cut> {
-    let apart = (0..2)
-        .any(|i| way.low[i] > contour.high[i] + radius || contour.low[i] > way.high[i] + radius);
-    if apart || way.number == contour.number {
+    let between = norm(sub(way.middle, contour.middle)) - way.half - contour.half;
+    if way.number == contour.number || between >= radius || way.is_beyond(contour, radius) {
         return None;
     }
-    let distance_mm = apart_by(&way.side, &contour.side);
+    let distance_mm = distance(way, contour);
     let found = Cut { tool: way.source, contour: contour.source, distance_mm };
     (distance_mm < radius - TOLERANCE_MM).then_some(found)
 }
 
 /// The smallest distance between two elements: where they cross, at an end of one of them, or within both where a
 /// line passes an arc or an arc another one.
-fn apart_by(a: &Side, b: &Side) -> f64 {
-    let crossing = intersections(&a.parallel(0.0), &b.parallel(0.0))
-        .into_iter()
-        .any(|p| a.contains(p) && b.contains(p));
-    if crossing {
+fn distance(first: &Part, second: &Part) -> f64 {
+    let (a, b) = (&first.side, &second.side);
+    let crosses = || {
+        let points = intersections(&a.parallel(0.0), &b.parallel(0.0));
+        points.into_iter().any(|p| a.contains(p) && b.contains(p))
+    };
+    if !first.is_beyond(second, 0.0) && crosses() {
         return 0.0;
     }
     let ends = [
@@ -160,6 +172,21 @@ impl Side {
             }
             Self::Line { .. } | Self::Arc { .. } => {
                 norm(sub(p, self.start_point())).min(norm(sub(p, self.end_point())))
+            }
+        }
+    }
+
+    /// The middle of the way along the element, and half of its length.
+    fn middle(&self) -> (Point, f64) {
+        match self {
+            Self::Line { from, to } => {
+                let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
+                (middle, 0.5 * norm(sub(*to, *from)))
+            }
+            Self::Arc { centre, radius, start_rad, sweep_rad } => {
+                let (sin, cos) = libm::sincos(start_rad + 0.5 * sweep_rad);
+                let middle = [centre[0] + radius * cos, centre[1] + radius * sin];
+                (middle, 0.5 * radius * sweep_rad.abs())
             }
         }
     }
