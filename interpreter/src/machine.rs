@@ -74,6 +74,15 @@ pub struct Machine {
     pub zero_offsets: ZeroOffsets,
 }
 
+/// Half of the increment of 0.1 um (0.0001 deg) in which positions and limits are given: what is closer to a limit is at it, as
+/// after a thousand incremental steps.
+const HALF_INCREMENT_MM: f64 = 0.5e-4;
+
+/// True if a position in mm (deg) is outside software limits.
+pub(crate) fn is_outside(position_mm: f64, (least_mm, most_mm): (f64, f64)) -> bool {
+    !(least_mm - HALF_INCREMENT_MM..=most_mm + HALF_INCREMENT_MM).contains(&position_mm)
+}
+
 impl Machine {
     /// Axis, spindle or gantry slave with a name of the channel list, without regard to case.
     pub fn axis(&self, name: &str) -> Option<&Axis> {
@@ -83,8 +92,8 @@ impl Machine {
     /// The software limits of a path axis in mm, if a position in mm is outside them and that is an error
     /// (P-AXIS-00177, P-AXIS-00178).
     pub fn limits_without(&self, axis: usize, mm: f64) -> Option<(f64, f64)> {
-        let limits @ (low, high) = self.axes.get(axis)?.software_limits_mm()?;
-        let outside = !(low..=high).contains(&mm) && !self.limits_only_warn(axis);
+        let limits = self.axes.get(axis)?.software_limits_mm()?;
+        let outside = is_outside(mm, limits) && !self.limits_only_warn(axis);
         outside.then_some(limits)
     }
 

@@ -3,7 +3,7 @@
 
 use super::parameters::Parameters;
 use super::plausible::finish;
-use super::table::{Default, axis_general, with_indices};
+use super::table::{axis_general, with_indices};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic};
 
@@ -56,15 +56,10 @@ pub(super) fn check(
     for (indices, setting) in parameters.settings() {
         let row = setting.row;
         let Some((_, instead)) = INERT.iter().find(|(id, _)| *id == row.id) else { continue };
-        // a switch without a printed default is off
-        let default = match row.default {
-            Default::Number(x) => x,
-            _ => 0.0,
-        };
         // what is refused has its message already
         let is_refused =
             |d: &Diagnostic| d.is_error() && d.parameter == Some(row.id) && d.source == setting.at;
-        if setting.value == Value::Number(default) || diagnostics.iter().any(is_refused) {
+        if !setting.is_changed() || diagnostics.iter().any(is_refused) {
             continue;
         }
         let key = with_indices(row.key, indices);

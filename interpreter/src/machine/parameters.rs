@@ -19,6 +19,17 @@ pub struct Setting {
     pub at: Option<Location>,
 }
 
+impl Setting {
+    /// It differs from the default of its row; a switch without a printed default is off.
+    pub(super) fn is_changed(&self) -> bool {
+        let default = match self.row.default {
+            Default::Number(x) => x,
+            _ => 0.0,
+        };
+        self.value != Value::Number(default)
+    }
+}
+
 /// Parameters of one list kind; what no list names has the default of its row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {

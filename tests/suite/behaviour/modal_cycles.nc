@@ -1,4 +1,5 @@
 ; run: exit 0
+; note K-0081 at 31:1
 ; A modal cycle runs at its call and again after each further motion, or after each further block: not after its own blocks,
 ; blank lines, remarks, control statements, calls, and the end of a program. Z counts the runs, Y those of the other subroutine.
 ; end X3 Y1 Z11

@@ -1,6 +1,5 @@
 ; run: exit 0
 ; page 254436235 diagnosis 21381, right
-; the cycle runs at its call and again after N20 and N30
 ; end X200 Y300 Z30
 %L DUMMY1
 G91 Z10
@@ -10,6 +9,7 @@ M17
 %MAIN
 N05 X0 Y0 Z0 G00
 N10 LL CYCLE [NAME=DUMMY1 MODAL @P1=1]
+; the cycle runs at its call and again after N20 and N30
 N20 G01 X200 F3000
 N30 G01 X200 Y100 F3000
 N35 #DISABLE MODAL CYCLE

@@ -4,17 +4,9 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
+use crate::machine::is_outside;
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
-
-/// Half of the increment of 0.1 um (0.0001 deg) in which positions and limits are given: what is closer to a limit is at it, as
-/// after a thousand incremental steps.
-const HALF_INCREMENT_MM: f64 = 0.5e-4;
-
-/// True if a position in mm (deg) is outside software limits.
-pub(super) fn is_outside(position_mm: f64, (least_mm, most_mm): (f64, f64)) -> bool {
-    !(least_mm - HALF_INCREMENT_MM..=most_mm + HALF_INCREMENT_MM).contains(&position_mm)
-}
 
 impl Decoder {
     /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round; `place`

@@ -4,13 +4,13 @@
 //! a row have in common is worked out once and holds until another kind of block comes.
 
 use super::InPlane;
-use super::limits::is_outside;
 use super::state::Straight;
 use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::values::number::LARGEST_MM;
+use crate::machine::is_outside;
 use crate::syntax::ast::Span;
 use crate::syntax::{Plain, PlainValue, PlainWord};
 use kontur_motion::block::{Block, Feed};

@@ -103,7 +103,10 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
             .iter()
             .any(|p| p.at(0).place().row.key == row.key)
     };
-    let other = axis.parameters().settings().find(|([i, _], s)| *i != 1 && of_motor(s.row));
+    let other = axis
+        .parameters()
+        .settings()
+        .find(|([i, _], s)| *i != 1 && of_motor(s.row) && s.is_changed());
     if let Some((indices, setting)) = other {
         let hint = "lr_hw[1] is the direct measuring system; the one of the motor has \
             getriebe[0].wegaufz and wegaufn, or getriebe[0].incr_per_rev";

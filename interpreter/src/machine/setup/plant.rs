@@ -4,8 +4,7 @@ use crate::machine::Axis;
 use crate::machine::overrides::OVERRIDE;
 use crate::machine::parameters::Setting;
 use crate::machine::table::param::{Number, Param, Place};
-use crate::machine::table::{Default, Indices, axis_drive, kontur as of};
-use crate::machine::value::Value;
+use crate::machine::table::{Indices, axis_drive, kontur as of};
 use kontur_filters::control::plant::{
     Disturbance, ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig,
 };
@@ -69,8 +68,7 @@ pub(super) fn of_the_simulated_drive(axis: &Axis) -> Option<(Indices, &Setting)>
         return None;
     }
     axis.parameters().settings().find(|(_, setting)| {
-        let is_read = READERS.iter().any(|place| place.row.key == setting.row.key);
-        is_read && !matches!(setting.row.default, Default::Number(x) if setting.value == Value::Number(x))
+        READERS.iter().any(|place| place.row.key == setting.row.key) && setting.is_changed()
     })
 }
 
