@@ -1,8 +1,6 @@
 ; run: exit 0
-; note K-0081 at 31:1
-; A modal cycle runs at its call and again after each further motion, or after each further block: not after its own blocks,
-; blank lines, remarks, control statements, calls, and the end of a program. Z counts the runs, Y those of the other subroutine.
 ; end X3 Y1 Z11
+; note K-0081 at 31:1
 %L COUNT
 G91 G01 Z1
 G90
@@ -12,6 +10,8 @@ G91 G01 Y1
 G90
 M17
 %MAIN
+; A modal cycle runs at its call and again after each further motion, or after each further block: not after its own blocks,
+; blank lines, remarks, control statements, calls, and the end of a program. Z counts the runs, Y those of the other subroutine.
 N10 G90 F6000
 N20 LL CYCLE [NAME=COUNT MODAL_MOVE]
 N30 X1
