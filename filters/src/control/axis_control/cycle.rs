@@ -1,0 +1,232 @@
+//! One cycle of an axis, alone or in a row: from the set position to the drive, its monitors, and what the plant does with it.
+
+use super::given::Given;
+use super::{AxisControl, ControlOutput, DriveValues, Encoder};
+use crate::control::{
+    buffer::Setpoint,
+    fault::Fault,
+    feedforward::FeedforwardOutput,
+    ipc::{IpcInput, IpcOutput},
+    monitor::LagMonitor,
+    plant::PlantInput,
+    position::PositionLoop,
+};
+
+impl AxisControl {
+    /// Position that the controller, the monitors and the exact stop see.
+    pub(super) fn controlled_mm(&self) -> f64 {
+        let m = self.plant.measured();
+        let true_mm = match self.config.encoder {
+            Encoder::Motor => m.motor_mm,
+            Encoder::Direct => m.load_mm,
+        };
+        self.read_mm(true_mm + self.inputs.encoder_offset_mm)
+    }
+
+    /// A position as the measuring system of the position loop reads it.
+    ///
+    /// Assumption: the nearest increment, counted from the machine's zero; homing takes any constant part out.
+    pub(super) fn read_mm(&self, mm: f64) -> f64 {
+        let step_mm = self.config.increment_mm;
+        if step_mm > 0.0 { (mm / step_mm).round() * step_mm } else { mm }
+    }
+
+    /// One cycle: set position after filters or Vibration Guard, feedforward gain of this motion
+    /// ([`gain`](crate::control::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
+    ///
+    /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
+    pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
+        let mut output = ControlOutput::default();
+        self.run(&[set_mm], gain, jerk_limited, 0, |_, seen| output = seen);
+        output
+    }
+
+    /// Cycles in a row under the same inputs, gain and slope, each as [`Self::step`], at least one. The number up to the first one
+    /// in which the monitors raise something or may: if it is not the last one, parts of the axis are beyond it, and it has to be
+    /// put back to where it was.
+    ///
+    /// `show` gets the output of the cycles from number `shown_from` on, and of one with a fault.
+    #[inline] // the output is large: used where it is made
+    pub fn run(
+        &mut self,
+        set_mm: &[f64],
+        gain: f64,
+        jerk_limited: bool,
+        shown_from: usize,
+        mut show: impl FnMut(usize, ControlOutput),
+    ) -> usize {
+        self.faults.clear();
+        let inputs = self.inputs;
+        let mut given = Given::new(gain, jerk_limited, &inputs);
+        let same = given.is_like(&self.given);
+        let calm = self.ipc.is_off() && !self.diverged && self.exact_stop.rests();
+        let set_by_set = !self.exact_stop.rests();
+        let count = match set_mm.len() {
+            0 => return 0,
+            1 => 1,
+            _ if set_by_set => 1,
+            most => most.min(self.setpoint.quiet(set_mm) + 1),
+        };
+        self.setpoint.pass(&set_mm[..count - 1]);
+        let (cycle_s, encoder) = (self.cycle_s, self.config.encoder);
+        for (i, set_mm) in set_mm[..count].iter().copied().enumerate() {
+            let last = i + 1 == count;
+            let before = std::mem::replace(&mut given.set, set_mm.to_bits());
+            let before = if i == 0 { self.given.set } else { before };
+            let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
+            let position_mm = set_mm + inputs.additional_mm;
+            self.moving = (position_mm - self.position_mm).abs() > 0.0;
+            (self.set_mm, self.position_mm) = (set_mm, position_mm);
+            let measured = *self.plant.measured();
+            let actual_mm = self.controlled_mm();
+
+            self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
+            let (reference_mm, reference_step_mm) = match self.held_mm {
+                Some(held_mm) => (held_mm, 0.0),
+                None => (self.buffer.reference_mm(), self.buffer.reference_step_mm()),
+            };
+            let position = &self.config.position;
+            let kv = position.gain_at(reference_step_mm / cycle_s);
+            let error_mm =
+                position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
+            let mut feedforward = if self.buffer.is_without_gain() && self.feedforward.needs_gain()
+            {
+                FeedforwardOutput::default()
+            } else {
+                self.feedforward.step(&self.buffer.window(), kv)
+            };
+            if self.held_mm.is_some() {
+                feedforward = FeedforwardOutput::default();
+            }
+            let mut wanted = kv * error_mm + feedforward.speed_mm_s;
+            let mut additive = self.ipc.step(&IpcInput {
+                motor_mm_s: measured.motor_mm_s,
+                direct_mm_s: (encoder == Encoder::Direct).then_some(measured.load_mm_s),
+                command_mm_s: wanted,
+            });
+            if self.open {
+                feedforward = FeedforwardOutput::default();
+                wanted = 0.0;
+                additive = IpcOutput::default();
+            }
+            let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
+
+            if last {
+                self.setpoint.step(set_mm, &mut self.faults);
+            }
+            self.faults.push(speed_fault);
+            if last || self.lag.needs_every_cycle() || i + LagMonitor::MEMORY >= count {
+                self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
+            }
+            if set_by_set {
+                let late = self.exact_stop.step(set_mm, actual_mm - inputs.additional_mm);
+                // an axis that a reaction holds does not arrive; the reaction has been reported already
+                self.faults.push(late.filter(|_| self.held_mm.is_none()));
+            }
+            let unstable = self.advance(
+                PlantInput {
+                    speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),
+                    acc_mm_s2: self.felt_mm_s2(feedforward.additive_acc_mm_s2),
+                    force_mm_s2: inputs.force_mm_s2,
+                    reference_mm,
+                },
+                reference_mm - actual_mm,
+            );
+            self.faults.push(unstable);
+            if self.open {
+                self.faults.clear();
+            }
+            let faulty = !self.faults.is_empty();
+            let as_before = before == given.set && (same || i > 0);
+            self.count_still(as_before && calm && !faulty);
+
+            let tcp_before_mm_s = std::mem::replace(&mut self.tcp_mm_s, measured.tcp_mm_s);
+            if faulty || i >= shown_from || last {
+                let shown_mm = match encoder {
+                    Encoder::Motor => actual_mm,
+                    Encoder::Direct => measured.motor_mm,
+                };
+                let output = ControlOutput {
+                    reference_mm,
+                    act_mm: shown_mm,
+                    load_mm: match encoder {
+                        Encoder::Motor => measured.load_mm,
+                        Encoder::Direct => actual_mm,
+                    },
+                    lag_mm: reference_mm - actual_mm,
+                    lag_limit_mm: self.lag.limit_mm(),
+                    settling_s: self.exact_stop.settling_s(),
+                    feedforward,
+                    command_mm_s,
+                    additive_speed_mm_s: additive.speed_mm_s,
+                    additive_speed_limited: additive.limited,
+                    tcp_mm: measured.tcp_mm,
+                    tcp_acc_mm_s2: (measured.tcp_mm_s - tcp_before_mm_s) / cycle_s,
+                    drive: self.drive_values(command_mm_s, &feedforward, additive.speed_mm_s),
+                    faulty,
+                };
+                show(i, output);
+            }
+            if faulty {
+                self.given = given;
+                return i + 1;
+            }
+        }
+        if !set_by_set {
+            self.exact_stop.pass(&set_mm[..count]);
+        }
+        self.given = given;
+        count
+    }
+
+    /// Advances the plant unless it diverged; then it is held where it was last finite.
+    #[inline]
+    fn advance(&mut self, input: PlantInput, lag_mm: f64) -> Option<Fault> {
+        if self.diverged {
+            return None;
+        }
+        let limit_mm = self.unstable_mm;
+        if lag_mm.abs() <= limit_mm && self.plant.advance(input) {
+            return None;
+        }
+        self.diverged = true;
+        Some(Fault::Unstable { lag_mm, limit_mm })
+    }
+
+    /// Speed that the drive follows: what it was sent in its format.
+    ///
+    /// A drive that closes the position loop itself makes its own command.
+    #[inline]
+    fn felt_mm_s(&self, command: f64, additive: f64) -> f64 {
+        let (c, cycle_s) = (&self.config, self.cycle_s);
+        let command = match c.position.closed_in {
+            PositionLoop::Cnc => c.command_format.sent(command, cycle_s),
+            PositionLoop::Drive => command,
+        };
+        command
+            + if additive.abs() > 0.0 { c.feedforward_format.sent(additive, cycle_s) } else { 0.0 }
+    }
+
+    /// Acceleration that an additive torque gives the axis.
+    #[inline]
+    fn felt_mm_s2(&self, wanted: f64) -> f64 {
+        let torque = &self.config.torque;
+        if wanted.abs() > 0.0 { torque.acceleration(torque.torque(wanted)) } else { 0.0 }
+    }
+
+    #[inline]
+    fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {
+        let (command_scale, ff_scale) = self.counts_per_mm_s;
+        let mut values = DriveValues {
+            command: command * command_scale,
+            feedforward: (ff.speed_mm_s + ff.additive_speed_mm_s) * ff_scale,
+            additive_speed: additive * command_scale,
+            ..DriveValues::default()
+        };
+        if ff.additive_acc_mm_s2.abs() > 0.0 {
+            values.torque_n_m = self.config.torque.torque(ff.additive_acc_mm_s2);
+            values.torque = self.config.torque.counts(values.torque_n_m);
+        }
+        values
+    }
+}
