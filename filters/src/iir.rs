@@ -209,6 +209,28 @@ impl AxisFilter {
         }
     }
 
+    /// At rest on `x` in the place of another filter: one that acts on the deviation from the position at switch-on keeps that
+    /// position, so that it still holds back what has been held back.
+    pub(crate) fn settle_as(&mut self, before: &Self, x: f64) {
+        self.settle_from(x, before.start.unwrap_or(x));
+    }
+
+    /// At rest on `x`, switched on at `start`.
+    fn settle_from(&mut self, x: f64, start: f64) {
+        self.start = self.start.map(|_| start);
+        let input = self.start.map_or(x, |start| x - start);
+        match &mut self.network {
+            Network::Sections(sections) => {
+                // of a constant deviation nothing is left after the first section
+                let later = if self.start.is_some() { 0.0 } else { x };
+                for (i, (_, state)) in sections.iter_mut().enumerate() {
+                    *state = SectionState::at_rest(if i == 0 { input } else { later });
+                }
+            }
+            Network::Delay(_, state) => *state = ThiranState::at_rest(input),
+        }
+    }
+
     /// The output that a constant input `x` leads to in the end: `x`, except for a high-pass or band-pass.
     pub(crate) fn final_value(&self, x: f64) -> f64 {
         self.start.map_or(x, |start| self.share.mix(x, start))
@@ -228,16 +250,7 @@ impl Stage for AxisFilter {
     }
 
     fn settle(&mut self, x: f64) {
-        self.start = self.start.map(|_| x);
-        let input = if self.start.is_some() { 0.0 } else { x };
-        match &mut self.network {
-            Network::Sections(sections) => {
-                for (_, state) in sections {
-                    *state = SectionState::at_rest(input);
-                }
-            }
-            Network::Delay(_, state) => *state = ThiranState::at_rest(input),
-        }
+        self.settle_from(x, x);
     }
 
     /// Delay of slow signals; 0 for a high-pass or band-pass, which let none through.

@@ -1,4 +1,4 @@
-//! The values of the last cycles, by age: one behind the other in memory, so that many cycles are read as a slice.
+//! The values of the last cycles, by age: contiguous in memory, so that many cycles are read as a slice.
 //!
 //! ```
 //! use kontur_filters::ring::Ring;

@@ -43,6 +43,17 @@ pub struct Shaping {
     newest: (f64, f64),
 }
 
+/// What a standard filter was before the filters of its chain were changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The filter of this number, as it is.
+    Same(usize),
+    /// The filter of this number, otherwise designed.
+    Changed(usize),
+    /// None.
+    New,
+}
+
 impl Shaping {
     /// The chain of the standard `filters` without a kernel, at rest at `x`.
     pub fn new(filters: Vec<AxisFilter>, x: f64) -> Self {
@@ -67,15 +78,16 @@ impl Shaping {
         self.kernel.settled() && kernel.is_none_or(|kernel| self.kernel.settled_for(kernel))
     }
 
-    /// Other standard filters from now on. `kept[i]` says which of those before filter `i` is: it continues, the others begin
-    /// at rest on what arrives there.
-    pub fn change_filters(&mut self, filters: Vec<AxisFilter>, kept: &[Option<usize>]) {
+    /// Other standard filters from now on, with the origin of each. The same ones continue, the others begin at rest on what
+    /// arrives there.
+    pub fn change_filters(&mut self, filters: Vec<AxisFilter>, origins: &[Origin]) {
         let before = std::mem::replace(&mut self.filters, filters);
         let mut x = self.newest.0;
-        for (filter, kept) in self.filters.iter_mut().zip(kept) {
-            match kept.and_then(|i| before.get(i)) {
-                Some(same) => filter.clone_from(same),
-                None => filter.settle(x),
+        for (filter, origin) in self.filters.iter_mut().zip(origins) {
+            match *origin {
+                Origin::Same(i) => filter.clone_from(&before[i]),
+                Origin::Changed(i) => filter.settle_as(&before[i], x),
+                Origin::New => filter.settle(x),
             }
             x = filter.final_value(x);
         }

@@ -249,19 +249,24 @@ fn machine_data_move_no_axis() {
 }
 
 /// `#MACHINE DATA` of one standard filter leaves the others where they are: a high-pass keeps the part that it holds back,
-/// so an axis at rest does not move.
+/// so an axis at rest does not move; a changed one keeps it too.
 #[test]
 fn machine_data_of_a_filter_leave_the_others() {
-    let high_pass = ["enable=1", "type=HIGHPASS", "order=1", "share_percent=50"];
+    let high_pass = ["enable=1", "type=HIGHPASS", "order=2", "share_percent=50"];
     let low_pass = ["enable=1", "order=1", "fg_f0=15"];
     let settings: Vec<String> = [("0", &low_pass[..]), ("1", &high_pass), ("2", &low_pass)]
         .iter()
         .flat_map(|(i, keys)| keys.iter().map(move |key| format!("X.filter[{i}].{key}")))
         .collect();
     let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    for changed in
-        ["filter[0].fg_f0 25", "filter[2].fg_f0 25", "filter[0].enable 0", "filter[2].enable 0"]
-    {
+    for changed in [
+        "filter[0].fg_f0 25",
+        "filter[2].fg_f0 25",
+        "filter[0].enable 0",
+        "filter[2].enable 0",
+        "filter[1].fg_f0 25",
+        "filter[1].order 1",
+    ] {
         let command = format!("#MACHINE DATA [AX=X AXPARAM=\"{changed}\"]");
         let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), &settings);
         let after = run.records.iter().filter(|r| r.line > 2).map(|r| r.axes[0].set);

@@ -303,3 +303,17 @@ fn a_fault_in_a_dwell_belongs_to_the_dwell() {
     assert!(run.records[dwell..].iter().all(|r| r.line == 4));
     assert!(run.records.len() > dwell + 100);
 }
+
+/// An axis that the fault of another one stops arrives nowhere: its short stop is not too late.
+#[test]
+fn what_a_fault_stops_is_not_late() {
+    let program = "%P\nZ[INDP_ASYN G90 G01 FEED=9000 POS=100]\nG01 X50 F9000\nM30\n";
+    let lag = [
+        "X.getriebe[0].slep_ueberw_typ=4",
+        "X.getriebe[0].slep_max=15000",
+        "X.getriebe[0].slep_min=15000",
+    ];
+    let stopped =
+        run(program, &[&lag[..], &["Z.getriebe[0].position_settling_time=10000"]].concat());
+    assert_eq!(stopped.errors(), ["70020"]);
+}

@@ -136,6 +136,10 @@ impl Simulation {
     fn expect_independent_stops(&mut self) {
         for axis in 0..self.path_position.len() {
             let Some(source) = self.independent.take_ended(axis) else { continue };
+            // what a fault stops does not arrive anywhere
+            if matches!(self.phase, Phase::Stopping(_)) {
+                continue;
+            }
             for (i, chain) in self.chains.iter_mut().enumerate() {
                 if self.drivers[i] == Driver::Path(axis) {
                     chain.expect_stop(self.path_position[axis]);

@@ -8,7 +8,7 @@ use kontur_filters::control::plant::PlantError;
 use kontur_filters::iir::AxisFilter;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
 use kontur_filters::ring::Ring;
-use kontur_filters::shaping::Shaping;
+use kontur_filters::shaping::{Origin, Shaping};
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
@@ -134,8 +134,8 @@ impl AxisChain {
             self.align(before.ipo.newest());
             self.ipo = before.ipo.clone();
         } else {
-            let kept = same_filters(&old.filters, &new.filters);
-            self.shaping.change_filters(new.filters.clone(), &kept);
+            let origins = origins(&old.filters, &new.filters);
+            self.shaping.change_filters(new.filters.clone(), &origins);
             self.align(before.ipo.newest());
         }
         if old.additional == new.additional {
@@ -444,18 +444,19 @@ impl<'a> Derived<'a> {
         self.now
     }
 }
-/// Which of the filters before each of the new ones is. One that is changed, added or taken away lies between those that are the
-/// same in front and at the end.
-fn same_filters(old: &[AxisFilter], new: &[AxisFilter]) -> Vec<Option<usize>> {
+/// What each of the new filters was before. One that is changed, added or taken away lies between those that are the same at the
+/// beginning and at the end.
+fn origins(old: &[AxisFilter], new: &[AxisFilter]) -> Vec<Origin> {
     let front = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let most = old.len().min(new.len()) - front;
     let back =
         old.iter().rev().zip(new.iter().rev()).take(most).take_while(|(a, b)| a == b).count();
     let first_at_end = new.len() - back;
-    let kept = |i: usize| match i {
-        i if i < front => Some(i),
-        i if i >= first_at_end => Some(i + old.len() - new.len()),
-        _ => None,
+    let origin = |i: usize| match i {
+        i if i < front => Origin::Same(i),
+        i if i >= first_at_end => Origin::Same(i + old.len() - new.len()),
+        i if old.len() == new.len() => Origin::Changed(i),
+        _ => Origin::New,
     };
-    (0..new.len()).map(kept).collect()
+    (0..new.len()).map(origin).collect()
 }

@@ -6,7 +6,6 @@
 //! them, and a feedhold holds them, with their own deceleration (P-AXIS-00556 is not read). Rests of oscillations continue.
 
 use crate::exec::{IndependentMotion, OscillatingMotion, SourceRef};
-
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::independent::{IndependentMove, Steering};
