@@ -1,8 +1,9 @@
 //! Chamfers and roundings between two motions (G301, G302, `#CHR`, `#CHF`, `#RND`).
 //!
 //! Source: TF5200 programming manual: the size of a chamfer is the distance of its ends from the corner, on an arc
-//! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
-//! transition.
+//! measured as a chord (206615051); a rounding is a tangential arc of the given radius. No rounding is inserted at a tangential
+//! transition (206621707), nor a chamfer where a line continues straight on. Assumption: the ends of a chamfer of a given length
+//! (`#CHF`) are equally far from the corner too, so that it has the same inclination to both elements.
 //!
 //! The feed is that of `#FRC`, else the E word of the motion before (206811147). Assumption: without them it is that of the next
 //! motion, also rapid; the English page names that motion, an older German one the motion before.
@@ -10,11 +11,17 @@
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+
+/// Factor between the distances that are looked at in the search for the ends of a chamfer.
+const GROWTH: f64 = 1.02;
+/// Halvings of such a distance: down to rounding.
+const HALVINGS: u32 = 48;
 
 /// Which element is inserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +63,8 @@ pub(in crate::exec) fn between(
     };
     let (u, w) = (a.tangent(true), b.tangent(false));
     let turn = cross(u, w);
-    if turn.abs() < 1e-9 && dot(u, w) > 0.0 {
+    let lines = matches!((&a, &b), (Side::Line { .. }, Side::Line { .. }));
+    if turn.abs() < 1e-9 && dot(u, w) > 0.0 && (lines || insertion.kind == Kind::Rounding) {
         return Ok(None);
     }
     let reversal = || {
@@ -67,17 +75,12 @@ pub(in crate::exec) fn between(
         Fault::new(Condition::Range, text, span)
     };
     let (p, q, centre) = match insertion.kind {
-        Kind::Chamfer | Kind::ChamferLength => {
-            let d = match insertion.kind {
-                // distance from the corner of an isosceles triangle with this base
-                Kind::ChamferLength => {
-                    let half_angle = 0.5 * libm::acos((-dot(u, w)).clamp(-1.0, 1.0));
-                    insertion.size_mm / (2.0 * libm::sin(half_angle))
-                }
-                _ => insertion.size_mm,
-            };
-            let p = a.at_distance(d, true).ok_or_else(reversal)?;
-            let q = b.at_distance(d, false).ok_or_else(reversal)?;
+        Kind::Chamfer => {
+            let (p, q) = ends_at(&a, &b, insertion.size_mm).ok_or_else(reversal)?;
+            (p, q, None)
+        }
+        Kind::ChamferLength => {
+            let (p, q) = ends_apart(&a, &b, insertion.size_mm).ok_or_else(reversal)?;
             (p, q, None)
         }
         Kind::Rounding => {
@@ -121,6 +124,33 @@ pub(in crate::exec) fn between(
     inserted.events = std::mem::take(&mut after.events);
     inserted.block.feed = insertion.feed.unwrap_or(feed);
     Ok(Some(Box::new(inserted)))
+}
+
+/// Ends of a chamfer at a distance from the corner, on an arc as a chord.
+fn ends_at(a: &Side, b: &Side, distance: f64) -> Option<(Point, Point)> {
+    Some((a.at_distance(distance, true)?, b.at_distance(distance, false)?))
+}
+
+/// Ends of a chamfer of a length, equally far from the corner: the nearest ones.
+fn ends_apart(a: &Side, b: &Side, length: f64) -> Option<(Point, Point)> {
+    let apart = |(p, q): (Point, Point)| norm(sub(p, q));
+    // the two distances and the chamfer are a triangle
+    let mut low = 0.5 * length;
+    if apart(ends_at(a, b, low)?) >= length {
+        return ends_at(a, b, low);
+    }
+    let mut high = loop {
+        let next = low * GROWTH;
+        if apart(ends_at(a, b, next)?) >= length {
+            break next;
+        }
+        low = next;
+    };
+    for _ in 0..HALVINGS {
+        let mid = 0.5 * (low + high);
+        if apart(ends_at(a, b, mid)?) >= length { high = mid } else { low = mid }
+    }
+    ends_at(a, b, high)
 }
 
 /// Contact points and centre of the arc of radius `r` that touches both sides.

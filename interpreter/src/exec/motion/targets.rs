@@ -7,7 +7,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::geometry::modulo;
 use crate::exec::values::number::LARGEST_MM;
-use crate::syntax::ast::{Group, ItemKind};
+use crate::syntax::ast::{Group, ItemKind, Sign};
 use kontur_motion::axis::AxisVec;
 
 /// Targets of one block.
@@ -40,6 +40,7 @@ impl Decoder {
             targets = joined(targets);
         }
         targets.extend(self.motion.contour_line.targets.drain(..));
+        self.turns_go_forward(&targets, words)?;
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         let suppressed = match suppressed {
             Some((hash, _, at)) => {
@@ -85,6 +86,30 @@ impl Decoder {
 }
 
 impl Decoder {
+    /// 20958: the first sign of a relative word of a modulo axis is the direction of its way, which has no sign of its own.
+    ///
+    /// Source: TF5200 diagnosis 253095819; modulo programming in relative coordinates (tccncprogramming 15557270155).
+    fn turns_go_forward(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
+        if self.machine.channel.shortest_way {
+            return Ok(());
+        }
+        for (axis, sign) in &words.turns {
+            let is_own = |t: &&Target| t.axis == *axis && !t.absolute;
+            let (Some(target), Ok(sign)) = (targets.iter().find(is_own), sign) else { continue };
+            let back = match sign {
+                Sign::Plus => target.value < 0.0,
+                Sign::Minus => target.value > 0.0,
+            };
+            if back {
+                let text =
+                    format!("{}: a negative way after its direction", self.names.name(*axis));
+                let at = words.axes.iter().find(|(a, _, _)| a == axis).map(|(_, _, at)| *at);
+                return Err(Fault::new(Condition::WayAfterDirection, text, at.unwrap_or_default()));
+            }
+        }
+        Ok(())
+    }
+
     /// Diameters are neither negative nor mirrored.
     ///
     /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.
