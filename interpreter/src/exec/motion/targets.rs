@@ -64,7 +64,11 @@ impl Decoder {
                     }
                     None => self.geometry.coordinates.active_offset(target.axis),
                 };
-                target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
+                // the way is one of the coordinate: a mirrored axis turns the other way
+                let bare = start[target.axis] - offset;
+                let mirrored = self.geometry.coordinates.mirrored(target.axis);
+                let from = if mirrored { -bare } else { bare };
+                target.value = modulo::unwrapped(target.value, turn, from);
             }
         }
         match suppressed {

@@ -210,8 +210,7 @@ impl Decoder {
             let text = "G33 while the spindle stands: it has a speed, M03 or M04 is missing";
             return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
         }
-        let most_deg_s = self.machine.spindles[index].dynamics().v_max_mm_s;
-        let rev_s = (spindle.rpm.abs() * 6.0).min(most_deg_s) / 360.0;
+        let rev_s = spindle.rpm.abs().min(self.most_rpm(0)) / 60.0;
         let way = (path.end()[axis] - path.start()[axis]).abs();
         let feed_mm_s = pitch_mm * rev_s * path.length() / way;
         let dynamics = self.motion.dynamics(&self.machine, &self.modal, false);

@@ -74,8 +74,7 @@ impl Decoder {
     /// Says of the speed of a spindle that it is above what the spindle can do (K-0131).
     pub(in crate::exec) fn check_spindle_speed(&mut self, index: usize, span: Span) {
         let rpm = self.motion.spindles[index].overridden_rpm();
-        let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
-        let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else { return };
+        let most = self.most_rpm(index);
         if rpm > most {
             let name = &self.motion.spindles[index].name;
             let text = format!(
@@ -85,6 +84,12 @@ impl Decoder {
             );
             self.report.note(Fault::new(Condition::SpindleLimit, text, span));
         }
+    }
+
+    /// Largest speed of a spindle in rev/min (P-AXIS-00212); infinite where no list configures it.
+    pub(in crate::exec) fn most_rpm(&self, index: usize) -> f64 {
+        let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
+        listed.map_or(f64::INFINITY, |s| s.dynamics().v_max_mm_s / 6.0)
     }
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
