@@ -13,6 +13,9 @@ use kontur_motion::axis::AxisVec;
 /// Targets of one block.
 type Targets = smallvec::SmallVec<[Target; 8]>;
 
+/// Part of a direction that is rounding.
+const STRAIGHT: f64 = 1e-12;
+
 impl Decoder {
     /// Puts the coordinate words into the target; returns where the axes were.
     pub(super) fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
@@ -41,6 +44,7 @@ impl Decoder {
         }
         targets.extend(self.motion.contour_line.targets.drain(..));
         self.turns_go_forward(&targets, words)?;
+        self.turns_within_the_channel(&targets, words)?;
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         let suppressed = match suppressed {
             Some((hash, _, at)) => {
@@ -109,6 +113,27 @@ impl Decoder {
                     format!("{}: a negative way after its direction", self.names.name(*axis));
                 let at = words.axes.iter().find(|(a, _, _)| a == axis).map(|(_, _, at)| *at);
                 return Err(Fault::new(Condition::WayAfterDirection, text, at.unwrap_or_default()));
+            }
+        }
+        Ok(())
+    }
+
+    /// 20200: a turned system leads along a main axis that is not in the channel.
+    fn turns_within_the_channel(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
+        let coordinates = &self.geometry.coordinates;
+        let frame = coordinates.frame();
+        if frame.is_identity() {
+            return Ok(());
+        }
+        for (target, (axis, _, at)) in targets.iter().zip(&words.axes) {
+            let Some(main) = coordinates.main_index(target.axis) else { continue };
+            let lost = (0..3)
+                .any(|i| coordinates.main_axis(i).is_none() && frame.m[i][main].abs() > STRAIGHT);
+            if lost {
+                let name = self.names.name(*axis);
+                let text =
+                    format!("{name} leads along a main axis that is not in the channel: the system is turned");
+                return Err(Fault::new(Condition::AxisOrCommandExpected, text, *at));
             }
         }
         Ok(())

@@ -60,7 +60,7 @@ parameters! {
     chan("P-CHAN-00007", "spindel[i].bezeichnung", Raw::Text, "spindle name"), as SPINDLE_NAME: Text;
     chan("P-CHAN-00009", "corr_v_trans_jerk", Raw::Boolean, "limit the jerk at tangential transitions")
         .default(0.0), as LIMIT_TANGENTIAL_JERK: Switch;
-    chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given = the first three main axes")
+    chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given: the main axes")
         .default(0.0), as FEED_AXIS: Switch;
     chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance after the corner; read and ignored");
     chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
