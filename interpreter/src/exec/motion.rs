@@ -304,7 +304,7 @@ impl Decoder {
             "G00 in a spline"
         } else if self.modal.compensation != Compensation::Off {
             "a spline with tool radius compensation"
-        } else if !self.geometry.coordinates.frame().is_identity() {
+        } else if !self.geometry.coordinates.frame().only_shifts() {
             "a spline in a turned or mirrored system"
         } else if self.modal.feed_type == FeedType::PerRevolution
             && self.motion.cutting.speed.is_some()

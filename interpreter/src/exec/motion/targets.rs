@@ -131,8 +131,9 @@ impl Decoder {
                 .any(|i| coordinates.main_axis(i).is_none() && frame.m[i][main].abs() > STRAIGHT);
             if lost {
                 let name = self.names.name(*axis);
-                let text =
-                    format!("{name} leads along a main axis that is not in the channel: the system is turned");
+                let text = format!(
+                    "{name} leads along a main axis that is not in the channel: the system is turned"
+                );
                 return Err(Fault::new(Condition::AxisOrCommandExpected, text, *at));
             }
         }
