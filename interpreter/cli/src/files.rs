@@ -332,17 +332,23 @@ impl Sources for ProgramFiles {
     }
 }
 
-/// The file of a folder whose name differs from the wanted one in capital letters only; of several the first by name.
+/// The file whose name, and those of its folders, differ from the wanted ones in capital letters only; of several in a folder the
+/// first by name.
 pub(crate) fn in_other_case(place: &Path) -> Option<PathBuf> {
     /// Files of a folder that are looked at.
     const LOOKED_AT: usize = 100_000;
     let wanted = place.file_name()?.to_str()?;
     let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.take(LOOKED_AT);
+    let folder = match folder {
+        Some(folder) if !folder.is_dir() => Some(in_other_case(folder)?),
+        folder => folder.map(Path::to_path_buf),
+    };
+    let entries = std::fs::read_dir(folder.as_deref().unwrap_or(Path::new("."))).ok()?;
+    let entries = entries.take(LOOKED_AT);
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let wanted = wanted.to_lowercase();
     let found = names.filter(|name| name.to_lowercase() == wanted).min()?;
-    Some(place.with_file_name(found))
+    Some(folder.map_or_else(|| PathBuf::from(&found), |folder| folder.join(&found)))
 }
 
 #[cfg(test)]
@@ -357,6 +363,8 @@ mod tests {
         assert_eq!(found("cargo.TOML"), Some(PathBuf::from("Cargo.toml")));
         assert_eq!(found("./SRC/../cargo.toml"), None);
         assert_eq!(found("src/FILES.rs"), Some(PathBuf::from("src/files.rs")));
+        assert_eq!(found("SRC/Tune/order.rs"), Some(PathBuf::from("src/tune/order.rs")));
+        assert_eq!(found("SRC/no folder/order.rs"), None);
         assert_eq!(found("no such file"), None);
         let folder = tempfile::tempdir().unwrap();
         let place = |name: &str| folder.path().join(name);

@@ -123,7 +123,12 @@ impl Executor {
 
     /// A note where the file has the name of the call in other letters: not every file system finds it.
     fn other_case(&mut self, path: &str, file: usize, span: Span) {
-        let last = |name: &str| name.rsplit('/').next().unwrap_or_default().to_owned();
+        let parts = path.trim_start_matches("./").split('/').count();
+        let last = |name: &str| {
+            let mut names: Vec<&str> = name.rsplit('/').take(parts).collect();
+            names.reverse();
+            names.join("/")
+        };
         let (wanted, found) = (last(path), last(&self.files.file(file).name.replace('\\', "/")));
         if wanted != found && wanted.to_lowercase() == found.to_lowercase() {
             let text = format!("{wanted} is {found}: other capital letters than the file's");
