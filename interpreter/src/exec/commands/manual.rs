@@ -90,7 +90,8 @@ fn handwheel(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let written = numbers(decoder, call, &["RES"], STAGES)?;
     needs(call, &written, &["RES1"])?;
-    without_effect(decoder, call)
+    without_effect(decoder, call);
+    Ok(())
 }
 
 /// `#JOG CONT [AX=X FEED1=..]`, `#JOG INCR [AX=X DIST1=.. FEED1=..]`.
@@ -122,7 +123,8 @@ fn jog(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
         }
     }
-    without_effect(decoder, call)
+    without_effect(decoder, call);
+    Ok(())
 }
 
 /// `#MANUAL LIMITS [AX=X NEGATIVE=.. POSITIVE=..]`.
@@ -137,7 +139,8 @@ fn manual_limits(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "#MANUAL LIMITS needs NEGATIVE or POSITIVE";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
-    without_effect(decoder, call)
+    without_effect(decoder, call);
+    Ok(())
 }
 
 /// `#SET HR [..] X`, `#SET TIP [..] X`, `#SET JOG [[..], [..]] X`.
@@ -177,7 +180,8 @@ fn set_stages(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
     }
     only_in_normal_mode(decoder, call, axis)?;
-    without_effect(decoder, call)
+    without_effect(decoder, call);
+    Ok(())
 }
 
 /// `#SET OFFSET [negative, positive] X`.
@@ -192,7 +196,8 @@ fn set_limits(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let condition = Condition::ManualLimit;
     has_sign(call, ("limit", value, negative.span), condition, value <= 0.0)?;
     only_in_normal_mode(decoder, call, axis)?;
-    without_effect(decoder, call)
+    without_effect(decoder, call);
+    Ok(())
 }
 
 /// `#GET MANUAL OFFSETS`, `#GET IPO OFFSET`: the decoder waits for the interpolator.
@@ -271,13 +276,12 @@ fn numbers(
             return Err(Fault::new(Condition::CommandKeyTwice, text, item.span));
         }
     }
-    match axis {
-        Some(axis) => only_in_normal_mode(decoder, call, axis).map(|()| found),
-        None => {
-            let text = format!("{} needs AX= or AXNR=", call.title());
-            Err(Fault::new(Condition::TokenUnknown, text, call.span()))
-        }
-    }
+    let Some(axis) = axis else {
+        let text = format!("{} needs AX= or AXNR=", call.title());
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    };
+    only_in_normal_mode(decoder, call, axis)?;
+    Ok(found)
 }
 
 fn needs(call: &Call<'_>, written: &[(String, f64, Span)], keys: &[&str]) -> Outcome<()> {
@@ -291,13 +295,11 @@ fn needs(call: &Call<'_>, written: &[(String, f64, Span)], keys: &[&str]) -> Out
 }
 
 fn one_number(decoder: &Decoder, call: &Call<'_>, item: &Item) -> Outcome<f64> {
-    match &item.kind {
-        ItemKind::Value(ItemValue::Expr(expr)) => decoder.number(expr),
-        _ => {
-            let text = format!("{}: a number is expected", call.title());
-            Err(Fault::new(Condition::TokenUnknown, text, item.span))
-        }
-    }
+    let ItemKind::Value(ItemValue::Expr(expr)) = &item.kind else {
+        let text = format!("{}: a number is expected", call.title());
+        return Err(Fault::new(Condition::TokenUnknown, text, item.span));
+    };
+    decoder.number(expr)
 }
 
 fn has_sign(
@@ -323,8 +325,7 @@ fn only_in_normal_mode(decoder: &Decoder, call: &Call<'_>, axis: usize) -> Outco
     Err(Fault::new(Condition::Syntax, text, call.span()).hint("write G202 before it"))
 }
 
-fn without_effect(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn without_effect(decoder: &mut Decoder, call: &Call<'_>) {
     let text = format!("{}: nobody moves the axes by hand here", call.title());
     decoder.report.note_once(call.name, Fault::new(Condition::Ignored, text, call.span()));
-    Ok(())
 }

@@ -3,6 +3,18 @@
 use crate::exec::step::{Approach, Event, SpindleMotion};
 use crate::machine::{Machine, SpindleLimits};
 
+/// Limits that wait until a spindle starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::exec) enum Passed {
+    /// None: it keeps those in force.
+    #[default]
+    Nothing,
+    /// Those of a tool.
+    Tool(SpindleLimits),
+    /// Those of its list alone.
+    List,
+}
+
 /// State of one spindle.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::exec) struct Spindle {
@@ -23,7 +35,7 @@ pub(in crate::exec) struct Spindle {
     /// Limits of its tool that are in force.
     pub(in crate::exec) limits: Option<SpindleLimits>,
     /// Limits, or those of the list, that it takes when it next starts.
-    pub(in crate::exec) passed: Option<Option<SpindleLimits>>,
+    pub(in crate::exec) passed: Passed,
     pub(in crate::exec) feedforward: bool,
     /// Weight of feedforward, 0 to 1.
     pub(in crate::exec) weight_ratio: f64,
@@ -81,7 +93,7 @@ impl Spindle {
             acceleration_ratio: 1.0,
             runs: false,
             limits: None,
-            passed: None,
+            passed: Passed::Nothing,
             feedforward: false,
             weight_ratio: 1.0,
         }

@@ -12,7 +12,7 @@
 use crate::diag::{Condition, rounded};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::spindles::Turning;
+use crate::exec::motion::spindles::{Passed, Spindle, Turning};
 use crate::exec::step::Event;
 use crate::machine::SpindleLimits;
 use crate::syntax::ast::Span;
@@ -32,9 +32,8 @@ impl Decoder {
             return Ok(());
         }
         let data = self.geometry.tools.data;
-        let of_number = |s: &crate::exec::motion::spindles::Spindle| {
-            s.index.is_some_and(|i| self.machine.spindles[i].number() == number)
-        };
+        let of_number =
+            |s: &Spindle| s.index.is_some_and(|i| self.machine.spindles[i].number() == number);
         let Some(index) = self.motion.spindles.iter().position(of_number) else {
             let text = format!("D{data}: no spindle has the logical number {number}");
             let fault = Fault::new(Condition::ListNoEffect, text, span);
@@ -58,14 +57,18 @@ impl Decoder {
             self.report.note(Fault::new(Condition::ToolLeastSpeed, text, span));
             limits.min_deg_s = least;
         }
-        self.motion.spindles[index].passed = Some(Some(limits));
+        self.motion.spindles[index].passed = Passed::Tool(limits);
         Ok(())
     }
 
     /// `S[GET_DYNAMIC_DATA]`: what D has passed on acts at once.
     pub(in crate::exec) fn take_tool_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
         let state = &mut self.motion.spindles[spindle];
-        let Some(limits) = state.passed.take() else { return Ok(()) };
+        let limits = match std::mem::take(&mut state.passed) {
+            Passed::Nothing => return Ok(()),
+            Passed::Tool(limits) => Some(limits),
+            Passed::List => None,
+        };
         state.limits = limits;
         if let Some(index) = state.index {
             self.contour.event(Event::SpindleLimits { spindle: index, limits });
@@ -75,7 +78,7 @@ impl Decoder {
 
     /// `S[DEFAULT_DYNAMIC_DATA]`.
     pub(in crate::exec) fn default_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
-        self.motion.spindles[spindle].passed = Some(None);
+        self.motion.spindles[spindle].passed = Passed::List;
         if self.motion.spindles[spindle].runs {
             return Ok(());
         }
@@ -87,7 +90,7 @@ impl Decoder {
         let state = &mut self.motion.spindles[spindle];
         let starts = !state.runs && state.turning != Turning::Stopped;
         state.runs = state.is_turning();
-        if starts && state.passed.is_some() {
+        if starts && state.passed != Passed::Nothing {
             self.take_tool_limits(spindle, span)?;
         } else {
             self.check_tool_speed(spindle, span)?;
