@@ -5,6 +5,7 @@
 //! Source: TF5200 programming manual 207630987, 207636491, 207643147. Assumptions: the path comes to rest for WAIT and for
 //! `#DRIVE WAIT SYN` even if the drive has answered before; no page prints a number for a turning spindle.
 
+use super::axes::{logical_number, of_logical_number};
 use super::keys::arguments;
 use super::range::{Range, between};
 use super::row::{Call, Row};
@@ -21,7 +22,7 @@ arguments! {
     /// Keys of `#DRIVE WR SYN`.
     struct WriteArguments {
         axis: Word "AX", "", "axis or spindle";
-        number: Number "AXNR" in POSITIVE, "", "logical number instead of AX";
+        number: Number "AXNR", "", "logical number instead of AX";
         motor: Number "MOTOR" in POSITIVE, "", "motor of the amplifier";
         set: Number "PARAM_SET" in POSITIVE, "", "set of parameters of the amplifier";
         key: Word "KEY", "", "name of the function";
@@ -34,7 +35,7 @@ arguments! {
     /// Keys of `#DRIVE WAIT SYN`.
     struct WaitArguments {
         axis: Word "AX", "", "axis or spindle";
-        number: Number "AXNR" in POSITIVE, "", "logical number instead of AX";
+        number: Number "AXNR", "", "logical number instead of AX";
         done: Flag "SWITCH_OK", "", "all functions written before are done";
     }
 }
@@ -100,24 +101,21 @@ fn driven(
     name: Option<&(Box<str>, Span)>,
     number: Option<(f64, Span)>,
 ) -> Outcome<Option<usize>> {
-    let unknown = |text: String, span: Span| {
-        Err(Fault::new(Condition::AxisNameUnknown, text, span).hint(decoder.names.hint()))
-    };
     match (name, number) {
         (Some((name, span)), None) => match decoder.spindle_of_name(name) {
             Some(spindle) => Ok(Some(spindle)),
             None if decoder.names.of_name(name).is_some() => Ok(None),
-            None => unknown(format!("unknown axis `{name}`"), *span),
+            None => {
+                let text = format!("unknown axis `{name}`");
+                Err(Fault::new(Condition::AxisNameUnknown, text, *span).hint(decoder.names.hint()))
+            }
         },
         (None, Some((number, span))) => {
-            let is = |other: u32| f64::from(other).to_bits() == number.to_bits();
-            if decoder.machine.axes.iter().any(|axis| is(axis.number())) {
-                return Ok(None);
-            }
-            let spindle = |index: usize| is(decoder.machine.spindles[index].number());
+            let wanted = logical_number(number, span)?;
+            let spindle = |index: usize| decoder.machine.spindles[index].number() == wanted;
             match decoder.motion.spindles.iter().position(|s| s.index.is_some_and(spindle)) {
                 Some(spindle) => Ok(Some(spindle)),
-                None => unknown(format!("no axis has the logical number {number}"), span),
+                None => of_logical_number(decoder, number, span).map(|_| None),
             }
         }
         _ => {

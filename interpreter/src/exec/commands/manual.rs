@@ -7,6 +7,7 @@
 //! 15556807819, 15556811915; diagnosis, 20485 (251737995), 20486 (251742347), 20490 (251755403), 20491 (251759755), 20493
 //! (251764107).
 
+use super::axes::of_logical_number;
 use super::misc::may_flush;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
@@ -251,14 +252,8 @@ fn numbers(
                 axis.replace(decoder.names.in_command(name)?).is_some()
             }
             ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("AXNR") => {
-                let number = decoder.whole(expr, "AXNR", 1, u32::MAX)?;
-                let place = decoder.machine.axes.iter().position(|a| a.number() == number);
-                let Some(place) = place else {
-                    let text = format!("no axis of the channel has the logical number {number}");
-                    return Err(Fault::new(Condition::AxisNameUnknown, text, expr.span)
-                        .hint(decoder.names.hint()));
-                };
-                axis.replace(place).is_some()
+                let number = decoder.number(expr)?;
+                axis.replace(of_logical_number(decoder, number, expr.span)?).is_some()
             }
             ItemKind::Pair { key, value: ItemValue::Expr(expr) } if known(key).is_some() => {
                 let key = known(key).unwrap_or_default();

@@ -98,6 +98,7 @@ macro_rules! commands {
     SystemOfModuloAxis = Vendor 21556: Error ProgramAbort 3 1, "coordinate system over a modulo axis", cause "#CS ON while a main axis counts modulo 360 degrees (P-AXIS-00015)", hint "only axes that do not count modulo are main axes of a coordinate system";
     LiftTwice = Vendor 21558: Error ProgramAbort 3 1, "lifting begins twice", cause "Z[LIFT_START ..] twice", hint "write Z[LIFT_END] between them";
     LiftNotBegun = Vendor 21559: Error ProgramAbort 3 1, "end of lifting without its start", cause "Z[LIFT_END] alone", hint "write Z[LIFT_START ..] before it";
+    LogicalNumber = Vendor 21567: Error ProgramAbort 3 1, "logical axis number outside its range", cause "#CHANNEL INIT [ACTPOS AXNR=99999]", hint "logical numbers are 1 to 65534", parameter "P-AXIS-00016";
     BlocksAheadTwice = Vendor 21575: Error ProgramAbort 3 1, "two limits of the blocks ahead", cause "V.G.MAX_NC_BLOCKS_AHEAD beside V.G.MAX_MOTION_BLOCKS_AHEAD", hint "set the other one to 0 before";
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SystemNameUnknown = Vendor 21601: Error ProgramAbort 3 1, "name of a coordinate system unknown", cause "#CS SELECT [WCS] without #CS ADD [WCS]..", hint "is the name right? Case counts";
