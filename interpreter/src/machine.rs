@@ -48,7 +48,7 @@ pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
-pub use tools::{Tool, ToolKind, ZeroOffsets};
+pub use tools::{SpindleLimits, Tool, ToolKind, ZeroOffsets};
 
 use kontur_filters::time::CycleTime;
 use std::collections::BTreeMap;

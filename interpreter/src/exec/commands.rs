@@ -11,15 +11,17 @@ mod compensation;
 mod contour;
 mod corner;
 mod couplings;
+mod drives;
 mod frames;
-mod jog;
 pub(in crate::exec) mod keys;
+mod manual;
 mod measuring;
 mod messages;
 mod misc;
 mod path_limits;
 mod positions;
 pub(in crate::exec) mod range;
+mod refused;
 mod row;
 mod shaping;
 mod signals;
@@ -166,14 +168,14 @@ const ROWS: &[Row] = &[
     off_only("EDM"),
     unsupported("ESCAPE PATH"),
     off_only("FREE TOOL CHANGE"),
-    unsupported("GET MANUAL OFFSETS"),
-    unsupported("GET IPO OFFSET"),
-    unsupported("SET OFFSET"),
-    unsupported("SET HR"),
+    manual::GET_MANUAL_OFFSETS,
+    manual::GET_IPO_OFFSET,
+    manual::SET_OFFSET,
+    manual::SET_HR,
     unsupported("INFO"),
     unsupported("GET WCS POSLIMIT"),
     unsupported("LOCK"),
-    jog::MANUAL_LIMITS,
+    manual::MANUAL_LIMITS,
     unsupported("MCS TO WCS"),
     measuring::MEAS,
     measuring::MEAS_MODE,
@@ -185,13 +187,13 @@ const ROWS: &[Row] = &[
     unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),
     off_only("SEGMENTATION"),
-    unsupported("SET JOG"),
+    manual::SET_JOG,
     unsupported("MIRROR"),
     unsupported("PATTERN"),
     unsupported("AT"),
     unsupported("SYNC IN"),
     unsupported("SYNC OUT"),
-    unsupported("SET TIP"),
+    manual::SET_TIP,
     splines::SPLINE,
     splines::SPLINE_TYPE,
     splines::SET_SPLINE,
@@ -208,12 +210,12 @@ const ROWS: &[Row] = &[
     unsupported("RT WHILE"),
     unsupported("RT ENDWHILE"),
     unsupported("VOLCOMP"),
-    jog::JOG,
-    unsupported("HANDWHEEL"),
+    manual::JOG,
+    manual::HANDWHEEL,
     // parameters and procedures of drives
     unsupported("IDENT"),
     unsupported("COMMAND"),
-    unsupported("DRIVE"),
+    drives::DRIVE,
     unsupported("INIT V.E."),
     unsupported("FF"),
     unsupported("LAH"),
@@ -230,6 +232,7 @@ const ROWS: &[Row] = &[
     tools::TOOL_PREP,
     tools::TOOL_REFRESH,
     unsupported("TOOL"),
+    unsupported("TOOL DEF"),
     ignored("EXPL SYN"),
     unsupported("LOAD CONFIG"),
     ignored("SAVE CONFIG"),
@@ -283,11 +286,7 @@ impl Decoder {
         match row.act {
             Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)),
             Act::OffOnly if command.on == Some(false) => Ok(()),
-            Act::Unsupported if command.groups.iter().any(|group| group.items.is_empty()) => {
-                let text = format!("{}: there is nothing in its brackets", call.title());
-                Err(Fault::new(Condition::EmptyBracket, text, call.span()))
-            }
-            Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
+            Act::OffOnly | Act::Unsupported => Err(refused::refused(self, &call)),
             Act::Ignored(text) => {
                 let text = format!("{}: {text}", call.title());
                 self.report.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));

@@ -12,6 +12,7 @@ mod feed;
 mod feed_course;
 mod independent;
 mod limits;
+mod manual;
 mod measuring;
 mod oscillation;
 pub(super) mod overrides;
@@ -25,6 +26,7 @@ pub(super) mod straight;
 mod targets;
 mod technology;
 mod threads;
+mod tool_dynamics;
 pub(super) mod wear;
 
 use self::angles::ContourLine;

@@ -1,6 +1,7 @@
 //! What the executor passes to the simulation: motions, rests and events, in the order of the program.
 
 use crate::exec::values::timers::TimerAct;
+use crate::machine::SpindleLimits;
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;
 use kontur_filters::kernel::Kernel;
@@ -190,6 +191,13 @@ pub(crate) enum Event {
         spindle: usize,
         /// Weight, above 0; 1 is the acceleration of the list.
         ratio: f64,
+    },
+    /// `S[GET_DYNAMIC_DATA]`, or a start from rest: the tool of a spindle limits it from now on.
+    SpindleLimits {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// The limits; `None`: those of the list alone.
+        limits: Option<SpindleLimits>,
     },
     /// Tapping: a spindle at rest turns with the way of a path axis, from the next cycle on.
     SpindleFollows {

@@ -28,7 +28,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["G66"], "G66", "ends of the blocks within a cycle", "", "runs without its effect (K-0111)", "G66", &["K-0111"]),
     row(&["G333", "G334", "G338", "G339"], "G333   G334=..", "weights of the acceleration and the ramp times of a feedhold", "", "run without their effect (K-0111)", "G334=50", &["K-0111", "P-CHAN-00097"]),
     row(&["G140"], "G140", "contour masking off", "", "G141 is refused", "G140", &["K-0019"]),
-    row(&["G200", "G201", "G202"], "G201 #ACHSE [X]", "manual mode in parallel with the program", "", "refused here", "G202", &["K-0019"]),
+    row(&["G200", "G201", "G202"], "G200 X1   G201 X1 Y1   G202   G201 #ACHSE [X]", "manual mode: the program waits, manual mode of the axes named beside the program, its end", "the values of the axes have no meaning", "nobody moves the axes by hand: G200 stops and continues at once, offsets are 0 (K-0111)", "G201 X1", &["K-0111", "#JOG", "#GET MANUAL OFFSETS"]),
     row(&["G301", "G302", "#CHR", "#CHF", "#RND", "#FRC"], "G301 I..   G302 I..   #CHR=..   #CHF=..   #RND=..   #FRC=..", "chamfer or rounding between this motion and the next one in the plane", "I, #CHR: distance of the ends from the corner; #CHF: length of the chamfer; #RND: radius; #FRC: feed within it, in the unit of F", "", "G302 I5 #FRC=300", &["F"]),
     row(&["G900", "G901"], "G900   G901", "braking to a lower feed ends at the end of the faster block, or begins there", "", "no effect with HSC (K-0100)", "G901", &["G09"]),
     row(&["#CANG"], "G02 I.. J.. #CANG=..", "arc by its centre and its angle", "angle in deg, above 0 to 360, in the direction of G02 or G03", "with an end point: 22253", "G02 I5 #CANG=90", &["G02", "22253"]),

@@ -256,6 +256,11 @@ impl Axis {
         self.get(axis_dynamics::SHORTEST_RAMP)
     }
 
+    /// A speed that the tool does not allow is an error (P-AXIS-00474).
+    pub(crate) fn checks_tool_speed(&self) -> bool {
+        self.get(axis_general::TOOL_SPEED_CHECKED)
+    }
+
     /// The list names something to feed forward (P-AXIS-00223).
     pub(crate) fn has_feedforward(&self) -> bool {
         self.get(axis_drive::FEEDFORWARD) > 0

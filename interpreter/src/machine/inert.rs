@@ -41,10 +41,6 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00230", "the limits do not depend on the radius of an arc"),
     ("P-CHAN-00259", "contouring rounds arcs as with 0"),
     ("P-CHAN-00261", "there is one path"),
-    (
-        "P-TOOL-00012",
-        "the limits of a spindle are those of its axis list, whatever tool it carries",
-    ),
 ];
 
 /// K-0075 for every such parameter that a list changes.

@@ -35,6 +35,24 @@ impl ToolKind {
     }
 }
 
+/// What a tool allows its spindle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpindleLimits {
+    /// Least speed in deg/s while it turns (P-TOOL-00013).
+    pub min_deg_s: f64,
+    /// Largest speed in deg/s (P-TOOL-00014).
+    pub max_deg_s: f64,
+    /// Largest acceleration in deg/s2 (P-TOOL-00015).
+    pub acc_deg_s2: f64,
+}
+
+impl Default for SpindleLimits {
+    /// Those of a list that says nothing.
+    fn default() -> Self {
+        Self { min_deg_s: 0.0, max_deg_s: 0.001, acc_deg_s2: 1.0 }
+    }
+}
+
 /// One tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
@@ -48,6 +66,10 @@ pub struct Tool {
     pub parameters: BTreeMap<u32, f64>,
     /// P-TOOL-00005; data that a program writes are valid.
     pub is_valid: bool,
+    /// Logical number of the spindle that the tool limits (P-TOOL-00012), 0: none.
+    pub spindle: u32,
+    /// What it allows this spindle.
+    pub limits: SpindleLimits,
     /// P-TOOL-00001.
     pub kind: ToolKind,
     /// Wear of a grinding wheel in mm for a mm of way (P-TOOL-00030).
@@ -66,6 +88,8 @@ impl Default for Tool {
             offsets_mm: BTreeMap::new(),
             parameters: BTreeMap::new(),
             is_valid: true,
+            spindle: 0,
+            limits: SpindleLimits::default(),
             kind: ToolKind::Milling,
             wear_ratio: 0.0,
             most_infeed_mm: 0.0,
@@ -115,6 +139,13 @@ fn tool_of(list: &Parameters, i: u32) -> Tool {
             2 => ToolKind::Grinding,
             3 => ToolKind::Wire,
             _ => ToolKind::Milling,
+        },
+        spindle: list.get(tool::SPINDLE.at(i)),
+        limits: SpindleLimits {
+            // the list has 0.001 deg/s
+            min_deg_s: list.get(tool::SPINDLE_MIN.at(i)) / 1e3,
+            max_deg_s: list.get(tool::SPINDLE_MAX.at(i)) / 1e3,
+            acc_deg_s2: list.get(tool::SPINDLE_ACC.at(i)),
         },
         // 0.1 um for a metre
         wear_ratio: list.get(tool::WEAR.at(i)) * 1e-7,

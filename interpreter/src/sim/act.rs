@@ -67,6 +67,11 @@ impl Simulation {
                     spindle.weigh_acceleration(ratio);
                 }
             }
+            Event::SpindleLimits { spindle, limits } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.limit(limits);
+                }
+            }
             Event::Timer { id, act } => self.executor.timer(id, act, self.cycle.time_of(k)),
             other => {
                 let block = match &other {

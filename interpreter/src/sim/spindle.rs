@@ -3,6 +3,7 @@
 mod turning;
 
 use crate::exec::{Approach, CuttingSpeed, SpindleMotion};
+use crate::machine::SpindleLimits;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::profile::Profile;
@@ -26,6 +27,8 @@ pub(super) struct Spindle {
     /// Weight of the acceleration (G130).
     acc_ratio: f64,
     v_max_deg_s: f64,
+    /// What its tool allows.
+    tool: Option<SpindleLimits>,
     position_deg: f64,
     turning: Turning,
     wanted: SpindleMotion,
@@ -53,6 +56,7 @@ impl Spindle {
             slope: dynamics.feed,
             acc_ratio: 1.0,
             v_max_deg_s: dynamics.v_max_mm_s,
+            tool: None,
             position_deg: 0.0,
             turning: Turning::default(),
             wanted: SpindleMotion::Stop,
@@ -123,6 +127,24 @@ impl Spindle {
         self.acc_ratio = ratio;
     }
 
+    /// What its tool allows, for motions and changes of speed that begin from now on.
+    pub(super) fn limit(&mut self, tool: Option<SpindleLimits>) {
+        self.tool = tool;
+    }
+
+    /// Its own largest speed, or that of its tool.
+    fn most_deg_s(&self) -> f64 {
+        self.tool.map_or(self.v_max_deg_s, |tool| self.v_max_deg_s.min(tool.max_deg_s))
+    }
+
+    /// Accelerations and ramp times before the weight, so that the weighted acceleration is not above that of the tool.
+    fn limited_slope(&self) -> FeedSlope {
+        let Some(tool) = self.tool else { return self.slope };
+        let most = tool.acc_deg_s2 / self.acc_ratio;
+        let FeedSlope { acc_mm_s2, dec_mm_s2, .. } = self.slope;
+        FeedSlope { acc_mm_s2: acc_mm_s2.min(most), dec_mm_s2: dec_mm_s2.min(most), ..self.slope }
+    }
+
     /// It goes with the way of a path axis (tapping).
     pub(super) fn follows(&self) -> bool {
         self.following.is_some()
@@ -168,7 +190,12 @@ impl Spindle {
             SpindleMotion::CounterClockwise { rpm } => -rpm * 6.0,
             SpindleMotion::Stop | SpindleMotion::Position { .. } => 0.0,
         };
-        speed.clamp(-self.v_max_deg_s, self.v_max_deg_s)
+        let most = self.most_deg_s();
+        let speed = speed.clamp(-most, most);
+        match self.tool {
+            Some(tool) if speed != 0.0 => speed.abs().max(tool.min_deg_s.min(most)).copysign(speed),
+            _ => speed,
+        }
     }
 
     /// Set position of the next cycle in deg, counted on over the turns; `position`: that of the path axes.
@@ -187,8 +214,9 @@ impl Spindle {
             return self.position_deg;
         }
         let target = self.target_deg_s();
-        let limits = || turning::limits(self.slope, self.acc_ratio, cycle);
-        let most = self.slope.acc_mm_s2.min(self.slope.dec_mm_s2) * self.acc_ratio;
+        let slope = self.limited_slope();
+        let limits = || turning::limits(slope, self.acc_ratio, cycle);
+        let most = slope.acc_mm_s2.min(slope.dec_mm_s2) * self.acc_ratio;
         let follows = self.cutting.is_some() && self.turning.is_steady();
         let change = (target - self.turning.speed_deg_s()).abs();
         // Assumption: under G96 a spindle that has its speed follows the radius, whose changes are those of the path, without ramps
@@ -213,8 +241,9 @@ impl Spindle {
                 Approach::Free if back < clockwise => (-1.0, back),
                 Approach::Clockwise | Approach::Free => (1.0, clockwise),
             };
-            let speed = rpm.map_or(self.v_max_deg_s, |rpm| (rpm * 6.0).min(self.v_max_deg_s));
-            let limits = turning::limits(self.slope, self.acc_ratio, cycle);
+            let most = self.most_deg_s();
+            let speed = rpm.map_or(most, |rpm| (rpm * 6.0).min(most));
+            let limits = turning::limits(self.limited_slope(), self.acc_ratio, cycle);
             let profile = limits.plan(0.0, 0.0, speed, way);
             self.positioning = profile.ok().map(|profile| Positioning {
                 profile,

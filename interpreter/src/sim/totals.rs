@@ -163,6 +163,7 @@ impl Totals {
             | Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
             | Event::SpindleAcceleration { .. }
+            | Event::SpindleLimits { .. }
             | Event::SpindleFollows { .. }
             | Event::CuttingSpeed { .. }
             | Event::Timer { .. }

@@ -281,21 +281,6 @@ fn refine(
             let problem = raised(problem, condition);
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
-        // its axis comes after the bracket
-        Context::Command
-            if before.trim_end().ends_with(']') && has_name(content, &["#SET", "TIP"]) =>
-        {
-            let inside = before.trim_end().trim_end_matches(']').trim_end();
-            if inside.ends_with('[') {
-                let text = "#SET TIP: there is nothing in its brackets";
-                Problem::new(Condition::EmptyBracket, problem.span, text)
-            } else if inside.matches(',').count() >= JOG_SPEEDS {
-                let text = format!("#SET TIP has more than {JOG_SPEEDS} values");
-                Problem::new(Condition::JogStages, problem.span, text)
-            } else {
-                Problem::new(Condition::Unsupported, problem.span, "#SET TIP is not supported")
-            }
-        }
         Context::Command if before.trim_end().ends_with(']') => {
             raised(problem, Condition::WordsBehindCommand)
         }
@@ -357,9 +342,6 @@ fn has_name(content: &str, name: &[&str]) -> bool {
     let words = content.split('[').next().unwrap_or_default().split_ascii_whitespace();
     words.map(str::to_ascii_uppercase).eq(name.iter().copied())
 }
-
-/// Most speeds of `#SET TIP`. Source: TF5200 diagnosis 251755403, 20490.
-const JOG_SPEEDS: usize = 3;
 
 /// The vendor's number for what is wrong after a control statement.
 fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {

@@ -1,5 +1,5 @@
 ; check: exit 1
 ; error 20129 at 4:6
-; error K-0019 at 4:1
+; warning K-0111 at 4:1
 G200 G201
 M30

@@ -1,9 +1,13 @@
-; check: exit 1
-; page 207643147 writing to drives (#DRIVE WR SYN)
-; error K-0019 at 6:5
-; error K-0019 at 8:5
-N05 X0 Y0 Z0
+; run: exit 0
+; page 207643147 writing to drives and waiting at once (#DRIVE WR SYN, WAIT)
+; passes X100 Y50
+; end X25 Y25
+; warning K-0111 at 8:5
+%TOOL_AXLINK1
+N05 X0 Y0 Z0 G00
 N10 #DRIVE WR SYN [AX=X MOTOR=2 PARAM_SET=4 KEY=torque_limit VAL=400 WAIT]
 N20 X100 Y50 Z30 G01 F3000
-N60 #DRIVE WAIT SYN [AX=X SWITCH_OK]
+N30 X200 Y75 Z40
+N65 X300 Y100
+N70 X25 Y25 Z25
 N80 M30

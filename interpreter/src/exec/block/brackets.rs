@@ -14,7 +14,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
-use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Bracket, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// Words that belong to the functions of an axis and cannot come before them (21301).
 const OF_FUNCTIONS: &[&str] = &[
@@ -68,6 +68,17 @@ impl Decoder {
             return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
         }
         Err(self.unknown_axis(name, bracket.group.span))
+    }
+
+    /// `Z[LIFT_START ..]`, `Z[LIFT_END]`: 21558 and 21559 (diagnosis 255193483, 255197835) come before the refusal.
+    fn lifting(&mut self, word: &Ident, span: Span) -> Outcome<()> {
+        if word.is("LIFT_START") && std::mem::replace(&mut self.motion.lifts, true) {
+            return Err(Fault::new(Condition::LiftTwice, "LIFT_START without LIFT_END", span));
+        }
+        if word.is("LIFT_END") && !std::mem::take(&mut self.motion.lifts) {
+            return Err(Fault::new(Condition::LiftNotBegun, "LIFT_END without LIFT_START", span));
+        }
+        Ok(())
     }
 
     fn axis_bracket(&mut self, axis: usize, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
@@ -125,6 +136,7 @@ impl Decoder {
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
                 _,
             )) => {
+                self.lifting(word, *span)?;
                 let name = self.names.name(axis);
                 Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
             }

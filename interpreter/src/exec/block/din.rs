@@ -223,14 +223,7 @@ impl Decoder {
                 self.modal.contouring = on;
                 self.modal.exact_stop &= !on;
             }
-            Act::Manual => {
-                let names = words.hashes.iter().any(|(hash, _, _)| &*hash.name == "ACHSE");
-                if g.row.number == 201 && words.axes.is_empty() && !names {
-                    let text = "G201 without an axis";
-                    return Err(Fault::new(Condition::ManualWithoutAxis, text, g.span));
-                }
-                return Err(Fault::unsupported(format!("G{} (manual mode)", g.row.number), g.span));
-            }
+            Act::Manual => self.manual_mode(g, words)?,
             Act::CornerDeceleration(on) => {
                 if on && self.motion.corner.is_none() {
                     let text = "G13 without the values of #CORNER PARAM";

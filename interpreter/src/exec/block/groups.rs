@@ -423,7 +423,7 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
             | Act::Rotate
             | Act::MeasuringOffsets(_)
             | Act::StopAtTransitions(_)
-    ) || matches!(row.number, 74 | 107 | 108 | 112 | 333 | 338)
+    ) || matches!(row.number, 74 | 107 | 108 | 112 | 200..=202 | 333 | 338)
 }
 
 #[cfg(test)]

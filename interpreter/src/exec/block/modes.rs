@@ -170,6 +170,8 @@ impl Decoder {
         };
         self.geometry.coordinates.tool_programmed();
         self.tool_offsets();
+        let passed = self.pass_tool_limits(span);
+        self.report.keep(passed);
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
     }

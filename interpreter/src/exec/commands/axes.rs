@@ -10,6 +10,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{Group, Item, ItemKind, ItemValue, Span};
 
 /// Options after name, number and index of an axis.
@@ -383,4 +384,29 @@ fn full_feedforward(decoder: &mut Decoder, axes: &[usize]) {
 fn full_feedforward_of_all(decoder: &mut Decoder) {
     let all: Vec<usize> = (0..decoder.machine.axes.len()).collect();
     full_feedforward(decoder, &all);
+}
+
+/// A logical axis number (P-AXIS-00016); 21567 outside its range (diagnosis 255232651).
+pub(super) fn logical_number(number: f64, span: Span) -> Outcome<u32> {
+    const LAST: u32 = 65_534;
+    whole(number, 1, LAST).ok_or_else(|| {
+        let text = format!("logical axis number {number}, allowed are 1 to {LAST}");
+        Fault::new(Condition::LogicalNumber, text, span).with(|d| {
+            d.value(ValueKind::Wrong, number, "-").value(ValueKind::LowerLimit, 1, "-").value(
+                ValueKind::UpperLimit,
+                LAST,
+                "-",
+            )
+        })
+    })
+}
+
+/// `AXNR=`: the axis of the channel with a logical number; 20797 if there is none.
+pub(super) fn of_logical_number(decoder: &Decoder, number: f64, span: Span) -> Outcome<usize> {
+    let number = logical_number(number, span)?;
+    let axis = decoder.machine.axes.iter().position(|axis| axis.number() == number);
+    axis.ok_or_else(|| {
+        let text = format!("no axis of the channel has the logical number {number}");
+        Fault::new(Condition::AxisNameUnknown, text, span).hint(decoder.names.hint())
+    })
 }

@@ -318,7 +318,7 @@ pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             Fault::new(Condition::CommandAxisUnknown, text, word.span).hint(decoder.names.hint())
         );
     }
-    Err(Fault::unsupported(call.title(), call.span()))
+    Err(super::refused::refused(decoder, call))
 }
 
 /// `#TRAFO`, `#RTCP`, `#KIN ID`, `#PTP`, `#ORI MODE`: kinematics.

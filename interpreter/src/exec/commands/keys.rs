@@ -48,7 +48,7 @@ macro_rules! arguments {
                 },)*
             ];
 
-            /// Reads the bracket. Unknown keys are 21220, a key twice is K-DUPKEY; both are reported and left out.
+            /// Reads the bracket. Unknown keys are 21220, a key twice is 21887; both are reported and left out.
             ///
             /// # Errors
             /// The first key whose number is outside its range.
@@ -207,14 +207,16 @@ impl Found {
     }
 }
 
-/// Condition of a key given twice in a command; K-DUPKEY where no document read names a number.
+/// Condition of a key given twice: that of the command, that of all commands, or K-DUPKEY in a bracket of an axis.
 ///
-/// Source: TF5200 diagnosis manual.
+/// Source: TF5200 diagnosis, 21388 (254466699), 21887 (256433803).
 fn key_twice(title: &str) -> Condition {
     match title {
         "#OVERRIDE" => Condition::OverrideKeyTwice,
         SPINDLE_OVERRIDE => Condition::SpindleOverrideKeyTwice,
         title if title.starts_with("#TIMER") => Condition::TimerTwice,
+        title if title.starts_with("#OTC") => Condition::WearKeyTwice,
+        title if title.starts_with('#') => Condition::CommandKeyTwice,
         _ => Condition::DuplicateKey,
     }
 }

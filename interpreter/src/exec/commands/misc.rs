@@ -2,6 +2,7 @@
 //!
 //! Source: TF5200 programming manual.
 
+use super::axes::of_logical_number;
 use super::keys::arguments;
 use super::range::between;
 use super::row::{Call, Row};
@@ -76,13 +77,8 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 axes.push(decoder.names.in_command(name)?);
             }
             ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("AXNR") => {
-                let number = decoder.whole(expr, "AXNR", 1, u32::MAX)?;
-                let axis = decoder.machine.axes.iter().position(|a| a.number() == number);
-                axes.push(axis.ok_or_else(|| {
-                    let text = format!("no axis of the channel has the logical number {number}");
-                    Fault::new(Condition::AxisNameUnknown, text, expr.span)
-                        .hint(decoder.names.hint())
-                })?);
+                let number = decoder.number(expr)?;
+                axes.push(of_logical_number(decoder, number, expr.span)?);
             }
             ItemKind::Missing => {}
             ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {

@@ -30,6 +30,7 @@ impl Decoder {
                 let text = "G04 S: the spindle has no speed";
                 return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));
             }
+            self.no_tool_limit("G04 S", *spindle, *span)?;
             self.motion.dwell_revolutions = *turns;
             (turns * 60.0 / rpm, *span)
         } else if let Some((_, _, span)) = words.axes.first() {

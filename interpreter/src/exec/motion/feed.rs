@@ -54,6 +54,7 @@ impl Decoder {
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(value / 100.0),
             FeedType::PerRevolution => {
                 self.no_spindle_override("G95", span)?;
+                self.no_tool_limit("G95", 0, span)?;
                 let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
                     let (condition, what) = match self.motion.spindles[0].turning {

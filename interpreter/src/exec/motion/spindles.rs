@@ -1,7 +1,19 @@
 //! The latest commands of the program to the spindles.
 
 use crate::exec::step::{Approach, Event, SpindleMotion};
-use crate::machine::Machine;
+use crate::machine::{Machine, SpindleLimits};
+
+/// Limits that wait until a spindle starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::exec) enum Passed {
+    /// None: it keeps those in force.
+    #[default]
+    Nothing,
+    /// Those of a tool.
+    Tool(SpindleLimits),
+    /// Those of its list alone.
+    List,
+}
 
 /// State of one spindle.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +30,12 @@ pub(in crate::exec) struct Spindle {
     pub(in crate::exec) angle_deg: f64,
     /// Weight of the acceleration (G130), 1 without one.
     pub(in crate::exec) acceleration_ratio: f64,
+    /// M3 or M4 was its last command.
+    pub(in crate::exec) runs: bool,
+    /// Limits of its tool that are in force.
+    pub(in crate::exec) limits: Option<SpindleLimits>,
+    /// Limits, or those of the list, that it takes when it next starts.
+    pub(in crate::exec) passed: Passed,
     pub(in crate::exec) feedforward: bool,
     /// Weight of feedforward, 0 to 1.
     pub(in crate::exec) weight_ratio: f64,
@@ -73,6 +91,9 @@ impl Spindle {
             turning: Turning::Stopped,
             angle_deg: 0.0,
             acceleration_ratio: 1.0,
+            runs: false,
+            limits: None,
+            passed: Passed::Nothing,
             feedforward: false,
             weight_ratio: 1.0,
         }

@@ -64,6 +64,10 @@ pub(in crate::exec) struct MotionState {
     /// `#OTC`.
     pub(in crate::exec) wear: OnlineCompensation,
     pub(in crate::exec) areas: Areas,
+    /// `[LIFT_START ..]` without its end.
+    pub(in crate::exec) lifts: bool,
+    /// Axes in manual mode (G201).
+    pub(in crate::exec) manual: Vec<bool>,
     /// S of the last G04: revolutions of the spindle.
     pub(in crate::exec) dwell_revolutions: f64,
 }
@@ -95,6 +99,8 @@ impl MotionState {
             cutting: Cutting::default(),
             wear: OnlineCompensation::default(),
             areas: Areas::default(),
+            lifts: false,
+            manual: vec![false; n],
             dwell_revolutions: 0.0,
         }
     }

@@ -167,6 +167,7 @@ impl Decoder {
             return Err(Fault::unsupported("a thread without a spindle in the machine", span));
         }
         self.no_spindle_override("a thread", span)?;
+        self.no_tool_limit("a thread", 0, span)?;
         if self.modal.path == PathMode::Thread {
             return Ok(());
         }
@@ -329,6 +330,7 @@ impl Decoder {
         self.send(block, plane, None, span);
         self.contour.event(Event::SpindleFollows { spindle, way: None });
         self.motion.spindles[0].turning = Turning::Stopped;
+        self.motion.spindles[0].runs = false;
         self.sync(Sync::Stop);
         Ok(())
     }

@@ -64,6 +64,12 @@ const ROWS: &[Row] = &[
     Row { name: &["A", "MEIN", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.measuring_offset(a)) },
     Row { name: &["A", "MEAS", "ACS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].axis) },
     Row { name: &["A", "MEAS", "PCS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].program) },
+    // axes count as homed where they are, and no clamp position offsets are read
+    Row { name: &["A", "RERF", "*"], read: |d, p| { p.axis(d, 2)?; truth(true) } },
+    Row { name: &["A", "PZV", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
+    // manual mode moves nothing here
+    Row { name: &["A", "MANUAL_OFFSETS", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
+    Row { name: &["A", "SOFFS", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["G", "MEAS_TYPE"], read: |d, _| number(f64::from(d.motion.measuring.kind)) },
     Row { name: &["G", "CYCLE_CHANGES_MODAL"], read: |d, _| truth(d.calls.cycle_changes_stay) },
     Row { name: &["G", "RW"], read: |d, _| number(d.motion.measuring.residual_path_mm / d.modal.unit_mm()) },
@@ -106,6 +112,8 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "WZ", "OK"], read: |d, p| { let i = p.index(d, 1, u32::MAX)?; truth(d.geometry.tools.table.get(&i).is_some_and(|t| t.is_valid)) } },
     Row { name: &["G", "WZ", "TYPE"], read: |d, p| number(f64::from(p.tool(d)?.kind as u32)) },
     Row { name: &["G", "WZ_AKT", "TYPE"], read: |d, _| number(f64::from(d.geometry.tools.active.kind as u32)) },
+    Row { name: &["G", "WZ", "SPDL_AX_NR"], read: |d, p| number(f64::from(p.tool(d)?.spindle)) },
+    Row { name: &["G", "WZ_AKT", "SPDL_AX_NR"], read: |d, _| number(f64::from(d.geometry.tools.active.spindle)) },
     Row { name: &["G", "WZ", "ME"], read: |_, _| number(0.0) },
     Row { name: &["G", "WZ_AKT", "WEAR_CONST"], read: |d, _| number(wear_constant(d)) },
     Row { name: &["G", "OTC_ACTIVE"], read: |d, _| truth(d.motion.wear.on) },
@@ -333,8 +341,10 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
 }
 
 /// Variables of functions that are not simulated. Source: TF5200 volumetric compensation; outputs of M and H functions
-/// before their place (148946059).
-const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT")];
+/// before their place (148946059); number of the commanding channel of a job manager (1139945739); block type (tccncprogramming
+/// 15557116555).
+const OTHERS: &[(&str, &str)] =
+    &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT"), ("G", "IP_NR"), ("G", "PROG_SA")];
 
 /// Data of tools that nothing here needs. Source: TF5200 external tool management 318262795; online tool compensation
 /// 213748491, whose wear is known to the simulation alone.
@@ -343,7 +353,6 @@ const OTHER_TOOL_DATA: &[&str] = &[
     "KIN_PARAM",
     "SISTER",
     "SISTER_VALID",
-    "SPDL_AX_NR",
     "SRK_ID",
     "SUB_TYPE",
     "S_MAX_ACC",

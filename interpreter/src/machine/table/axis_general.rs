@@ -68,6 +68,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_WARNING: Number;
     axis("P-AXIS-00444", "kenngr.dyn_monitoring_j_err", Raw::Uns32, "jerk error; 443 = 444 = 0 off")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_ERROR: Number;
+    axis("P-AXIS-00474", "kenngr.check_spindle_speed_in_tool_range", Raw::Boolean, "1: a speed outside P-TOOL-00013 to P-TOOL-00014 is an error (60312), 0: it is limited")
+        .default(0.0).axes("S").source("TF5200 axis parameters 117225611"), as TOOL_SPEED_CHECKED: Switch;
     axis("P-AXIS-00491", "kenngr.indp_override_mode", Raw::Uns16, "override of independent axes: 0 of the channel, 1 the smaller one of channel and axis, 2 of the axis; that of the axis is always 100 %")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0).axes("TR").source("TF5200 axis parameters"), as INDEPENDENT_OVERRIDE: Whole;
     axis("P-AXIS-00540", "kenngr.indp_feedhold_mode", Raw::Uns16, "feedhold of independent axes: 0 of channel and axis, 1 of the axis, which never holds here")

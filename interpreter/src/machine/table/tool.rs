@@ -18,14 +18,14 @@ parameters! {
         .default(0.0), as PARAMETER: Number;
     tool("P-TOOL-00008", "wz[i].mass_einheit", Raw::Uns16, "unit of length, radius and offsets: 0 0.1 um, 1 0.0001 inch")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
-    tool("P-TOOL-00012", "wz[i].log_ax_nr_spdl", Raw::Uns16, "logical number of the spindle that P-TOOL-00013 to 00015 limit, 0: none; not simulated")
-        .default(0.0).source("TF5200 spindle 287679371");
-    tool("P-TOOL-00013", "wz[i].vb_min", Raw::Real64, "least speed of the spindle with this tool; not simulated")
-        .default(0.0).unit("0.001deg/s", "0.001deg/s").source("TF5200 spindle 287679371");
-    tool("P-TOOL-00014", "wz[i].vb_max", Raw::Real64, "largest speed of the spindle with this tool; not simulated")
-        .default(1.0).unit("0.001deg/s", "0.001deg/s").source("TF5200 tool data 125214603");
-    tool("P-TOOL-00015", "wz[i].a_max", Raw::Real64, "largest acceleration of the spindle with this tool; not simulated")
-        .default(1.0).unit("deg/s2", "deg/s2").source("TF5200 tool data 104795019");
+    tool("P-TOOL-00012", "wz[i].log_ax_nr_spdl", Raw::Uns16, "logical number of the spindle that P-TOOL-00013 to 00015 limit, 0: none")
+        .default(0.0).source("TF5200 spindle 287679371"), as SPINDLE: Whole;
+    tool("P-TOOL-00013", "wz[i].vb_min", Raw::Real64, "least speed of the spindle with this tool, where it turns")
+        .default(0.0).unit("0.001deg/s", "0.001deg/s").source("TF5200 spindle 287679371"), as SPINDLE_MIN: Number;
+    tool("P-TOOL-00014", "wz[i].vb_max", Raw::Real64, "largest speed of the spindle with this tool")
+        .default(1.0).unit("0.001deg/s", "0.001deg/s").source("TF5200 tool data 125214603"), as SPINDLE_MAX: Number;
+    tool("P-TOOL-00015", "wz[i].a_max", Raw::Real64, "largest acceleration of the spindle with this tool")
+        .default(1.0).unit("deg/s2", "deg/s2").source("TF5200 tool data 104795019"), as SPINDLE_ACC: Number;
     tool("P-TOOL-00030", "wz[i].grinding_wear_const", Raw::Real64, "wear of a grinding wheel per distance, in 0.1 um per metre (#OTC)")
         .range(Bound::At(0.0), Bound::At(1e9)).default(0.0), as WEAR: Number;
     tool("P-TOOL-00031", "wz[i].grinding_max_infeed", Raw::Real64, "largest external wear that #OTC accepts, positive or negative")

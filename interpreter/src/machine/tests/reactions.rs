@@ -186,10 +186,6 @@ fn what_has_no_effect_is_said() {
         assert_eq!(files.ids(&[]), ["K-0075"], "{key}");
     }
     let mut files = Memory::machine();
-    files.add("m/hochlauf.lis", "werkz_data[0] lists/tools.lis\n");
-    files.put("m/lists/tools.lis", "wz[5].log_ax_nr_spdl 6\nwz[5].vb_max 3000000\n");
-    assert_eq!(files.ids(&[]), ["K-0075"]);
-    let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "pfad[0].prg[0] ../subs\n");
     assert_eq!(files.ids(&[]), ["K-0075"]);
     let mut files = Memory::machine();

@@ -165,6 +165,10 @@ impl Builder<'_> {
                     let group = self.command_group(part, &command);
                     command.groups.push(group);
                 }
+                Rule::late_axis => {
+                    let axis = self.upper(&part);
+                    command.tail.push(axis);
+                }
                 Rule::late_switch => {
                     let of_vector = ["VECTORVEL", "VECTORACC"].iter().any(|name| command.is(name));
                     if of_vector && command.on.is_none() {

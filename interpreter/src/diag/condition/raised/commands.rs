@@ -14,6 +14,7 @@ macro_rules! commands {
     SignalParameterTwice = Vendor 21059: Error ProgramAbort 3 1, "parameter of a signal twice", cause "#SIGNAL [ID=44 P[0]=200 P[0]=944]", hint "leave one of the two out, or raise the index";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
     CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of a coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two numbers that are not 0: [Y=X, -1, 1] mirrors";
+    IdentKeyTwice = Vendor 21089: Error ProgramAbort 3 1, "key of #IDENT twice", cause "#IDENT WR [AX=X AX=Y ..]", hint "leave one of the two out";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
     CouplingFactorInvalid = Vendor 21111: Warning None 1 1, "coupling factor is neither 1 nor -1", cause "#SET AX LINK [1, [Y=X, 1, 2]]", hint "the control couples with the factor 1: write [Y=X, 1, 1] or, mirrored, [Y=X, -1, 1]";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
@@ -24,6 +25,8 @@ macro_rules! commands {
     TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";
     MessageFormat = Vendor 21232: Error ProgramAbort 3 1, "unknown format in #MSG", cause "only %s %S %d %D %f %F", hint "formats are %s, %d and %f";
     SystemsTooMany = Vendor 21234: Error ProgramAbort 3 1, "more coordinate systems than can be stored", cause "a sixth #CS DEF", hint "define a number again that is no longer needed";
+    ConversionTwice = Vendor 21235: Error ProgramAbort 3 1, "key of #WCS TO MCS or #MCS TO WCS twice", cause "#WCS TO MCS [X=1 X=2]", hint "leave one of the two out";
+    ConversionInSystem = Vendor 21236: Error ProgramAbort 3 1, "#WCS TO MCS or #MCS TO WCS in a coordinate system", cause "#CS ON before it", hint "write #CS OFF ALL before it";
     OscillationCount = Vendor 21237: Error ProgramAbort 3 1, "number of oscillations outside the data format", cause "NBR_OSC=0", hint "write a whole number from 1";
     PathAxisIsSpindle = Vendor 21238: Error JobAbort 7 2, "path axis of the channel list whose axis list is that of a spindle", hint "name the spindle under spindel[i], or change the axis type", parameter "P-CHAN-00035";
     ArcFunctionRange = Vendor 21241: Error ProgramAbort 3 1, "argument of ASIN or ACOS outside -1 to 1", cause "P1=ASIN[2]", hint "sine and cosine lie between -1 and 1";
@@ -50,6 +53,7 @@ macro_rules! commands {
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
     SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "change of the way of selection within that of G238", cause "G139 between G41 and G40", hint "write G40 first";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "leave SYN out: parameters are read without synchronisation";
+    HeightKeyTwice = Vendor 21349: Error ProgramAbort 3 1, "key of #TGC twice", cause "#TGC ON [OPMODE=1 OPMODE=2]", hint "leave one of the two out";
     AreaAxis = Vendor 21363: Error ProgramAbort 3 1, "axis that the contour of a control area must not have", cause "Z in G17", hint "the contour lies in the first two main axes of the plane, MIN_EXCUR and MAX_EXCUR bound the third";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
     CycleInThread = Vendor 21380: Error ProgramAbort 3 1, "cycle called while a thread is cut", cause "G63, then L CYCLE [..]", hint "write G01 before the call";
@@ -59,11 +63,13 @@ macro_rules! commands {
     CycleCentreOutside = Vendor 21384: Error ProgramAbort 3 1, "centre of a cycle outside of a cycle", cause "@I=100 in a main program", hint "@I, @J and @K are words of cycles; write I, J, K";
     CycleSpindleOutside = Vendor 21385: Error ProgramAbort 3 1, "spindle of a cycle outside of a cycle", cause "@S=1000 in a main program", hint "@S is a word of cycles; write the spindle";
     ConditionalOpen = Vendor 21387: Error ProgramAbort 3 1, "#IF without #ENDIF", hint "write #ENDIF before the end of the program";
+    WearKeyTwice = Vendor 21388: Error ProgramAbort 3 0, "key of #OTC twice", cause "#OTC [WEAR_CONST=1 WEAR_CONST=2]", hint "leave one of the two out";
     WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
     WordsWithoutDimensions = Vendor 21404: Warning None 1 2, "several words of an axis without several G90 and G91, switched off", cause "multi_axes_in_block 1 with multi_dimension_in_block 0", hint "set both, or none", parameter "P-CHAN-00148";
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     SpindleOverrideKeyTwice = Vendor 21422: Error ProgramAbort 3 1, "keyword twice in S[OVERRIDE ..]", hint "leave one of the two out";
+    ToolKeyTwice = Vendor 21453: Error ProgramAbort 3 1, "key of #TOOL DEF twice", hint "leave one of the two out";
     MixedTypes = Vendor 21457: Error ProgramAbort 3 1, "a text and a number in one operation", cause "\"Peter\" + 23", hint "INT_TO_STR[23] makes a text of a number";
     TextOperator = Vendor 21458: Error ProgramAbort 3 1, "operator not defined for texts", hint "texts are joined by + and compared by == and !=";
     TextExpected = Vendor 21460: Error ProgramAbort 3 1, "a text is expected", cause "a number written to a STRING", hint "INT_TO_STR and REAL_TO_STR make texts of numbers";
@@ -90,6 +96,9 @@ macro_rules! commands {
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
     CompensationModulo = Vendor 21555: Error ProgramAbort 3 1, "tool radius compensation with a modulo axis", cause "G41 while a main axis of the plane counts modulo 360 degrees (P-AXIS-00015)", hint "take another plane, or an axis that does not count modulo";
     SystemOfModuloAxis = Vendor 21556: Error ProgramAbort 3 1, "coordinate system over a modulo axis", cause "#CS ON while a main axis counts modulo 360 degrees (P-AXIS-00015)", hint "only axes that do not count modulo are main axes of a coordinate system";
+    LiftTwice = Vendor 21558: Error ProgramAbort 3 1, "lifting begins twice", cause "Z[LIFT_START ..] twice", hint "write Z[LIFT_END] between them";
+    LiftNotBegun = Vendor 21559: Error ProgramAbort 3 1, "end of lifting without its start", cause "Z[LIFT_END] alone", hint "write Z[LIFT_START ..] before it";
+    LogicalNumber = Vendor 21567: Error ProgramAbort 3 1, "logical axis number outside its range", cause "#CHANNEL INIT [ACTPOS AXNR=99999]", hint "logical numbers are 1 to 65534", parameter "P-AXIS-00016";
     BlocksAheadTwice = Vendor 21575: Error ProgramAbort 3 1, "two limits of the blocks ahead", cause "V.G.MAX_NC_BLOCKS_AHEAD beside V.G.MAX_MOTION_BLOCKS_AHEAD", hint "set the other one to 0 before";
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SystemNameUnknown = Vendor 21601: Error ProgramAbort 3 1, "name of a coordinate system unknown", cause "#CS SELECT [WCS] without #CS ADD [WCS]..", hint "is the name right? Case counts";
@@ -108,7 +117,9 @@ macro_rules! commands {
     AreaAxes = Vendor 21797: Error ProgramAbort 3 1, "more than two axes in the contour of a control area", cause "X0 Y100 Z100", hint "MIN_EXCUR and MAX_EXCUR bound the third axis";
     FileNameTwice = Vendor 21823: Error ProgramAbort 3 1, "key of #FILE NAME twice", hint "leave one of the two out";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
+    FaceKeyTwice = Vendor 21872: Error ProgramAbort 3 1, "key of #FACE twice", hint "leave one of the two out";
     PositiveLimitTooLow = Vendor 21878: Error ProgramAbort 3 1, "positive software limit not above the negative one", cause "G99 X-600 with the negative limit -500", hint "lower the negative limit first, with G98";
+    CommandKeyTwice = Vendor 21887: Error ProgramAbort 3 0, "key twice in one command", cause "#VIB GUARD ON [FREQ=40 FREQ=50]", hint "leave one of the two out";
     ContourLineParallel = Vendor 21892: Error ProgramAbort 3 1, "equal or opposite angles of two contour lines", cause "#ANG=60, then #ANG=60 X30 Y40", hint "the second line needs another angle";
     ContourLineTwice = Vendor 21895: Error ProgramAbort 3 1, "angle of a contour line with two coordinates", cause "#ANG=45 X20 Y25", hint "leave one of the two coordinates out";
     OutsideMotionRange = Vendor 21897: Error ProgramAbort 3 1, "position outside the motion range", hint "kenngr.swe_neg and kenngr.swe_pos of the axis list (P-AXIS-00177, P-AXIS-00178) set the limits", parameter "P-AXIS-00177";
@@ -118,6 +129,7 @@ macro_rules! commands {
     ContourLinesOff = Vendor 21932: Error ProgramAbort 3 1, "#ANG, #CHR, #CHF or #RND although the channel list switches them off", cause "disable_chamfers_roundings 1", hint "set P-CHAN-00273 to 0", parameter "P-CHAN-00273";
     AxisIdentifier = Vendor 21947: Error ProgramAbort 3 1, "unknown axis identifier", hint "write the name of an axis or spindle of the channel";
     ChannelInitTwice = Vendor 21972: Error ProgramAbort 3 1, "#CHANNEL INIT with two kinds of positions", cause "#CHANNEL INIT [CMDPOS CMDPOS]", hint "write one of CMDPOS and ACTPOS, once";
+    CycleWithoutId = Vendor 22003: Error ProgramAbort 3 1, "#RT CYCLE DEF without ID", hint "write ID=.. into its bracket";
     StretchFactor = Vendor 22007: Warning None 1 1, "STRETCH_FACTOR outside its range", cause "#TRC [STRETCH_FACTOR=10]", hint "1 to 9 tool radii are possible";
     SeveralCalls = Vendor 22008: Error ProgramAbort 3 1, "several implicit calls at one block end", hint "write the second call in a separate block";
     FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two may not be mixed", hint "use one of the two in a program; the OFF forms count too";

@@ -30,7 +30,10 @@ macro_rules! motion {
     SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed before: S1000 M3";
     SpindleStoppedInThread = Vendor 60154: Error AllStop 6 0, "G33 with a spindle at rest", cause "S1000 and G33 without M3", hint "write M3 or M4 before it";
     SpindleSlopeType = Vendor 60226: Warning None 1 0, "slope type of a spindle invalid", cause "P-AXIS-00270", hint "getriebe[i].slope_type is 0 to 3 (P-AXIS-00270)";
+    ToolLimitsInvalid = Vendor 60296: Error AllStop 6 0, "dynamic data of the tool are no limits of its spindle", cause "P-TOOL-00014 or P-TOOL-00015 is 0", hint "wz[i].vb_max and wz[i].a_max are above 0, or wz[i].log_ax_nr_spdl is 0", parameter "P-TOOL-00014";
     SpindleFilterTime = Vendor 60311: Error JobAbort 7 0, "filter time constant (spindle)", cause "as 50663", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
+    ToolSpeed = Vendor 60312: Error ProgramAbort 6 0, "spindle speed outside the range of the tool", cause "P-AXIS-00474 = 1, S outside P-TOOL-00013 to P-TOOL-00014", hint "another speed, or another range in the tool list", parameter "P-AXIS-00474";
+    ToolLeastSpeed = Vendor 60332: Warning None 1 1, "least speed of the tool outside its range, corrected", cause "P-TOOL-00013 negative or above P-TOOL-00014", hint "wz[i].vb_min is 0 to wz[i].vb_max", parameter "P-TOOL-00013";
     FollowingError = Vendor 70020: Error OpenLoopStop 6 11, "following error too large", cause "limits 00167…00172, 00191", hint "raise slep_max, use feedforward (G135), or lower the feed", parameter "P-AXIS-00172";
     SettlingTimeout = Vendor 70082: Error AbruptStop 6 11, "exact-stop window not reached in time", cause "00236, 00532", hint "raise position_settling_time (P-AXIS-00532) or window, or the gain kv", parameter "P-AXIS-00236";
     AxisWithoutPositionControl = Vendor 70345: Error AbruptStop 7 11, "axis without position control that is not a spindle", cause "P-AXIS-00320", hint "antr.operation_mode CNC_POSITION_CONTROL or DRIVE_DEFAULT for axes of the path";

@@ -27,7 +27,6 @@ const OTHER_WORDS: &[&str] = &[
     "LINK",
     "FEED_LINK",
     "TRANS",
-    "DYNAMIC",
     "MC_",
     "G112",
     "G131",
@@ -71,6 +70,13 @@ enum SpindleItem {
 /// The override of spindles in messages.
 pub(in crate::exec) const SPINDLE_OVERRIDE: &str = "S[OVERRIDE]";
 
+/// `GET_DYNAMIC_DATA` (false) and `DEFAULT_DYNAMIC_DATA`.
+fn tool_limits(item: &Item) -> Option<(bool, Span)> {
+    let ItemKind::Flag(word) = &item.kind else { return None };
+    let default = word.is("DEFAULT_DYNAMIC_DATA");
+    (default || word.is("GET_DYNAMIC_DATA")).then_some((default, item.span))
+}
+
 impl Decoder {
     pub(super) fn spindle_bracket(
         &mut self,
@@ -84,6 +90,17 @@ impl Decoder {
         {
             let rest = Group { items: rest.to_vec(), span: group.span };
             return self.spindle_override(spindle, &rest);
+        }
+        if let Some((default, span)) = group.items.iter().find_map(tool_limits) {
+            if group.items.len() > 1 {
+                let text = "the dynamic data of a tool need a separate bracket";
+                return Err(Fault::new(Condition::SpindleCommandsExclude, text, span));
+            }
+            return if default {
+                self.default_limits(spindle, span)
+            } else {
+                self.take_tool_limits(spindle, span)
+            };
         }
         let functions: Vec<_> = group.items.iter().filter_map(function).collect();
         once(&functions, bracket, words)?;
@@ -162,12 +179,8 @@ impl Decoder {
         for (item, span) in items {
             self.spindle_action(spindle, &item, positions, span)?;
         }
-        let state = &self.motion.spindles[spindle];
-        if moves
-            && (turns || state.turning != Turning::Stopped)
-            && let Some(event) = state.motion_event()
-        {
-            self.contour.event(event);
+        if moves && (turns || self.motion.spindles[spindle].turning != Turning::Stopped) {
+            self.move_spindle(spindle, group.span)?;
         }
         self.spindle_warning(spindle, group.span);
         Ok(())
@@ -186,10 +199,8 @@ impl Decoder {
         if spindle == 0 && self.motion.cutting.is_on() {
             self.no_spindle_override("G96", span)?;
         }
-        if self.motion.spindles[spindle].is_turning()
-            && let Some(event) = self.motion.spindles[spindle].motion_event()
-        {
-            self.contour.event(event);
+        if self.motion.spindles[spindle].is_turning() {
+            self.move_spindle(spindle, span)?;
         }
         self.check_spindle_speed(spindle, span);
         Ok(())

@@ -57,10 +57,9 @@ impl Decoder {
         if let Some(spindle) = self.motion.spindles[index].index {
             self.takes_time(Function::Speed { spindle });
         }
-        if self.motion.spindles[index].is_turning()
-            && let Some(event) = self.motion.spindles[index].motion_event()
-        {
-            self.contour.event(event);
+        if self.motion.spindles[index].is_turning() {
+            let outcome = self.move_spindle(index, span);
+            self.report.keep(outcome);
         }
         self.spindle_warning(index, span);
     }
@@ -185,9 +184,8 @@ impl Decoder {
             Some(number) => turning.with_direction(number),
             None => turning,
         };
-        if let Some(event) = self.motion.spindles[0].motion_event() {
-            self.contour.event(event);
-        }
+        let outcome = self.move_spindle(0, m.span);
+        self.report.keep(outcome);
         self.takes_time(Function::Spindle { spindle, m: m.number });
         if m.number != 5 {
             self.spindle_warning(0, m.span);

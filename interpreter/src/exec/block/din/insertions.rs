@@ -95,7 +95,6 @@ impl Decoder {
                 | "AKIMA ENDVECTOR"
                 | "SET ASPLINE STARTTANG"
                 | "SET ASPLINE ZIELTANG" => continue,
-                // G200 to G202 are refused
                 "ACHSE" if words.group(Group::Manual).is_some() => continue,
                 "ACHSE" => {
                     let text = "#ACHSE without G200, G201 or G202";

@@ -140,6 +140,13 @@ fn write_tool(
         ["OK"] => tool.is_valid = x.abs() > 0.0,
         ["R"] => tool.radius_mm = x,
         ["L"] => tool.length_mm = x,
+        ["SPDL_AX_NR"] => {
+            let number = whole(x, 0, u32::from(u16::MAX)).ok_or_else(|| {
+                let text = format!("{x} is no logical axis number");
+                Fault::new(Condition::Range, text, path.span)
+            })?;
+            tool.spindle = number;
+        }
         ["V", _] | ["V"] => {
             tool.offsets_mm.insert(path.axis(d, 3)?, x);
         }

@@ -1,0 +1,49 @@
+//! Manual mode, G200 to G202: nobody moves the axes by hand, so that their offsets stay 0.
+//!
+//! Source: TF5200 programming manual 206639371, 206633483, tccncprogramming 15556788363.
+
+use crate::diag::Condition;
+use crate::exec::block::collected::{GWord, Words};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::Sync;
+use crate::syntax::ast::Group;
+
+impl Decoder {
+    /// G200: the path stops and continues at once, as *continue motion* ends the mode. G201 and G202: the axes named may be
+    /// moved by hand during the path, or no longer; what the program moves is the same.
+    ///
+    /// 20038 for G201 without an axis. The values of axis words have no meaning.
+    pub(in crate::exec) fn manual_mode(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        let mut axes: Vec<usize> = words.axes.iter().map(|(axis, _, _)| *axis).collect();
+        for (hash, _, _) in words.hashes.iter().filter(|(hash, _, _)| &*hash.name == "ACHSE") {
+            let bracket: &[Group] = hash.bracket.as_slice();
+            axes.extend(self.names.all_in_command(bracket)?);
+        }
+        if g.row.number == 201 && axes.is_empty() {
+            return Err(Fault::new(Condition::ManualWithoutAxis, "G201 without an axis", g.span));
+        }
+        let text = match g.row.number {
+            200 => {
+                self.sync(Sync::FlushWait);
+                self.motion.manual.fill(false);
+                "G200: nobody moves the axes by hand, the program continues at once"
+            }
+            202 => {
+                for (axis, manual) in self.motion.manual.iter_mut().enumerate() {
+                    *manual &= !(axes.is_empty() || axes.contains(&axis));
+                }
+                return Ok(());
+            }
+            _ => {
+                for axis in axes {
+                    self.motion.manual[axis] = true;
+                }
+                "G201: nobody moves the axes by hand"
+            }
+        };
+        let key = format!("G{}", g.row.number);
+        self.report.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
+        Ok(())
+    }
+}

@@ -1,0 +1,155 @@
+//! Limits that a tool sets to its spindle: least and largest speed, largest acceleration (P-TOOL-00012 to 00015).
+//!
+//! D passes them on; a spindle takes them when it starts from rest, or at once by `S[GET_DYNAMIC_DATA]`, and keeps them until
+//! it takes others. `S[DEFAULT_DYNAMIC_DATA]` brings back those of its list.
+//!
+//! Source: TF5200 spindle 287608459, 287679371; programming manual 208242699; axis parameters 117225611; diagnosis 60296
+//! (259750027), 60312 (259806603), 60332 (520247691).
+//!
+//! Assumptions: a spindle is at rest after M5, after M19 and after tapping, whether or not its ramp has ended; the default
+//! data reach a turning spindle when it next starts from rest; a spindle with the speed 0 is not raised to the least speed.
+
+use crate::diag::{Condition, rounded};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::spindles::{Passed, Spindle, Turning};
+use crate::exec::step::Event;
+use crate::machine::SpindleLimits;
+use crate::syntax::ast::Span;
+
+/// rev/min of a speed in deg/s.
+fn rpm(deg_s: f64) -> f64 {
+    deg_s / 6.0
+}
+
+impl Decoder {
+    /// D, `#TOOL DATA`: the limits of the tool wait for their spindle; 60296 if they are none, 60332 if the least speed is
+    /// corrected.
+    pub(in crate::exec) fn pass_tool_limits(&mut self, span: Span) -> Outcome<()> {
+        let tool = &self.geometry.tools.active;
+        let (number, mut limits) = (tool.spindle, tool.limits);
+        if number == 0 {
+            return Ok(());
+        }
+        let data = self.geometry.tools.data;
+        let of_number =
+            |s: &Spindle| s.index.is_some_and(|i| self.machine.spindles[i].number() == number);
+        let Some(index) = self.motion.spindles.iter().position(of_number) else {
+            let text = format!("D{data}: no spindle has the logical number {number}");
+            let fault = Fault::new(Condition::ListNoEffect, text, span);
+            self.report.note_once("P-TOOL-00012", fault.with(|d| d.parameter("P-TOOL-00012")));
+            return Ok(());
+        };
+        let name = self.motion.spindles[index].name.clone();
+        if limits.max_deg_s <= 0.0 || limits.acc_deg_s2 <= 0.0 {
+            let text = format!(
+                "D{data}: {} deg/s and {} deg/s2 are no limits of {name}",
+                limits.max_deg_s, limits.acc_deg_s2
+            );
+            return Err(Fault::new(Condition::ToolLimitsInvalid, text, span));
+        }
+        let least = limits.min_deg_s.clamp(0.0, limits.max_deg_s);
+        if least.to_bits() != limits.min_deg_s.to_bits() {
+            let text = format!(
+                "D{data}: the least speed {} deg/s of {name} is outside 0 to {}: {least} deg/s",
+                limits.min_deg_s, limits.max_deg_s
+            );
+            self.report.note(Fault::new(Condition::ToolLeastSpeed, text, span));
+            limits.min_deg_s = least;
+        }
+        self.motion.spindles[index].passed = Passed::Tool(limits);
+        Ok(())
+    }
+
+    /// `S[GET_DYNAMIC_DATA]`: what D has passed on acts at once.
+    pub(in crate::exec) fn take_tool_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
+        let state = &mut self.motion.spindles[spindle];
+        let limits = match std::mem::take(&mut state.passed) {
+            Passed::Nothing => return Ok(()),
+            Passed::Tool(limits) => Some(limits),
+            Passed::List => None,
+        };
+        state.limits = limits;
+        if let Some(index) = state.index {
+            self.contour.event(Event::SpindleLimits { spindle: index, limits });
+        }
+        self.check_tool_speed(spindle, span)
+    }
+
+    /// `S[DEFAULT_DYNAMIC_DATA]`.
+    pub(in crate::exec) fn default_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
+        self.motion.spindles[spindle].passed = Passed::List;
+        if self.motion.spindles[spindle].runs {
+            return Ok(());
+        }
+        self.take_tool_limits(spindle, span)
+    }
+
+    /// The spindle does what its state says from here on; what starts from rest takes the limits of the tool before.
+    pub(in crate::exec) fn move_spindle(&mut self, spindle: usize, span: Span) -> Outcome<()> {
+        let state = &mut self.motion.spindles[spindle];
+        let starts = !state.runs && state.turning != Turning::Stopped;
+        state.runs = state.is_turning();
+        if starts && state.passed != Passed::Nothing {
+            self.take_tool_limits(spindle, span)?;
+        } else {
+            self.check_tool_speed(spindle, span)?;
+        }
+        if let Some(event) = self.motion.spindles[spindle].motion_event() {
+            self.contour.event(event);
+        }
+        Ok(())
+    }
+
+    /// K-0131 where the tool limits the speed of a turning spindle, 60312 with P-AXIS-00474 = 1.
+    fn check_tool_speed(&mut self, spindle: usize, span: Span) -> Outcome<()> {
+        let state = &self.motion.spindles[spindle];
+        let Some((limits, used)) =
+            state.limits.zip(tool_speed(state.overridden_rpm(), state.limits))
+        else {
+            return Ok(());
+        };
+        if !state.is_turning() {
+            return Ok(());
+        }
+        let text = format!(
+            "spindle speed {} rev/min of {} is outside {} to {} rev/min of the tool",
+            rounded(state.overridden_rpm()),
+            state.name,
+            rounded(rpm(limits.min_deg_s)),
+            rounded(rpm(limits.max_deg_s)),
+        );
+        let listed = state.index.and_then(|i| self.machine.spindles.get(i));
+        if listed.is_some_and(crate::machine::Axis::checks_tool_speed) {
+            return Err(Fault::new(Condition::ToolSpeed, text, span));
+        }
+        let text = format!("{text}: {} rev/min are used", rounded(used));
+        let parameter = |d: crate::diag::Diagnostic| d.parameter("P-TOOL-00014");
+        self.report.note(Fault::new(Condition::SpindleLimit, text, span).with(parameter));
+        Ok(())
+    }
+
+    /// Refuses what counts with the speed of a spindle while its tool limits it: the pages do not say which of the two
+    /// speeds counts.
+    pub(in crate::exec) fn no_tool_limit(
+        &self,
+        what: &str,
+        spindle: usize,
+        span: Span,
+    ) -> Outcome<()> {
+        let state = &self.motion.spindles[spindle];
+        let changing = spindle == 0 && self.motion.cutting.is_on() && state.limits.is_some();
+        if changing || tool_speed(state.overridden_rpm(), state.limits).is_some() {
+            let what = format!("{what} at a speed that the tool limits (P-TOOL-00014)");
+            return Err(Fault::unsupported(what, span));
+        }
+        Ok(())
+    }
+}
+
+/// The speed in rev/min that a tool makes of another one; `None` if it is the same.
+fn tool_speed(wanted: f64, limits: Option<SpindleLimits>) -> Option<f64> {
+    let limits = limits?;
+    let used = wanted.clamp(rpm(limits.min_deg_s), rpm(limits.max_deg_s));
+    (wanted > 0.0 && used.to_bits() != wanted.to_bits()).then_some(used)
+}

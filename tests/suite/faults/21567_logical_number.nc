@@ -1,0 +1,4 @@
+; check: exit 1
+; error 21567 at 3:29
+#CHANNEL INIT [ACTPOS, AXNR=99999999]
+M30

@@ -1,4 +1,0 @@
-; check: exit 1
-; error K-0019 at 3:1
-#JOG CONT
-M30

@@ -1,0 +1,10 @@
+; run: exit 0
+; page 206697739 offsets of manual mode (#GET MANUAL OFFSETS)
+; end X100
+; warning K-0111 at 6:1
+G00 X100
+G201 X1
+G202
+#GET MANUAL OFFSETS
+G01 X[100 + V.A.MANUAL_OFFSETS.X] F500
+M30
