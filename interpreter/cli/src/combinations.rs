@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::args::Vary;
+use crate::args::values::after_external;
 use crate::args::vary::{MOST_COMBINATIONS, used_name};
 use crate::request::Request;
 use crate::words::Word;
@@ -51,9 +52,6 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     Ok(all)
 }
 
-/// External variables (`V.E.NAME`) vary like list parameters: a program reads them.
-pub(crate) const EXTERNAL: &str = "V.E.";
-
 /// The value of each parameter in one combination; what takes that of a name has the name's.
 pub(crate) fn values(vary: &[Vary], combination: &[usize]) -> Vec<String> {
     let own = || vary.iter().zip(combination).map(|(v, &i)| (v, &v.values[i]));
@@ -75,11 +73,7 @@ pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
         }
         if let Some((line, word)) = v.word() {
             request.words.push(Word { line, name: word.to_owned(), value });
-        } else if let Some((_, name)) = v
-            .key
-            .split_at_checked(EXTERNAL.len())
-            .filter(|(front, _)| front.eq_ignore_ascii_case(EXTERNAL))
-        {
+        } else if let Some(name) = after_external(&v.key) {
             request.external.retain(|(other, _)| !other.eq_ignore_ascii_case(name));
             request.external.push((name.to_owned(), value));
         } else {

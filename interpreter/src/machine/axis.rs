@@ -1,6 +1,7 @@
 //! One axis of the machine: its parameters, and the planner's values derived from them.
 
 use super::key::Key;
+use super::kind::{AxisKind, logical_number};
 use super::parameters::Kind;
 use super::parameters::{Parameters, Setting};
 use super::plausible;
@@ -13,17 +14,6 @@ use crate::diag::{AxisRef, Diagnostic, Location};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::realtime::OverrideRatios;
-
-/// Kind of an axis (P-AXIS-00018).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AxisKind {
-    /// Translatory: mm.
-    Linear,
-    /// Rotary: degrees.
-    Rotary,
-    /// Spindle: degrees, speed in rpm.
-    Spindle,
-}
 
 /// A path axis, a spindle or a gantry slave.
 #[derive(Clone, Debug, PartialEq)]
@@ -342,19 +332,5 @@ impl Axis {
         found.retain(|diagnostic| !known.contains(diagnostic));
         self.software_limits_mm = self.listed_software_limits_mm();
         Ok(found)
-    }
-}
-
-/// Logical axis number of an axis list.
-pub(super) fn logical_number(parameters: &Parameters) -> u32 {
-    parameters.get(axis_general::NUMBER)
-}
-
-/// Kind of axis of an axis list.
-pub(super) fn kind_of(parameters: &Parameters) -> AxisKind {
-    match parameters.get(axis_general::KIND) {
-        2 => AxisKind::Rotary,
-        4 => AxisKind::Spindle,
-        _ => AxisKind::Linear,
     }
 }

@@ -1,7 +1,7 @@
 //! From the start-up list to settled parameters: defaults, default list, specific list, overrides, range checks.
 
-use super::axis::{AxisKind, kind_of, logical_number};
 use super::channel::couplings::default_couplings;
+use super::kind::{AxisKind, kind_of, logical_number};
 use super::lists::{self, Found, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;

@@ -1,8 +1,9 @@
 //! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
 
 use super::Machine;
-use super::axis::{Axis, AxisKind, kind_of, logical_number};
+use super::axis::Axis;
 use super::channel::Channel;
+use super::kind::{AxisKind, kind_of, logical_number};
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
 use super::settled::Settled;

@@ -5,7 +5,7 @@
 
 pub(super) mod channel;
 
-use super::axis::{AxisKind, kind_of};
+use super::kind::{AxisKind, kind_of};
 use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place};

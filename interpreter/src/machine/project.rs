@@ -36,8 +36,8 @@
 mod axes;
 mod content;
 
-use super::axis::{AxisKind, kind_of, logical_number};
 use super::chain::{OWN_LIST, SEPARATORS, beside};
+use super::kind::{AxisKind, kind_of, logical_number};
 use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
 use super::table::{ListKind, channel as of, kontur as own};

@@ -1,6 +1,7 @@
 //! Feed constant and gear between the motor and the axis, in the units of the lists.
 
-use super::axis::{Axis, AxisKind};
+use super::axis::Axis;
+use super::kind::AxisKind;
 use super::table::{axis_control, axis_drive};
 
 /// A ratio or constant that scales nothing.

@@ -93,6 +93,13 @@ pub(crate) fn setting(text: &str) -> Result<String, String> {
     }
 }
 
+/// The name of an external variable after its `V.E.`, in any case; nothing if the text does not begin with that.
+pub(crate) fn after_external(text: &str) -> Option<&str> {
+    const FRONT: &str = "V.E.";
+    let (front, name) = text.split_at_checked(FRONT.len())?;
+    front.eq_ignore_ascii_case(FRONT).then_some(name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

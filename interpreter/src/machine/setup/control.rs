@@ -2,7 +2,7 @@
 
 use super::{monitors, plant};
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::machine::axis::AxisKind;
+use crate::machine::kind::AxisKind;
 use crate::machine::table::param::{Number, Param, Place};
 use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, kontur};
 use crate::machine::transmission::{
