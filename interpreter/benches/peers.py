@@ -4,7 +4,7 @@
     interpreter/benches/peers.py [--blocks 200000] [--repeats 3] [--kontur PATH]
 
 Every round runs every case once, so that a machine that slows down slows all of them; medians are printed, with the least and the
-greatest of the rounds. CPU time counts, wall time stands beside it. Peak memory is never below that of this script, from
+greatest of the rounds. CPU time counts, wall time is shown beside it. Peak memory is never below that of this script, from
 which the processes are started. Peers, each left out by name where it is not installed:
 
 * `rs274` of LinuxCNC (Debian: linuxcnc-uspace) reads the same blocks and only interprets them: the yardstick, 1.

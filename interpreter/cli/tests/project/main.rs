@@ -148,7 +148,7 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     assert_eq!(exit, Exit::Finished, "{said}");
     assert_eq!(trace, expected);
 
-    // the items alone, exported into a folder; without the project nobody knows the cycle
+    // the items alone, exported into a folder; without the project the cycle is unknown
     fs::remove_file(folder.path("machine.tsproj")).unwrap();
     let (exit, trace, said) = run(&folder, "_Config");
     assert_eq!(exit, Exit::Finished, "{said}");
