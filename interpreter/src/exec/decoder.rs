@@ -211,7 +211,7 @@ impl Decoder {
         }
         let number = changed.number();
         self.motion.dynamics_changed();
-        // first: a kernel is replaced when the axes have stood for as long as it remembers
+        // first: a kernel is replaced when the axes have been at rest for as long as it remembers
         self.update_shaping(span);
         self.sync(Sync::MachineData { axis: number });
         // the list decides what the state of G135 is worth

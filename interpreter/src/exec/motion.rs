@@ -397,7 +397,7 @@ impl Decoder {
         }
     }
 
-    /// Chamfer or rounding in front of the next motion.
+    /// Chamfer or rounding before the next motion.
     pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed: Option<Feed>, span: Span) {
         let insertion = Insertion { kind, size_mm, feed, span, source: self.report.source };
         if let Some(fault) = self.contour.insert(insertion) {

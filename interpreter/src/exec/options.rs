@@ -87,7 +87,7 @@ pub struct GuardCommands {
 
 /// Ends a check or a run from another thread; copies belong together.
 ///
-/// Looked at in front of every block and between two stretches of cycles. What was stopped is aborted and says nothing
+/// Read before every block and between two stretches of cycles. What was stopped is aborted and says nothing
 /// about it: the caller who stops it knows.
 #[derive(Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);

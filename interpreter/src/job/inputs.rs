@@ -153,7 +153,7 @@ impl<R: Read> InputFile<R> {
         };
         self.end += read as u64;
         let text = String::from_utf8_lossy(&bytes);
-        // a byte order mark in front of the header
+        // a byte order mark before the header
         self.text = text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']).into();
         Ok(read > 0)
     }
@@ -237,7 +237,7 @@ impl Problem {
     }
 }
 
-/// Fields of a line without the blanks and quotes around them, with the characters in front of each. No field holds a comma.
+/// Fields of a line without the blanks and quotes around them, with the characters before each. No field holds a comma.
 fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut at = 0;
     line.split(',').map(move |field| {

@@ -171,7 +171,7 @@ impl Axis {
         self.own.settings()
     }
 
-    /// A number, 0 stands for another value.
+    /// A number; 0 means another value.
     fn get_or(&self, param: Param<Number>, other: f64) -> f64 {
         let value = self.get(param);
         if value > 0.0 { value } else { other }

@@ -286,7 +286,7 @@ impl AxisChain {
         }
     }
 
-    /// What acts from outside, from now on; the additional position in front of its filter.
+    /// What acts from outside, from now on; the additional position before its filter.
     pub(crate) fn set_inputs(&mut self, inputs: AxisInputs) {
         self.inputs = inputs;
     }

@@ -2,12 +2,12 @@
 //!
 //! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
 //! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
-//! of less than a thousandth means standing still. A vibration that settles loses more than a thousandth of its
+//! of less than a thousandth means a standstill. A vibration that settles loses more than a thousandth of its
 //! amplitude in one of ten periods.
 
 use kontur_filters::time::CycleTime;
 
-/// Shortest and longest period in s for standing still.
+/// Shortest and longest period in s for detecting a standstill.
 const PERIOD_S: (f64, f64) = (0.2, 1.0);
 /// Period in s over which vibrations are compared: slower ones than 1 Hz are not vibrations of a machine.
 const SWING_S: f64 = 1.0;
@@ -57,7 +57,7 @@ impl Default for Patience {
 }
 
 impl Patience {
-    /// One cycle at a distance from where the axis shall be (signed); true when it will not get there. Standing still is
+    /// One cycle at a distance from where the axis should be (signed); true when it will not get there. A standstill is
     /// watched over the settling time, 1 s without one.
     pub(super) fn is_over(
         &mut self,

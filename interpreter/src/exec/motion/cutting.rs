@@ -173,7 +173,7 @@ impl Decoder {
         Err(Fault::new(Condition::FaceTurningAxis, text, span).hint(hint))
     }
 
-    /// Tells the simulation.
+    /// Informs the simulation.
     fn tell_cutting_speed(&mut self) {
         let Some(mut cutting) = self.motion.cutting.speed else { return };
         cutting.centre_mm = self.geometry.coordinates.turning_centre(cutting.axis);
@@ -183,7 +183,7 @@ impl Decoder {
         }
     }
 
-    /// In front of a motion whose target is known: offsets may have moved the turning centre, rapid blocks keep the speed
+    /// Called before a motion whose target is known: offsets may have moved the turning centre, rapid blocks keep the speed
     /// of the position where they begin.
     pub(in crate::exec) fn follow_turning_centre(&mut self, start: &AxisVec) {
         let rapid = self.modal.path == PathMode::Rapid;

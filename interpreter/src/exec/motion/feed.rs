@@ -57,7 +57,7 @@ impl Decoder {
                 let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
                     let (condition, what) = match self.motion.spindles[0].turning {
-                        Turning::Stopped => (Condition::SpindleAtRestAtFeed, "stands"),
+                        Turning::Stopped => (Condition::SpindleAtRestAtFeed, "is at rest"),
                         _ => (Condition::SpindleSpeedZeroAtFeed, "has no speed"),
                     };
                     let text = format!("feed per revolution, but the main spindle {what}");

@@ -207,7 +207,7 @@ impl Decoder {
             return Err(Fault::new(Condition::SpindleStandsInThread, text, span));
         };
         if !spindle.is_turning() {
-            let text = "G33 while the spindle stands: it has a speed, M03 or M04 is missing";
+            let text = "G33 while the spindle is at rest: it has a speed, M03 or M04 is missing";
             return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
         }
         let most_deg_s = self.machine.spindles[index].dynamics().v_max_mm_s;

@@ -13,7 +13,7 @@ pub(crate) enum TimerAct {
     Stop,
     /// `V.G.TIMER` takes its count.
     Read,
-    /// It is at 0 and stands; `V.G.TIMER` stays.
+    /// It is at 0 and stopped; `V.G.TIMER` stays.
     Clear,
 }
 
