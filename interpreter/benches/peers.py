@@ -60,7 +60,7 @@ def timed(words):
 
 
 def peer(library, parquet, folder):
-    """CPU and wall seconds that a library needs to write the columns of a trace. In a process of its own: what it has loaded would
+    """CPU and wall seconds that a library needs to write the columns of a trace. In a separate process: what it has loaded would
     count as memory of every process that is started from here."""
     words = [sys.executable, __file__, "--write-with", library, parquet, folder]
     answer = subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True)

@@ -216,7 +216,7 @@ impl Simulation {
         &mut self.record
     }
 
-    /// Somebody wants to know the deviation from the contour.
+    /// The deviation from the contour is wanted.
     pub(crate) fn is_measured(&self) -> bool {
         self.planner.reports_changes()
     }

@@ -47,7 +47,7 @@ fn a_wait_that_cannot_end() {
     }
 }
 
-/// An axis that the block does not move has no stop of its own; a force on it holds the program all the same.
+/// An axis that the block does not move has no stop; a force on it holds the program all the same.
 #[test]
 fn an_axis_beside_the_block_that_stands_outside() {
     let run = run_with_inputs(machine(&[]), G60, &[(0.0, "Z_force_mm_s2", 1000.0)]);

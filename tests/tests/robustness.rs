@@ -108,7 +108,7 @@ fn a_check_counts_every_motion() {
         let expected = if limit_s < 300 { vec![format!("K-0017 {line}:1")] } else { Vec::new() };
         assert_eq!((exit, said), (Exit::Finished, expected), "{limit_s}");
     }
-    // the run ends with an error of its own, and the warning of its check is not repeated
+    // the run ends with its own error, and the warning of its check is not repeated
     let (exit, said, _) = call("run", text, &["--max-time", "250"]);
     assert_eq!((exit, said), (Exit::Aborted, vec!["K-0017 4:1".to_owned()]));
 }

@@ -52,7 +52,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     Ok(all)
 }
 
-/// The value of each parameter in one combination; what takes that of a name has the name's.
+/// The value of each parameter in one combination; a parameter that uses a name has the value of the name.
 pub(crate) fn values(vary: &[Vary], combination: &[usize]) -> Vec<String> {
     let own = || vary.iter().zip(combination).map(|(v, &i)| (v, &v.values[i]));
     let of_name = |name: &str| own().find(|(v, _)| v.is_name() && v.key == name);
@@ -92,7 +92,7 @@ pub(crate) fn without_effect<'v, R: PartialEq>(
     // each row against the first one with the same values of all others
     let same = |which: usize| {
         let mut first: HashMap<[&[usize]; 2], &R> = HashMap::new();
-        let mut tells = false;
+        let mut compared = false;
         let mut all = combinations.iter().zip(rows);
         all.all(|(combination, row)| {
             match first.entry([&combination[..which], &combination[which + 1..]]) {
@@ -101,11 +101,11 @@ pub(crate) fn without_effect<'v, R: PartialEq>(
                     true
                 }
                 Entry::Occupied(other) => {
-                    tells = true;
+                    compared = true;
                     *other.get() == row
                 }
             }
-        }) && tells
+        }) && compared
     };
     vary.iter().enumerate().filter(|(i, _)| same(*i)).map(|(_, v)| v).collect()
 }

@@ -50,7 +50,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
                 text.splice(*from..*to, value.bytes());
             }
             [Place { line, .. }] => {
-                return Err(format!("{name}= in line {line} is no plain number"));
+                return Err(format!("{name}= in line {line} is not a plain number"));
             }
             [first, .., last] if first.line == last.line => {
                 return Err(format!("{name}= occurs several times in line {}", first.line));

@@ -132,7 +132,7 @@ impl Decoder {
 
     /// 20003: G60 in a block that moves nothing.
     ///
-    /// Assumption: the documents print the warning alone. As at the end of every block with G60 the speed is zero; waiting is
+    /// Assumption: the documents print only the warning. As at the end of every block with G60 the speed is zero; waiting is
     /// for the axes of the block, and it has none.
     fn stop_without_motion(&mut self, words: &Words<'_>) {
         if let Some(g) = exact_stop_once(words) {
@@ -143,7 +143,7 @@ impl Decoder {
         }
     }
 
-    /// I, J, K and E that nothing uses.
+    /// I, J, K and E that are not used.
     fn unused_words(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
         let inserted = words.group(Group::Insertion).is_some();
         if words.centre[0].is_some() && inserted {
@@ -202,7 +202,7 @@ impl Decoder {
             }
             if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.modal.unit_mm());
-                // of a block with an error, such as a cycle of another control, R is the least
+                // in a block with an error, such as a cycle of another control, R is the least of the problems
                 if !self.report.failed() {
                     let text = "R has no meaning in a straight motion: it is kept for the next arc";
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
@@ -215,7 +215,7 @@ impl Decoder {
         if self.motion.areas.is_defining() {
             return self.area_block(path.as_ref(), words, span);
         }
-        // a block without way needs no feed
+        // a block without travel needs no feed
         let Some(path) = path else { return Ok(()) };
         let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
         if begins && self.motion.wear.on && !path.is_straight() {
@@ -259,7 +259,7 @@ impl Decoder {
             self.spline_fits(rapid, rounds, span)?;
             self.spline_leads(&path, span)?;
         }
-        // of a block with an error nothing moves; what was said before it is still said
+        // a block with an error moves nothing; what was reported before it is still reported
         if self.report.failed() && !self.checking {
             return Ok(());
         }
@@ -290,7 +290,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What does not go with splines.
+    /// What cannot be combined with splines.
     fn spline_fits(&self, rapid: bool, rounds: bool, span: Span) -> Outcome<()> {
         if self.contour.hsc.spline().is_some() {
             let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
@@ -362,7 +362,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// A motion continues its way.
+    /// Passes a motion on.
     fn send(
         &mut self,
         block: Box<Block>,

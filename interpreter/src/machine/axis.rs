@@ -80,7 +80,7 @@ impl Axis {
         self.get(parameter)
     }
 
-    /// What of an override of the channel acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
+    /// The part of an override of the channel that acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
     /// interface of the axis stays at that), or nothing; no more than P-AXIS-00109 where the list gives it.
     pub(crate) fn independent_ratios(&self, channel: OverrideRatios) -> OverrideRatios {
         let most = axis_general::MOST_OVERRIDE;
@@ -317,7 +317,8 @@ impl Axis {
         cycle: CycleTime,
     ) -> Result<Vec<Diagnostic>, String> {
         let found = Key::parse(key).and_then(|k| k.resolve(ListKind::Axis));
-        let (row, indices) = found.ok_or_else(|| format!("`{key}` is no parameter of an axis"))?;
+        let (row, indices) =
+            found.ok_or_else(|| format!("`{key}` is not a parameter of an axis"))?;
         let value = value::read(row.raw, value).map_err(|bad| format!("{key}: {}", bad.reason))?;
         let axis = AxisRef { number: self.number, name: self.name.clone() };
         let check = |parameters: &mut Parameters| {

@@ -310,7 +310,7 @@ impl<'a> Project<'a> {
                 return format!("; cycle {us} us of the GEO task{replaced}");
             }
             Some(units) => format!(
-                "the cycle {} us of the GEO task is no whole number of microseconds",
+                "the cycle {} us of the GEO task is not a whole number of microseconds",
                 f64::from(units) / 10.0
             ),
             None => "no GEO task with a cycle".to_owned(),

@@ -96,7 +96,7 @@ mod tests {
     fn standing_still_is_seen_within_a_settling_time() {
         assert_eq!(ends(Some(0.3), |_| 0.02), Some(299));
         assert_eq!(ends(None, |_| -0.02), Some(999));
-        // settles at 0.02 mm with 20 ms: stands after some 0.2 s
+        // settles at 0.02 mm with 20 ms: at rest after some 0.2 s
         let settles = |t: f64| 0.02 + 2.0 * libm::exp(-t / 0.02);
         let k = ends(Some(0.2), settles).unwrap();
         assert!((399..800).contains(&k), "{k}");

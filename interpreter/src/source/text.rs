@@ -14,7 +14,7 @@
 //! assert_eq!(read.lines().count(), 2);
 //! // a file that is not text ends with a sentence
 //! let mut zeros = Text::new(std::io::repeat(0))?;
-//! assert!(zeros.read_to_string(&mut read).unwrap_err().to_string().contains("no text"));
+//! assert!(zeros.read_to_string(&mut read).unwrap_err().to_string().contains("not text"));
 //! assert_eq!(beginning(&"1".repeat(1000)).len(), 83);
 //! # Ok::<(), std::io::Error>(())
 //! ```
@@ -71,7 +71,9 @@ impl<R: Read> Read for Text<R> {
         let mut rest = &buffer[..count];
         if let Some(at) = memchr::memchr(0, rest) {
             let line = self.line + memchr::memchr_iter(b'\n', &rest[..at]).count() as u64;
-            return Err(wrong(format!("line {line} holds a character of the code 0: no text")));
+            return Err(wrong(format!(
+                "line {line} contains a character with code 0: this is not text"
+            )));
         }
         while let Some(end) = memchr::memchr(b'\n', rest) {
             self.count(end)?;

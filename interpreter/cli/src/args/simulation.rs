@@ -15,7 +15,7 @@ pub enum MessageForm {
 }
 
 /// Options that decide what is simulated.
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a separate switch for the user")]
 #[derive(Clone, Debug, clap::Args)]
 pub struct SimulationArgs {
     /// Machine: a folder with a start-up list, the list itself, or a TwinCAT project (.tsproj, .xti) [default: the built-in xyz]

@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbers(pub Vec<f64>);
 
-/// More curves than this are a slip of the hand.
+/// More curves than this are a typing mistake.
 const MOST_CURVES: usize = 1000;
 
 impl FromStr for Numbers {

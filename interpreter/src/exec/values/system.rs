@@ -337,7 +337,7 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
 const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT")];
 
 /// Data of tools that nothing here needs. Source: TF5200 external tool management 318262795; online tool compensation
-/// 213748491, whose wear is known to the simulation alone.
+/// 213748491, whose wear only the simulation knows.
 const OTHER_TOOL_DATA: &[&str] = &[
     "KIN_ID",
     "KIN_PARAM",

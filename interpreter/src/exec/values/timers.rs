@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// What is done to a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TimerAct {
-    /// It counts on.
+    /// It counts.
     Start,
     /// It is at rest.
     Stop,
