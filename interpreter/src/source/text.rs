@@ -27,7 +27,7 @@ pub(crate) const LINE_MAX: usize = 65_536;
 
 /// Bytes of a text file as they are.
 ///
-/// Errors: UTF-16, characters of the code 0, and a line longer than [`LINE_MAX`].
+/// Errors: UTF-16, characters with code 0, and a line longer than [`LINE_MAX`].
 #[derive(Debug)]
 pub struct Text<R> {
     reader: BufReader<R>,
@@ -116,7 +116,7 @@ mod tests {
         for (bytes, reason) in [
             (&b"\xFF\xFEt\0"[..], "UTF-16"),
             (b"\xFE\xFF\0t", "UTF-16"),
-            (b"a\nb\0", "line 2 holds a character of the code 0"),
+            (b"a\nb\0", "line 2 contains a character with code 0"),
             (format!("a\n{long}1").as_bytes(), "line 2 is longer than 65536 bytes"),
         ] {
             assert!(read(bytes).unwrap_err().contains(reason), "{reason}");
