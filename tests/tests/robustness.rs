@@ -242,26 +242,6 @@ fn long_expressions() {
 }
 
 #[test]
-fn parameters_out_of_all_bounds() {
-    for (text, said) in [
-        ("P[1000000000]=1", "20400"),
-        ("P1000000000=1", "20400"),
-        ("P[1e9]=1", "K-0002"),
-        ("P[-1]=1", "20400"),
-        ("P1=P[1000000000]", "20400"),
-        ("#VAR\nP1[1000000000]\n#ENDVAR", "20917"),
-        ("#VAR\nV.P.A[60000][60000]\n#ENDVAR", "20917"),
-        ("P1=2**100000", "K-0009"),
-        ("X1000000000 F1000", "20011"),
-        ("V.G.NP[4000000000].V.X=1", "20403"),
-        ("#TIMER START [ID=4000000000]", "21167"),
-    ] {
-        let found = refused(&format!("{text}\nM30\n"), &[]);
-        assert!(found[0].starts_with(&format!("{said} ")), "{text}: {found:?}");
-    }
-}
-
-#[test]
 fn names_of_subroutines_that_lead_elsewhere() {
     for (name, column) in
         [("../../x.nc", 3), ("..\\..\\x.nc", 3), ("/x/y.nc", 3), (".", 3), ("..", 3)]
