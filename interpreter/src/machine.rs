@@ -40,7 +40,7 @@ pub mod value;
 
 pub use axis::Axis;
 pub use channel::couplings::DefaultCoupling;
-pub use channel::functions::{Acknowledged, SpindleMoment};
+pub use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;

@@ -12,7 +12,7 @@
 //! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
 //!    along its limits, see [`crate::ride`]; where that is refused, or takes longer than stops of the acceleration, the boundary that is exceeded most becomes a knot, and
 //!    3 to 5 are repeated;
-//! 6. *passing* (TRAPEZ, HSC): where that is faster, a kink is passed with an acceleration, see [`passing`].
+//! 6. *passing* (HSC): where that is faster, a kink is passed with an acceleration, see [`passing`].
 //!
 //! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
 //! the passes only lower velocities and `reach_down` is monotone.

@@ -42,25 +42,38 @@ fn at_kink() -> f64 {
 /// `v t - j t^3 / 3` away from it; there `a` is what the path has at the kink.
 #[test]
 fn the_lowest_speed_lies_on_the_quicker_side() {
-    for kind in [Hsc, Trapez] {
-        let out = drive(kind, &POINTS.each_ref().map(|p| &p[..]), &[200.0]);
+    let out = drive(Hsc, &POINTS.each_ref().map(|p| &p[..]), &[200.0]);
+    let kink = out.iter().position(|p| p.seq == 1).unwrap();
+    let Setpoint { v_mm_s: v, a_mm_s2: a, s_mm: s, .. } = out[kink];
+    // the setpoint lies up to a cycle after the kink
+    let behind_s = 2.0 * (s - 8.0) / (v + at_kink());
+    assert!((0.0..=CYCLE_S).contains(&behind_s), "{behind_s}");
+    assert!((v - a * behind_s - at_kink()).abs() < 2e-4, "{v}");
+    assert!(a > 100.0, "{a}");
+    let near = out[kink - 400..kink + 400].iter();
+    let lowest = near.min_by(|p, q| p.v_mm_s.total_cmp(&q.v_mm_s)).unwrap();
+    let a = a - SLOW / 2.0_f64.sqrt() * behind_s;
+    let t = a / QUICK;
+    let (dip, way) = (a * t / 2.0, at_kink() * t - QUICK * t * t * t / 3.0);
+    assert!((at_kink() - lowest.v_mm_s - dip).abs() < 0.01 * dip, "{lowest:?}");
+    let slip = CYCLE_S * at_kink();
+    assert!((8.0 - lowest.s_mm - way).abs() < slip, "{lowest:?}");
+}
+
+/// TRAPEZ reaches the speed of a kink with acceleration zero, and leaves it so: of no axis the acceleration jumps by more than its
+/// jerk and the jump of the velocity ask for.
+#[test]
+fn trapez_passes_a_kink_without_acceleration() {
+    let points = POINTS.each_ref().map(|p| &p[..]);
+    for points in [points.to_vec(), points.iter().rev().copied().collect()] {
+        let out = drive(Trapez, &points, &[200.0]);
         let kink = out.iter().position(|p| p.seq == 1).unwrap();
-        let Setpoint { v_mm_s: v, a_mm_s2: a, s_mm: s, .. } = out[kink];
-        // the setpoint lies up to a cycle after the kink
-        let behind_s = 2.0 * (s - 8.0) / (v + at_kink());
-        assert!((0.0..=CYCLE_S).contains(&behind_s), "{kind:?}: {behind_s}");
-        assert!((v - a * behind_s - at_kink()).abs() < 2e-4, "{kind:?}: {v}");
-        assert!(a > 100.0, "{kind:?}: {a}");
-        let lowest = out[kink - 400..kink + 400]
-            .iter()
-            .min_by(|p, q| p.v_mm_s.total_cmp(&q.v_mm_s))
-            .unwrap();
-        let a = a - SLOW / 2.0_f64.sqrt() * behind_s;
-        let t = a / QUICK;
-        let (dip, way) = (a * t / 2.0, at_kink() * t - QUICK * t * t * t / 3.0);
-        assert!((at_kink() - lowest.v_mm_s - dip).abs() < 0.01 * dip, "{kind:?}: {lowest:?}");
-        let slip = CYCLE_S * at_kink();
-        assert!((8.0 - lowest.s_mm - way).abs() < slip, "{kind:?}: {lowest:?}");
+        let near = &out[kink - 400..kink + 400];
+        let lowest = near.iter().map(|p| p.v_mm_s).fold(f64::INFINITY, f64::min);
+        assert!((lowest - at_kink()).abs() < 1e-3, "{lowest}");
+        let kept = near.iter().filter(|p| (p.v_mm_s - at_kink()).abs() < 1e-3);
+        assert!(kept.clone().count() > 0);
+        assert!(kept.map(|p| p.a_mm_s2.abs()).fold(0.0, f64::max) < 2.0 * QUICK * CYCLE_S);
     }
 }
 

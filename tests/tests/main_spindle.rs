@@ -46,6 +46,46 @@ fn a_motion_waits_for_its_spindle() {
     assert!((waited - 1000.0).abs() < 1e-6, "{waited}");
 }
 
+/// Kinds of synchronisation (149163787, 287516299): MVS_SVS is as it should be before the motion of its block, MVS_SNS and MOS begin
+/// with it, MNS_SNS only after it, and the path waits for all but MOS. For M4, M5 and the S word, from 2000 rev/min: speed at the
+/// beginning of the motion of the block and at its end, and when the next one begins.
+#[test]
+fn functions_act_when_the_list_says() {
+    let program =
+        |word: &str| format!("S2000 M3\nG04 3\nG60 G01 F600 X1\nG60 {word} X2\nG60 X3\nM30\n");
+    for (word, name, there) in [("M4", "m4", -2000.0), ("M5", "m5", 0.0), ("S400", "s", 400.0)] {
+        for (kind, starts_changed, waits) in [
+            ("MVS_SVS", Some(true), true),
+            ("MVS_SNS", Some(false), true),
+            ("MOS", Some(false), false),
+            ("MNS_SNS", None, true),
+        ] {
+            let setting = format!("channel.spindel[0].{name}_synch={kind}");
+            let run = run_on(sample_machine("two_spindles", &[&setting]), &program(word));
+            assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
+            let moves = |line: u32| {
+                let moving: Vec<usize> = (0..run.records.len())
+                    .filter(|k| run.records[*k].line == line && run.records[*k].path.v_mm_s > 0.0)
+                    .collect();
+                (moving[0], moving[moving.len() - 1])
+            };
+            let rpm = |k: usize| {
+                let set = |k: usize| run.records[k].axes[3].set;
+                (set(k) - set(k - 1)) / run.cycle_s / 6.0
+            };
+            let ((first, last), (next, _)) = (moves(4), moves(5));
+            let is = |k: usize, want: f64| (rpm(k) - want).abs() < 1e-6;
+            let case = format!("{word} {kind}: {} {} {}", rpm(first), rpm(last), rpm(next));
+            match starts_changed {
+                Some(true) => assert!(is(first, there), "{case}"),
+                Some(false) => assert!(!is(first, there) && !is(last, 2000.0), "{case}"),
+                None => assert!(is(first, 2000.0) && is(last, 2000.0), "{case}"),
+            }
+            assert_eq!(is(next, there), waits, "{case}");
+        }
+    }
+}
+
 /// Programmable override (208269707): it scales the speed of its spindle alone, at once, for M3 and M4, until it is changed.
 #[test]
 fn an_override_acts_on_its_spindle_alone() {

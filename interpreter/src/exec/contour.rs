@@ -13,7 +13,7 @@ use self::akima::{Akima, Curve};
 use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
 use self::contouring::{Contouring, Hsc};
-use self::insertion::Insertion;
+use self::insertion::{Inserted, Insertion};
 use self::interim::Interim;
 use super::fault::{Fault, Outcome};
 use super::geometry::arc::Point;
@@ -253,11 +253,24 @@ impl Contour {
                 }
                 None => Ok(None),
             };
-            faults.extend(self.compensate(before).map(|f| *f));
-            match inserted {
-                Ok(Some(inserted)) => faults.extend(self.compensate(inserted).map(|f| *f)),
-                Ok(None) => {}
-                Err(fault) => faults.push(*fault),
+            let Inserted { motion: mut element, leaves } = match inserted {
+                Ok(Some(inserted)) => inserted,
+                nothing => {
+                    faults.extend(self.compensate(before).map(|f| *f));
+                    faults.extend(nothing.err().map(|f| *f));
+                    self.held = Some(motion);
+                    return faults;
+                }
+            };
+            if leaves[0] {
+                faults.extend(self.compensate(before).map(|f| *f));
+            } else {
+                element.events.splice(0..0, before.events);
+            }
+            if leaves[1] {
+                faults.extend(self.compensate(element).map(|f| *f));
+            } else {
+                motion = element;
             }
         }
         self.held = Some(motion);

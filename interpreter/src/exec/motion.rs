@@ -304,7 +304,7 @@ impl Decoder {
             "G00 in a spline"
         } else if self.modal.compensation != Compensation::Off {
             "a spline with tool radius compensation"
-        } else if !self.geometry.coordinates.frame().is_identity() {
+        } else if !self.geometry.coordinates.frame().only_shifts() {
             "a spline in a turned or mirrored system"
         } else if self.modal.feed_type == FeedType::PerRevolution
             && self.motion.cutting.speed.is_some()
@@ -322,10 +322,7 @@ impl Decoder {
     fn contouring_fits(&self, span: Span) -> Outcome<()> {
         let feed = &self.motion.feed_axes;
         let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
-        let fits = || (0..feed.len()).all(|axis| feed[axis] == is_main(axis));
-        // the group of the lists is that of the main axes, whatever an axis exchange makes of them
-        let of_lists = *feed == self.machine.channel.feed_axes;
-        if (of_lists && (0..feed.len()).all(|axis| feed[axis] == (axis < 3))) || fits() {
+        if (0..feed.len()).all(|axis| feed[axis] == is_main(axis)) {
             return Ok(());
         }
         let text = "contouring, but the feed axes (#FGROUP, P-CHAN-00011) are not the main axes";

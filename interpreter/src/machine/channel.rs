@@ -78,8 +78,10 @@ pub struct Channel {
     pub feed_unit_mm_min: f64,
     /// Members of the feed group (P-CHAN-00011), one flag per path axis.
     ///
-    /// Source: TF5200 channel parameters; no axis marked: the first three.
+    /// Source: TF5200 channel parameters; no axis marked: the main axes, at program start the first three.
     pub feed_axes: Vec<bool>,
+    /// The list marks members of the feed group; otherwise the group follows the main axes in an axis exchange (149140491).
+    pub lists_feed_axes: bool,
     /// Limit the jerk at tangential transitions (P-CHAN-00009).
     pub limit_tangential_jerk: bool,
     /// Rule for the limits at transitions (P-CHAN-00117).
@@ -223,7 +225,15 @@ const CYCLE_PROGRAMS: [Param<Text>; 10] = [
 const SPINDLES: u32 = 16;
 
 impl Channel {
-    pub(super) fn new(parameters: Parameters, start_up: Parameters, feed_axes: Vec<bool>) -> Self {
+    pub(super) fn new(
+        parameters: Parameters,
+        start_up: Parameters,
+        mut feed_axes: Vec<bool>,
+    ) -> Self {
+        let lists_feed_axes = feed_axes.contains(&true);
+        if !lists_feed_axes {
+            feed_axes.iter_mut().take(3).for_each(|feed| *feed = true);
+        }
         let p = &parameters;
         let program = |param: Param<Text>| p.get(param).filter(|name| !name.is_empty());
         let choice = |param: Param<Whole>| p.get(param);
@@ -243,6 +253,7 @@ impl Channel {
             feed_mm_s: Some(p.get(of::FEED)).filter(|f| *f > 0.0).map(|f| f / 60.0),
             feed_unit_mm_min: feed_unit(p.get(of::FEED_UNIT)),
             feed_axes,
+            lists_feed_axes,
             limit_tangential_jerk: p.get(of::LIMIT_TANGENTIAL_JERK),
             transition_jerk: match choice(of::TRANSITION_JERK) {
                 0 => TransitionJerkMode::Coupled,

@@ -246,9 +246,6 @@ pub(super) fn machine(
         let note = Diagnostic::new(Condition::ListNoEffect, message).severity(Severity::Note);
         diagnostics.push(note.hint(hint));
     }
-    if !marked.contains(&true) {
-        marked.iter_mut().take(3).for_each(|feed| *feed = true);
-    }
     let channel = Channel::new(channel, start_up, marked);
     Some(Machine {
         name: name.to_owned(),

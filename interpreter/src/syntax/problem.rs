@@ -329,7 +329,12 @@ fn refine(
             raised(problem, Condition::CallCharacter)
         }
         Context::Words if depth > 0 && in_cycle_call(before) => {
-            raised(problem, Condition::TokenUnknown)
+            let hint = if rest.is_empty() {
+                "the bracket is not closed"
+            } else {
+                "L CYCLE [NAME=\"file\" @P1=.. @P2=..]: words and parameters of the cycle"
+            };
+            raised(problem, Condition::TokenUnknown).hint(hint)
         }
         Context::Words if rest.starts_with('=') && ends_in_negative_radius(before) => {
             negative_radius(&problem, before)

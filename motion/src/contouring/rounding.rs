@@ -83,6 +83,10 @@ pub(super) fn curve(
         return Err(NoContour::AngleAboveMaximum { angle_deg });
     }
     let bounds = bounds(settings)?;
+    let empty = bounds.passes_point && corner.keeps_the_contour(&bounds);
+    if empty {
+        return Ok(None);
+    }
     corner.fit(bounds).map(Some).ok_or(NoContour::BlockTooShort)
 }
 
@@ -192,6 +196,14 @@ impl<'a> Corner<'a> {
     fn distance(&self, p: &[f64], q: &[f64]) -> f64 {
         let d2 = |((p, q), _): ((&f64, &f64), &bool)| (p - q) * (p - q);
         p.iter().zip(q).zip(&self.measured).filter(|(_, m)| **m).map(d2).sum::<f64>().sqrt()
+    }
+
+    /// The curve begins or ends at its interim point: a corner distance of 0 keeps the programmed contour (475227019).
+    fn keeps_the_contour(&self, bounds: &Bounds) -> bool {
+        let corner = self.from.end();
+        let at_corner = (0..corner.len().min(3))
+            .all(|i| bounds.point[i].is_none_or(|p| p.to_bits() == corner[i].to_bits()));
+        at_corner && (bounds.pre <= 0.0 || bounds.post <= 0.0)
     }
 
     /// The largest curve within the bounds.

@@ -1,4 +1,4 @@
-//! Kinks passed with an acceleration.
+//! Kinks passed with an acceleration (HSC).
 //!
 //! A plan gets to a kink that holds it down as early as it can: at a local minimum of the speed with acceleration zero, on
 //! the way up with what a rise to this speed has left. Over both sides that is not the best: where the path may change its
@@ -13,14 +13,17 @@
 //!
 //! It reads a plan and puts spans in its place that begin and end at the same kinks, in less time.
 //!
-//! Assumption: the documents say nothing of the acceleration at a kink; it is as free there as elsewhere within the limits
-//! of both blocks. Where `AX_DEV` holds a kink down, its speed has been found with the acceleration as it was, and that
+//! TRAPEZ brings the acceleration to zero where it reaches the speed of a kink; HSC may have one at the end of a block
+//! (P-CHAN-00071). Assumption: also at a kink, within the limits of both blocks. An axis then changes its acceleration in one
+//! cycle by that of the path times its change of direction, in addition to the jump of its velocity, which is all that the limits
+//! of kinks know. Where `AX_DEV` holds a kink down, its speed has been found with the acceleration as it was, and that
 //! stays so.
 
-use super::stretch::{cells, rates};
+use super::stretch::cells;
 use super::{FLAT_MM_S2, Span, Window, is_above};
+use crate::block::SlopeKind;
 use crate::cap::SpeedLimit;
-use crate::profile::{Infeasible, Profile, RampShape, State};
+use crate::profile::{Infeasible, Profile, State};
 use crate::ride::Alone;
 
 /// Part of the largest acceleration up to which one is tried: the minimum stays above rest.
@@ -105,7 +108,7 @@ impl Window<'_> {
             && before.block.slope == behind.block.slope
             && !late(b - 1)
             && !late(b)
-            && rates(behind).is_some_and(|r| r.shape != RampShape::Sin2)
+            && behind.block.slope.kind == SlopeKind::Hsc
     }
 
     /// The spans, those that are held down by kinks on their way in parts.

@@ -36,7 +36,7 @@ pub struct SimulationArgs {
     pub allow_outside: bool,
 
     /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
-    /// `feedhold`, `probe`, `X_probe_mm`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next
+    /// `feedhold`, `probe`, `wear_mm`, `X_probe_mm`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next
     /// time stamp. May be given several times
     #[arg(long, value_name = "FILE")]
     pub input: Vec<PathBuf>,

@@ -33,6 +33,8 @@ const MOST_DECAYS: usize = 4;
 const MOST_SAMPLES: usize = 16_384;
 /// Vibrations weaker than this share of the strongest one are not reported.
 const LEAST_PEAK_RATIO: f64 = 0.15;
+/// What lasts with less than this share of the swing of the vibrations is not reported: rounding, and what is left of their fit.
+const LEAST_LASTING_RATIO: f64 = 1e-3;
 /// A vibration that loses less over the whole piece lasts.
 const LASTING: f64 = 0.3;
 /// More than this is not a vibration to be shaped away but a transient.
@@ -255,11 +257,15 @@ fn of_decay(
     let mut modes: Vec<&Vibration> =
         decaying().filter(|v| v.damping.value < MOST_DAMPING).collect();
     modes.sort_by(|a, b| peak(b).total_cmp(&peak(a)));
-    let lasting =
-        found.iter().filter(|v| !decays(v, used.seconds()) && v.damping.value < MOST_DAMPING);
+    let swing = modes.iter().map(|v| v.amplitude).sum();
+    let lasting = found.iter().filter(|v| {
+        !decays(v, used.seconds())
+            && v.damping.value < MOST_DAMPING
+            && v.amplitude >= LEAST_LASTING_RATIO * swing
+    });
     Analysis {
         noise: fit.noise(&used),
-        swing: modes.iter().map(|v| v.amplitude).sum(),
+        swing,
         lasting: lasting
             .map(|v| Lasting {
                 freq_hz: v.freq.value,

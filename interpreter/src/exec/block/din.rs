@@ -64,15 +64,16 @@ impl Decoder {
         self.feeds_and_modes(&words, takes_axes);
         // after G04 the S word is a number of revolutions, after G74 an order
         let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
-        if !words.group(Group::Path).is_some_and(arguments) {
-            self.spindle_speeds(&words);
-        }
+        let is_speed = !words.group(Group::Path).is_some_and(arguments);
+        let late_speed = is_speed.then(|| self.spindle_speeds(&words)).flatten();
         if let Err(fault) = self.leaves_the_spindle(&words) {
             self.report.note(fault);
             return After::Next;
         }
         self.functions_before(&words);
-        for bracket in &words.brackets {
+        let (late, early): (Vec<_>, Vec<_>) =
+            words.brackets.iter().copied().partition(|bracket| self.acts_late(bracket));
+        for bracket in early {
             let outcome = self.bracket(bracket, &words);
             self.report.keep(outcome);
         }
@@ -89,6 +90,13 @@ impl Decoder {
             self.banding_moves(at);
         }
         self.join_synchronous();
+        if let Some((speed, span)) = late_speed {
+            self.speed(0, speed, span);
+        }
+        for bracket in late {
+            let outcome = self.bracket(bracket, &words);
+            self.report.keep(outcome);
+        }
         let after = self.functions_after(&words);
         self.technology_wait(SpindleMoment::AfterMotion);
         after
@@ -102,8 +110,9 @@ impl Decoder {
         }
     }
 
-    /// S words: speeds, cutting speeds, or speeds of tapping with a sign.
-    fn spindle_speeds(&mut self, words: &Words<'_>) {
+    /// S words: speeds, cutting speeds, or speeds of tapping with a sign. A speed that acts after the motion is returned.
+    fn spindle_speeds(&mut self, words: &Words<'_>) -> Option<Placed> {
+        let mut late = None;
         let taps = self.path_mode(words).is_tapping();
         let outcome = self.cutting_words(words);
         self.report.keep(outcome);
@@ -119,9 +128,14 @@ impl Decoder {
                 let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
                 self.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
             } else if !(taps || cuts) {
-                self.speed(0, *speed, *span);
+                if self.speeds_up_late(0) {
+                    late = Some((*speed, *span));
+                } else {
+                    self.speed(0, *speed, *span);
+                }
             }
         }
+        late
     }
 
     fn planes_and_units(&mut self, words: &Words<'_>) {

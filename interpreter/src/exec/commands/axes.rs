@@ -67,7 +67,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             release(decoder, axis);
         }
     }
-    decoder.names.change();
+    exchanged(decoder);
     Ok(())
 }
 
@@ -129,7 +129,7 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let axis = (main < decoder.machine.axes.len()).then_some(main);
                 decoder.geometry.coordinates.set_main_axis(main, axis);
             }
-            decoder.names.change();
+            exchanged(decoder);
             Ok(())
         }
         _ => take_all(decoder, call),
@@ -144,16 +144,36 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     call.no_more_words()?;
     let mut members = vec![false; decoder.machine.axes.len()];
     let Some(group) = call.command.groups.first() else {
-        decoder.motion.feed_axes = decoder.machine.channel.feed_axes.clone();
-        decoder.motion.dynamics_changed();
+        decoder.motion.feed_axes_named = false;
+        default_feed_group(decoder);
         return Ok(());
     };
     for axis in decoder.names.all_in_command(std::slice::from_ref(group))? {
         members[axis] = true;
     }
-    decoder.motion.feed_axes = members;
+    (decoder.motion.feed_axes, decoder.motion.feed_axes_named) = (members, true);
     decoder.motion.dynamics_changed();
     Ok(())
+}
+
+/// The feed group of the channel list; without one the main axes.
+fn default_feed_group(decoder: &mut Decoder) {
+    let channel = &decoder.machine.channel;
+    decoder.motion.feed_axes = if channel.lists_feed_axes {
+        channel.feed_axes.clone()
+    } else {
+        let is_main = |axis| decoder.geometry.coordinates.main_index(axis).is_some();
+        (0..decoder.machine.axes.len()).map(is_main).collect()
+    };
+    decoder.motion.dynamics_changed();
+}
+
+/// Names and main axes are others now.
+fn exchanged(decoder: &mut Decoder) {
+    decoder.names.change();
+    if !decoder.motion.feed_axes_named {
+        default_feed_group(decoder);
+    }
 }
 
 /// The path comes to rest; a Vibration Guard of the program ends.
@@ -240,7 +260,7 @@ fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             take(decoder, inner, &mut taken)?;
         }
     }
-    decoder.names.change();
+    exchanged(decoder);
     Ok(())
 }
 

@@ -76,6 +76,26 @@ impl ContourArguments {
         ];
         keys.into_iter().filter_map(|(key, at)| Some((key, at?))).collect()
     }
+
+    /// Lengths that are written together with a mode that does not use them: the mode, the key and its place. Source: the pages
+    /// of the modes (475180811, 475198987, 475227019 and their neighbours).
+    fn of_another_mode(&self) -> Vec<(&'static str, &'static str, Span)> {
+        let [(word, mode, _)] = self.modes()[..] else { return Vec::new() };
+        let used: &[&str] = match mode {
+            Mode::Dev => &["PATH_DEV"],
+            Mode::Dist | Mode::Pos => &["PRE_DIST", "POST_DIST"],
+            Mode::Ptp => &["PATH_DEV", "PATH_DIST"],
+            Mode::DistSoft | Mode::DistMaster => &["PATH_DIST"],
+        };
+        let lengths = [
+            ("PATH_DEV", self.path_dev),
+            ("PRE_DIST", self.pre_dist),
+            ("POST_DIST", self.post_dist),
+            ("PATH_DIST", self.path_dist),
+        ];
+        let unused = lengths.into_iter().filter(|(key, _)| !used.contains(key));
+        unused.filter_map(|(key, at)| Some((word, key, at?.1))).collect()
+    }
 }
 
 /// Row of `#CONTOUR MODE`.
@@ -175,6 +195,10 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     for (key, span) in keys.without_effect() {
         let text = format!("#CONTOUR MODE: {key} has no effect");
         decoder.report.note_once(key, Fault::new(Condition::Fallback, text, span));
+    }
+    for (mode, key, span) in keys.of_another_mode() {
+        let text = format!("#CONTOUR MODE: {mode} does not use {key}");
+        decoder.report.note_once(&text.clone(), Fault::new(Condition::Fallback, text, span));
     }
     if matches!(settings.mode, Mode::DistSoft | Mode::DistMaster) {
         let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";

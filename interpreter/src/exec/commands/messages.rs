@@ -90,7 +90,7 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// Replaces `%d`, `%f`, `%s` by the values in turn.
+/// Replaces `%d`, `%f`, `%s` by the values in turn, as `printf` does (207145355).
 fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Outcome<String> {
     let mut text = String::new();
     // a value is expected after a comma; an empty list looks the same with and without one
@@ -102,11 +102,10 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
             text.push(c);
             continue;
         }
-        // width and precision may come between
-        let mut precision = String::new();
+        let mut form = Form::default();
         let letter = loop {
             match chars.next() {
-                Some(c) if c.is_ascii_digit() || matches!(c, '.' | '-' | '+') => precision.push(c),
+                Some(c) if form.takes(c) => {}
                 other => break other,
             }
         };
@@ -117,15 +116,14 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         let Some(letter @ ('d' | 'D' | 'f' | 'F' | 's' | 'S')) = letter else {
             let shown = letter.map_or(String::new(), String::from);
             let message = format!("unknown format %{shown}");
-            return Err(
-                Fault::new(Condition::MessageFormat, message, at).hint("formats are %s, %d and %f")
-            );
+            let hint = "formats are %s, %d and %f; %% is a percent sign";
+            return Err(Fault::new(Condition::MessageFormat, message, at).hint(hint));
         };
         let Some(expr) = values.next() else {
             let message = format!("no value for %{letter}");
             return Err(Fault::new(missing, message, at));
         };
-        text.push_str(&one(&decoder.value(expr)?, letter, &precision));
+        text.push_str(&form.of(&decoder.value(expr)?, letter));
     }
     if let Some(left) = values.next() {
         let text = "a value without a format in the text";
@@ -134,13 +132,60 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
     Ok(text)
 }
 
-fn one(value: &Value, letter: char, precision: &str) -> String {
-    let digits = precision.split_once('.').and_then(|(_, d)| d.parse().ok()).unwrap_or(6_usize);
-    match (value, letter.to_ascii_lowercase()) {
-        (Value::Text(text), _) => text.to_string(),
-        (Value::Number(x), 'd') => format!("{:.0}", x.round() + 0.0),
-        (Value::Number(x), 'f') => format!("{x:.*}", digits.min(17)),
-        (Value::Number(x), _) => x.to_string(),
+/// Flags, width and precision between `%` and its letter.
+#[derive(Default)]
+struct Form {
+    left: bool,
+    sign: bool,
+    zeros: bool,
+    width: usize,
+    precision: Option<usize>,
+}
+
+impl Form {
+    /// Most characters of a value.
+    const WIDEST: usize = 200;
+
+    /// Takes a character; false for the letter of the format.
+    fn takes(&mut self, c: char) -> bool {
+        let digit = c.to_digit(10).map(|d| d as usize);
+        match (c, digit, &mut self.precision) {
+            ('.', _, None) => self.precision = Some(0),
+            ('-', _, _) => self.left = true,
+            ('+', _, _) => self.sign = true,
+            ('0', _, None) if self.width == 0 => self.zeros = true,
+            (_, Some(d), Some(slot)) => *slot = (10 * *slot + d).min(Self::WIDEST),
+            (_, Some(d), None) => self.width = (10 * self.width + d).min(Self::WIDEST),
+            _ => return false,
+        }
+        true
+    }
+
+    fn of(&self, value: &Value, letter: char) -> String {
+        let text = match (value, letter.to_ascii_lowercase()) {
+            (Value::Text(text), _) => match self.precision {
+                Some(most) => text.chars().take(most).collect(),
+                None => text.to_string(),
+            },
+            (Value::Number(x), 'd') => format!("{:.0}", x.round() + 0.0),
+            (Value::Number(x), 'f') => format!("{x:.*}", self.precision.unwrap_or(6).min(17)),
+            (Value::Number(x), _) => x.to_string(),
+        };
+        let is_number = matches!(value, Value::Number(_));
+        let text = if self.sign && is_number && !text.starts_with('-') {
+            format!("+{text}")
+        } else {
+            text
+        };
+        let missing = self.width.saturating_sub(text.chars().count());
+        if self.left {
+            return text + &" ".repeat(missing);
+        }
+        if self.zeros && is_number {
+            let sign = text.len() - text.trim_start_matches(['+', '-']).len();
+            return format!("{}{}{}", &text[..sign], "0".repeat(missing), &text[sign..]);
+        }
+        " ".repeat(missing) + &text
     }
 }
 

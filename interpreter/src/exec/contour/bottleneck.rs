@@ -8,10 +8,11 @@ use super::compensation::Item;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, intersections, norm, sub};
 use crate::exec::step::SourceRef;
+use rstar::{AABB, RTree, RTreeObject};
 use std::collections::VecDeque;
 
-/// Elements that are compared with a new one.
-const WINDOW: usize = 50;
+/// Elements, the last ones of the contour and of the way each, that are compared with a new one: a limit of the memory.
+const WINDOW: usize = 20_000;
 
 /// How much closer than its radius the tool must come, in mm: the smallest increment of the language.
 const TOLERANCE_MM: f64 = 1e-4;
@@ -29,15 +30,60 @@ struct Part {
     source: SourceRef,
     /// Number of the element of the contour; what compensation inserts after an element has its number.
     number: u64,
+    /// Its own number among all parts.
+    place: u64,
+}
+
+impl RTreeObject for Part {
+    type Envelope = AABB<Point>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners(self.low, self.high)
+    }
+}
+
+/// Two parts are the same.
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.number == other.number && self.place == other.place
+    }
+}
+
+/// The last elements, found by where they are.
+#[derive(Clone, Debug, Default)]
+struct Parts {
+    tree: RTree<Part>,
+    order: VecDeque<Part>,
+}
+
+impl Parts {
+    fn push(&mut self, part: Part) {
+        if self.order.len() >= WINDOW
+            && let Some(oldest) = self.order.pop_front()
+        {
+            self.tree.remove(&oldest);
+        }
+        self.order.push_back(part);
+        self.tree.insert(part);
+    }
+
+    /// The first one of those around a part with which it gives something.
+    fn first<T>(&self, part: &Part, gap: f64, with: impl Fn(&Part) -> Option<T>) -> Option<T> {
+        let around = AABB::from_corners(part.low.map(|x| x - gap), part.high.map(|x| x + gap));
+        let near = self.tree.locate_in_envelope_intersecting(around);
+        let found = near.filter_map(|other| Some((other.number, other.place, with(other)?)));
+        found.min_by_key(|(number, place, _)| (*number, *place)).map(|(.., found)| found)
+    }
 }
 
 /// Contour and tool path of the last elements.
 #[derive(Clone, Debug, Default)]
 pub(in crate::exec) struct Watch {
-    contour: VecDeque<Part>,
-    way: VecDeque<Part>,
-    /// Number of the next element.
+    contour: Parts,
+    way: Parts,
+    /// Number of the next element, and of parts so far.
     next: u64,
+    parts: u64,
 }
 
 /// The tool at one block cuts the contour of another one.
@@ -72,40 +118,38 @@ impl Watch {
     }
 
     fn contour(&mut self, side: Side, source: SourceRef, radius: f64) -> Option<Cut> {
-        let part = Part::new(side, source, self.next);
-        let found = self.way.iter().find_map(|way| cut(way, &part, radius));
-        push(&mut self.contour, part);
+        let part = self.part(side, source);
+        let found = self.way.first(&part, radius, |way| cut(way, &part, radius));
+        self.contour.push(part);
         found
     }
 
     fn way(&mut self, side: Side, source: SourceRef, radius: f64) -> Option<Cut> {
-        let part = Part::new(side, source, self.next);
-        let found = self.contour.iter().find_map(|contour| cut(&part, contour, radius));
-        push(&mut self.way, part);
+        let part = self.part(side, source);
+        let found = self.contour.first(&part, radius, |contour| cut(&part, contour, radius));
+        self.way.push(part);
         found
+    }
+
+    fn part(&mut self, side: Side, source: SourceRef) -> Part {
+        self.parts += 1;
+        Part::new(side, source, (self.next, self.parts))
     }
 }
 
 impl Part {
-    fn new(side: Side, source: SourceRef, number: u64) -> Self {
+    fn new(side: Side, source: SourceRef, (number, place): (u64, u64)) -> Self {
         let (middle, half) = side.middle();
         let (low, high) = side.extent();
         let low = [low[0].max(middle[0] - half), low[1].max(middle[1] - half)];
         let high = [high[0].min(middle[0] + half), high[1].min(middle[1] + half)];
-        Self { side, low, high, middle, half, source, number }
+        Self { side, low, high, middle, half, source, number, place }
     }
 
     /// The boxes are further apart than `gap`.
     fn is_beyond(&self, other: &Self, gap: f64) -> bool {
         (0..2).any(|i| self.low[i] > other.high[i] + gap || other.low[i] > self.high[i] + gap)
     }
-}
-
-fn push(parts: &mut VecDeque<Part>, part: Part) {
-    if parts.len() >= WINDOW {
-        parts.pop_front();
-    }
-    parts.push_back(part);
 }
 
 /// Where the tool on `way` comes closer to `contour` than its radius. Along its own element it has its distance.

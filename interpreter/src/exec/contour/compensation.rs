@@ -256,6 +256,11 @@ impl Compensator {
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
         let plane = motion.plane;
+        // the element as it is programmed: its direction counts, not that of the tool on its way from where it is
+        let programmed = match motion.compensation {
+            Some(_) => moving_side(&motion, plane)?,
+            None => None,
+        };
         if let Some((at, away)) = at {
             let path = &motion.block.path;
             let end = [path.end()[plane[0]], path.end()[plane[1]]];
@@ -274,7 +279,7 @@ impl Compensator {
             out.push(Item::Motion(motion));
             return Ok(());
         };
-        let Some(side) = moving_side(&motion, plane)? else {
+        let Some(side) = programmed else {
             // the approach is still to come
             out.push(Item::Motion(motion));
             return Ok(());
@@ -303,7 +308,7 @@ impl Compensator {
             }
             (start, false)
         } else if let Side::Line { from, .. } = side {
-            (from, true)
+            (at.map_or(from, |(tool, _)| tool), true)
         } else {
             return Err(circular(&motion));
         };

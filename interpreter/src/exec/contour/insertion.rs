@@ -1,8 +1,9 @@
 //! Chamfers and roundings between two motions (G301, G302, `#CHR`, `#CHF`, `#RND`).
 //!
 //! Source: TF5200 programming manual: the size of a chamfer is the distance of its ends from the corner, on an arc
-//! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
-//! transition.
+//! measured as a chord (206615051); a rounding is a tangential arc of the given radius. No rounding is inserted at a tangential
+//! transition (206621707), nor a chamfer where a line continues straight on. Assumption: the ends of a chamfer of a given length
+//! (`#CHF`) are equally far from the corner too, so that it has the same inclination to both elements.
 //!
 //! The feed is that of `#FRC`, else the E word of the motion before (206811147). Assumption: without them it is that of the next
 //! motion, also rapid; the English page names that motion, an older German one the motion before.
@@ -10,11 +11,20 @@
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use std::f64::consts::PI;
+
+/// Part of an element that is nothing but rounding.
+const NEAR: f64 = 1e-9;
+/// Factor between the distances that are looked at in the search for the ends of a chamfer.
+const GROWTH: f64 = 1.02;
+/// Halvings of such a distance: down to rounding.
+const HALVINGS: u32 = 48;
 
 /// Which element is inserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,12 +47,22 @@ pub(in crate::exec) struct Insertion {
     pub(in crate::exec) source: SourceRef,
 }
 
+/// An element that is inserted.
+pub(in crate::exec) struct Inserted {
+    pub(in crate::exec) motion: Box<Motion>,
+    /// Something is left of the motion before it, and of the one after it.
+    pub(in crate::exec) leaves: [bool; 2],
+}
+
 /// The element between two motions, which are cut; `None` at a tangential transition.
+///
+/// It belongs to the contour of the motion before it: tool radius compensation that ends, begins or changes with the motion after it
+/// does so there.
 pub(in crate::exec) fn between(
     before: &mut Motion,
     after: &mut Motion,
     insertion: &Insertion,
-) -> Outcome<Option<Box<Motion>>> {
+) -> Outcome<Option<Inserted>> {
     let span = insertion.span;
     let plane = before.plane;
     if before.tilt != after.tilt {
@@ -56,7 +76,8 @@ pub(in crate::exec) fn between(
     };
     let (u, w) = (a.tangent(true), b.tangent(false));
     let turn = cross(u, w);
-    if turn.abs() < 1e-9 && dot(u, w) > 0.0 {
+    let lines = matches!((&a, &b), (Side::Line { .. }, Side::Line { .. }));
+    if turn.abs() < 1e-9 && dot(u, w) > 0.0 && (lines || insertion.kind == Kind::Rounding) {
         return Ok(None);
     }
     let reversal = || {
@@ -67,17 +88,12 @@ pub(in crate::exec) fn between(
         Fault::new(Condition::Range, text, span)
     };
     let (p, q, centre) = match insertion.kind {
-        Kind::Chamfer | Kind::ChamferLength => {
-            let d = match insertion.kind {
-                // distance from the corner of an isosceles triangle with this base
-                Kind::ChamferLength => {
-                    let half_angle = 0.5 * libm::acos((-dot(u, w)).clamp(-1.0, 1.0));
-                    insertion.size_mm / (2.0 * libm::sin(half_angle))
-                }
-                _ => insertion.size_mm,
-            };
-            let p = a.at_distance(d, true).ok_or_else(reversal)?;
-            let q = b.at_distance(d, false).ok_or_else(reversal)?;
+        Kind::Chamfer => {
+            let (p, q) = ends_at(&a, &b, insertion.size_mm).ok_or_else(reversal)?;
+            (p, q, None)
+        }
+        Kind::ChamferLength => {
+            let (p, q) = ends_apart(&a, &b, insertion.size_mm).ok_or_else(reversal)?;
             (p, q, None)
         }
         Kind::Rounding => {
@@ -92,6 +108,7 @@ pub(in crate::exec) fn between(
         v
     };
     let feed_axes = after.block.dynamics.feed_axes.clone();
+    let ends = [p, q];
     let (p, q) = (point(p), point(q));
     let element = match centre {
         None => LinePath::new(p.clone(), q.clone(), &feed_axes).map(Path::Line),
@@ -105,22 +122,67 @@ pub(in crate::exec) fn between(
         Some(_) => before.feed_behind(),
         None => after.feed_beside(),
     };
-    let cut_before = cut(&before.block.path, None, Some(&p), &feed_axes);
-    let cut_after = cut(&after.block.path, Some(&q), None, &feed_axes);
-    let (Some(element), Some(cut_before), Some(cut_after)) = (element, cut_before, cut_after)
-    else {
-        return Err(reversal());
-    };
-    before.block.path = cut_before;
-    after.block.path = cut_after;
+    let Some(element) = element else { return Err(reversal()) };
+    let others = [a.start_point(), b.end_point()];
+    let leaves = [0, 1].map(|i| norm(sub(ends[i], others[i])) > NEAR * insertion.size_mm);
+    if leaves[0] {
+        let rest = cut(&before.block.path, None, Some(&p), &feed_axes);
+        before.block.path = rest.ok_or_else(reversal)?;
+    }
     let mut inserted = after.clone();
+    if leaves[1] {
+        let rest = cut(&after.block.path, Some(&q), None, &feed_axes);
+        after.block.path = rest.ok_or_else(reversal)?;
+    }
     inserted.block.path = element;
+    inserted.compensation.clone_from(&before.compensation);
     inserted.course = None;
     // E belongs to the end of its own block
     inserted.block.end_velocity_mm_s = None;
     inserted.events = std::mem::take(&mut after.events);
     inserted.block.feed = insertion.feed.unwrap_or(feed);
-    Ok(Some(Box::new(inserted)))
+    Ok(Some(Inserted { motion: Box::new(inserted), leaves }))
+}
+
+/// Ends of a chamfer at a distance from the corner, on an arc as a chord.
+fn ends_at(a: &Side, b: &Side, distance: f64) -> Option<(Point, Point)> {
+    Some((end_at(a, distance, true)?, end_at(b, distance, false)?))
+}
+
+/// The point at a distance (chord) from the end or beginning of an element; its other end where nothing is left of it.
+fn end_at(side: &Side, distance: f64, from_end: bool) -> Option<Point> {
+    let (start, end) = (side.start_point(), side.end_point());
+    let whole = norm(sub(end, start));
+    let is_whole = match side {
+        Side::Line { .. } => true,
+        Side::Arc { sweep_rad, .. } => sweep_rad.abs() <= PI,
+    };
+    if is_whole && (distance - whole).abs() <= NEAR * whole {
+        return Some(if from_end { start } else { end });
+    }
+    side.at_distance(distance, from_end)
+}
+
+/// Ends of a chamfer of a length, equally far from the corner: the nearest ones.
+fn ends_apart(a: &Side, b: &Side, length: f64) -> Option<(Point, Point)> {
+    let apart = |(p, q): (Point, Point)| norm(sub(p, q));
+    // the two distances and the chamfer are a triangle
+    let mut low = 0.5 * length;
+    if apart(ends_at(a, b, low)?) >= length {
+        return ends_at(a, b, low);
+    }
+    let mut high = loop {
+        let next = low * GROWTH;
+        if apart(ends_at(a, b, next)?) >= length {
+            break next;
+        }
+        low = next;
+    };
+    for _ in 0..HALVINGS {
+        let mid = 0.5 * (low + high);
+        if apart(ends_at(a, b, mid)?) >= length { high = mid } else { low = mid }
+    }
+    ends_at(a, b, high)
 }
 
 /// Contact points and centre of the arc of radius `r` that touches both sides.
@@ -133,7 +195,7 @@ fn tangent_arc(a: &Side, b: &Side, turn: f64, r: f64) -> Option<([f64; 2], [f64;
             [centre[0] + radius * libm::cos(at), centre[1] + radius * libm::sin(at)]
         }
     };
-    let on = |share: f64| share > 0.0 && share < 1.0;
+    let on = |share: f64| (-NEAR..=1.0 + NEAR).contains(&share);
     intersections(&a.parallel(d), &b.parallel(d))
         .into_iter()
         .map(|c| (a.foot(c), b.foot(c), c))

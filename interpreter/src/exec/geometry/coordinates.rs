@@ -233,6 +233,13 @@ impl Coordinates {
         self.recompute_program();
     }
 
+    /// An axis goes to a position of its own: neither offsets nor systems act on it (independent axes, 208612235).
+    pub(in crate::exec) fn place(&mut self, axis: usize, position_mm: f64) {
+        (self.word[axis], self.target[axis]) = (position_mm, position_mm);
+        self.applied[axis] = self.active_offset(axis);
+        self.recompute_program();
+    }
+
     /// Programmed position of the main axes, 0 for one that is missing.
     pub(in crate::exec) fn programmed_point(&self) -> [f64; 3] {
         std::array::from_fn(|m| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis)))
@@ -266,7 +273,6 @@ impl Coordinates {
         self.frame_changed();
     }
 
-    /// Active coordinate systems.
     /// Contour rotation about a centre; coordinates that are not given are the present ones.
     pub(in crate::exec) fn rotate_about(
         &mut self,

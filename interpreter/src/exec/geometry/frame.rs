@@ -17,6 +17,11 @@ impl Frame {
         *self == Self::IDENTITY
     }
 
+    /// It shifts, and neither turns nor mirrors.
+    pub(in crate::exec) fn only_shifts(&self) -> bool {
+        self.m == Self::IDENTITY.m
+    }
+
     pub(in crate::exec) fn apply(&self, p: [f64; 3]) -> [f64; 3] {
         let d = self.direction(p);
         [d[0] + self.t[0], d[1] + self.t[1], d[2] + self.t[2]]

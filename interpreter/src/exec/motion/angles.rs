@@ -31,6 +31,14 @@ pub(super) enum ContourLine {
 }
 
 impl Decoder {
+    /// 21904 for a contour line that still waits for its second one when the program ends.
+    pub(in crate::exec) fn contour_line_ends(&mut self) {
+        if let Some((_, span, source)) = self.motion.contour_line.open.take() {
+            let text = "no line with #ANG and the end of both follows the contour line";
+            self.report.note(Fault::new(Condition::ContourLineOpen, text, span).in_block(source));
+        }
+    }
+
     /// What `#ANG` makes of the block in work.
     pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");

@@ -219,7 +219,7 @@ impl Decoder {
                     }),
                 )
             }
-            None => self.motion.spindles[0].rpm.abs(),
+            None => self.motion.spindles[0].rpm.abs().min(self.most_rpm(0)),
         }
     }
 }

@@ -25,7 +25,7 @@ impl Decoder {
         } else if let Some((_, value, span)) = of_axis {
             (*value, *span)
         } else if let Some((spindle, turns, span)) = revolutions {
-            let rpm = self.motion.spindles[*spindle].overridden_rpm();
+            let rpm = self.motion.spindles[*spindle].overridden_rpm().min(self.most_rpm(*spindle));
             if rpm == 0.0 {
                 let text = "G04 S: the spindle has no speed";
                 return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));

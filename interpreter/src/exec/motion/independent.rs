@@ -11,7 +11,6 @@ use crate::diag::Condition;
 use crate::exec::block::collected::Words as BlockWords;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::block::SlopeKind;
@@ -96,10 +95,7 @@ impl Decoder {
         let relative = words.relative.unwrap_or(!self.modal.absolute);
         let way = position * self.axis_unit(axis) * self.geometry.scale.factor(axis);
         let target = if relative { start[axis] + way } else { way };
-        // the offsets of the program do not act on independent axes
-        self.geometry
-            .coordinates
-            .program_without(&OffsetKind::ALL, &[Target { axis, value: target, absolute: true }]);
+        self.geometry.coordinates.place(axis, target);
         self.check_limit(axis, target, at);
         if let IndependentSpeed::Time(time_s) = speed {
             let least_s = (target - start[axis]).abs()

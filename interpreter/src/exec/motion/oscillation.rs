@@ -13,7 +13,6 @@ use crate::exec::commands::keys::arguments;
 use crate::exec::commands::range::{above_zero, at_least, between};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::step::{Event, OscillatingMotion, Sync};
 use crate::syntax::ast::{Group, Item, Span};
 use kontur_motion::independent::{IndependentMove, IndependentSpeed};
@@ -145,8 +144,7 @@ impl Decoder {
         self.check_limit(axis, reversal_mm[0], at);
         self.check_limit(axis, reversal_mm[1], second_at);
         let from_mm = self.geometry.coordinates.target()[axis];
-        let target = Target { axis, value: reversal_mm[1], absolute: true };
-        self.geometry.coordinates.program_without(&OffsetKind::ALL, &[target]);
+        self.geometry.coordinates.place(axis, reversal_mm[1]);
         self.motion.independent.way[axis] += reversal_mm[1] - from_mm;
         let rest = |key: Option<(f64, Span)>| key.map_or(0.0, |(s, _)| s);
         let motion = OscillatingMotion {

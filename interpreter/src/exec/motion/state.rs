@@ -40,6 +40,8 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) weights: Weights,
     /// Members of the feed group (`#FGROUP`).
     pub(in crate::exec) feed_axes: Vec<bool>,
+    /// They are those of `#FGROUP [..]`.
+    pub(in crate::exec) feed_axes_named: bool,
     /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
     pub(in crate::exec) vector: [VectorLimits; 2],
     /// Dynamics in feed and in rapid blocks; the same while the limits are.
@@ -73,6 +75,7 @@ impl MotionState {
         Self {
             weights: Weights::new(n),
             feed_axes: machine.channel.feed_axes.clone(),
+            feed_axes_named: false,
             vector: [VectorLimits::default(); 2],
             dynamics: [None, None],
             overrides: Overrides::new(n),

@@ -7,11 +7,14 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::geometry::modulo;
 use crate::exec::values::number::LARGEST_MM;
-use crate::syntax::ast::{Group, ItemKind};
+use crate::syntax::ast::{Group, ItemKind, Sign};
 use kontur_motion::axis::AxisVec;
 
 /// Targets of one block.
 type Targets = smallvec::SmallVec<[Target; 8]>;
+
+/// Part of a direction that is rounding.
+const STRAIGHT: f64 = 1e-12;
 
 impl Decoder {
     /// Puts the coordinate words into the target; returns where the axes were.
@@ -40,6 +43,8 @@ impl Decoder {
             targets = joined(targets);
         }
         targets.extend(self.motion.contour_line.targets.drain(..));
+        self.turns_go_forward(&targets, words)?;
+        self.turns_within_the_channel(&targets, words)?;
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         let suppressed = match suppressed {
             Some((hash, _, at)) => {
@@ -63,7 +68,11 @@ impl Decoder {
                     }
                     None => self.geometry.coordinates.active_offset(target.axis),
                 };
-                target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
+                // the way is one of the coordinate: a mirrored axis turns the other way
+                let bare = start[target.axis] - offset;
+                let mirrored = self.geometry.coordinates.mirrored(target.axis);
+                let from = if mirrored { -bare } else { bare };
+                target.value = modulo::unwrapped(target.value, turn, from);
             }
         }
         match suppressed {
@@ -85,6 +94,52 @@ impl Decoder {
 }
 
 impl Decoder {
+    /// 20958: the first sign of a relative word of a modulo axis is the direction of its way, which has no sign of its own.
+    ///
+    /// Source: TF5200 diagnosis 253095819; modulo programming in relative coordinates (tccncprogramming 15557270155).
+    fn turns_go_forward(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
+        if self.machine.channel.shortest_way {
+            return Ok(());
+        }
+        for (axis, sign) in &words.turns {
+            let is_own = |t: &&Target| t.axis == *axis && !t.absolute;
+            let (Some(target), Ok(sign)) = (targets.iter().find(is_own), sign) else { continue };
+            let back = match sign {
+                Sign::Plus => target.value < 0.0,
+                Sign::Minus => target.value > 0.0,
+            };
+            if back {
+                let text =
+                    format!("{}: a negative way after its direction", self.names.name(*axis));
+                let at = words.axes.iter().find(|(a, _, _)| a == axis).map(|(_, _, at)| *at);
+                return Err(Fault::new(Condition::WayAfterDirection, text, at.unwrap_or_default()));
+            }
+        }
+        Ok(())
+    }
+
+    /// 20200: a turned system leads along a main axis that is not in the channel.
+    fn turns_within_the_channel(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
+        let coordinates = &self.geometry.coordinates;
+        let frame = coordinates.frame();
+        if frame.is_identity() {
+            return Ok(());
+        }
+        for (target, (axis, _, at)) in targets.iter().zip(&words.axes) {
+            let Some(main) = coordinates.main_index(target.axis) else { continue };
+            let lost = (0..3)
+                .any(|i| coordinates.main_axis(i).is_none() && frame.m[i][main].abs() > STRAIGHT);
+            if lost {
+                let name = self.names.name(*axis);
+                let text = format!(
+                    "{name} leads along a main axis that is not in the channel: the system is turned"
+                );
+                return Err(Fault::new(Condition::AxisOrCommandExpected, text, *at));
+            }
+        }
+        Ok(())
+    }
+
     /// Diameters are neither negative nor mirrored.
     ///
     /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.

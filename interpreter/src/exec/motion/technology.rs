@@ -11,14 +11,9 @@ use crate::machine::{Acknowledged, Channel, SpindleMoment};
 impl Decoder {
     /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
     pub(in crate::exec) fn takes_time(&mut self, function: Function) {
-        let channel = &self.machine.channel;
         // Assumption: what the list says nothing about is waited for before the motion
-        let until = match function {
-            Function::M(number) => channel.m_waits.get(&number).copied(),
-            Function::H(number) => channel.h_waits.get(&number).copied(),
-            Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => None,
-        };
-        let until = until.unwrap_or(Acknowledged::BeforeMotion);
+        let listed = acknowledged(&self.machine.channel, function);
+        let until = listed.unwrap_or(Acknowledged::BeforeMotion);
         if until == Acknowledged::Never {
             return;
         }
@@ -66,14 +61,6 @@ impl Decoder {
 
     /// The path waits for the functions called since the last wait, before or after the motion of the block.
     pub(in crate::exec) fn technology_wait(&mut self, now: SpindleMoment) {
-        let spindles = std::mem::take(&mut self.technology.spindles);
-        for (spindle, moment) in spindles {
-            if moment == now || now == SpindleMoment::AfterMotion {
-                self.sync(Sync::Spindle { spindle, state: SpindleState::Reached });
-            } else {
-                self.technology.spindles.push((spindle, moment));
-            }
-        }
         // Assumption: the functions of a block go to the machine together, so the longest decides
         let mut seconds = 0.0_f64;
         let pending = std::mem::take(&mut self.technology.pending);
@@ -94,21 +81,41 @@ impl Decoder {
         if seconds > 0.0 {
             self.sync(Sync::Technology { seconds });
         }
+        // spindles turn in the meantime: the later of the two decides (M and H functions 286068747)
+        let spindles = std::mem::take(&mut self.technology.spindles);
+        for (spindle, moment) in spindles {
+            if moment == now || now == SpindleMoment::AfterMotion {
+                self.sync(Sync::Spindle { spindle, state: SpindleState::Reached });
+            } else {
+                self.technology.spindles.push((spindle, moment));
+            }
+        }
+    }
+}
+
+/// What the list says of a function; `None` where it says nothing.
+fn acknowledged(channel: &Channel, function: Function) -> Option<Acknowledged> {
+    let listed = |spindle: usize| channel.spindle_waits.get(spindle).copied().unwrap_or_default();
+    match function {
+        Function::M(number) => channel.m_waits.get(&number).copied(),
+        Function::H(number) => channel.h_waits.get(&number).copied(),
+        Function::Spindle { spindle, m } => listed(spindle).of_m(m),
+        Function::Speed { spindle } => listed(spindle).speed,
+        Function::Tool => None,
     }
 }
 
 /// The spindle that the path waits for after a function, and when.
 fn waited_for(channel: &Channel, function: Function) -> Option<(usize, SpindleMoment)> {
-    let listed = |spindle: usize| channel.spindle_waits.get(spindle).copied().unwrap_or_default();
-    let (spindle, moment) = match function {
-        Function::Spindle { spindle, m: 3 } => (spindle, listed(spindle).m3),
-        Function::Spindle { spindle, m: 4 } => (spindle, listed(spindle).m4),
-        Function::Spindle { spindle, m: 5 } => (spindle, listed(spindle).m5),
-        Function::Spindle { spindle, .. } => (spindle, listed(spindle).m19),
-        Function::Speed { spindle } => (spindle, listed(spindle).speed),
-        Function::M(_) | Function::H(_) | Function::Tool => return None,
+    let (Function::Spindle { spindle, .. } | Function::Speed { spindle }) = function else {
+        return None;
     };
-    Some((spindle, moment?))
+    let moment = match acknowledged(channel, function)? {
+        Acknowledged::Never => return None,
+        Acknowledged::BeforeMotion => SpindleMoment::BeforeMotion,
+        Acknowledged::DuringMotion | Acknowledged::AfterMotion => SpindleMoment::AfterMotion,
+    };
+    Some((spindle, moment))
 }
 
 /// Duration in s above 0 and where it is declared.

@@ -30,6 +30,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{LinePath, Path};
+use kontur_motion::queue::Queued;
 use std::sync::Arc;
 
 /// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is none.
@@ -38,6 +39,8 @@ const PITCH_MM: (f64, f64) = (1e-4, 1e4);
 /// Highest speed in rev/min.
 const SPEED_MAX: f64 = 1e6;
 
+/// Part of the speed of a thread that has to be reached: but for rounding all of it.
+const SHORT: f64 = 1.0 - 1e-6;
 /// Cosine of the largest bend of a thread of several blocks.
 const STRAIGHT: f64 = 1.0 - 1e-9;
 
@@ -133,6 +136,22 @@ impl Decoder {
         }
     }
 
+    /// K-0132 for a thread from rest to rest that is over before the path has the speed of its pitch.
+    fn thread_is_long_enough(&mut self, block: &Block, feed_mm_s: f64, span: Span) {
+        let queued = Queued::new(block.clone(), self.machine.cycle);
+        let profile = queued.slope.plan(0.0, 0.0, feed_mm_s, queued.length);
+        let Some(reached) = profile.ok().map(|p| p.peak()).filter(|v| *v < feed_mm_s * SHORT)
+        else {
+            return;
+        };
+        let needed =
+            queued.slope.up_distance(0.0, feed_mm_s) + queued.slope.down_distance(feed_mm_s, 0.0);
+        let text = format!(
+            "the thread is too short for its pitch: the path reaches {reached:.3} of {feed_mm_s:.3} mm/s, starting and stopping take {needed:.3} mm"
+        );
+        self.report.note(Fault::new(Condition::ThreadBroken, text, span));
+    }
+
     /// What cannot be combined with threads.
     fn thread_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         if self.modal.compensation != Compensation::Off {
@@ -141,7 +160,7 @@ impl Decoder {
         if self.contour.akima.selected {
             return Err(Fault::unsupported("a thread in a spline", span));
         }
-        if !self.geometry.coordinates.frame().is_identity() {
+        if !self.geometry.coordinates.frame().only_shifts() {
             return Err(Fault::unsupported("a thread in a turned or mirrored system", span));
         }
         if self.motion.spindles[0].index.is_none() {
@@ -210,8 +229,7 @@ impl Decoder {
             let text = "G33 while the spindle is at rest: it has a speed, M03 or M04 is missing";
             return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
         }
-        let most_deg_s = self.machine.spindles[index].dynamics().v_max_mm_s;
-        let rev_s = (spindle.rpm.abs() * 6.0).min(most_deg_s) / 360.0;
+        let rev_s = spindle.rpm.abs().min(self.most_rpm(0)) / 60.0;
         let way = (path.end()[axis] - path.start()[axis]).abs();
         let feed_mm_s = pitch_mm * rev_s * path.length() / way;
         let dynamics = self.motion.dynamics(&self.machine, &self.modal, false);
@@ -237,6 +255,9 @@ impl Decoder {
                 speeds.highest()
             );
             return Err(Fault::new(Condition::ThreadSpeed, text, span));
+        }
+        if !modes.chain {
+            self.thread_is_long_enough(&block, feed_mm_s, span);
         }
         let plane = self.in_plane(span)?;
         if self.report.failed() && !self.checking {

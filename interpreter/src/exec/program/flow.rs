@@ -30,13 +30,7 @@ impl Executor {
                 Ok(())
             }
             ControlKind::If { condition, goto: None } => self.if_block(condition, id, span),
-            ControlKind::ElseIf(_) | ControlKind::Else => {
-                // a stray one has been reported
-                if self.levels.last().is_some_and(|l| l.index.entry(id).open.is_some()) {
-                    self.leave_structure(id);
-                }
-                Ok(())
-            }
+            ControlKind::ElseIf(_) | ControlKind::Else => self.skip_clauses(id, span),
             ControlKind::EndIf | ControlKind::EndSwitch => {
                 self.pop_frame_of(id);
                 Ok(())
@@ -135,7 +129,8 @@ impl Executor {
             (false, _) => Condition::OpenIfGlobal,
         };
         let text = format!("{} without {closer}", keyword.text());
-        Fault::new(condition, text, span).with(|d| {
+        let hint = format!("write {closer} before the end of its program or subroutine");
+        Fault::new(condition, text, span).hint(hint).with(|d| {
             d.value(ValueKind::Current, 1.0, "-")
                 .value(ValueKind::State, keyword.text(), "-")
                 .value(ValueKind::Expected, closer, "-")
@@ -193,7 +188,25 @@ impl Executor {
         }
     }
 
-    /// The taken branch ends: execution continues after the structure.
+    /// The taken branch ends at another clause: execution continues after the structure.
+    fn skip_clauses(&mut self, clause: EntryId, span: Span) -> Outcome<()> {
+        let Some(level) = self.levels.last() else { return Ok(()) };
+        let entry = level.index.entry(clause);
+        match (entry.open, entry.end) {
+            // a stray one has been reported
+            (None, _) => Ok(()),
+            (Some(open), None) => {
+                self.pop_frame_of(clause);
+                Err(self.unclosed(open, span))
+            }
+            (Some(_), Some(_)) => {
+                self.leave_structure(clause);
+                Ok(())
+            }
+        }
+    }
+
+    /// Execution continues after the structure.
     fn leave_structure(&mut self, id: EntryId) {
         let Some(level) = self.levels.last() else { return };
         let end = level.index.entry(id).end;

@@ -109,6 +109,7 @@ impl Executor {
         self.contouring_at_end();
         self.area_at_end();
         self.decoder.banding_ends();
+        self.decoder.contour_line_ends();
         self.end(EndReason::Finished);
     }
 

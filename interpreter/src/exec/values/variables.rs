@@ -52,6 +52,19 @@ fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
     ))
 }
 
+/// Number of a parameter `@P`.
+fn number_of(name: &str) -> Option<u32> {
+    name.strip_prefix(['P', 'p']).and_then(|rest| rest.parse().ok())
+}
+
+/// What to do about a parameter that a cycle was not given.
+fn pass_it(name: &str) -> String {
+    match number_of(name) {
+        Some(number) => format!("pass it, or test V.G.@P[{number}].VALID first"),
+        None => format!("pass it in the call: L CYCLE [NAME=.. @{name}=..]"),
+    }
+}
+
 impl Variables {
     /// Value of `@name`; `creates`: reading a `@P` that was not passed creates it (P-CHAN-00463).
     ///
@@ -63,8 +76,7 @@ impl Variables {
         if let Some(value) = scope.passed.get(name) {
             return Ok(value.clone());
         }
-        let hint = format!("test V.G.@{name}.VALID first");
-        let numbered = name.strip_prefix(['P', 'p']).and_then(|rest| rest.parse::<u32>().ok());
+        let numbered = number_of(name);
         match numbered {
             Some(_) if creates => {
                 self.created.borrow_mut().push((name.into(), span));
@@ -73,10 +85,10 @@ impl Variables {
             Some(number) => {
                 let text = format!("@{name} was not passed to the cycle");
                 Err(Fault::new(Condition::CycleParameterMissing, text, span)
-                    .hint(hint)
+                    .hint(pass_it(name))
                     .with(|d| d.value(ValueKind::Wrong, number, "-")))
             }
-            None => Err(undefined(&format!("@{name}"), span).hint(hint)),
+            None => Err(undefined(&format!("@{name}"), span).hint(pass_it(name))),
         }
     }
 
@@ -108,7 +120,7 @@ impl Decoder {
             let text = format!("@{name} was not passed to the cycle: reading it creates it with 0");
             let fault = Fault::new(Condition::Odd, text, span)
                 .warning()
-                .hint(format!("pass it, or test V.G.@{name}.VALID first"))
+                .hint(pass_it(&name))
                 .with(|d| d.parameter("P-CHAN-00463"));
             self.report.note_once(&format!("@{name}"), fault);
         }

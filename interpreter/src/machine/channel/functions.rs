@@ -4,14 +4,12 @@ use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Optional, Param, whole};
 
-/// When the path waits for a spindle that got a command.
-///
-/// Source: TF5200 M and H functions 286059787; P-CHAN-00041.
+/// A side of the motion of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpindleMoment {
-    /// MVS_SVS: before the motion of the block.
+    /// Before it.
     BeforeMotion,
-    /// MVS_SNS, MNS_SNS: after it.
+    /// After it.
     AfterMotion,
 }
 
@@ -48,30 +46,31 @@ impl Acknowledged {
     }
 }
 
-/// For which functions of a spindle the path waits, until its speed, rest or position is reached.
+/// When the functions of a spindle act and whether the path waits for them, until speed, rest or position is reached; `None` where
+/// the list says nothing.
+///
+/// Source: TF5200 channel parameters, spindle synchronisation (149163787, 287516299); M and H functions 286059787.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SpindleWaits {
     /// M03 (P-CHAN-00045).
-    pub m3: Option<SpindleMoment>,
+    pub m3: Option<Acknowledged>,
     /// M04 (P-CHAN-00047).
-    pub m4: Option<SpindleMoment>,
+    pub m4: Option<Acknowledged>,
     /// M05 (P-CHAN-00049).
-    pub m5: Option<SpindleMoment>,
+    pub m5: Option<Acknowledged>,
     /// M19 (P-CHAN-00043).
-    pub m19: Option<SpindleMoment>,
+    pub m19: Option<Acknowledged>,
     /// S word (P-CHAN-00081).
-    pub speed: Option<SpindleMoment>,
+    pub speed: Option<Acknowledged>,
 }
 
 impl SpindleWaits {
     pub(super) fn of(parameters: &Parameters, spindle: u32) -> Self {
         let moment = |array: Param<Optional>| {
             let bits = parameters.get(array.at(spindle)).and_then(whole)?;
-            if bits & of::BEFORE_MOTION != 0 {
-                return Some(SpindleMoment::BeforeMotion);
-            }
-            (bits & (of::DURING_MOTION | of::BEHIND_MOTION) != 0)
-                .then_some(SpindleMoment::AfterMotion)
+            let known = of::BEFORE_MOTION | of::DURING_MOTION | of::BEHIND_MOTION;
+            // kinds whose place the simulation does not know are not waited for
+            Some(Acknowledged::of(bits & known))
         };
         Self {
             m3: moment(of::SPINDLE_M3_SYNCHRONISATION),
@@ -79,6 +78,18 @@ impl SpindleWaits {
             m5: moment(of::SPINDLE_M5_SYNCHRONISATION),
             m19: moment(of::SPINDLE_M19_SYNCHRONISATION),
             speed: moment(of::SPINDLE_SPEED_SYNCHRONISATION),
+        }
+    }
+}
+
+impl SpindleWaits {
+    /// What the list says of an M function.
+    pub(crate) fn of_m(self, number: u32) -> Option<Acknowledged> {
+        match number {
+            3 => self.m3,
+            4 => self.m4,
+            5 => self.m5,
+            _ => self.m19,
         }
     }
 }

@@ -60,7 +60,7 @@ parameters! {
     chan("P-CHAN-00007", "spindel[i].bezeichnung", Raw::Text, "spindle name"), as SPINDLE_NAME: Text;
     chan("P-CHAN-00009", "corr_v_trans_jerk", Raw::Boolean, "limit the jerk at tangential transitions")
         .default(0.0), as LIMIT_TANGENTIAL_JERK: Switch;
-    chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given = the first three main axes")
+    chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given: the main axes")
         .default(0.0), as FEED_AXIS: Switch;
     chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance after the corner; read and ignored");
     chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
@@ -93,15 +93,15 @@ parameters! {
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
+    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
+    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M4_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
+    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for; without it M5 acts after the motion")
         .source("TF5200 channel parameters"), as SPINDLE_M5_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
+    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M19_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word goes to the PLC and is acknowledged: MVS_SVS before the motion, MVS_SNS and MNS_SNS after it, when the spindle is as it should be; others at once here")
+    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_SPEED_SYNCHRONISATION: Optional;
     chan("P-CHAN-00070", "m_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which M function i goes out early; read and ignored, it changes no motion")
         .default(0.0).source("TF5200 channel parameters");
@@ -127,7 +127,7 @@ parameters! {
         .source("TF5200 channel parameters"), as MACRO_CODE: Text;
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
-    chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what the override multiplies")
+    chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what a real-time override multiplies: 0 the velocity that feed, axes and curves allow, 1 the programmed feed, 2 as 0, but as 1 under a velocity of #VECTOR LIMIT; speeds at corners of the path remain as they are; #OVERRIDE multiplies the programmed feed")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as OVERRIDE_MODE: Whole;
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start")
         .default(0.0), as KEEP_P_PARAMETERS: Switch;
@@ -147,7 +147,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as FEED: Number;
     chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "unit of the F word: 100 mm/min, 0.1 m/min; -1 is 100 too, any other value warns and becomes 100")
         .range(Bound::At(0.1), Bound::At(100.0)).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default), as FEED_UNIT: Number;
-    chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials")
+    chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials: 0 none, 1 by tr_geom (P-AXIS-00199), 2 by the longest ramp time of the slope (P-AXIS-00195 to 00198), 3 as 1 here")
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
@@ -161,7 +161,7 @@ parameters! {
     chan("P-CHAN-00119", "start_init_prog_file", Raw::Text, "global subroutine called at program start"), as START_PROGRAM: Text;
     chan("P-CHAN-00136", "", Raw::Uns32, "secant error of HSC segmentation (with 00138)")
         .default(50.0).unit("0.1um", "0.1um");
-    chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "parameter speed of polynomials in the jerk check")
+    chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "how the jerk check takes the speed of the polynomial parameter; jerk is checked as with 1 here")
         .range(Bound::At(0.0), Bound::At(2.0)).default(1.0);
     chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with warning instead of error at setpoint limits")
         .default(0.0), as LIMIT_WARNINGS: Whole;
@@ -184,10 +184,10 @@ parameters! {
         .default(0.0), as CYCLE_CHANGES_STAY: Switch;
     chan("P-CHAN-00235", "exact_stop_after_g00", Raw::Boolean, "implicit G60 after G00")
         .default(0.0), as EXACT_STOP_AFTER_G00: Switch;
-    chan("P-CHAN-00245", "trans_limit_with_curvature", Raw::Uns32, "extra limit between lines from estimated curvature")
+    chan("P-CHAN-00245", "trans_limit_with_curvature", Raw::Uns32, "extra limit between lines from the curvature estimated there: 0 none, 1 by the acceleration, 2 by the acceleration and tr_geom, 3 as 1, but the same in every direction")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as CURVATURE_ESTIMATE: Whole;
     chan("P-CHAN-00252", "final_prog_file", Raw::Text, "subroutine at program end"), as END_PROGRAM: Text;
-    chan("P-CHAN-00259", "opt_contour_mode", Raw::Uns32, "smoother curvature at arcs in DEV contouring")
+    chan("P-CHAN-00259", "opt_contour_mode", Raw::Uns32, "smoother curvature at arcs in DEV contouring; arcs are rounded as with 0 here")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0);
     chan("P-CHAN-00261", "multi_path_configuration", Raw::Boolean, "1: two paths in one block, separated by a colon; not simulated")
         .default(0.0).source("TF5263 extended interpolation 1097158155");

@@ -77,9 +77,9 @@ macro_rules! commands {
     TextCount = Vendor 21472: Error ProgramAbort 3 1, "count of characters out of range", cause "LEFT[\"Hello\", 100000]", hint "write a count from 0 to the length of a text";
     JumpIntoLoop = Vendor 21480: Error ProgramAbort 3 1, "jump into a loop", hint "jumps lead out of loops and within them; put the label before the loop";
     CoupledAxisAlone = Vendor 21481: Error ProgramAbort 3 1, "coupled axis as an independent axis", cause "X[INDP_ASYN ..] after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
-    OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
-    OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write $ENDIF before the end of the program";
-    OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
+    OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
+    OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write the closing statement before the end of the program";
+    OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
     DirectWithCompensation = Vendor 21525: Error ProgramAbort 3 1, "#PTP with active tool radius compensation", hint "switch the compensation off with G40 first";
     TimerTwice = Vendor 21537: Error ProgramAbort 3 1, "word twice in #TIMER", cause "#TIMER START STOP, #TIMER START [ID=1 ID=2]", hint "one of START, STOP, READ and CLEAR, and one ID";
     ThreadOffsetTwice = Vendor 21540: Error ProgramAbort 3 1, "offset angle of a thread twice in one block", hint "leave one of the two out";

@@ -79,7 +79,7 @@ macro_rules! own {
     Fallback = Kontur 111 "K-FALLBACK": Warning None 1 1, "function replaced by a simpler one", cause "the message says which", hint "the message states what the path does instead";
     UnequalKernels = Kontur 112 "K-ASYNCHRONOUS": Warning None 1 1, "axes of one group are shaped with different delays", cause "settings of filters or Vibration Guard differ", hint "give all axes of the path the same settings";
     NoTool = Kontur 114 "K-NO-TOOL": Warning None 1 1, "tool data missing", cause "D without data: length and radius are 0", hint "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
-    Compensation = Kontur 115 "K-COMPENSATION": Error ProgramAbort 3 1, "tool radius compensation not possible", cause "contour too tight for the tool, or a word that does not go with it", hint "use a smaller tool, or open the contour";
+    Compensation = Kontur 115 "K-COMPENSATION": Error ProgramAbort 3 1, "tool radius compensation not possible", cause "contour too tight for the tool, or a word that does not go with it", hint "use a smaller tool, or open the contour; corners are cut between neighbouring blocks, so a block at an inside corner must be longer than what the corner takes from it";
     TooMany = Kontur 116 "K-TOO-MANY": Note None 1 1, "more errors than are reported";
     ArcCentre = Kontur 117 "K-ARC-CENTRE": Error ProgramAbort 3 1, "start, end and centre of an arc do not fit", cause "G165; P-CHAN-00059, P-CHAN-00060", hint "G161 makes I, J, K absolute, G162 relative to the start point", parameter "P-CHAN-00059";
     Unreached = Kontur 118 "K-UNREACHED": Warning None 3 1, "syntax error in a part of the program that does not run", cause "branch not taken, block jumped over, subroutine not called";

@@ -5,7 +5,7 @@ macro_rules! words {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     ListIndexRange = Vendor 1030: Error JobAbort 7 2, "index in the start-up list beyond its array", cause "achs_mds[230]", hint "axis lists have the indices 0 to 31 here, channel lists 0 to 11";
-    AxisMissing = Vendor 20003: Warning None 1 1, "G function needs an axis", cause "e.g. G160=2 without axis", hint "the function acts on the axes in its block: G160=2 X1";
+    AxisMissing = Vendor 20003: Warning None 1 1, "G function needs an axis", cause "e.g. G160=2 without axis", hint "the function acts on the axes in its block: G160=2 X1, G130 X50";
     SpindleSpeedZero = Vendor 20007: Error ProgramAbort 3 1, "spindle speed 0", cause "G63 with S0", hint "program the speed first: S1000 M3";
     FeedZero = Vendor 20008: Error ProgramAbort 3 1, "feed is 0 in a motion block", cause "first G01/G02/G03 without F (P-CHAN-00099 = 0)", hint "write F in this block or before it";
     CoordinateTooLarge = Vendor 20011: Error ProgramAbort 3 1, "coordinate outside the data format", cause "X94967596", hint "coordinates reach up to 214748.3647 mm or deg";
@@ -224,6 +224,7 @@ macro_rules! words {
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] checks whether it exists";
     MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 with G100 or G310", hint "measuring runs are straight";
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
+    WayAfterDirection = Vendor 20958: Error ProgramAbort 3 1, "negative way of a modulo axis in relative programming", cause "G91 C--200, C-[P1] with a negative P1", hint "the first sign is the direction, the way after it is positive: C+200 or C-200";
     TangentialRadius = Vendor 20962: Error ProgramAbort 3 1, "least radius of #TANGFEED outside the data format", cause "#TANGFEED [RMIN=-5]", hint "a radius is 0 or more";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
     SpindleName = Vendor 20971: Warning None 1 2, "spindle name of the channel list that does not begin with S, S is used", cause "spindel[0].bezeichnung C", hint "names of spindles begin with S", parameter "P-CHAN-00007";

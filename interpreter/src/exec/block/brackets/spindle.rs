@@ -14,6 +14,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
+use crate::machine::Acknowledged;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
@@ -192,6 +193,23 @@ impl Decoder {
         }
         self.check_spindle_speed(spindle, span);
         Ok(())
+    }
+
+    /// True if a bracket is one of a spindle whose functions act after the motion of their block (MNS_SNS): the bracket as a whole.
+    pub(in crate::exec) fn acts_late(&self, bracket: &Bracket) -> bool {
+        let Some(spindle) = self.spindle_of_name(bracket.name.as_str()) else { return false };
+        let listed = self.motion.spindles[spindle].index;
+        let Some(waits) = listed.and_then(|i| self.machine.channel.spindle_waits.get(i)) else {
+            return false;
+        };
+        bracket.group.items.iter().any(|item| {
+            let until = match self.spindle_item(item) {
+                Ok(SpindleItem::Turn(number)) => waits.of_m(number),
+                Ok(SpindleItem::Speed(_)) => waits.speed,
+                _ => None,
+            };
+            until == Some(Acknowledged::AfterMotion)
+        })
     }
 
     fn spindle_item(&self, item: &Item) -> Outcome<SpindleItem> {

@@ -8,13 +8,13 @@ use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
 use crate::exec::step::{Event, Sync};
+use crate::machine::{Acknowledged, SpindleMoment, SpindleWaits};
 use crate::syntax::ast::Span;
 
 /// How M functions act that are more than a number for the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum MKind {
-    Before,
-    After,
+    Plain,
     Stop { optional: bool },
     End,
     Return,
@@ -28,14 +28,25 @@ fn m_kind(number: u32) -> MKind {
         1 => MKind::Stop { optional: true },
         2 | 30 => MKind::End,
         17 | 29 => MKind::Return,
-        3 | 4 | 19 => MKind::Spindle,
-        5 => MKind::After,
+        3 | 4 | 5 | 19 => MKind::Spindle,
         6 => MKind::ToolChange,
-        _ => MKind::Before,
+        _ => MKind::Plain,
     }
 }
 
+/// M3 and M4 are the direction of M19 in the same block.
+fn is_direction(words: &Words<'_>, m: &Code) -> bool {
+    matches!(m.number, 3 | 4) && words.m.iter().any(|m| m.number == 19)
+}
+
 impl Decoder {
+    /// True if the S word of a spindle acts after the motion of its block (MNS_SNS).
+    pub(super) fn speeds_up_late(&self, index: usize) -> bool {
+        let listed = self.motion.spindles[index].index;
+        let waits = listed.and_then(|i| self.machine.channel.spindle_waits.get(i));
+        waits.is_some_and(|waits| waits.speed == Some(Acknowledged::AfterMotion))
+    }
+
     pub(super) fn speed(&mut self, index: usize, value: f64, span: Span) {
         if !(0.0..=1e6).contains(&value) {
             let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
@@ -63,8 +74,7 @@ impl Decoder {
     /// Says of the speed of a spindle that it is above what the spindle can do (K-0131).
     pub(in crate::exec) fn check_spindle_speed(&mut self, index: usize, span: Span) {
         let rpm = self.motion.spindles[index].overridden_rpm();
-        let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
-        let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else { return };
+        let most = self.most_rpm(index);
         if rpm > most {
             let name = &self.motion.spindles[index].name;
             let text = format!(
@@ -74,6 +84,12 @@ impl Decoder {
             );
             self.report.note(Fault::new(Condition::SpindleLimit, text, span));
         }
+    }
+
+    /// Largest speed of a spindle in rev/min (P-AXIS-00212); infinite where no list configures it.
+    pub(in crate::exec) fn most_rpm(&self, index: usize) -> f64 {
+        let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
+        listed.map_or(f64::INFINITY, |s| s.dynamics().v_max_mm_s / 6.0)
     }
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
@@ -99,33 +115,22 @@ impl Decoder {
         for (spindle, deg, _) in &words.angles {
             self.motion.spindles[*spindle].angle_deg = *deg;
         }
-        let of_spindle = |m: &&Code| m_kind(m.number) == MKind::Spindle || m.number == 5;
-        // M3 and M4 are the direction of M19
-        let positions = words.m.iter().any(|m| m.number == 19);
+        let of_spindle = |m: &&Code| m_kind(m.number) == MKind::Spindle;
         let mut spindle = words.m.iter().filter(of_spindle).filter(|m| {
-            !positions
-                || !matches!(m.number, 3 | 4)
-                || words.m.iter().any(|n| n.number == 7 - m.number)
+            !is_direction(words, m) || words.m.iter().any(|n| n.number == 7 - m.number)
         });
         if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
             let (m, n) = (first.number, second.number);
             let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
             self.report.note(Fault::new(Condition::DuplicateGroup, text, second.span));
         }
-        let direction = words.m.iter().find(|m| positions && matches!(m.number, 3 | 4));
+        self.turn_main_spindle(words, SpindleMoment::BeforeMotion);
         for m in &words.m {
             match m_kind(m.number) {
-                MKind::Before => self.m_function(m),
+                MKind::Plain => self.m_function(m),
                 // Assumption: waited for before the motion, as every function; m_synch is not simulated
                 MKind::Stop { .. } => self.takes_declared_time(Function::M(m.number)),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
-                MKind::Spindle if positions && m.number != 19 => {}
-                MKind::Spindle => {
-                    self.turn_main_spindle(m, direction.map(|m| m.number));
-                    if self.motion.spindles[0].index.is_some() {
-                        self.spindle_warning(0, m.span);
-                    }
-                }
                 _ => {}
             }
         }
@@ -148,7 +153,25 @@ impl Decoder {
         self.takes_time(Function::M(m.number));
     }
 
-    fn turn_main_spindle(&mut self, m: &Code, direction: Option<u32>) {
+    /// Turns the main spindle as far as the block asks for it on one side of its motion: before it, but after it with MNS_SNS.
+    /// Assumption: M5 of a list that says nothing acts after it too.
+    fn turn_main_spindle(&mut self, words: &Words<'_>, now: SpindleMoment) {
+        let listed = self.motion.spindles[0].index.and_then(|i| {
+            let waits: Option<&SpindleWaits> = self.machine.channel.spindle_waits.get(i);
+            waits.copied()
+        });
+        let acts = |number: u32| match listed.unwrap_or_default().of_m(number) {
+            Some(Acknowledged::AfterMotion) => SpindleMoment::AfterMotion,
+            None if number == 5 => SpindleMoment::AfterMotion,
+            Some(_) | None => SpindleMoment::BeforeMotion,
+        };
+        let of_spindle = words.m.iter().filter(|m| m_kind(m.number) == MKind::Spindle);
+        for m in of_spindle.filter(|m| !is_direction(words, m) && acts(m.number) == now) {
+            self.turn(m, words.m.iter().find(|m| is_direction(words, m)).map(|m| m.number));
+        }
+    }
+
+    fn turn(&mut self, m: &Code, direction: Option<u32>) {
         let Some(spindle) = self.motion.spindles[0].index else {
             let text = format!("M{:02}: the channel has no spindle", m.number);
             self.report.note(Fault::new(Condition::MFunctionWithoutSpindle, text, m.span));
@@ -166,13 +189,16 @@ impl Decoder {
             self.contour.event(event);
         }
         self.takes_time(Function::Spindle { spindle, m: m.number });
+        if m.number != 5 {
+            self.spindle_warning(0, m.span);
+        }
     }
 
     pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {
         let mut after = After::Next;
+        self.turn_main_spindle(words, SpindleMoment::AfterMotion);
         for m in &words.m {
             match m_kind(m.number) {
-                MKind::After => self.turn_main_spindle(m, None),
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End => {
                     self.takes_declared_time(Function::M(m.number));

@@ -13,7 +13,11 @@ use crate::exec::values::number::LARGEST_MM;
 /// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
 pub(super) fn inserts_behind(words: &Words<'_>) -> bool {
     let of_corner = |name: &str| matches!(name, "CHR" | "CHF" | "RND");
-    !words.axes.is_empty() && words.hashes.iter().any(|(hash, _, _)| of_corner(&hash.name))
+    // an arc may return to where it begins, or have an angle in place of its end
+    let moves = !words.axes.is_empty()
+        || words.centre.iter().any(Option::is_some)
+        || words.hashes.iter().any(|(hash, _, _)| &*hash.name == "CANG");
+    moves && words.hashes.iter().any(|(hash, _, _)| of_corner(&hash.name))
 }
 
 impl Decoder {
@@ -107,7 +111,13 @@ impl Decoder {
                 }
             };
             match value.map(|v| v * self.modal.unit_mm()) {
-                Some(size) if size > 0.0 => request = Some((kind, size, *span)),
+                Some(size) if size > 0.0 => {
+                    if request.replace((kind, size, *span)).is_some() {
+                        let text = "two insertions in one block, the last one acts";
+                        let condition = Condition::InsertionsWithoutMotion;
+                        self.report.note(Fault::new(condition, text, *span).warning());
+                    }
+                }
                 _ => {
                     let text = format!("#{} without a size", hash.name);
                     self.report.note(Fault::new(Condition::Range, text, *span));

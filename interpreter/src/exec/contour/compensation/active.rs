@@ -17,6 +17,10 @@ use smallvec::SmallVec;
 /// Steps between two motions that a corner may wait for.
 const BETWEEN_MAX: usize = 1000;
 
+/// Change of direction up to which a corner may count as smooth: the parallels are then apart by less than a millionth of the
+/// tool radius.
+const ALL_BUT_SMOOTH: f64 = 1e-6;
+
 /// An inserted line along which the tool stays at the contour.
 pub(super) fn at_contour(mut line: Box<Motion>, distance: f64) -> Item {
     line.engaged = Some(distance > 0.0);
@@ -86,13 +90,17 @@ impl Active {
         let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
         if !smooth && !outside {
             let arcs = [&last.side, &side].iter().all(|side| matches!(side, Side::Arc { .. }));
-            let at = inner_corner(&last.side, &side, corner, distance).ok_or_else(|| {
-                if !arcs {
-                    return too_tight(&motion);
-                }
-                let text = "the tool is too large for the corner between two arcs";
-                Fault::new(Condition::ToolBetweenArcs, text, motion.span).in_block(motion.source)
-            })?;
+            let exact = inner_corner(&last.side, &side, corner, distance);
+            // two parallels that all but touch have no intersection that rounding would not displace
+            let at =
+                exact.or((turn.abs() < ALL_BUT_SMOOTH).then_some(before)).ok_or_else(|| {
+                    if !arcs {
+                        return too_tight(&motion);
+                    }
+                    let text = "the tool is too large for the corner between two arcs";
+                    Fault::new(Condition::ToolBetweenArcs, text, motion.span)
+                        .in_block(motion.source)
+                })?;
             last.emit(at, plane, distance, out)?;
             emit_between(between, at, plane, out);
             return Ok(active(at, motion));

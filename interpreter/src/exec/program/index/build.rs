@@ -10,7 +10,7 @@ use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::sync::Arc;
 
@@ -41,6 +41,8 @@ struct Builder<'a> {
     conditional_open: Vec<EntryId>,
     /// Last clause of each open structure.
     last_clause: BTreeMap<EntryId, EntryId>,
+    /// Open structures that have had their `$DEFAULT`.
+    defaults: BTreeSet<EntryId>,
     /// Open comment or cycle in real time, and its place.
     silent: Option<(EntryId, Location)>,
     pub(super) section: Option<usize>,
@@ -349,12 +351,33 @@ impl Builder<'_> {
             self.stack.truncate(depth + 1);
         }
         let open = self.stack[depth];
+        if self.comes_too_late(open, keyword) {
+            let text = match keyword {
+                Keyword::Default => "a second $DEFAULT of one $SWITCH".to_owned(),
+                _ => format!("{} after the $ELSE of the same $IF", keyword.text()),
+            };
+            let d = Diagnostic::new(keyword.unexpected(), text);
+            let hint = format!("is {} of a structure inside missing?", closer_of(keyword));
+            self.report(raw, head.at, name.len() + 1, d.hint(hint));
+        }
         let parent = self.index.entry(open).parent;
         self.index.entries.change(id, |e| (e.open, e.parent) = (Some(open), parent));
         self.chain(open, id);
         if keyword.opener().and_then(Keyword::closer) == Some(keyword) {
             self.finish(open, id);
             self.stack.truncate(depth);
+        }
+    }
+
+    /// True if the structure has had its last clause, or its only one of this kind.
+    fn comes_too_late(&mut self, open: EntryId, keyword: Keyword) -> bool {
+        match keyword {
+            Keyword::Default => !self.defaults.insert(open),
+            Keyword::Else | Keyword::ElseIf => self
+                .last_clause
+                .get(&open)
+                .is_some_and(|last| self.index.entry(*last).keyword == Keyword::Else),
+            _ => false,
         }
     }
 
@@ -377,12 +400,18 @@ impl Builder<'_> {
     /// The structure is closed: every clause learns where.
     fn finish(&mut self, open: EntryId, end: EntryId) {
         self.last_clause.remove(&open);
+        self.defaults.remove(&open);
         let mut at = Some(open);
         while let Some(id) = at {
             self.index.entries.change(id, |e| e.end = Some(end));
             at = self.index.entry(id).next;
         }
     }
+}
+
+/// Closing statement of the structures of a clause.
+fn closer_of(clause: Keyword) -> &'static str {
+    clause.opener().and_then(Keyword::closer).map_or("", Keyword::text)
 }
 
 /// Indexes a program; what is wrong with its structure comes beside.
@@ -398,6 +427,7 @@ pub(in crate::exec) fn build(
         conditional: Vec::new(),
         conditional_open: Vec::new(),
         last_clause: BTreeMap::new(),
+        defaults: BTreeSet::new(),
         silent: None,
         section: None,
         has_main: false,
