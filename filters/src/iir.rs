@@ -1,6 +1,6 @@
 //! Standard axis filters (IIR): design from the parameters of an axis list, and execution.
 //!
-//! Up to three of them act in series on the absolute set position of an axis. A standing axis comes out bit for bit as
+//! Up to three of them act in series on the absolute set position of an axis. An axis at rest comes out bit for bit as
 //! it went in, because every section is a state-variable filter whose state holds the position itself.
 //!
 //! Source: TF5200 axis filters; P-AXIS-00067, 00080, 00140, 00153, 00164, 00204, 00357.

@@ -126,7 +126,7 @@ pub enum FilterIssue {
     /// The vendor recommends BESSEL for the all-pass.
     #[error("all-pass that is not BESSEL")]
     AllPassNotBessel,
-    /// The filter's gain is zero for a standing axis, so it acts on the deviation from the switch-on position.
+    /// The filter's gain is zero for an axis at rest, so it acts on the deviation from the switch-on position.
     #[error("high-pass or band-pass on a position")]
     RemovesConstantPart,
 }

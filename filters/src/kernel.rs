@@ -172,7 +172,7 @@ fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
 /// A kernel was to be changed while its output would have jumped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the kernel cannot be changed before the axis has stood for {needed_cycles} cycles, it has for {rest_cycles}"
+    "the kernel cannot be changed before the axis has been at rest for {needed_cycles} cycles; so far it has for {rest_cycles}"
 )]
 pub struct SwitchWhileMoving {
     /// Equal inputs in a row so far.
@@ -231,7 +231,7 @@ impl KernelFilter {
     /// # Errors
     ///
     /// [`SwitchWhileMoving`] unless the present and the new kernel are both [settled](Self::settled_for): with kernels
-    /// of the sum 1 both give the standing position then, otherwise the output would jump by the difference of what
+    /// of the sum 1 both then give the position at rest; otherwise the output would jump by the difference of what
     /// the two remember.
     pub fn set_kernel(&mut self, kernel: Arc<Kernel>) -> Result<(), SwitchWhileMoving> {
         if !(self.settled() && self.settled_for(&kernel)) {

@@ -5,8 +5,8 @@
 //!
 //! The crate knows no NC text, no axis names, no files and no clock. Nothing in it allocates or panics per cycle.
 //!
-//! The order of calls: settings become a kernel or a filter, these the [`shaping`] chain of an axis, and after it stands its
-//! [`control`] loop; both are stepped once per cycle, or run through many cycles in a row.
+//! The order of calls: settings become a kernel or a filter, these the [`shaping`] chain of an axis, which its
+//! [`control`] loop follows; both are stepped once per cycle, or run through many cycles in a row.
 //!
 //! ```
 //! use kontur_filters::control::{AxisControl, AxisControlConfig};

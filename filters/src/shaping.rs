@@ -72,7 +72,7 @@ impl Shaping {
         self.kernel.set_kernel(kernel.unwrap_or_else(|| Arc::new(Kernel::identity())))
     }
 
-    /// Whether the kernel in the slot can be replaced by `kernel` (`None`: removed) without a jump: the axis has stood
+    /// Whether the kernel in the slot can be replaced by `kernel` (`None`: removed) without a jump: the axis has been at rest
     /// for as long as either of them remembers.
     pub fn ready_for(&self, kernel: Option<&Kernel>) -> bool {
         self.kernel.settled() && kernel.is_none_or(|kernel| self.kernel.settled_for(kernel))

@@ -4,7 +4,7 @@
     interpreter/benches/peers.py [--blocks 200000] [--repeats 3] [--kontur PATH]
 
 Every round runs every case once, so that a machine that slows down slows all of them; medians are printed, with the least and the
-greatest of the rounds. CPU time counts, wall time stands beside it. Peak memory is never below that of this script, from
+greatest of the rounds. CPU time counts, wall time is shown beside it. Peak memory is never below that of this script, from
 which the processes are started. Peers, each left out by name where it is not installed:
 
 * `rs274` of LinuxCNC (Debian: linuxcnc-uspace) reads the same blocks and only interprets them: the yardstick, 1.
@@ -60,7 +60,7 @@ def timed(words):
 
 
 def peer(library, parquet, folder):
-    """CPU and wall seconds that a library needs to write the columns of a trace. In a process of its own: what it has loaded would
+    """CPU and wall seconds that a library needs to write the columns of a trace. In a separate process: what it has loaded would
     count as memory of every process that is started from here."""
     words = [sys.executable, __file__, "--write-with", library, parquet, folder]
     answer = subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True)

@@ -135,9 +135,9 @@ pub(crate) struct Simulation {
     batch: Batch,
     /// Set positions of the path axes that are measured against the contour.
     set: AxisVec,
-    /// Set positions of the path axes in the cycle before, in front of their filters.
+    /// Set positions of the path axes in the previous cycle, before their filters.
     path_position: AxisVec,
-    /// G33: the share of a cycle by which the axes come behind the planner, so that they go with the mark of the spindle.
+    /// G33: the share of a cycle by which the axes lag behind the planner, so that they go with the mark of the spindle.
     thread_delay: f64,
     /// A thread of G33 is cut, and what may break it.
     thread: Option<Thread>,
@@ -216,7 +216,7 @@ impl Simulation {
         &mut self.record
     }
 
-    /// Somebody wants to know the deviation from the contour.
+    /// The deviation from the contour is wanted.
     pub(crate) fn is_measured(&self) -> bool {
         self.planner.reports_changes()
     }
@@ -230,7 +230,7 @@ impl Simulation {
         self.begin_row(MOST_READ, Watched::Each)
     }
 
-    /// Computes up to `most` cycles of which nobody reads more than the last record, and stops where the output is to be
+    /// Computes up to `most` cycles of which only the last record is read, and stops where the output is to be
     /// measured; the number of them, 0 as with [`Self::next_cycle`].
     pub(crate) fn next_cycles(&mut self, most: u64) -> u64 {
         if self.batch.is_pending() || self.is_measured() {

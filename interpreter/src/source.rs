@@ -2,7 +2,7 @@
 //!
 //! The library opens no file: programs come through [`Sources`]. [`BlockReader`] turns bytes into logical blocks (line
 //! ends, continued lines, encoding, length limit) through a window of fixed size, so memory does not depend on the
-//! length of a program or of a line. It does not look at words; that is the business of [`crate::syntax`].
+//! length of a program or of a line. It does not look at words; [`crate::syntax`] does.
 //!
 //! Order of calls: sources open a program, a reader takes its bytes, [`BlockReader::next_block`] gives one block after
 //! the other.

@@ -211,7 +211,7 @@ impl Collector {
             let place = (record.contour_err_mm, record.k, record.file, record.line, record.block);
             self.worst = place;
         }
-        // row k stands for the time since the row before; the first row is the start itself
+        // row k covers the time since the row before; the first row is the start itself
         if let Some((before, _)) = self.last {
             let cycles = record.k.saturating_sub(before);
             if let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit) {

@@ -4,7 +4,7 @@
 //! (`scan`), parsed by one call of the grammar `nc.pest` and built into the tree of [`ast`] (`build`). Errors become
 //! diagnostics with the place of the offending text (`problem`), and what can be used of the block is still built.
 //!
-//! Which G functions, commands, keys and axes exist is the business of the decoder. The parser is given one thing only, the names of
+//! Which G functions, commands, keys and axes exist is decided by the decoder. The parser is given only one thing, the names of
 //! axes and spindles with more than one character: without them `AP10` is A with the value of P10.
 //!
 //! Order of calls: a parser with the names of the axes, then its [`Parser::block`] for each block of a
@@ -232,7 +232,7 @@ impl Parser {
             Ok(pairs) => builder.block(pairs),
             Err(error) => {
                 if let Some(problem) = foreign::recognise(&masked.text) {
-                    // of the rest of the block nothing is said
+                    // nothing is reported about the rest of the block
                     builder.report_only(problem);
                     return Block::default();
                 }

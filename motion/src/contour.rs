@@ -25,7 +25,7 @@ pub(crate) const WARY: f64 = 0.05;
 /// What rounding may make of a distance in mm.
 pub(crate) const ROUNDING_MM: f64 = 1e-9;
 
-/// How much say a block has that is further away than the nearest one: the eighth power of the ratio of both distances.
+/// Weight of a block that is further away than the nearest one: the eighth power of the ratio of both distances.
 fn fading(least: f64, distance: f64) -> f64 {
     let square = |x: f64| x * x;
     if distance > least { square(square(square(least / distance))) } else { 1.0 }

@@ -5,7 +5,7 @@
 //! Where that is not possible the corner stays as programmed and a [`Notice`] says why. The stage holds one such block, and
 //! those too short to be relevant after it, at most [`SKIPPED`] of them.
 //!
-//! In front of the planner: blocks go in, blocks and curves come out; [`Contouring::flush`] where the path stops.
+//! A stage before the planner: blocks go in, blocks and curves come out; [`Contouring::flush`] where the path stops.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -272,7 +272,7 @@ impl Contouring {
     }
 }
 
-/// Feed of a block whose path gets shorter: a time becomes the speed it stands for.
+/// Feed of a block whose path gets shorter: a time becomes the speed it means.
 fn speed(block: &Block) -> Feed {
     match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),

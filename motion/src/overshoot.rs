@@ -2,7 +2,7 @@
 //!
 //! From a speed `v` that a braking `a` ends in rest the filtered set point passes the end. Abruptly stopped it does so by
 //! `v` times an area of the kernel; a braking that is longer than the kernel leaves `a` times a second moment of its
-//! tail. So a lower acceleration keeps a tolerance at any speed, where a lower speed would have to be a crawl. Starts
+//! tail. So a lower acceleration keeps a tolerance at any speed, where a lower speed would have to be close to zero. Starts
 //! are stops backwards in time.
 
 use kontur_filters::kernel::{Kernel, Tap};

@@ -1,6 +1,6 @@
 //! The plan: everything that lies ahead of what is final.
 //!
-//! Segments with the boundaries in front of them, what `AX_DEV` asks of them, the state in which the path gets to the first
+//! Segments with the boundaries before them, what `AX_DEV` asks of them, the state in which the path gets to the first
 //! one, and the way to rest found last. The passes are functions on it: [`crate::lookahead`] finds the speed of a window
 //! ([`Plan::place`]), [`crate::tolerance`] examines that and tightens the demands, the planner makes the front of it final.
 //! A change of override or feedhold puts another plan in its place, or leaves it as it was.
@@ -22,7 +22,7 @@ use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// A block, or a part of one, with the boundary in front of it.
+/// A block, or a part of one, with the boundary before it.
 #[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub(crate) queued: Arc<Queued>,
@@ -112,7 +112,7 @@ impl Plan {
         self.segments.front().is_some_and(|s| s.queued.velocity.v_mm_s <= 0.0)
     }
 
-    /// The blocks up to the first one without speed, which ends the path in front of it.
+    /// The blocks up to the first one without speed, which ends the path before it.
     pub(crate) fn window(&self) -> Vec<Arc<Queued>> {
         let blocks = self.segments.iter().map(|s| &s.queued);
         blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned().collect()
@@ -147,7 +147,7 @@ impl Plan {
         let limits = (&feeds[..], &caps[..]);
         let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.as_ref())?;
         let spans = &self.draft.insert(planned).spans;
-        // after a rest the start may have to wait until the filters have left the corner in front of it
+        // after a rest the start may have to wait until the filters have left the corner before it
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
             None => start,

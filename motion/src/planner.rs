@@ -190,8 +190,8 @@ impl Planner {
     /// Sets the real-time override, from the next cycle on; setpoints already output stay.
     ///
     /// Feed and rapid blocks that are ahead, known or not, run at the new ratio; acceleration stays continuous with
-    /// jerk-limited slopes. 0 brings the path to a standstill in front of, or in, the next block of that kind; time goes
-    /// on, [`Self::advance`] produces setpoints at rest. Overrides of the program are in [`Block::feed_ratio`].
+    /// jerk-limited slopes. 0 brings the path to a standstill before, or in, the next block of that kind; time
+    /// continues, [`Self::advance`] produces setpoints at rest. Overrides of the program are in [`Block::feed_ratio`].
     pub fn set_override(&mut self, ratios: OverrideRatios) {
         self.wanted.ratios.ratios = ratios.clamped();
     }
@@ -210,7 +210,7 @@ impl Planner {
         self.plan.is_at_rest() && (self.active.hold.is_some() || self.plan.is_barred())
     }
 
-    /// Drops what lies ahead of a path that feedhold has brought to rest: the next block starts where it stands.
+    /// Drops what lies ahead of a path that feedhold has brought to rest: the next block starts where it is.
     pub fn drop_ahead(&mut self) {
         if self.is_held() {
             let start = Start { speed: Cap::STOP, a_mm_s2: 0.0, ..self.plan.start };

@@ -26,7 +26,7 @@
 //!
 //! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
 //!
-//! In front of the planner, as [`crate::contouring`]: [`Splining::push`] block by block, [`Splining::flush`] where the path stops.
+//! A stage before the planner, like [`crate::contouring`]: [`Splining::push`] block by block, [`Splining::flush`] where the path stops.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }

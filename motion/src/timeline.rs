@@ -229,7 +229,7 @@ impl Entry {
         }
     }
 
-    /// Time since the start in cycle `k`; 0 before it (a dwell in front of it).
+    /// Time since the start in cycle `k`; 0 before it (a dwell precedes it).
     pub(crate) fn seconds_at(&self, k: u64, cycle: CycleTime) -> f64 {
         (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0)
     }

@@ -12,7 +12,7 @@
 //!
 //! ```text
 //! y - q(m) = sum over kinks of du_b E[beyond(s, s_b)] + integral of q''(r) E[beyond(s, r)] dr
-//! beyond(s, r) = (s - r)+ where r lies behind m, (r - s)+ where it lies before
+//! beyond(s, r) = (s - r)+ where r lies after m, (r - s)+ where it lies before
 //! ```
 //!
 //! - A straight line is never left, however the speed changes: starts and stops cost nothing there.
@@ -114,7 +114,7 @@ const MARGIN_MM: f64 = 2e-7;
 /// How far beyond the kernel a block may have been left and still count as within reach, in cycles: a trace does not show
 /// on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
-/// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
+/// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more before a stretch.
 const HELD: usize = 3;
 
 /// A block whose tolerance could not be kept.

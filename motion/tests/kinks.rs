@@ -38,7 +38,7 @@ fn at_kink() -> f64 {
     ACC * 1e-3 * 2.0_f64.sqrt()
 }
 
-/// In front of the kink, with the jerk of X, the speed is lowest `a^2 / 2j` below the one at the kink and
+/// Before the kink, with the jerk of X, the speed is lowest `a^2 / 2j` below the one at the kink and
 /// `v t - j t^3 / 3` away from it; there `a` is what the path has at the kink.
 #[test]
 fn the_lowest_speed_lies_on_the_quicker_side() {

@@ -195,7 +195,7 @@ fn the_whole_stays_within_the_tolerance() {
                         .map(|(a, b)| a + u * (b - a))
                         .collect();
                     let off = distance(&p, &there);
-                    // twelve chords of the path stand for it
+                    // twelve chords of the path replace it
                     assert!(
                         off <= 1.01 * path_dev_mm + 1e-9,
                         "{seed} {path_dev_mm} edge {i}: {off}"

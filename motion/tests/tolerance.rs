@@ -87,7 +87,7 @@ fn square_keeps_the_tolerance_in_every_mode() {
     }
 }
 
-/// Ten programs that stand for what is driven: flat and sharp corners, short blocks, three axes, reversals.
+/// Ten programs typical of what is driven: flat and sharp corners, short blocks, three axes, reversals.
 const PROGRAMS: [(&str, &[&[f64]]); 10] = [
     ("right angle", &[&[0.0, 0.0], &[4.0, 0.0], &[4.0, 4.0]]),
     ("flat corners", &[&[0.0, 0.0], &[3.0, 0.0], &[6.0, 0.4], &[9.0, 1.6], &[12.0, 3.6]]),

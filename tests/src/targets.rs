@@ -32,7 +32,7 @@ pub const TARGETS: [Target; 8] = [
     ("report", report),
 ];
 
-/// Stands between the parts of an input that is several files.
+/// Separates the parts of an input that is several files.
 pub const BETWEEN: &[u8] = b"\n====\n";
 
 /// Program time of a run in s.

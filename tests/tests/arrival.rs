@@ -21,7 +21,7 @@ fn only(run: &Run) -> (Id, String, u32) {
 const G60: &str = "%P\nG90\nG60 G01 X10 F6000\nY5\nM30\n";
 
 /// A force that never goes away keeps the axis 0.1 mm from its target (force x Ta / Kv): said within one settling time of
-/// standing still, where the wait had no end.
+/// a standstill, where the wait had no end.
 #[test]
 fn a_wait_that_cannot_end() {
     let off = "X.getriebe[0].position_settling_time=0";
@@ -47,7 +47,7 @@ fn a_wait_that_cannot_end() {
     }
 }
 
-/// An axis that the block does not move has no stop of its own; a force on it holds the program all the same.
+/// An axis that the block does not move has no stop; a force on it holds the program all the same.
 #[test]
 fn an_axis_beside_the_block_that_stands_outside() {
     let run = run_with_inputs(machine(&[]), G60, &[(0.0, "Z_force_mm_s2", 1000.0)]);

@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Looks at the page from inside: what it holds becomes JSON in an element of its own.
+/// Looks at the page from inside: what it holds becomes JSON in a separate element.
 const PROBE: &str = r#"<script>
 const errors = [];
 window.addEventListener("error", e => errors.push(String(e.message)));

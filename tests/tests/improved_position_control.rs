@@ -54,7 +54,7 @@ fn new_parameters_wait_for_standstill() {
     assert!(before.path.v_mm_s.abs() <= 0.0 && (before.axes[0].set - 100.0).abs() <= 0.0);
 }
 
-/// The slave of a gantry pair gets an additive speed of its own by its master's parameters. Conformance: I027.
+/// The slave of a gantry pair gets its own additive speed by its master's parameters. Conformance: I027.
 #[test]
 fn a_gantry_slave_has_its_additive_speed() {
     let ipc = "X.lr_param.improved_position_control";

@@ -178,7 +178,7 @@ fn feedhold_in_a_run() {
     assert_eq!(said(&held), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
 }
 
-/// Nobody knows the surface before: the check takes the target for it, and refuses nothing that a run may do.
+/// The surface is not known beforehand: the check takes the target for it, and refuses nothing that a run may do.
 #[test]
 fn a_check_refuses_no_measured_value() {
     let program =

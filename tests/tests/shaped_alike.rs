@@ -105,7 +105,7 @@ fn spindles_are_shaped_by_their_lists() {
     let (ipo, set) = (shaped.axis(SPINDLE, |a| a.ipo), shaped.axis(SPINDLE, |a| a.set));
     let kernel = settings.kernel(CycleTime::DEFAULT).unwrap();
     for ((set, want), ipo) in set.iter().zip(convolved(&ipo, &kernel)).zip(&ipo) {
-        assert!((set - want).abs() < 1e-8, "{set} {want}, in front of the guard {ipo}");
+        assert!((set - want).abs() < 1e-8, "{set} {want}, before the guard {ipo}");
     }
     assert!(ipo.iter().zip(&set).any(|(ipo, set)| (ipo - set).abs() > 100.0));
     assert!((set.last().unwrap().rem_euclid(360.0) - 90.0).abs() < 1e-9);

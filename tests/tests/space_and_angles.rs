@@ -1,4 +1,4 @@
-//! Arcs in space by three points, and contour lines by angles.
+//! Arcs in space by three points, and contour lines by two angles.
 
 use kontur_tests::{Run, run};
 
@@ -53,27 +53,6 @@ fn an_arc_through_three_points() {
         }
         assert!(near(end(&run, 3), e, 0.05));
     }
-}
-
-/// The page's numbers (contour line programming, 206123787).
-#[test]
-fn contour_lines_of_one_angle() {
-    for (text, want) in [
-        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=60 X20", [20.0, 27.3205, 0.0]),
-        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=35 Y20", [24.2812, 20.0, 0.0]),
-        ("G17 G90 G0 X10 Y10\nG01 G91 F2000 #ANG=60 X10", [20.0, 27.3205, 0.0]),
-        ("G18 G90 G0 Z10 X10\nG01 F2000 #ANG=60 Z20", [27.3205, 0.0, 20.0]),
-        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=180 X-5", [-5.0, 10.0, 0.0]),
-        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=90 Y30", [10.0, 30.0, 0.0]),
-        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=240 X0 Z3", [0.0, 10.0 - 17.3205, 3.0]),
-    ] {
-        let run = run(&format!("%P\n{text}\nG90 G60 G01 X100 Y100 Z0\nM30\n"), &[]);
-        assert_eq!(run.diagnostics, [], "{text}");
-        let starts = end(&run, 3);
-        assert!(near(starts, want, 0.04), "{text}: {starts:?}");
-    }
-    let exact = run("%P\nG90 G0 X10 Y10\nG01 F2000 #ANG=60 X20\nG04 0.1\nM30\n", &[]);
-    assert!(near(end(&exact, 4), [20.0, 27.3205, 0.0], 5e-5), "{:?}", end(&exact, 4));
 }
 
 /// Two lines meet where they cross: 30 deg out of (5, 0), 80 deg into (100, 80) (numbers of 21910), from the intersection

@@ -196,7 +196,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
     assert!(said.err.contains("longer than 65536 bytes"), "{}", said.err);
 }
 
-/// Nobody writes to a pipe that lies in a folder: a subroutine, a list or an input that is one would wait forever.
+/// Nothing writes to a pipe that lies in a folder: a subroutine, a list or an input that is one would wait forever.
 #[test]
 #[cfg(unix)]
 fn pipes_are_no_subroutines_lists_or_inputs() {

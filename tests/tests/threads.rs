@@ -163,7 +163,7 @@ fn a_feedhold_before_a_thread_delays_it() {
     assert_eq!(held.said(), ["K-0083"]);
 }
 
-/// Blocks of G33 after each other: threads of their own, each from the mark (P-CHAN-00837 = 0), or one without a stop.
+/// Blocks of G33 after each other: separate threads, each from the mark (P-CHAN-00837 = 0), or one without a stop.
 #[test]
 fn a_chain_of_threads() {
     let text = "%P\nM3 S500\nG33 Z-15.4 K1.5\nZ-40\nG01 Z-41 F100\nM5\nM30\n";
@@ -273,7 +273,7 @@ fn the_turning_centre() {
     assert!((at.2 - 1000.0).abs() < 1e-6, "{at:?}");
 }
 
-/// Blocks that the path rests between are threads of their own, each with the mark: exact stop, dwell, flush.
+/// Blocks that the path rests between are separate threads, each with the mark: exact stop, dwell, flush.
 #[test]
 fn a_rest_in_a_thread_waits_for_the_mark_again() {
     for rest in ["G360", "", "#FLUSH"] {

@@ -49,7 +49,7 @@ impl Run {
     }
 }
 
-/// The acceleration of a trapezoidal profile with ramps of its own is known in closed form. 100 mm at F6000 with 1000 mm/s2 and
+/// The acceleration of a trapezoidal profile with separate ramps is known in closed form. 100 mm at F6000 with 1000 mm/s2 and
 /// ramp times of 50 ms: 50 ms build-up, 50 ms constant, 50 ms reduction; two such ramps cover 15 mm, the feed the other 85 in 0.85 s.
 #[test]
 fn a_straight_line_in_closed_form() {

@@ -108,7 +108,7 @@ impl Faults {
     /// One slot per source: three setpoint derivatives, controller speed, lag, exact stop, divergence.
     const CAPACITY: usize = 7;
 
-    /// Adds a fault; a full list keeps what it has, from the starty source raises at most one per cycle.
+    /// Adds a fault; a full list keeps what it has, since every source raises at most one per cycle.
     #[inline]
     pub(crate) fn push(&mut self, fault: Option<Fault>) {
         if fault.is_some()

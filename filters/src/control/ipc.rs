@@ -363,7 +363,7 @@ impl Ipc {
         self.computed[self.delay]
     }
 
-    /// Takes new parameters if the axis stands still.
+    /// Takes new parameters if the axis is at rest.
     ///
     /// # Errors
     /// 70601 while the axis is interpolated; the old parameters stay.

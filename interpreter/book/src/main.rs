@@ -27,7 +27,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Writes `book.toml` and `src` into a folder; what stood in its `src` before is gone.
+/// Writes `book.toml` and `src` into a folder; the previous content of its `src` is removed.
 fn assemble(folder: &Path) -> io::Result<()> {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = own.join("../..");

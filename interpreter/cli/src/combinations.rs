@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::args::Vary;
+use crate::args::values::after_external;
 use crate::args::vary::{MOST_COMBINATIONS, used_name};
 use crate::request::Request;
 use crate::words::Word;
@@ -51,10 +52,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     Ok(all)
 }
 
-/// External variables (`V.E.NAME`) vary like list parameters: a program reads them.
-pub(crate) const EXTERNAL: &str = "V.E.";
-
-/// The value of each parameter in one combination; what takes that of a name has the name's.
+/// The value of each parameter in one combination; a parameter that uses a name has the value of the name.
 pub(crate) fn values(vary: &[Vary], combination: &[usize]) -> Vec<String> {
     let own = || vary.iter().zip(combination).map(|(v, &i)| (v, &v.values[i]));
     let of_name = |name: &str| own().find(|(v, _)| v.is_name() && v.key == name);
@@ -75,11 +73,7 @@ pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
         }
         if let Some((line, word)) = v.word() {
             request.words.push(Word { line, name: word.to_owned(), value });
-        } else if let Some((_, name)) = v
-            .key
-            .split_at_checked(EXTERNAL.len())
-            .filter(|(front, _)| front.eq_ignore_ascii_case(EXTERNAL))
-        {
+        } else if let Some(name) = after_external(&v.key) {
             request.external.retain(|(other, _)| !other.eq_ignore_ascii_case(name));
             request.external.push((name.to_owned(), value));
         } else {
@@ -98,7 +92,7 @@ pub(crate) fn without_effect<'v, R: PartialEq>(
     // each row against the first one with the same values of all others
     let same = |which: usize| {
         let mut first: HashMap<[&[usize]; 2], &R> = HashMap::new();
-        let mut tells = false;
+        let mut compared = false;
         let mut all = combinations.iter().zip(rows);
         all.all(|(combination, row)| {
             match first.entry([&combination[..which], &combination[which + 1..]]) {
@@ -107,11 +101,11 @@ pub(crate) fn without_effect<'v, R: PartialEq>(
                     true
                 }
                 Entry::Occupied(other) => {
-                    tells = true;
+                    compared = true;
                     *other.get() == row
                 }
             }
-        }) && tells
+        }) && compared
     };
     vary.iter().enumerate().filter(|(i, _)| same(*i)).map(|(_, v)| v).collect()
 }

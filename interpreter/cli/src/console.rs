@@ -51,7 +51,7 @@ impl Console {
         }
     }
 
-    /// Any two writers, neither of them a terminal.
+    /// Any two writers that are not terminals.
     pub fn new(out: impl Write + Send + 'static, err: impl Write + 'static) -> Self {
         Self {
             out: Output(Arc::new(Mutex::new(out))),

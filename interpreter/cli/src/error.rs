@@ -37,7 +37,7 @@ pub enum Error {
     /// Ctrl-C stopped a sweep; finished rows are kept in its journal.
     #[error("interrupted; the same sweep continues after its finished rows")]
     Stopped,
-    /// Nobody reads stdout any more; nothing is left to say.
+    /// Stdout is no longer read; nothing is left to say.
     #[error("stdout is closed")]
     ClosedPipe,
     /// A file could not be read or written.

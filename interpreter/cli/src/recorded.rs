@@ -160,7 +160,7 @@ fn column(
         let Some(text) = cell(value) else { continue };
         let read = |text: &str| {
             number(text, separator).ok_or_else(|| {
-                format!("row {}, column {name}: `{text}` is no number", first_line + i)
+                format!("row {}, column {name}: `{text}` is not a number", first_line + i)
             })
         };
         let x = read(text)?;
@@ -295,7 +295,7 @@ fn plain(
         let Some(unit) = unit else { return Some(Ok((i, *seconds))) };
         let known = TIME_UNITS.iter().find(|(u, _)| *u == unit).map(|(_, seconds)| (i, *seconds));
         Some(known.ok_or_else(|| {
-            format!("column {name}: `{unit}` is no unit of time, known are s, ms, us, ns, min, h")
+            format!("column {name}: `{unit}` is not a unit of time; s, ms, us, ns, min and h are")
         }))
     });
     let time = time.transpose()?;

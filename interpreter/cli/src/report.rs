@@ -102,7 +102,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             guards: totals.guards,
         });
     }
-    // of refused programs there is nothing to draw
+    // there is nothing to draw of refused programs
     if runs.iter().any(|r| r.summary.cycles > 0) {
         let drawn = match form {
             Form::Picture => picture::draw(&runs),

@@ -34,7 +34,7 @@ use kontur_interpreter::machine::{Axis, ListFiles, Machine};
 use std::path::{Path, PathBuf};
 
 /// Everything a user can specify about a run, except the use of its results.
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a separate switch for the user")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// The NC program.

@@ -53,7 +53,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     };
     let take = takes.then_some(take);
     let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), take);
-    // a subroutine that it came to on the way may be one of the outputs
+    // a subroutine that it reached may be one of the outputs
     keep_apart(&reads.so_far(), &outputs)?;
     // every trace is brought to its file even if another one failed
     let finished: Vec<_> = traces.into_iter().map(|t| t.finish(&run)).collect();

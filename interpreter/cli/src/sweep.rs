@@ -3,7 +3,7 @@
 //! The runs share nothing and use all cores; rows are in the order of the combinations, whichever run finishes first. A
 //! run that an error ends has its row, with the ID of the error.
 //!
-//! On the command line [`sweep()`]; where somebody else distributes the runs, a [`Plan`] and its rows in any order.
+//! On the command line [`sweep()`]; where the caller distributes the runs, a [`Plan`] and its rows in any order.
 //!
 //! ```
 //! use clap::Parser as _;

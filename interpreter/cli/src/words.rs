@@ -50,7 +50,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
                 text.splice(*from..*to, value.bytes());
             }
             [Place { line, .. }] => {
-                return Err(format!("{name}= in line {line} is no plain number"));
+                return Err(format!("{name}= in line {line} is not a plain number"));
             }
             [first, .., last] if first.line == last.line => {
                 return Err(format!("{name}= occurs several times in line {}", first.line));
@@ -160,9 +160,9 @@ mod tests {
             (guard, None, "FREQ", "from 1 to 2; program[1].FREQ"),
             (guard, None, "P1", "there is no P1= in the program"),
             (guard, Some(2), "MODE", "there is no MODE= in line 2"),
-            ("P1=10+5", None, "P1", "no plain number"),
-            ("P1=P2", None, "P1", "no plain number"),
-            ("P1=", None, "P1", "no plain number"),
+            ("P1=10+5", None, "P1", "not a plain number"),
+            ("P1=P2", None, "P1", "not a plain number"),
+            ("P1=", None, "P1", "not a plain number"),
             ("P1=1 P1=2", None, "P1", "several times in line 1"),
             ("$IF P1==1", None, "P1", "no P1="),
         ] {

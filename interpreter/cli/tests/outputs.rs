@@ -258,7 +258,7 @@ fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(!f.join("a.csv").exists() && rows() > 3);
-    assert!(names(f, ".").is_empty(), "no file that is empty stays behind");
+    assert!(names(f, ".").is_empty(), "no empty file is left");
     let done = run(f, &sweep("a.csv"));
     assert!(done.status.success());
     let said = String::from_utf8(done.stderr).unwrap();
@@ -301,7 +301,7 @@ fn a_signal_ends_every_command_and_leaves_no_half_file() {
             let folder = tempfile::tempdir().unwrap();
             let f = folder.path();
             fs::write(f.join("a.nc"), LONG).unwrap();
-            // nobody writes to it
+            // nothing writes to it
             assert!(Command::new("mkfifo").arg(f.join("wait.nc")).status().unwrap().success());
             let mut child = kontur(f, words).spawn().unwrap();
             std::thread::sleep(Duration::from_millis(400));

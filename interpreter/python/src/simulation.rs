@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// A program under way.
 ///
-/// Python shares objects between threads, and a run can only be sent from one to another. Nobody ever waits for the lock:
+/// Python shares objects between threads, and a run can only be sent from one to another. The lock is never waited for:
 /// every method borrows the object for itself, and a second thread gets an exception.
 #[pyclass(module = "kontur._kontur")]
 pub(crate) struct Simulation(Mutex<State>);

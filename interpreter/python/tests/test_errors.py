@@ -44,7 +44,7 @@ def test_a_refused_program_raises_its_diagnostics(command, program, text):
     # what one by one shows the same
     with pytest.raises(kontur.ProgramError):
         next(kontur.start(part))
-    # check tells, it does not raise
+    # check reports, it does not raise
     assert [d.details for d in kontur.check(part)] == theirs
 
 

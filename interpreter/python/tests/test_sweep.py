@@ -174,7 +174,7 @@ def test_a_dask_cluster_that_loses_a_worker(small_chunks, monkeypatch):
         monkeypatch.setattr(_sweep, "_dask", watched)
         table = kontur.sweep(SQUARE, grid, client=client)
         assert len(done) == 100
-        assert set(client.run(os.getpid).values()) != set(pids.values()), "nobody was lost"
+        assert set(client.run(os.getpid).values()) != set(pids.values()), "no worker was lost"
     same(table, expected)
 
 

@@ -2,7 +2,7 @@
 //!
 //! A row of [`raised`] makes a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter are there and
 //! nowhere else, and a condition without a row cannot be raised. IDs that the documents print and nothing here raises
-//! are data only ([`documented`]), for `explain` and for who reads a real control's messages.
+//! are data only ([`documented`]), for `explain` and for readers of a real control's messages.
 //!
 //! Source: TF5200 diagnosis manual and the function manuals; the texts are kontur's own. Rows are ordered by number;
 //! K numbers are appended and never reused.

@@ -1,7 +1,7 @@
 //! Words of one block: what letters, G functions and brackets of a block mean together.
 //!
 //! Owns the modal state ([`modal`]) and the words of the current block; reads values, and directs motion, contour, shaping
-//! and geometry what to do. It knows no files and no other block.
+//! and geometry. It knows neither files nor other blocks.
 
 mod addresses;
 pub(super) mod brackets;

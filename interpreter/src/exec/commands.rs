@@ -1,7 +1,7 @@
 //! Plain-text commands: one row each, found by their words; the longest row wins.
 //!
-//! A new command is a file with its arguments, its row and its function, and the name of the row in [`ROWS`]. What the row
-//! says of form, keys and meaning is all that `explain`, the search for misspelt names and the documentation know.
+//! A new command is a file with its arguments, its row and its function, and the name of the row in [`ROWS`]. The form, keys
+//! and meaning of the row are all that `explain`, the search for misspelt names and the documentation know.
 //!
 //! Source: TF5200 programming manual, list of commands.
 
@@ -58,7 +58,7 @@ const fn unsupported(name: &'static str) -> Row {
     Row::of(name, Act::Unsupported)
 }
 
-/// Every row. What the manual's overview of additional functions names and nothing here carries out is refused by its
+/// Every row. Commands in the manual's overview of additional functions that kontur does not carry out are refused by
 /// name.
 #[rustfmt::skip]
 const ROWS: &[Row] = &[

@@ -158,7 +158,7 @@ impl Contour {
             return Some(Fault::unsupported("a chamfer or rounding in a spline", span));
         }
         if self.held.is_none() {
-            let text = "no motion before to which a chamfer or rounding could be joined";
+            let text = "no earlier motion to which a chamfer or rounding could be joined";
             return Some(Fault::new(Condition::InsertionWithoutMotion, text, span).warning());
         }
         let before = self.insertion.replace(Box::new(insertion));
@@ -388,7 +388,7 @@ impl Contour {
         self.compensator.take_cut().map(|cut| bottleneck(&cut))
     }
 
-    /// What is done continues its way, in the coordinates of the machine.
+    /// Passes on what is complete, in the coordinates of the machine.
     fn emit(&mut self) {
         for item in &mut self.done {
             if let Item::Motion(motion) = item {
@@ -414,7 +414,7 @@ impl Contour {
                 Item::Motion(_) | Item::Rest(_) | Item::Events(_) => self.go_out(item),
             }
         }
-        // its memory is used again
+        // its memory is reused
         self.done = done;
     }
 

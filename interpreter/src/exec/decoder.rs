@@ -1,6 +1,6 @@
 //! State of a program and the execution of one block.
 //!
-//! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
+//! The decoder knows blocks, not files: the executor decides where the next block comes from.
 
 use super::block::dialect::Seen;
 use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane, Selection};
@@ -25,7 +25,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(super) struct Signal {
     pub(super) id: u32,
-    /// Sent to everybody; else to this channel itself.
+    /// Sent to all channels; otherwise to this channel itself.
     pub(super) broadcast: bool,
     /// Waits that it still serves, `None` without limit.
     pub(super) count: Option<u32>,
@@ -49,7 +49,7 @@ pub(super) struct Decoder {
     pub(super) motion: MotionState,
     pub(super) shaping: ShapingState,
     pub(super) calls: Calls,
-    /// Signals that have not been used up.
+    /// Signals that have not been consumed.
     pub(super) signals: Vec<Signal>,
     /// Syntax check: blocks with errors are carried out as far as possible.
     pub(super) checking: bool,
@@ -211,7 +211,7 @@ impl Decoder {
         }
         let number = changed.number();
         self.motion.dynamics_changed();
-        // first: a kernel is replaced when the axes have stood for as long as it remembers
+        // first: a kernel is replaced when the axes have been at rest for as long as it remembers
         self.update_shaping(span);
         self.sync(Sync::MachineData { axis: number });
         // the list decides what the state of G135 is worth

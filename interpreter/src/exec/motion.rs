@@ -134,7 +134,7 @@ impl Decoder {
 
     /// 20003: G60 in a block that moves nothing.
     ///
-    /// Assumption: the documents print the warning alone. As at the end of every block with G60 the speed is zero; waiting is
+    /// Assumption: the documents print only the warning. As at the end of every block with G60 the speed is zero; waiting is
     /// for the axes of the block, and it has none.
     fn stop_without_motion(&mut self, words: &Words<'_>) {
         if let Some(g) = exact_stop_once(words) {
@@ -145,7 +145,7 @@ impl Decoder {
         }
     }
 
-    /// I, J, K and E that nothing uses.
+    /// I, J, K and E that are not used.
     fn unused_words(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
         let inserted = words.group(Group::Insertion).is_some();
         if words.centre[0].is_some() && inserted {
@@ -204,7 +204,7 @@ impl Decoder {
             }
             if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.modal.unit_mm());
-                // of a block with an error, such as a cycle of another control, R is the least
+                // in a block with an error, such as a cycle of another control, R is the least of the problems
                 if !self.report.failed() {
                     let text = "R has no meaning in a straight motion: it is kept for the next arc";
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
@@ -217,7 +217,7 @@ impl Decoder {
         if self.motion.areas.is_defining() {
             return self.area_block(path.as_ref(), words, span);
         }
-        // a block without way needs no feed
+        // a block without travel needs no feed
         let Some(path) = path else { return Ok(()) };
         let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
         if begins && self.motion.wear.on && !path.is_straight() {
@@ -261,7 +261,7 @@ impl Decoder {
             self.spline_fits(rapid, rounds, span)?;
             self.spline_leads(&path, span)?;
         }
-        // of a block with an error nothing moves; what was said before it is still said
+        // a block with an error moves nothing; what was reported before it is still reported
         if self.report.failed() && !self.checking {
             return Ok(());
         }
@@ -292,7 +292,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What does not go with splines.
+    /// What cannot be combined with splines.
     fn spline_fits(&self, rapid: bool, rounds: bool, span: Span) -> Outcome<()> {
         if self.contour.hsc.spline().is_some() {
             let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
@@ -361,7 +361,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// A motion continues its way.
+    /// Passes a motion on.
     fn send(
         &mut self,
         block: Box<Block>,
@@ -396,7 +396,7 @@ impl Decoder {
         }
     }
 
-    /// Chamfer or rounding in front of the next motion.
+    /// Chamfer or rounding before the next motion.
     pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed: Option<Feed>, span: Span) {
         let insertion = Insertion { kind, size_mm, feed, span, source: self.report.source };
         if let Some(fault) = self.contour.insert(insertion) {

@@ -87,7 +87,7 @@ pub struct GuardCommands {
 
 /// Ends a check or a run from another thread; copies belong together.
 ///
-/// Looked at in front of every block and between two stretches of cycles. What was stopped is aborted and says nothing
+/// Read before every block and between two stretches of cycles. What was stopped is aborted and says nothing
 /// about it: the caller who stops it knows.
 #[derive(Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
@@ -105,14 +105,14 @@ impl Stop {
 }
 
 impl fmt::Debug for Stop {
-    /// Without its state, which is no part of what is computed.
+    /// Without its state, which has no influence on what is computed.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Stop")
     }
 }
 
 impl PartialEq for Stop {
-    /// Any two: whether something is stopped makes no other computation of it.
+    /// Any two are equal: stopping does not change what is computed.
     fn eq(&self, _: &Self) -> bool {
         true
     }

@@ -1,7 +1,7 @@
 //! Which block is next: files, levels, loops, branches and calls.
 //!
 //! Owns the open files, their indices and the levels of the program; it hands blocks to the decoder and reads nothing of
-//! its state but values of conditions and what a call has left behind.
+//! its state but values of conditions and what a call has left in it.
 
 mod actual;
 pub(super) mod calls;

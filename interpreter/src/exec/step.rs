@@ -327,7 +327,7 @@ impl CuttingSpeed {
 pub(crate) enum SpindleState {
     /// It is at rest.
     Rest,
-    /// It has the speed, or the position, that it was told.
+    /// It has its commanded speed or position.
     Reached,
     /// It turns with its speed, and in this cycle through this angle in deg.
     Mark {

@@ -1,6 +1,6 @@
 //! "Did you mean": the known name nearest to an unknown one.
 
-/// The candidate that differs least from `name`, at most a third of it; case counts for nothing.
+/// The candidate that differs least from `name`, by at most a third of it; case is ignored.
 pub(super) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,

@@ -97,7 +97,7 @@ pub(super) fn of_message(id: Id) -> Vec<String> {
             "the feedforward manual allows a numerator of 0, so P-AXIS-00225 = 0 is a legal weight here"
         }
         Id::Vendor(70600) => {
-            "Improved Position Control is set in the gantry master, its slaves take the values over"
+            "Improved Position Control is set in the gantry master; its slaves take over the values"
         }
         Id::Vendor(70082) => {
             "recommended: limit 10..200 ms, window at least three times the lag at standstill"

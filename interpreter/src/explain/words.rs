@@ -56,7 +56,7 @@ const LIMITS: &[Word] = &[
         facts: &[("helps", "a higher F, #OVERRIDE, P-CHAN-00181 for rapid")], related: &["P-CHAN-00066"] },
     Word { name: "axis",
         meaning: "an axis is at its velocity limit (column v_limit; axis_v of --times names the axis)",
-        facts: &[("helps", "P-AXIS-00212, in rapid P-AXIS-00209; a contour that spreads the way over the axes")], related: &["P-AXIS-00212", "P-AXIS-00209"] },
+        facts: &[("helps", "P-AXIS-00212, in rapid P-AXIS-00209; a contour that spreads the travel over the axes")], related: &["P-AXIS-00212", "P-AXIS-00209"] },
     Word { name: "axis_v",
         meaning: "an axis is at its velocity limit (--times)",
         facts: &[("column", "v_limit = axis")], related: &["axis"] },

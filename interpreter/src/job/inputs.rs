@@ -28,7 +28,7 @@ use std::sync::Arc;
 /// as asked: it is read twice.
 ///
 /// # Errors
-/// [`Problem`] if a file cannot be read or says something wrong, or if two columns carry the same signal.
+/// [`Problem`] if a file cannot be read or has a mistake, or if two columns carry the same signal.
 pub fn open<R, F>(files: &[(&str, F)], machine: &Machine) -> Result<Changes, Problem>
 where
     R: Read + Send + 'static,
@@ -123,7 +123,7 @@ impl<R: Read> InputFile<R> {
                 None => {
                     let names: Vec<&str> = all.iter().map(|(n, _)| n.as_str()).collect();
                     let hint = format!("signals of this machine: {}", names.join(", "));
-                    let text = format!("`{name}` is no signal");
+                    let text = format!("`{name}` is not a signal");
                     return Err(self.wrong(at, name, &text).hint(hint));
                 }
                 Some((_, s)) if taken.contains(s) || self.columns.contains(s) => {
@@ -153,7 +153,7 @@ impl<R: Read> InputFile<R> {
         };
         self.end += read as u64;
         let text = String::from_utf8_lossy(&bytes);
-        // a byte order mark in front of the header
+        // a byte order mark before the header
         self.text = text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']).into();
         Ok(read > 0)
     }
@@ -199,7 +199,7 @@ impl<R: Read> InputFile<R> {
 
     fn number(&self, at: usize, field: &str) -> Result<f64, Problem> {
         let number = field.parse::<f64>().ok().filter(|x| x.is_finite());
-        number.ok_or_else(|| self.wrong(at, field, &format!("`{field}` is no number")))
+        number.ok_or_else(|| self.wrong(at, field, &format!("`{field}` is not a number")))
     }
 
     /// A mistake in the current line, `at` characters from its start.
@@ -237,7 +237,7 @@ impl Problem {
     }
 }
 
-/// Fields of a line without the blanks and quotes around them, with the characters in front of each. No field holds a comma.
+/// Fields of a line without the blanks and quotes around them, with the characters before each. No field holds a comma.
 fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut at = 0;
     line.split(',').map(move |field| {

@@ -233,7 +233,7 @@ impl Run {
         Ok(())
     }
 
-    /// Advances by up to `most` cycles that nobody reads; the number of them, 0 if there are no more.
+    /// Advances by up to `most` cycles that are not read; the number of them, 0 if there are no more.
     fn skip(&mut self, most: u64) -> u64 {
         // what is measured is measured cycle by cycle
         if self.apart.is_some() || self.simulation.is_measured() {

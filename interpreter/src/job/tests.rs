@@ -115,7 +115,7 @@ fn a_second_thread_changes_nothing() {
     }
 }
 
-/// A run whose cycles nobody reads is at each pause where the others are, raises the same messages and ends alike: under inputs,
+/// A run whose cycles are not read is at each pause where the others are, raises the same messages and ends alike: under inputs,
 /// with faults of the axes among cycles in a row, with a tolerance from some block on, and cut into any number of cycles.
 #[test]
 fn cycles_that_nobody_reads_are_driven_alike() {

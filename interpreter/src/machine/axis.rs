@@ -1,6 +1,7 @@
 //! One axis of the machine: its parameters, and the planner's values derived from them.
 
 use super::key::Key;
+use super::kind::{AxisKind, logical_number};
 use super::parameters::Kind;
 use super::parameters::{Parameters, Setting};
 use super::plausible;
@@ -13,17 +14,6 @@ use crate::diag::{AxisRef, Diagnostic, Location};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::realtime::OverrideRatios;
-
-/// Kind of an axis (P-AXIS-00018).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AxisKind {
-    /// Translatory: mm.
-    Linear,
-    /// Rotary: degrees.
-    Rotary,
-    /// Spindle: degrees, speed in rpm.
-    Spindle,
-}
 
 /// A path axis, a spindle or a gantry slave.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +80,7 @@ impl Axis {
         self.get(parameter)
     }
 
-    /// What of an override of the channel acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
+    /// The part of an override of the channel that acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
     /// interface of the axis stays at that), or nothing; no more than P-AXIS-00109 where the list gives it.
     pub(crate) fn independent_ratios(&self, channel: OverrideRatios) -> OverrideRatios {
         let most = axis_general::MOST_OVERRIDE;
@@ -181,7 +171,7 @@ impl Axis {
         self.own.settings()
     }
 
-    /// A number, 0 stands for another value.
+    /// A number; 0 means another value.
     fn get_or(&self, param: Param<Number>, other: f64) -> f64 {
         let value = self.get(param);
         if value > 0.0 { value } else { other }
@@ -332,7 +322,8 @@ impl Axis {
         cycle: CycleTime,
     ) -> Result<Vec<Diagnostic>, String> {
         let found = Key::parse(key).and_then(|k| k.resolve(ListKind::Axis));
-        let (row, indices) = found.ok_or_else(|| format!("`{key}` is no parameter of an axis"))?;
+        let (row, indices) =
+            found.ok_or_else(|| format!("`{key}` is not a parameter of an axis"))?;
         let value = value::read(row.raw, value).map_err(|bad| format!("{key}: {}", bad.reason))?;
         let axis = AxisRef { number: self.number, name: self.name.clone() };
         let check = |parameters: &mut Parameters| {
@@ -347,19 +338,5 @@ impl Axis {
         found.retain(|diagnostic| !known.contains(diagnostic));
         self.software_limits_mm = self.listed_software_limits_mm();
         Ok(found)
-    }
-}
-
-/// Logical axis number of an axis list.
-pub(super) fn logical_number(parameters: &Parameters) -> u32 {
-    parameters.get(axis_general::NUMBER)
-}
-
-/// Kind of axis of an axis list.
-pub(super) fn kind_of(parameters: &Parameters) -> AxisKind {
-    match parameters.get(axis_general::KIND) {
-        2 => AxisKind::Rotary,
-        4 => AxisKind::Spindle,
-        _ => AxisKind::Linear,
     }
 }

@@ -1,7 +1,7 @@
 //! From the start-up list to settled parameters: defaults, default list, specific list, overrides, range checks.
 
-use super::axis::{AxisKind, kind_of, logical_number};
 use super::channel::couplings::default_couplings;
+use super::kind::{AxisKind, kind_of, logical_number};
 use super::lists::{self, Found, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
@@ -134,8 +134,11 @@ impl Chain<'_> {
             return lists::read(kind, path, &found.bytes, &mut self.diagnostics);
         };
         let last = |path: &str| path.rsplit(SEPARATORS).next().unwrap_or_default().to_owned();
-        let text =
-            format!("{} is {}: other capital letters than the file's", last(path), last(other));
+        let text = format!(
+            "{} is {}: upper and lower case differ from the file's",
+            last(path),
+            last(other)
+        );
         let mut note = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
         note.source = at;
         self.diagnostics.push(note.hint("not every file system finds it under this name"));

@@ -151,7 +151,7 @@ fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     for limit in [axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT] {
         if listed(slave, limit) && (slave.get(limit) - master.get(limit)).abs() > 0.0 {
             let what = format!("software limit {} of the gantry slave", slave.listed(limit));
-            let advice = format!("not watched, those of {} count", master.name());
+            let advice = format!("not monitored, those of {} apply", master.name());
             diagnostics.push(issues::about(slave, Condition::ListAdvice, limit, &what, &advice));
         }
     }

@@ -1,4 +1,4 @@
-//! Parameters that change what a control does and are not simulated: a list that sets one to something else than its default gets
+//! Parameters that change what a control does and are not simulated: a list that sets one to a value other than its default gets
 //! a message, so that the trace is not mistaken for that of the control.
 
 use super::parameters::Parameters;

@@ -7,7 +7,7 @@ mod control;
 pub(crate) use control::control;
 
 use super::Axis;
-use super::axis::AxisKind;
+use super::kind::AxisKind;
 use super::table::axis_filters::FilterKeys;
 use super::table::axis_guard;
 use super::table::param::Place;

@@ -1,4 +1,4 @@
-//! Groups of axis parameters that make a run shorter together; `kontur times` tries them out.
+//! Groups of axis parameters that make a run shorter together; `kontur run --times` tries them out.
 
 use super::axis::Axis;
 use super::table::axis_dynamics as dynamics;

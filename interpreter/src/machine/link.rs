@@ -1,8 +1,9 @@
 //! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
 
 use super::Machine;
-use super::axis::{Axis, AxisKind, kind_of, logical_number};
+use super::axis::Axis;
 use super::channel::Channel;
+use super::kind::{AxisKind, kind_of, logical_number};
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
 use super::settled::Settled;
@@ -173,7 +174,7 @@ fn usable_name(
     }
     let what = if spindle { "a spindle" } else { "an axis" };
     let message = format!(
-        "`{name}` is no name of {what}: it begins with one of {letters}, then at most {} letters, digits and _",
+        "`{name}` cannot be the name of {what}: it begins with one of {letters}, then at most {} letters, digits and _",
         NAME_MAX - 1
     );
     let replaced = match (begins, is_long) {
@@ -366,7 +367,8 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         let master = list.map(|l| l.parameters.get(axis_general::GANTRY_MASTER));
         if !names.named.iter().any(|n| Some(n.number) == master) {
             let master = master.unwrap_or_default();
-            let message = format!("{name}: the gantry master {master} is no axis of the channel");
+            let message =
+                format!("{name}: the gantry master {master} is not an axis of the channel");
             diagnostics
                 .push(error(Condition::ListLink, message, None).axis(*number, name.as_str()));
         }

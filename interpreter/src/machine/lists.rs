@@ -182,7 +182,7 @@ impl Reader<'_> {
         let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
         let key_at = line.location(file, word);
         let Some(key) = Key::parse(word) else {
-            let message = format!("`{word}` is no key, the line is ignored");
+            let message = format!("`{word}` is not a key, the line is ignored");
             let hint = "an entry is a key, at least one blank and a value; comments start with #";
             self.say(Diagnostic::new(Condition::ListEntry, message).at(key_at).hint(hint));
             return;

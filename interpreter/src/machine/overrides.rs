@@ -32,7 +32,8 @@ impl Override {
         let form = || {
             let hint = "write AXIS.key=value, channel.key=value or kontur.key=value";
             Box::new(
-                Diagnostic::new(Condition::Setting, format!("`{text}` is no setting")).hint(hint),
+                Diagnostic::new(Condition::Setting, format!("`{text}` is not a setting"))
+                    .hint(hint),
             )
         };
         let (left, value) = text.split_once('=').ok_or_else(form)?;
@@ -103,7 +104,7 @@ impl Override {
         if let Some(beyond) = key.as_ref().and_then(|key| key.beyond(kind)) {
             return Err(Box::new(say(format!("`{}`: {beyond}", self.key))));
         }
-        let mut diagnostic = say(format!("`{}` is no parameter of {}", self.key, self.target));
+        let mut diagnostic = say(format!("`{}` is not a parameter of {}", self.key, self.target));
         let shape = key.map_or_else(|| self.key.clone(), |key| key.shape);
         if let Some(near) = table::suggestions(Some(kind), &shape).first() {
             diagnostic = diagnostic.hint(if *near == self.key {
@@ -117,7 +118,7 @@ impl Override {
 
     /// K-0073 for a target that is neither an axis nor a list.
     pub(super) fn unknown_target(&self, target: &str, names: &[&str]) -> Diagnostic {
-        let message = format!("`{target}` is no axis of the machine");
+        let message = format!("`{target}` is not an axis of the machine");
         let hint = format!(
             "targets are {} (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
             names.join(", ")

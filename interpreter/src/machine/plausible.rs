@@ -5,7 +5,7 @@
 
 pub(super) mod channel;
 
-use super::axis::{AxisKind, kind_of};
+use super::kind::{AxisKind, kind_of};
 use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place};
@@ -233,7 +233,7 @@ fn check_together(
         put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
     }
 
-    // P-AXIS-00015: modes of spindles, and modes that there are not
+    // P-AXIS-00015: modes of spindles, and modes that do not exist
     let (mode, is_linear) =
         (parameters.get(axis_general::MODE), kind_of(parameters) == AxisKind::Linear);
     let wrong = if parameters.set_by(axis_general::MODE).is_none() {

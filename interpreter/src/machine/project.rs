@@ -36,8 +36,8 @@
 mod axes;
 mod content;
 
-use super::axis::{AxisKind, kind_of, logical_number};
 use super::chain::{OWN_LIST, SEPARATORS, beside};
+use super::kind::{AxisKind, kind_of, logical_number};
 use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
 use super::table::{ListKind, channel as of, kontur as own};
@@ -310,7 +310,7 @@ impl<'a> Project<'a> {
                 return format!("; cycle {us} us of the GEO task{replaced}");
             }
             Some(units) => format!(
-                "the cycle {} us of the GEO task is no whole number of microseconds",
+                "the cycle {} us of the GEO task is not a whole number of microseconds",
                 f64::from(units) / 10.0
             ),
             None => "no GEO task with a cycle".to_owned(),

@@ -1,6 +1,7 @@
 //! Feed constant and gear between the motor and the axis, in the units of the lists.
 
-use super::axis::{Axis, AxisKind};
+use super::axis::Axis;
+use super::kind::AxisKind;
 use super::table::{axis_control, axis_drive};
 
 /// A ratio or constant that scales nothing.
@@ -25,7 +26,7 @@ pub(super) fn has_rotary_motor(axis: &Axis) -> bool {
         || !feed_constant(axis).into_iter().chain(gear(axis)).all(is_one)
 }
 
-/// P-AXIS-00362 or P-AXIS-00363 is not 1: the feed constant rules the resolution.
+/// P-AXIS-00362 or P-AXIS-00363 is not 1: the feed constant decides the resolution.
 pub(super) fn feed_constant_given(axis: &Axis) -> bool {
     !feed_constant(axis).into_iter().all(is_one)
 }

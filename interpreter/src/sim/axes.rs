@@ -131,7 +131,7 @@ impl Simulation {
         self.end_cycle();
     }
 
-    /// An independent axis is monitored from the end of its own motion on, whatever the path does. Source: TF5200 position
+    /// An independent axis is monitored from the end of its own motion, whatever the path does. Source: TF5200 position
     /// monitoring: from when the axis is no longer interpolated.
     fn expect_independent_stops(&mut self) {
         for axis in 0..self.path_position.len() {

@@ -2,7 +2,7 @@
 //!
 //! Most cycles of a program follow from what is already planned: no event of a block, no input, no wait lies between them, and
 //! no axis asks what another one does. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its own column
-//! before the next one starts: its code and its state stay in the processor, and what nobody reads is not written. Then the
+//! before the next one starts: its code and its state stay in the processor, and what is not read is not written. Then the
 //! cycles are taken one by one, in their order: path, blocks and records are in every cycle what they would have been alone. A
 //! single cycle is a row of one.
 //!
@@ -29,12 +29,12 @@ pub(super) const MOST_READ: usize = 64;
 /// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
 const FEW: usize = 8;
 
-/// Who looks at the records of cycles in a row.
+/// Which records of cycles in a row are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Watched {
-    /// Somebody, at each of them.
+    /// Each is read.
     Each,
-    /// Nobody, but at that of the last one.
+    /// Only the last one is read.
     Last,
 }
 

@@ -186,7 +186,7 @@ impl AxisChain {
         self.shaping.settled(self.filter_window_mm)
     }
 
-    /// The kernel holds nothing any more that it still lets go.
+    /// The kernel no longer holds anything that it has still to let go.
     pub(crate) fn flushed(&self) -> bool {
         self.shaping.flushed()
     }
@@ -286,7 +286,7 @@ impl AxisChain {
         }
     }
 
-    /// What acts from outside, from now on; the additional position in front of its filter.
+    /// What acts from outside, from now on; the additional position before its filter.
     pub(crate) fn set_inputs(&mut self, inputs: AxisInputs) {
         self.inputs = inputs;
     }

@@ -399,7 +399,8 @@ impl Simulation {
         let at = self.waits_at;
         if self.smoothing.is_new(Condition::OscillationEnded, at) {
             let name = self.machine.axes[axis].name();
-            let text = format!("this block waits for all axes at rest: {name} oscillates no more");
+            let text =
+                format!("this block waits for all axes at rest: {name} no longer oscillates");
             let mut d = Diagnostic::new(Condition::OscillationEnded, text)
                 .axis(self.machine.axes[axis].number(), name);
             d.source = self.executor.locate(at);

@@ -31,7 +31,7 @@ pub enum Signal {
     Surface(usize),
     /// `wear_mm`: wear of a grinding wheel that the PLC would give (`#OTC` with DISC or AUTO); default 0.
     Wear,
-    /// `X_add_mm`: position of the additional interface of an axis in mm (deg), in front of its filter.
+    /// `X_add_mm`: position of the additional interface of an axis in mm (deg), before its filter.
     Additional(usize),
     /// `X_force_mm_s2`: external force on an axis as acceleration of the whole mass in mm/s2 (deg/s2).
     Force(usize),

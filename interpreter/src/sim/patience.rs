@@ -2,12 +2,12 @@
 //!
 //! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
 //! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
-//! of less than a thousandth means standing still. A vibration that settles loses more than a thousandth of its
+//! of less than a thousandth means a standstill. A vibration that settles loses more than a thousandth of its
 //! amplitude in one of ten periods.
 
 use kontur_filters::time::CycleTime;
 
-/// Shortest and longest period in s for standing still.
+/// Shortest and longest period in s for detecting a standstill.
 const PERIOD_S: (f64, f64) = (0.2, 1.0);
 /// Period in s over which vibrations are compared: slower ones than 1 Hz are not vibrations of a machine.
 const SWING_S: f64 = 1.0;
@@ -57,7 +57,7 @@ impl Default for Patience {
 }
 
 impl Patience {
-    /// One cycle at a distance from where the axis shall be (signed); true when it will not get there. Standing still is
+    /// One cycle at a distance from where the axis should be (signed); true when it will not get there. A standstill is
     /// watched over the settling time, 1 s without one.
     pub(super) fn is_over(
         &mut self,
@@ -96,7 +96,7 @@ mod tests {
     fn standing_still_is_seen_within_a_settling_time() {
         assert_eq!(ends(Some(0.3), |_| 0.02), Some(299));
         assert_eq!(ends(None, |_| -0.02), Some(999));
-        // settles at 0.02 mm with 20 ms: stands after some 0.2 s
+        // settles at 0.02 mm with 20 ms: at rest after some 0.2 s
         let settles = |t: f64| 0.02 + 2.0 * libm::exp(-t / 0.02);
         let k = ends(Some(0.2), settles).unwrap();
         assert!((399..800).contains(&k), "{k}");

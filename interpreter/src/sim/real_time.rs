@@ -32,7 +32,7 @@ impl Simulation {
         self.planner.feedhold(self.inputs.feedhold || probed, braking);
     }
 
-    /// K-0132, once for each thread: the path does not go with the spindle.
+    /// K-0132, once for each thread: the path does not follow the spindle.
     pub(super) fn watch_thread(&mut self) {
         let Some(thread) = &mut self.thread else { return };
         let why = self.inputs.changes_speed(thread.full_override);

@@ -160,7 +160,7 @@ impl Spindle {
         self.positions() && self.positioning.as_ref().is_none_or(|p| !p.arrived)
     }
 
-    /// It turns with its speed, rests, or stands at its position.
+    /// It turns with its speed, or rests, also at a position it was sent to.
     pub(super) fn is_as_told(&self) -> bool {
         if self.positions() {
             return !self.approaches();

@@ -24,7 +24,7 @@ pub(super) enum Action {
     Halted,
     /// The path continues after its halt.
     Resume,
-    /// The axes do not go with a spindle any more.
+    /// The axes no longer follow a spindle.
     ThreadEnd,
     End(EndReason),
 }
@@ -138,7 +138,7 @@ impl Wait {
         Self { until: Until::AllInPosition, action, patience: Patience::default() }
     }
 
-    /// Axes that it waits for oscillate no more; returns those for which neither the program nor its end says so.
+    /// Axes that it waits for no longer oscillate; returns those for which neither the program nor its end says so.
     pub(super) fn end_oscillations(&self, independent: &mut IndependentAxes) -> Vec<usize> {
         match &self.until {
             Until::Arrived(axes) => {

@@ -93,37 +93,33 @@ pub(crate) fn ends_in_comment(text: &str) -> bool {
 
 /// True if a square bracket is open at the end of `text`.
 pub(crate) fn bracket_is_open(text: &str) -> bool {
-    let mut depth = 0_usize;
-    for (region, range) in regions(text) {
-        if region == Region::Code {
-            for byte in &text.as_bytes()[range] {
-                match byte {
-                    b'[' => depth += 1,
-                    b']' => depth = depth.saturating_sub(1),
-                    _ => {}
-                }
-            }
-        }
-    }
-    depth > 0
+    brackets(text).open > 0
 }
 
 /// True if every square bracket of `text` has its partner in it.
 pub(crate) fn brackets_are_complete(text: &str) -> bool {
-    let mut depth = 0_usize;
-    for (region, range) in regions(text) {
-        if region == Region::Code {
-            for byte in &text.as_bytes()[range] {
-                match byte {
-                    b'[' => depth += 1,
-                    b']' if depth == 0 => return false,
-                    b']' => depth -= 1,
-                    _ => {}
-                }
-            }
+    brackets(text) == Brackets { open: 0, closed_too_often: false }
+}
+
+/// Square brackets of the code in a text that have no partner in it.
+#[derive(Default, PartialEq, Eq)]
+struct Brackets {
+    open: usize,
+    closed_too_often: bool,
+}
+
+fn brackets(text: &str) -> Brackets {
+    let mut found = Brackets::default();
+    let code = regions(text).filter(|(region, _)| *region == Region::Code);
+    for byte in code.flat_map(|(_, range)| &text.as_bytes()[range]) {
+        match byte {
+            b'[' => found.open += 1,
+            b']' if found.open == 0 => found.closed_too_often = true,
+            b']' => found.open -= 1,
+            _ => {}
         }
     }
-    depth == 0
+    found
 }
 
 /// True if a text contains a character outside of its strings and comments.
@@ -146,5 +142,17 @@ mod tests {
         assert!(ends_in_comment("X1 (a") && ends_in_comment("X1 ;a"));
         assert!(!ends_in_comment("X1 (a) "));
         assert!(bracket_is_open("L CYCLE [A=1") && !bracket_is_open("X[1](["));
+        for (text, open, complete) in [
+            ("[[1]", true, false),
+            ("][", true, false),
+            ("1]", false, false),
+            ("[\"]\"]", false, true),
+        ] {
+            assert_eq!(
+                (bracket_is_open(text), brackets_are_complete(text)),
+                (open, complete),
+                "{text}"
+            );
+        }
     }
 }

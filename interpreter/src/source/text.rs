@@ -14,7 +14,7 @@
 //! assert_eq!(read.lines().count(), 2);
 //! // a file that is not text ends with a sentence
 //! let mut zeros = Text::new(std::io::repeat(0))?;
-//! assert!(zeros.read_to_string(&mut read).unwrap_err().to_string().contains("no text"));
+//! assert!(zeros.read_to_string(&mut read).unwrap_err().to_string().contains("not text"));
 //! assert_eq!(beginning(&"1".repeat(1000)).len(), 83);
 //! # Ok::<(), std::io::Error>(())
 //! ```
@@ -27,7 +27,7 @@ pub(crate) const LINE_MAX: usize = 65_536;
 
 /// Bytes of a text file as they are.
 ///
-/// Errors: UTF-16, characters of the code 0, and a line longer than [`LINE_MAX`].
+/// Errors: UTF-16, characters with code 0, and a line longer than [`LINE_MAX`].
 #[derive(Debug)]
 pub struct Text<R> {
     reader: BufReader<R>,
@@ -71,7 +71,9 @@ impl<R: Read> Read for Text<R> {
         let mut rest = &buffer[..count];
         if let Some(at) = memchr::memchr(0, rest) {
             let line = self.line + memchr::memchr_iter(b'\n', &rest[..at]).count() as u64;
-            return Err(wrong(format!("line {line} holds a character of the code 0: no text")));
+            return Err(wrong(format!(
+                "line {line} contains a character with code 0: this is not text"
+            )));
         }
         while let Some(end) = memchr::memchr(b'\n', rest) {
             self.count(end)?;
@@ -114,7 +116,7 @@ mod tests {
         for (bytes, reason) in [
             (&b"\xFF\xFEt\0"[..], "UTF-16"),
             (b"\xFE\xFF\0t", "UTF-16"),
-            (b"a\nb\0", "line 2 holds a character of the code 0"),
+            (b"a\nb\0", "line 2 contains a character with code 0"),
             (format!("a\n{long}1").as_bytes(), "line 2 is longer than 65536 bytes"),
         ] {
             assert!(read(bytes).unwrap_err().contains(reason), "{reason}");

@@ -232,7 +232,7 @@ fn is_function(rest: &str) -> bool {
     !behind.starts_with('[') && Function::from_name(&rest[..name]).is_some()
 }
 
-/// Length and message for letters that begin no word: the grammar could only have gone on with a bracket, or took
+/// Length and message for letters that begin no word: the grammar could only have continued with a bracket, or took
 /// several letters for the name of an axis.
 fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
     let before = before.trim_ascii_end();
@@ -248,13 +248,13 @@ fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
         [] => return None,
         [b'G' | b'M' | b'H'] => format!("`{word}` not followed by a number"),
         [b'G' | b'M' | b'H', b'0'..=b'9', ..] => {
-            format!("`{word}` is followed by something that is no word")
+            format!("`{word}` is followed by something that is not a word")
         }
         [b'L'] | [b'L', b'L'] => format!("`{word}` without the name of a program"),
         [b'N'] | [b'N', b'0'..=b'9', ..] => {
             format!("`{word}`: a block number comes first in its block")
         }
-        _ => format!("`{word}` is no word of an NC program"),
+        _ => format!("`{word}` is not a word of an NC program"),
     };
     Some((length, text))
 }

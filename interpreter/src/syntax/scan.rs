@@ -10,7 +10,7 @@ use crate::source::regions::{self, Region, regions};
 /// Byte that replaces every character of a configured name in the masked text.
 pub(super) const MARK: u8 = 1;
 
-/// Stands in the masked text for a quote that is never closed.
+/// In the masked text the place of a quote that is never closed.
 pub(super) const UNCLOSED: char = '\u{2}';
 
 /// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,

@@ -286,7 +286,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         /// Set points that trail a contour, with jumps: on every line between two of them the nearest block is found, by
-        /// what earlier lines have shown as by a search of its own, while blocks are forgotten.
+        /// what earlier lines have shown as by a fresh search, while blocks are forgotten.
         #[test]
         fn what_is_known_from_earlier_lines_hides_no_block(
             turns in prop::collection::vec((-2.5..2.5f64, 0.02..3.0f64, prop::bool::weighted(0.2)), 3..30),

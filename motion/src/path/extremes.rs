@@ -311,7 +311,7 @@ mod tests {
         assert!((got[2][1] - third).abs() < 1e-12 * third, "{} {third}", got[2][1]);
     }
 
-    /// Straight pieces, standing axes, a piece that starts from rest: no bend, and an end.
+    /// Straight pieces, axes at rest, a piece that starts from rest: no bend, and an end.
     #[test]
     fn pieces_without_a_bend() {
         let (even, uneven) = ([0.0, 3.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.5, 0.4, 0.1, 0.0, 0.0]);

@@ -16,7 +16,7 @@ const KINKS: usize = 64;
 /// Blocks that are looked at for them: most may go straight on.
 const BLOCKS: usize = 1024;
 
-/// Lowers the caps in front of the newest segment and of those before it.
+/// Lowers the caps at the starts of the newest segment and of those before it.
 pub(super) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, kernel_active: bool) {
     let newest = segments.len() - 1;
     if newest == 0 || !is_kink(&segments[newest - 1].queued, &segments[newest].queued) {

@@ -35,7 +35,7 @@ impl Planner {
     /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
         let window = self.plan.window();
-        // a block without speed ends the path in front of it
+        // a block without speed ends the path before it
         let barred = window.len() < self.plan.segments.len();
         let mut start = self.plan.start.moment;
         if self.plan.is_at_rest() {
@@ -301,7 +301,7 @@ pub(super) fn held_to(
     segments.into_iter().map(|s| (s.cap, s.asked)).collect()
 }
 
-/// How many entries end in front of block `limit` of the window or there; `None` if the first one continues.
+/// How many entries end before block `limit` of the window or at it; `None` if the first one continues.
 fn entries_before(entries: &[Entry], limit: usize) -> Option<usize> {
     let mut blocks = 0;
     let before = entries.iter().take_while(|e| {

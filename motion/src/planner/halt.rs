@@ -71,7 +71,7 @@ fn place_in(ahead: &[(f64, Segment)], seq: u64, point: &[f64]) -> Option<f64> {
     places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
 }
 
-/// What lies in front of path length `s` of the program, and what lies after it.
+/// What lies before path length `s` of the program, and what lies after it.
 fn divided(ahead: &[(f64, Segment)], s: f64) -> (Vec<(f64, Segment)>, Vec<Segment>) {
     let (mut front, mut behind) = (Vec::new(), Vec::new());
     for (start, segment) in ahead {

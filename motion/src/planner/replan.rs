@@ -6,11 +6,11 @@
 //!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits
 //!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
 //!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
-//!    look-ahead finds a plan behind;
+//!    look-ahead finds a plan after it;
 //! 3. what lies after the leg goes back into the queue, the block in which it ends as its remainder.
 //!
-//! So every state that is output still has a stop in front of it. Until its leg begins the path follows the old plan:
-//! close in front of a slower place, where the path is braking already, a change takes effect after that place.
+//! So every state that is output still has a stop ahead of it. Until its leg begins the path follows the old plan:
+//! shortly before a slower place, where the path is braking already, a change takes effect after that place.
 //!
 //! Each of these is a transaction on the plan: the kept part, the leg and a new plan after it take the place of what is there,
 //! and what was there comes back where that does not keep the tolerance.
@@ -104,7 +104,7 @@ impl Planner {
     }
 
     /// Changes the speed at the first place where a leg with a part of the acceleration fits; false if that is not to be waited
-    /// for any longer. `ahead` may end in front of the old plan, then nothing is driven after it.
+    /// for any longer. `ahead` may end before the old plan does; then nothing is driven after it.
     pub(super) fn change_speed(
         &mut self,
         old: &[Entry],
@@ -377,7 +377,7 @@ impl Planner {
     }
 }
 
-/// What of it lies behind path length `s` of the program.
+/// The part of it after path length `s` of the program.
 fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
     let first = ahead.partition_point(|b| b.0 <= s).max(1) - 1;
     let rest = ahead[first.min(ahead.len())..].iter().map(|(_, segment)| segment.clone());

@@ -19,7 +19,7 @@ const TRIES: usize = 4;
 const WORTH: f64 = 2.0;
 
 impl Planner {
-    /// The plan that is faster: `kept`, which keeps the tolerance, or one that rests on some stretch that begins in front of block
+    /// The plan that is faster: `kept`, which keeps the tolerance, or one that rests on some stretch that begins before block
     /// `front`.
     pub(super) fn rest_instead(
         &mut self,
@@ -51,7 +51,7 @@ impl Planner {
         kept
     }
 
-    /// Cycles that each block of a plan would save if the path rested in front of it until the filters have let go of what is
+    /// Cycles that each block of a plan would save if the path rested before it until the filters have let go of what is
     /// before, and at its end; what it loses is negative.
     fn gains(&self, plan: &[Entry]) -> Vec<f64> {
         let (cycle, wait) = (self.cycle, f64::from(self.kernels.length()));
@@ -76,7 +76,7 @@ impl Planner {
     }
 }
 
-/// The blocks in a row that save most together, the first of them in front of block `front`.
+/// The blocks in a row that save most together, the first of them before block `front`.
 fn best_stretch(gains: &[f64], front: usize) -> Option<Range<usize>> {
     let (mut best, mut stretch) = (WORTH, None);
     let (mut sum, mut from) = (0.0, 0);

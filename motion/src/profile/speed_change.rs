@@ -3,7 +3,7 @@
 //!
 //! Acceleration builds up from its present value, stays and falls to zero, or falls at once. The rates are those of the
 //! ramps of the slope (plateau / ramp time), also for SIN2 and for constant ramp times: a ramp that is interrupted in
-//! the middle has no shape of its own (Assumption: the documents describe ramps from zero only). So the jerk of a SIN2
+//! the middle has no defined shape (Assumption: the documents describe ramps from zero only). So the jerk of a SIN2
 //! slope, `π/2` times as large in the middle of its ramps, is never exceeded.
 
 use super::phase::Phase;

@@ -1,7 +1,7 @@
 //! The lower one of rise and fall with constant jerk, connected where the one changes to the other.
 //!
 //! The rise never gets slower and the fall never faster, but for their cuts; so they cross once between two places at
-//! which both are cut. In front of the crossing the rise is left: from there the acceleration falls with the jerk of the
+//! which both are cut. Before the crossing the rise is left: from there the acceleration falls with the jerk of the
 //! blocks until velocity and acceleration are those of the fall. The later it is left the closer this gets to the fall;
 //! the last moment is found by bisection. A fall that keeps the limits brakes harder than such a connection anywhere, so
 //! the connection keeps them too.

@@ -1,6 +1,6 @@
 //! Takes the noise out of the programmed points before they become control points.
 //!
-//! Coordinates rounded to three decimals lie up to 0.9 um beside the contour that they stand for. At chords of 0.05 mm that
+//! Coordinates rounded to three decimals lie up to 0.9 um beside the contour that they describe. At chords of 0.05 mm that
 //! turns the edges by a degree, and a spline that takes every point for true bends there as much as at a radius of some
 //! mm. So each point moves to where a smoothing spline ([`fit`]) of the points around it is: by no more than
 //! [`SHARE`] of the tolerance and [`MOST`], and by no more than twice what the points around it show of noise. Points that

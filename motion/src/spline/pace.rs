@@ -37,7 +37,7 @@ impl Part {
 
 /// The pieces of an edge in groups of nearly equal speed, each with its speed in mm/s.
 pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiece>, f64)> {
-    // a time stands for the speed over the whole edge
+    // a time means one speed over the whole edge
     let feed = match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
         feed => feed,

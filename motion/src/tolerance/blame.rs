@@ -3,7 +3,7 @@
 //! Around the middle `s*` of what the filter of an axis holds, the path is a straight line plus its kinks and bends. A kink
 //! at `s_b` with the change of direction `du` moves the set point aside by `du E[(s - s_b)+]` (or `(s_b - s)+` before the
 //! middle), with the mean `E` over the kernel: its *part* in the deviation (derived; exact for polygons). A bend is many
-//! small kinks. A short filter holds one set point in front of a corner and the next one after it, and the line between them cuts
+//! small kinks. A short filter holds one set point before a corner and the next one after it, and the line between them cuts
 //! the corner off: where a set point has no parts, those of the middle of its line count.
 //!
 //! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
@@ -201,7 +201,7 @@ impl View<'_> {
             }
         }
         if !blamed || all {
-            // a cause in front of a stop is final already, but what follows the stop can wait for the filters
+            // a cause before a stop is final already, but what follows the stop can wait for the filters
             let fixed = |p: &&Part| marks[p.mark].block.is_none();
             let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
             let waits = (all || before > 0.0)
@@ -211,7 +211,7 @@ impl View<'_> {
                 findings.corner[0] = findings.corner[0].max(excess);
             }
             if !waits || all {
-                // behind a long rest the filters hold nothing of the block in front of it
+                // after a long rest the filters hold nothing of the block before it
                 let held = record.s(oldest);
                 let is_left = |m: &usize| {
                     marks.get(m + 1).is_some_and(|next| next.s_mm <= held + SAME_START_MM)

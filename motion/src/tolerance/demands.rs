@@ -52,7 +52,7 @@ impl Demands {
     pub(crate) fn again(blocks: impl Iterator<Item = Asked>) -> Self {
         let mut demands = Self::default();
         for Asked { cap, stop, feed, acceleration } in blocks {
-            // the boundary in front of the block; a new one after it
+            // the boundary before the block; a new one after it
             if let (Some(last), Some(rest), false) =
                 (demands.cap.last_mut(), demands.stop.last_mut(), demands.feed.is_empty())
             {
@@ -69,7 +69,7 @@ impl Demands {
         demands
     }
 
-    /// What is asked of a block and of the boundary in front of it; `None` if it has not been planned yet.
+    /// What is asked of a block and of the boundary before it; `None` if it has not been planned yet.
     pub(crate) fn of(&self, block: usize) -> Option<Asked> {
         Some(Asked {
             feed: *self.feed.get(block)?,
@@ -123,7 +123,7 @@ impl Demands {
         boundaries(&blocks, window).all(|b| self.stop[b] == Some(kernels.length()))
     }
 
-    /// Makes room for `count` blocks in front of block `at`, held to nothing but a speed.
+    /// Makes room for `count` blocks before block `at`, held to nothing but a speed.
     pub(crate) fn insert(&mut self, at: usize, count: usize, feed: f64) {
         fn fill<T: Clone>(list: &mut Vec<T>, at: usize, count: usize, value: T) {
             list.splice(at..at, std::iter::repeat_n(value, count));

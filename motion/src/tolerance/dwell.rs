@@ -25,7 +25,7 @@ pub(super) struct Rest<'a> {
 }
 
 impl<'a> View<'a> {
-    /// The stop in front of a mark, which lasts `dwell` cycles.
+    /// The stop before a mark, which lasts `dwell` cycles.
     pub(super) fn rest_at(&'a self, mark: &'a Mark, dwell: u32) -> Rest<'a> {
         let go = mark.cycles.round() as u64;
         let cycle = go.saturating_sub(u64::from(dwell));

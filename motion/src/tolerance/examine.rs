@@ -36,7 +36,7 @@ impl Monitor {
     ) -> (Verdict, Vec<Seen>) {
         let view = View::new(trial, self);
         let blocks = demands.feed.len();
-        // even speeds and parts of blocks are asked for first; where there are no bends to divide, nobody is to blame for that
+        // even speeds and parts of blocks are asked for first; where there are no bends to divide, nothing is to blame for that
         if round == 0 && !trial.bends() && foresees(trial.kernels) {
             let found = view.examine(round, |_, _| ());
             if found.worst.is_none() {

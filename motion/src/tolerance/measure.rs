@@ -74,7 +74,7 @@ impl Record {
         self.s_mm.push(s_mm);
     }
 
-    /// Path length in cycle `k`, which is one of the stretch or of the reach in front of it.
+    /// Path length in cycle `k`, which is one of the stretch or of the reach before it.
     pub(super) fn s(&self, k: u64) -> f64 {
         let at = k.saturating_sub(self.first) as usize;
         self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)

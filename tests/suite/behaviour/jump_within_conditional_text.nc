@@ -1,6 +1,6 @@
 ; run: exit 0
 ; end X7 Y0 Z4
-(a branch of #IF may have jumps of its own, also next to its end, and jumps that leave it)
+(a branch of #IF may have jumps inside it, also next to its end, and jumps that leave it)
 V.S.A = 1
 G01 F2000
 #IF V.S.A == 1

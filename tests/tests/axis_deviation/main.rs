@@ -228,7 +228,7 @@ fn override_and_feedhold_on_a_rounded_square() {
                 let own = axes.map(|a| a.dev_both_ways).fold(0.0, f64::max);
                 assert!(own <= 0.005 + SLACK_MM, "{slope}: {own}");
             } else {
-                println!("{slope} {program}: not kept in front of a change, said so");
+                println!("{slope} {program}: not kept before a change, said so");
             }
         }
     }

@@ -226,7 +226,7 @@ mod tests {
         assert!(fault_after(&mut monitor(Some(0.149)), inside_then_out).is_some());
     }
 
-    /// Told before the last step or right after it: the same cycle.
+    /// Announced before the last step or right after it: the same cycle.
     #[test]
     fn a_stop_told_behind_the_last_step() {
         let mut m = monitor(Some(0.2));

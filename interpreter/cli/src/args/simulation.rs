@@ -1,7 +1,6 @@
 //! Options that every command with a simulation has.
 
-use super::values::setting;
-use crate::combinations::EXTERNAL;
+use super::values::{after_external, setting};
 use clap::ValueEnum;
 use kontur_interpreter::job::Stop;
 use std::path::PathBuf;
@@ -16,7 +15,7 @@ pub enum MessageForm {
 }
 
 /// Options that decide what is simulated.
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a separate switch for the user")]
 #[derive(Clone, Debug, clap::Args)]
 pub struct SimulationArgs {
     /// Machine: a folder with a start-up list, the list itself, or a TwinCAT project (.tsproj, .xti) [default: the built-in xyz]
@@ -93,11 +92,7 @@ fn external(text: &str) -> Result<(String, String), String> {
     let expected = || "NAME=VALUE is expected".to_owned();
     let (name, value) = text.split_once('=').ok_or_else(expected)?;
     let name = name.trim();
-    let after = |prefix: &str| {
-        let is_prefix = |head: &str| head.eq_ignore_ascii_case(prefix);
-        name.get(..prefix.len()).is_some_and(is_prefix).then(|| &name[prefix.len()..])
-    };
-    let name = after(EXTERNAL).unwrap_or(name);
+    let name = after_external(name).unwrap_or(name);
     if name.is_empty() { Err(expected()) } else { Ok((name.to_owned(), value.to_owned())) }
 }
 

@@ -90,7 +90,7 @@ impl Shard {
     /// Its share of so many combinations, by their numbers; the sizes of the parts differ by one at most.
     ///
     /// # Errors
-    /// A message, for all parts alike, if some of them would be empty.
+    /// A message, the same for all parts, if some of them would be empty.
     pub fn of(self, count: usize) -> Result<Range<usize>, String> {
         if self.parts > count {
             return Err(format!("--shard: {} parts of {count} combinations", self.parts));
@@ -149,7 +149,7 @@ impl Amplitude {
             let names: Vec<&str> =
                 columns.iter().filter(|c| is_number(c)).map(|c| c.name.as_str()).collect();
             format!(
-                "--amplitude: `{}` is no column with numbers; they are {}",
+                "--amplitude: `{}` is not a column of numbers; those are {}",
                 self.signal,
                 names.join(", ")
             )

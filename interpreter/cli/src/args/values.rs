@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbers(pub Vec<f64>);
 
-/// More curves than this are a slip of the hand.
+/// More curves than this are a typing mistake.
 const MOST_CURVES: usize = 1000;
 
 impl FromStr for Numbers {
@@ -91,6 +91,13 @@ pub(crate) fn setting(text: &str) -> Result<String, String> {
         Ok(_) => Ok(text.to_owned()),
         Err(d) => Err(d.hint.unwrap_or(d.text)),
     }
+}
+
+/// The name of an external variable after its `V.E.`, in any case; nothing if the text does not begin with that.
+pub(crate) fn after_external(text: &str) -> Option<&str> {
+    const FRONT: &str = "V.E.";
+    let (front, name) = text.split_at_checked(FRONT.len())?;
+    front.eq_ignore_ascii_case(FRONT).then_some(name)
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub struct Vary {
     pub values: Vec<String>,
 }
 
-/// More combinations of values than this are a slip of the hand.
+/// More combinations of values than this are a typing mistake.
 pub(crate) const MOST_COMBINATIONS: usize = 100_000;
 
 impl FromStr for Vary {

@@ -7,7 +7,7 @@ use super::view::{Points, View};
 const WIDTH: f64 = 1100.0;
 const MARGIN: f64 = 76.0;
 const GAP: f64 = 84.0;
-/// Names longer than this get a line of the legend for themselves.
+/// Names longer than this get a separate line of the legend.
 const LONG_NAME: usize = 66;
 
 /// A picture.

@@ -44,7 +44,7 @@ static BAR: Tone = tone("bar", "#a5c8f3", "#27507f");
 static ERROR: Tone = tone("error", "#c92a2a", "#ff8787");
 static WARNING: Tone = tone("warning", "#856900", "#ffd43b");
 
-/// Series: readable as text, and apart from each other for colour-blind eyes and in print by their [dashes](Style).
+/// Series: readable as text, and distinguishable for colour-blind eyes and in print by their [dashes](Style).
 pub(crate) static SERIES: [Tone; 8] = [
     tone("c0", "#1c6dd0", "#74b0ff"),
     tone("c1", "#c2410c", "#ff9a5c"),

@@ -132,7 +132,7 @@ fn farthest(runs: &[Vec<Point>], groups: &[Group], [x, y]: [usize; 2]) -> Option
     apart.filter(|p| p.error.is_finite()).max_by(|a, b| a.error.total_cmp(&b.error))
 }
 
-/// Distance of a point from the straight way between two others.
+/// Distance of a point from the straight segment between two others.
 fn from_line(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (way, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = way[0] * way[0] + way[1] * way[1];
@@ -211,7 +211,7 @@ fn strips(svg: &mut Svg, runs: &[Drawn], groups: &[Group], top: f64) -> f64 {
     top
 }
 
-/// The names of the lines of a view, to the right of its title; of several runs the dashes of the axes, as their colours are those of the
+/// The names of the lines of a view, to the right of its title; with several runs the dashes of the axes, as their colours are those of the
 /// contour.
 fn names(svg: &mut Svg, panel: &Panel, runs: &[Drawn], view: &View<Source>) {
     let mut entries: Vec<(&str, Style)> = Vec::new();
@@ -279,7 +279,7 @@ mod tests {
         assert!((far.set[0] - 0.7).abs() < 1e-15 && far.pass == 1, "{far:?}");
         assert!((far.error - 0.2).abs() < 1e-15, "{}", far.error);
         assert_eq!(farthest(&runs, &[group(0)], [0, 1]), None);
-        // beyond an end the end counts, and a way without length is a point
+        // beyond an end the end counts, and a segment without length is a point
         assert!((from_line([4.0, 4.0], [0.0, 0.0], [1.0, 0.0]) - 5.0).abs() < 1e-15);
         assert!((from_line([3.0, 4.0], [0.0, 0.0], [0.0, 0.0]) - 5.0).abs() < 1e-15);
     }

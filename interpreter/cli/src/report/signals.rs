@@ -113,7 +113,7 @@ pub(super) fn report(
         }
         runs.push(recorded);
     }
-    // of refused programs there is nothing to show
+    // there is nothing to show of refused programs
     if runs.iter().any(|run| !run.times.is_empty()) {
         let to_error = |e| Error::io(output.display().to_string(), e);
         for mut target in create_all([output])? {

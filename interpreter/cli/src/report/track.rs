@@ -135,7 +135,7 @@ fn from_line_mm2(p: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A path that winds and stands: every point of 200,000 is within the stated distance of the track.
+    /// A path that winds and rests: every point of 200,000 is within the stated distance of the track.
     #[test]
     fn what_is_left_out_is_within_the_stated_distance() {
         let at = |k: u64| -> Point {

@@ -140,7 +140,7 @@ fn residual_title(runs: &[Drawn], moving: impl Iterator<Item = (usize, usize)>) 
         let axis = &runs[run].recording.facts.axes[axis];
         said.push(format!("{} {left:.5} {}", axis.name, axis.unit()));
     }
-    // of several runs the curves say it
+    // with several runs the curves show it
     let left = if runs.len() > 1 {
         String::new()
     } else {

@@ -103,7 +103,7 @@ impl Found<'_> {
         let (filter, issues) = AxisFilter::design(config, self.cycle);
         self.report(&label, &issues)?;
         let Some(filter) = filter else {
-            return Err(Error::Usage(format!("{label}: order 0 is no filter")));
+            return Err(Error::Usage(format!("{label}: order 0 switches the filter off")));
         };
         if matches!(config.kind, FilterKind::BandPass | FilterKind::BandStop) {
             let FilterConfig { f_hz, q, .. } = *config;

@@ -25,7 +25,7 @@ pub(super) fn row(
     {
         let known: Vec<&str> = results.iter().map(|(name, _)| name.as_str()).collect();
         let known = known.join(", ");
-        return Err(format!("--columns: `{unknown}` is no result; they are {known}"));
+        return Err(format!("--columns: `{unknown}` is not a result; the results are {known}"));
     }
     let mut header: Vec<String> = args.vary.iter().map(|v| v.key.clone()).collect();
     header.extend(STATE.map(str::to_owned));

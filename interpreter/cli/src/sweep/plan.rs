@@ -1,4 +1,4 @@
-//! A sweep as numbered runs, for those who distribute them themselves.
+//! A sweep as numbered runs, for callers that distribute them themselves.
 
 use super::one::row;
 use super::rows::Row;
@@ -9,7 +9,7 @@ use crate::combinations::combinations;
 use crate::request::OpenError;
 use crate::table::Cell;
 
-/// A sweep whose runs somebody else distributes: over threads, processes or machines.
+/// A sweep whose runs the caller distributes: over threads, processes or machines.
 #[derive(Clone, Debug)]
 pub struct Plan {
     args: SweepArgs,

@@ -112,7 +112,7 @@ fn work(
             Ok(mut batch) => {
                 let written = writer.write(&batch);
                 batch.clear();
-                // if it is no longer needed, nobody receives it
+                // if it is no longer needed, it is not received
                 drop(back.try_send(batch));
                 written
             }

@@ -148,7 +148,7 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     assert_eq!(exit, Exit::Finished, "{said}");
     assert_eq!(trace, expected);
 
-    // the items alone, exported into a folder; without the project nobody knows the cycle
+    // the items alone, exported into a folder; without the project the cycle is unknown
     fs::remove_file(folder.path("machine.tsproj")).unwrap();
     let (exit, trace, said) = run(&folder, "_Config");
     assert_eq!(exit, Exit::Finished, "{said}");
@@ -276,7 +276,7 @@ fn the_cycle_of_the_task() {
     for (units, own, want_s, words) in [
         ("20000", format!("{own}\nEnde\n"), 0.002, "cycle 2000 us of the GEO task"),
         ("20000", format!("{own}\nKONTUR.Cycle_Time_us 500\n"), 0.0005, "replaced by that of"),
-        ("3333", own.clone(), 0.001, "333.3 us of the GEO task is no whole number"),
+        ("3333", own.clone(), 0.001, "333.3 us of the GEO task is not a whole number"),
     ] {
         fs::write(folder.path("kontur.lis"), own).unwrap();
         fs::write(folder.path("machine.tsproj"), inside(units)).unwrap();

@@ -138,7 +138,7 @@ impl Decoder {
             b'A'..=b'C' | b'U'..=b'Z' | b'Q' => self.unknown_axis(&name.to_string(), span),
             _ => Fault::new(
                 Condition::AxisOrCommandExpected,
-                format!("{name} is no word of this dialect"),
+                format!("{name} is not a word of this dialect"),
                 span,
             )
             .hint(super::dialect::letter(letter)),
@@ -186,7 +186,7 @@ impl Decoder {
             "I" | "J" | "K" => Condition::CycleCentreOutside,
             "S" => Condition::CycleSpindleOutside,
             _ => {
-                let text = format!("@{name} is no word of a cycle");
+                let text = format!("@{name} is not a word of a cycle");
                 let hint = "cycles have @P1 to @P200, @X, @Y, @Z, @I, @J, @K and @S";
                 return Err(Fault::new(Condition::Syntax, text, assign.target.span).hint(hint));
             }
@@ -204,7 +204,7 @@ impl Decoder {
             b'X'..=b'Z' => {
                 let main = self.modal.plane.main_axes()[usize::from(letter - b'X')];
                 let Some(axis) = self.geometry.coordinates.main_axis(main) else {
-                    let text = format!("@{name}: the channel has no main axis of that place");
+                    let text = format!("@{name}: the channel has no such main axis");
                     return Err(Fault::new(Condition::AxisOrCommandExpected, text, span)
                         .hint(self.names.hint()));
                 };

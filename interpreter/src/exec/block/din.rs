@@ -1,7 +1,7 @@
 //! What the words of a block do, in the order of execution: plane, unit and dimension; tool, offsets and frames; feed,
 //! spindle, weights and modes; functions before the motion; motion or dwell; functions after it.
 //!
-//! Assumption: this order; the vendor documents only that the order of words in the block counts for nothing.
+//! Assumption: this order; the vendor documents only that the order of words in the block is irrelevant.
 
 mod functions;
 mod insertions;
@@ -102,7 +102,7 @@ impl Decoder {
         after
     }
 
-    /// How axes move in a block: as it says, else as before.
+    /// How axes move in a block: as its words say, otherwise as before.
     pub(in crate::exec) fn path_mode(&self, words: &Words<'_>) -> PathMode {
         match words.group(Group::Path).map(|g| g.row.act) {
             Some(Act::Path(mode)) => mode,
@@ -325,7 +325,7 @@ impl Decoder {
         true
     }
 
-    /// Words that other dialects give another meaning: once per program and word.
+    /// Words with another meaning in other dialects: once per program and word.
     fn dialect_guard(&mut self, words: &Words<'_>) {
         for g in &words.g {
             match g.row.number {
@@ -343,7 +343,7 @@ impl Decoder {
                 self.report.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
             }
         }
-        // a negative one is an error of its own
+        // a negative one is a separate error
         let end_feed = words.end_feed.filter(|(value, _)| *value >= 0.0);
         if let (false, Some((value, span))) = (self.dialect.own, end_feed) {
             let joined = words.axes.iter().any(|(_, _, axis)| axis.end() == span.start);

@@ -38,7 +38,7 @@ impl Decoder {
         self.motion.dynamics_changed();
         for (axis, condition) in self.motion.limited_weights(&self.machine, &self.modal) {
             let zero = condition != Condition::DynamicsLimited;
-            // what an earlier word has left so has been said there
+            // what an earlier word has left like this was reported there
             let earlier = (ratio - 1.0).abs() < 1e-12 || (zero && weight != Weight::Acceleration);
             if earlier && before.contains(&(axis, condition)) {
                 continue;
@@ -139,7 +139,7 @@ impl Decoder {
             self.contour.event(Event::Tool { number });
             self.takes_time(Function::Tool);
         } else {
-            let text = format!("T{number} is no tool number");
+            let text = format!("T{number} is not a tool number");
             self.report.note(Fault::new(Condition::Range, text, span));
         }
     }
@@ -150,7 +150,7 @@ impl Decoder {
             return;
         }
         let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) else {
-            let text = format!("D{number} is no number of tool data");
+            let text = format!("D{number} is not a number of tool data");
             self.report.note(Fault::new(Condition::Range, text, span));
             return;
         };
@@ -207,7 +207,7 @@ impl Decoder {
             let (condition, text) = if selection == inside {
                 (Condition::InsideCornerActive, "G238 while tool radius compensation is active")
             } else {
-                (Condition::SelectionActive, "the way of selection changes within that of G238")
+                (Condition::SelectionActive, "the selection mode changes within that of G238")
             };
             return Err(Fault::new(condition, text, g.span)
                 .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));

@@ -112,7 +112,7 @@ impl Decoder {
                 let name = definition.name.trim_ascii();
                 self.macro_fits(name, &definition.text, span)?;
                 let before = self.calls.macros.insert(name.into(), definition.text.clone());
-                // blocks that hold the text of before have to be read again
+                // blocks that contain the earlier text have to be read again
                 self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
                 Ok(())
             }
@@ -183,7 +183,7 @@ impl Decoder {
         letter: &str,
         span: Span,
     ) -> Outcome<Code> {
-        // of M the diagnosis manual prints the limit (20160, 250945931), of H none
+        // the diagnosis manual prints the limit of M (20160, 250945931), but none of H
         let (highest, condition) = match letter {
             "M" => (1000, Condition::MNumberTooLarge),
             _ => (65535, Condition::Range),
@@ -283,7 +283,7 @@ impl Decoder {
             }
         }
         if number == 5 && self.modal.selection == Selection::InsideCorner {
-            let text = "G05 does not go with the inside corner selection G238: it is ignored";
+            let text = "G05 cannot be used with the inside corner selection G238: it is ignored";
             self.report.note(Fault::new(Condition::TangentialInsideCorner, text, span));
             return Ok(());
         }

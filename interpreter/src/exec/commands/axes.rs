@@ -301,7 +301,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     let letters = name.text.to_ascii_uppercase();
     let first = letters.as_bytes().first().copied().unwrap_or(b' ');
     if letters.len() > 16 || !b"XYZABCUVWQ".contains(&first) {
-        let text = format!("`{}` is no axis name", name.text);
+        let text = format!("`{}` is not an axis name", name.text);
         return Err(Fault::new(Condition::ExchangeName, text, name.span));
     }
     let at = |i: usize| items.get(i).map_or(group.span, |item| item.span);

@@ -22,7 +22,7 @@ arguments! {
     struct TrcArguments {
         conv_cir_to_lin: Number "CONV_CIR_TO_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         kerf_masking: Number "KERF_MASKING" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
-        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "1: where a contour runs back, G41 and G42 change without a way across; default 0";
+        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "1: where a contour runs back, G41 and G42 change without a transverse move; default 0";
         ignore_cont_damage: Number "IGNORE_CONT_DAMAGE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         remove_masked_blocks: Number "REMOVE_MASKED_BLOCKS", "", "0; others are not supported";
         ext_angle: Number "EXT_ANGLE_BLOCK_INTERSECTION", "", "0; others are not supported";

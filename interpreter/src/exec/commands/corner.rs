@@ -1,4 +1,4 @@
-//! `#CORNER PARAM`: how the feed falls in front of corners (G13).
+//! `#CORNER PARAM`: how the feed falls before corners (G13).
 //!
 //! Source: TF5200 programming manual, parameterising corner deceleration (206444555, 15556729995).
 
@@ -15,7 +15,7 @@ use crate::syntax::ast::{ItemKind, ItemValue};
 arguments! {
     /// Keys of `#CORNER PARAM`.
     struct CornerArguments {
-        dist: Number "DIST" in above_zero(), "mm (G70: inch)", "way to the end of the motion on which the feed falls";
+        dist: Number "DIST" in above_zero(), "mm (G70: inch)", "distance before the end of the motion over which the feed falls";
         unit: Word "UNIT", "", "of FEED: FWORD as the F word, PERCENT of it";
         feed: Number "FEED" in above_zero(), "", "feed at the corner";
     }

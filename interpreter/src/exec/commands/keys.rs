@@ -21,8 +21,8 @@ use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 /// }
 /// ```
 ///
-/// A row is the field, the kind of its value, the key, perhaps the range (checked while reading, in the order of the
-/// rows), the unit and what is to be said besides. A field that begins with `_` is a key that is known and does nothing.
+/// A row is the field, the kind of its value, the key, optionally the range (checked while reading, in the order of the
+/// rows), the unit and a note. A field that begins with `_` is a key that is known and does nothing.
 macro_rules! arguments {
     (
         $(#[$doc:meta])*

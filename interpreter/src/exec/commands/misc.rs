@@ -20,7 +20,7 @@ pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
     .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known, and the corner is not contoured")
     .example("#FLUSH WAIT");
 
-/// 120102: a B-spline ends nowhere but at its own commands.
+/// 120102: a B-spline ends only at its own commands.
 ///
 /// Source: TF5200 programming manual 207042443, diagnosis 264284811.
 pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {

@@ -21,8 +21,8 @@ arguments! {
         radial_acc: MaybeNumber "RADIAL_ACC" in above_zero(), "mm/min2, mm/s2 by P-CHAN-00351", "P-CHAN-00361";
         radial_jerk: MaybeNumber "RADIAL_JERK" in above_zero(), "mm/min3, mm/s3 by P-CHAN-00351", "";
         trans_acc: MaybeNumber "TRANS_ACC" in above_zero(), "mm/s2", "";
-        feed: Flag "FEED", "", "for feed blocks alone";
-        rapid: Flag "RAPID", "", "for rapid blocks alone";
+        feed: Flag "FEED", "", "for feed blocks only";
+        rapid: Flag "RAPID", "", "for rapid blocks only";
     }
 }
 
@@ -194,7 +194,7 @@ fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
     };
     if !(0.0..=1e9).contains(&value) {
-        let text = format!("#TRANSVELMIN: {value} is no velocity");
+        let text = format!("#TRANSVELMIN: {value} is not a velocity");
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
     decoder.modal.transition_min_mm_s = value * decoder.modal.unit_mm() / 60.0;

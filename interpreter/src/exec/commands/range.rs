@@ -36,12 +36,12 @@ pub(in crate::exec) const fn above_zero_to(high: f64) -> Range {
 }
 
 impl Range {
-    /// Another condition than 21296, K-RANGE in the bracket of an axis.
+    /// A condition other than 21296, K-RANGE in the bracket of an axis.
     pub(in crate::exec) const fn or(self, condition: Condition) -> Self {
         Self { condition, ..self }
     }
 
-    /// Whole numbers alone.
+    /// Whole numbers only.
     pub(in crate::exec) const fn whole(self) -> Self {
         Self { whole: true, ..self }
     }

@@ -1,4 +1,4 @@
-//! Signals between channels: `#SIGNAL`, and the `#WAIT [ID=..]` that uses them up.
+//! Signals between channels: `#SIGNAL`, and the `#WAIT [ID=..]` that consumes them.
 //!
 //! There is one channel: signals to itself or to all can be waited for, signals to others are dropped, and a wait
 //! for another channel does not wait (K-0018).
@@ -93,7 +93,7 @@ impl<'c> Words<'c> {
         let Some(known) = known else { return Err(wrong(call, span)) };
         let Some(value) = whole(number, least, u32::MAX) else {
             let text =
-                format!("{}: {known}={number} is no whole number from {least}", call.title());
+                format!("{}: {known}={number} is not a whole number from {least}", call.title());
             let condition = match known {
                 "ID" if number < 0.0 => Condition::SignalNumber,
                 "CH" => Condition::SignalChannel,

@@ -47,7 +47,7 @@ arguments! {
     /// Keys of `#SLOPE`.
     struct SlopeArguments {
         kind: Word "TYPE", "", "STEP, TRAPEZ, SIN2 or HSC; default prog_start.slope.profile";
-        no_opt: Number "NO_OPT" in between(0.0, 1.0).whole(), "", "default 1; 0 matters with constant ramp times (P-CHAN-00349) alone: there the profile of each run of blocks is planned by itself, else across blocks";
+        no_opt: Number "NO_OPT" in between(0.0, 1.0).whole(), "", "default 1; 0 matters only with constant ramp times (P-CHAN-00349): there the profile of each run of blocks is planned by itself, else across blocks";
     }
 }
 

@@ -107,7 +107,7 @@ fn add(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     let name = name(first)?;
     if name.text.len() > NAME_MAX || RESERVED.iter().any(|reserved| name.is(reserved)) {
-        let text = format!("{} is no name for a coordinate system", name.text);
+        let text = format!("{} cannot be the name of a coordinate system", name.text);
         return Err(wrong_form(&text, name.span)
             .hint("up to eight characters, and none of ACS, IMCS and MCS"));
     }

@@ -20,9 +20,9 @@ arguments! {
         tool_dir: Flag "TOOL_DIR", "", "not supported";
         surface: Flag "SURF_NORM_DIR", "", "not supported";
         disc: Flag "DISC", "", "wear from outside: the input wear_mm";
-        cont: Flag "CONT", "", "wear by the way that is driven";
+        cont: Flag "CONT", "", "wear by the distance driven";
         auto: Flag "AUTO", "", "both (default)";
-        wear_const: Number "WEAR_CONST" in at_least(0.0), "0.1 um/m", "wear by the way; without it that of the tool (P-TOOL-00030)";
+        wear_const: Number "WEAR_CONST" in at_least(0.0), "0.1 um/m", "wear per distance; without it that of the tool (P-TOOL-00030)";
         wear_const_tool: Flag "WEAR_CONST_TOOL", "", "that of the tool again";
         acc_weight: Number "ACC_WEIGHT" in between(1.0, 100.0), "%", "acceleration with which a change of the wear is followed; default 100";
     }

@@ -1,4 +1,4 @@
-//! Rounding of corners and smoothing of short blocks: what the program has set for the stages in front of the planner.
+//! Rounding of corners and smoothing of short blocks: what the program has set for the stages before the planner.
 //!
 //! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
 //! the spline.

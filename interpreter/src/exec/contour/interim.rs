@@ -1,7 +1,7 @@
 //! Corners of `#CONTOUR MODE [POS ..]`: their curves lead through an interim point, and so leave the range between the ends
 //! of the motions. The curves of the other modes lie between the corner and its sides.
 //!
-//! A copy of what goes out goes through the stage that makes the curves, as it does again in front of the planner.
+//! A copy of what goes out goes through the stage that makes the curves, as it does again before the planner.
 
 use super::motion::{Driven, Motion};
 use crate::exec::step::SourceRef;

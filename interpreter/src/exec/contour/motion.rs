@@ -68,7 +68,7 @@ pub(in crate::exec) enum FeedCourse {
 /// `#CORNER PARAM`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Corner {
-    /// Way in front of the corner, above 0.
+    /// Distance before the corner, above 0.
     pub(in crate::exec) dist_mm: f64,
     pub(in crate::exec) feed: CornerFeed,
 }

@@ -76,9 +76,9 @@ pub(in crate::exec) struct Coordinates {
     /// First, second and third main axis.
     main: [Option<usize>; 3],
     zero_table: BTreeMap<u32, AxisVec>,
-    /// G53 has offsets of its own (P-ZERO-00001).
+    /// G53 has its own offsets (P-ZERO-00001).
     has_g53: bool,
-    /// Zero-offset group of the axes that are no main axes, where their offsets belong to the channel and not to a coordinate
+    /// Zero-offset group of the axes that are not main axes, where their offsets belong to the channel and not to a coordinate
     /// system (P-CHAN-00397 = 0).
     channel_group: Option<u32>,
     /// Axes whose entry of a group is left out (G160).
@@ -282,7 +282,7 @@ impl Coordinates {
         span: Span,
     ) -> Outcome<()> {
         if !deg.is_finite() {
-            return Err(Fault::new(Condition::Range, "the angle is no number", span));
+            return Err(Fault::new(Condition::Range, "the angle is not a number", span));
         }
         // the centre is given in the system without rotation
         self.set_rotation(None);

@@ -16,7 +16,7 @@ use crate::exec::fault::Fault;
 use crate::syntax::ast::{Sign, Span};
 
 const TURN_DEG: f64 = 360.0;
-/// Closer than this the axis is where it shall go, and does not turn.
+/// Closer than this the axis is already at its target and does not turn.
 const SAME_DEG: f64 = 1e-7;
 
 /// The position in deg that the word `value` (first sign included) asks for, from the present position of the axis.

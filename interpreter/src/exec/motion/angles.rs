@@ -147,7 +147,7 @@ impl Decoder {
         }
     }
 
-    /// The first of two lines, in front of the second one.
+    /// The first of two lines, with the second one still to come.
     pub(super) fn contour_lines(
         &mut self,
         line: &ContourLine,

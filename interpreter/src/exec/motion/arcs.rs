@@ -78,7 +78,7 @@ impl Decoder {
             let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
             if pitch == 0.0 || height == 0.0 {
                 if pitch != 0.0 {
-                    let text = "a pitch has no meaning without a way along the third axis";
+                    let text = "a pitch has no meaning without travel along the third axis";
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             } else {

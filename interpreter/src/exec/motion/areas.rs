@@ -351,7 +351,7 @@ impl Decoder {
     /// 120742: an axis of an active area moves on its own.
     pub(super) fn moves_unwatched(&self, axis: usize, span: Span) -> Outcome<()> {
         if self.motion.areas.is_defining() {
-            return Err(wrong("an axis on its own in the definition of a control area", span));
+            return Err(wrong("an independent axis in the definition of a control area", span));
         }
         let Some(area) = self.motion.areas.active.iter().find(|area| area.axes.contains(&axis))
         else {
@@ -359,7 +359,7 @@ impl Decoder {
         };
         let name = self.names.name(axis);
         let text =
-            format!("{name} belongs to control area {}: it cannot move on its own", area.number);
+            format!("{name} belongs to control area {}: it cannot move independently", area.number);
         Err(Fault::new(Condition::AreaAxisAlone, text, span))
     }
 

@@ -84,7 +84,7 @@ impl Decoder {
         }
     }
 
-    /// What does not go with it.
+    /// What cannot be combined with it.
     fn banding_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         let what = if self.modal.compensation != Compensation::Off {
             "edge banding with tool radius compensation"

@@ -1,10 +1,10 @@
 //! Axis couplings in force: slaves that follow their masters.
 //!
-//! A slave has no part in the path, as an independent axis has none: what it goes is its way ([`Independent::way`]), by
+//! A slave takes no part in the path, like an independent axis: the distance it travels is its way ([`Independent::way`]), by
 //! which the coordinates of the path are shifted, and the simulation lets it follow the set positions of its master. So
 //! it follows arcs, compensated contours and masters that are independent for a while as it follows lines.
 //!
-//! Assumptions: the path comes to rest where a group is switched on or off, for otherwise the slave would jump to the
+//! Assumptions: the path comes to rest where a group is switched on or off, because otherwise the slave would jump to the
 //! speed of its master; the path keeps the limits of the slave as well as those of the master. The pages are silent.
 //!
 //! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579); 20169, 20457, 20467 to 20469,

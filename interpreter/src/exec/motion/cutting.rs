@@ -173,7 +173,7 @@ impl Decoder {
         Err(Fault::new(Condition::FaceTurningAxis, text, span).hint(hint))
     }
 
-    /// Tells the simulation.
+    /// Informs the simulation.
     fn tell_cutting_speed(&mut self) {
         let Some(mut cutting) = self.motion.cutting.speed else { return };
         cutting.centre_mm = self.geometry.coordinates.turning_centre(cutting.axis);
@@ -183,7 +183,7 @@ impl Decoder {
         }
     }
 
-    /// In front of a motion whose target is known: offsets may have moved the turning centre, rapid blocks keep the speed
+    /// Called before a motion whose target is known: offsets may have moved the turning centre, rapid blocks keep the speed
     /// of the position where they begin.
     pub(in crate::exec) fn follow_turning_centre(&mut self, start: &AxisVec) {
         let rapid = self.modal.path == PathMode::Rapid;
@@ -198,7 +198,7 @@ impl Decoder {
         }
     }
 
-    /// Refuses what counts with the speed of the main spindle while an override changes it: the pages are silent about
+    /// Refuses what depends on the speed of the main spindle while an override changes it: the pages are silent about
     /// which of the two speeds counts.
     pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
         if self.motion.spindles[0].is_overridden() {
@@ -254,7 +254,7 @@ pub(super) fn pieces(
             other <= rpm * STEP && other * STEP >= rpm
         };
         let (mut low, mut high) = (from, 1.0);
-        // beyond the turning centre the speed falls again: both halves of the way for themselves
+        // beyond the turning centre the speed falls again: the two halves separately
         let centre = -radius(0.0) / (radius(1.0) - radius(0.0));
         if centre > from && centre < 1.0 {
             high = centre;

@@ -58,7 +58,7 @@ impl Decoder {
                 let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
                     let (condition, what) = match self.motion.spindles[0].turning {
-                        Turning::Stopped => (Condition::SpindleAtRestAtFeed, "stands"),
+                        Turning::Stopped => (Condition::SpindleAtRestAtFeed, "is at rest"),
                         _ => (Condition::SpindleSpeedZeroAtFeed, "has no speed"),
                     };
                     let text = format!("feed per revolution, but the main spindle {what}");
@@ -77,7 +77,7 @@ impl Decoder {
         per_revolution(word.map_or(0.0, |word| word.value) * unit_mm, rpm)
     }
 
-    /// Says of a time (G93) that the limits of the axes do not allow: the limits win.
+    /// Reports a time (G93) that the limits of the axes do not allow: the limits win.
     pub(super) fn check_time(&mut self, block: &Block, span: Span) {
         let Feed::Duration(time_s) = block.feed else { return };
         let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));

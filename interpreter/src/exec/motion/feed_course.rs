@@ -42,7 +42,7 @@ impl Decoder {
                 return Err(Fault::unsupported("G193 with the slope HSC", span));
             }
             SlopeKind::Trapez | SlopeKind::Sin2 | SlopeKind::Hsc => {
-                let text = format!("{name} has an effect with the slope STEP alone");
+                let text = format!("{name} has an effect only with the slope STEP");
                 self.report.note_once(&name, Fault::new(Condition::Ignored, text, span));
                 return Ok(None);
             }

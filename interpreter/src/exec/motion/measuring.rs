@@ -77,7 +77,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What does not go with a run, or with its type.
+    /// What cannot be combined with a run, or with its type.
     fn measuring_fits(&mut self, g: &GWord, words: &Words<'_>, through: bool) -> Outcome<()> {
         let kind = self.motion.measuring.kind;
         let of_kind = |condition, text| {
@@ -131,7 +131,7 @@ impl Decoder {
             let text = match other {
                 Some((axis, _, _)) if count <= most => {
                     format!(
-                        "axis {} with measuring type 4: main axes alone",
+                        "axis {} with measuring type 4: only main axes may measure",
                         self.names.name(*axis)
                     )
                 }

@@ -1,6 +1,6 @@
 //! Oscillating axes: `X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]`, `X[OSC OFF]`.
 //!
-//! An axis oscillates independently of the path. The program counts with it at its second position, where every oscillation ends:
+//! An axis oscillates independently of the path. The program takes it to be at its second position, where every oscillation ends:
 //! by OSC OFF, and by whatever waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end.
 //!
 //! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.
@@ -179,7 +179,7 @@ impl Decoder {
         let least_s = cycle.time_of(way.cycles());
         let limits = match speed {
             IndependentSpeed::Time(t) if least_s > t + cycle.seconds() => {
-                format!("{t} s for a way take {least_s} s")
+                format!("{t} s for a stroke take {least_s} s")
             }
             IndependentSpeed::Feed(v) if v > dynamics.v_max_mm_s * (1.0 + 1e-9) => {
                 format!("a feed of {v} mm/s is limited to {} mm/s", dynamics.v_max_mm_s)

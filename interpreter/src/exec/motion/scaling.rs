@@ -64,7 +64,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// Refuses what the page does not say of scaled contours.
+    /// Refuses what the page does not describe for scaled contours.
     pub(super) fn scaling_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         if !self.geometry.scale.is_on() {
             return Ok(());
@@ -94,7 +94,7 @@ impl Decoder {
     /// Factor of centres and radii in the plane of these main axes.
     ///
     /// # Errors
-    /// The axes of the plane have different factors: the image of the arc would be none.
+    /// The axes of the plane have different factors: the image of the arc would not be an arc.
     pub(super) fn scale_of_plane(&self, plane: [usize; 2], span: Span) -> Outcome<f64> {
         let [first, second] = plane.map(|main| self.scale_of_main(main));
         if first.to_bits() == second.to_bits() {

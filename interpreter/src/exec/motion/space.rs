@@ -70,7 +70,7 @@ impl Decoder {
         }
         if self.contour.compensates() {
             let text =
-                "an arc in space behind G40: a straight motion has to lead away from the contour";
+                "an arc in space after G40: a straight motion has to lead away from the contour";
             return Err(Fault::new(Condition::SpaceArcAfterCompensation, text, span));
         }
         let coordinates = &self.geometry.coordinates;

@@ -116,7 +116,7 @@ impl Spindle {
             Turning::Stopped => SpindleMotion::Stop,
             Turning::Clockwise => SpindleMotion::Clockwise { rpm },
             Turning::CounterClockwise => SpindleMotion::CounterClockwise { rpm },
-            // Assumption: the programmed speed holds for positioning too; a spindle without one goes as fast as it can
+            // Assumption: the programmed speed holds for positioning too; a spindle without one turns as fast as it can
             Turning::Positioned(approach) => SpindleMotion::Position {
                 deg: self.angle_deg,
                 rpm: Some(rpm).filter(|r| *r > 0.0),

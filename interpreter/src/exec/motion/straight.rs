@@ -39,7 +39,7 @@ impl Decoder {
         (all && self.moves_straight(&words)).then_some(words)
     }
 
-    /// One word more of a straight motion: G00 or G01, F or an axis; false if it is anything else, or twice the same.
+    /// One more word of a straight motion: G00 or G01, F or an axis; false if it is anything else, or a repetition.
     #[inline]
     pub(in crate::exec) fn straight_word(
         &self,
@@ -159,7 +159,7 @@ impl Decoder {
                 self.share(&path, words.targets.first().map_or(words.span, |(_, at)| *at));
             self.report.keep(outcome)?
         };
-        // of a block with an error nothing moves
+        // a block with an error moves nothing
         if self.report.failed() && !self.checking {
             return Some(shared);
         }

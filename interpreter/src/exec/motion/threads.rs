@@ -62,7 +62,7 @@ struct Coupling {
 }
 
 impl Decoder {
-    /// The end of G33: the path rests, what follows it does not go with the spindle any more.
+    /// The end of G33: the path rests, and no longer follows the spindle after it.
     pub(in crate::exec) fn end_thread(&mut self) {
         if std::mem::take(&mut self.motion.threads.cutting) {
             self.sync(Sync::ThreadEnd);
@@ -94,7 +94,7 @@ impl Decoder {
                 return Ok(());
             };
             let name = self.names.name(*axis).to_owned();
-            let text = format!("tapping without a way of axis {name}");
+            let text = format!("tapping without travel of axis {name}");
             let number = self.machine.axes[*axis].number();
             return Err(
                 Fault::new(Condition::TappingWithoutWay, text, *at).with(|d| d.axis(number, name))
@@ -152,7 +152,7 @@ impl Decoder {
         self.report.note(Fault::new(Condition::ThreadBroken, text, span));
     }
 
-    /// What does not go with threads.
+    /// What cannot be combined with threads.
     fn thread_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("a thread with tool radius compensation", span));
@@ -227,7 +227,7 @@ impl Decoder {
             return Err(Fault::new(Condition::SpindleStandsInThread, text, span));
         };
         if !spindle.is_turning() {
-            let text = "G33 while the spindle stands: it has a speed, M03 or M04 is missing";
+            let text = "G33 while the spindle is at rest: it has a speed, M03 or M04 is missing";
             return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
         }
         let rev_s = spindle.rpm.abs().min(self.most_rpm(0)) / 60.0;
@@ -335,7 +335,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What keeps an axis of a thread and its spindle from being at the same place of it: other filters, another lag.
+    /// What keeps an axis and its spindle from being at the same place of the thread: different filters, a different lag.
     fn apart_from_spindle(
         &self,
         path: &Path,

@@ -131,7 +131,7 @@ impl Executor {
         };
         let (wanted, found) = (last(path), last(&self.files.file(file).name.replace('\\', "/")));
         if wanted != found && wanted.to_lowercase() == found.to_lowercase() {
-            let text = format!("{wanted} is {found}: other capital letters than the file's");
+            let text = format!("{wanted} is {found}: upper and lower case differ from the file's");
             let note = Fault::new(Condition::Odd, text, span);
             self.decoder.report.note(note.hint("not every file system finds it under this name"));
         }

@@ -148,7 +148,7 @@ impl Executor {
         self.decoder.report.source.file = file_number(file);
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {
             self.call_of_list(&name, "P-CHAN-00119", Span::default());
-            // a list of the machine may name a program that lies on its control only
+            // a list of the machine may name a program that exists only on its control
             self.decoder.report.amend(|d| {
                 if d.id != Condition::NoFile {
                     return d;
@@ -299,7 +299,7 @@ fn start_position(
         match machine.axes.iter().position(|a| a.name().eq_ignore_ascii_case(name)) {
             Some(axis) if value.is_finite() => position[axis] = *value,
             _ => {
-                let text = format!("start position {name}={value}: no such axis or no number");
+                let text = format!("start position {name}={value}: no such axis, or not a number");
                 diagnostics.push(Diagnostic::new(Condition::Range, text));
             }
         }

@@ -365,7 +365,7 @@ fn parse(
     }
 }
 
-/// K-MACRO-CONTROL if a block gets a place in the structure of its program only by its macros: the structure is known
+/// K-MACRO-CONTROL if a block gets a place in the structure of its program only through its macros: the structure is known
 /// before them.
 fn structure_of_macro(
     raw: &RawBlock<'_>,

@@ -159,7 +159,7 @@ impl Executor {
             .numbers(file, section)
             .map_err(|error| Fault::new(Condition::NoFile, format!("{name}: {error}"), span))?;
         let numbers = numbers.ok_or_else(|| {
-            let text = format!("{name}: too many block numbers without order to look for one");
+            let text = format!("{name}: too many unordered block numbers to search for one");
             Fault::new(Condition::Nesting, text, span)
                 .hint("number the blocks of the program in rising order")
         })?;

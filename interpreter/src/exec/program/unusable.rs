@@ -65,7 +65,7 @@ pub(super) fn is_foreign(
     let is_wrong = |found: &mut Vec<Diagnostic>| found.drain(..).any(|d| d.is_error());
     while judged < JUDGED_MAX {
         let Some(raw) = reader.next_block()? else { break };
-        // of what is too long nothing is known
+        // nothing is known about what is too long
         if raw.text.trim_ascii().is_empty() || raw.characters > BLOCK_LENGTH_MAX {
             continue;
         }

@@ -67,7 +67,7 @@ fn a_curve_through_a_point_outside_the_limits() {
     assert_eq!(super::places(&found.diagnostics), ["21897 4:1", "21897 5:1"]);
 }
 
-/// 256490379: `#RND` in a motion is the corner at its end, as a block of its own that between its neighbours.
+/// 256490379: `#RND` in a motion is the corner at its end, as a separate block the corner between its neighbours.
 #[test]
 fn a_rounding_in_a_motion_lies_at_its_end() {
     let ends = |text: &str| clean(&format!("G137 G90 G01 F1000 {text}\nM30\n")).ends();

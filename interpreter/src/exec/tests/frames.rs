@@ -29,7 +29,7 @@ fn assert_carried(frame: &str, image: impl Fn([f64; 3]) -> [f64; 3]) {
     for text in PROGRAMS {
         let plain = points(&format!("F1000 G00 X0 Y0 Z0\nG01 {text}\nM30\n"));
         let framed = points(&format!("{frame}\nF1000 G00 X0 Y0 Z0\nG01 {text}\nM30\n"));
-        // the way to the origin of the frame may be a motion of its own
+        // the way to the origin of the frame may be a separate motion
         let framed = &framed[framed.len() - plain.len()..];
         for (p, q) in plain.iter().zip(framed) {
             let expected = image(*p);

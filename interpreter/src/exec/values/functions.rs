@@ -139,8 +139,8 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
 
 /// `MACRO_CONTENT["NAME"]`, `MACRO_LENGTH["NAME"]`: the text of a macro, the macros in it replaced, and its characters.
 ///
-/// Source: TF5200 diagnosis 1097005579, 1152060811, 1147344395. Assumption: the length is that of the same text; the pages say it
-/// nowhere. An unknown macro has no length: K-UNDEFINED.
+/// Source: TF5200 diagnosis 1097005579, 1152060811, 1147344395. Assumption: the length is that of the same text; no page says
+/// so. An unknown macro has no length: K-UNDEFINED.
 fn of_macro(decoder: &Decoder, call: &FunctionCall) -> Outcome<Value> {
     let argument = &call.arguments[0];
     let wants_length = call.function == Function::MacroLength;
@@ -254,7 +254,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         let digits = written.bytes().any(|b| b.is_ascii_digit());
         let number: Option<f64> = written.trim().parse().ok();
         let number = number.filter(|_| digits).ok_or_else(|| {
-            let text = format!("`{written}` is no number");
+            let text = format!("`{written}` is not a number");
             Fault::new(Condition::DigitExpected, text, call.arguments[i].span)
         })?;
         if number.abs() > largest {

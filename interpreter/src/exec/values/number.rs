@@ -22,7 +22,7 @@ pub(in crate::exec) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
     }
 }
 
-/// How far a number may lie from a whole one and still be it, so that calculated numbers serve. It is what `$SWITCH` takes
+/// How far a number may lie from a whole one and still count as it, so that calculated numbers work. It is what `$SWITCH` takes
 /// for equal.
 pub(in crate::exec) const NEARLY: f64 = 0.001;
 

@@ -347,7 +347,7 @@ const OTHERS: &[(&str, &str)] =
     &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT"), ("G", "IP_NR"), ("G", "PROG_SA")];
 
 /// Data of tools that nothing here needs. Source: TF5200 external tool management 318262795; online tool compensation
-/// 213748491, whose wear is known to the simulation alone.
+/// 213748491, whose wear only the simulation knows.
 const OTHER_TOOL_DATA: &[&str] = &[
     "KIN_ID",
     "KIN_PARAM",

@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 /// What is done to a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TimerAct {
-    /// It counts on.
+    /// It counts.
     Start,
     /// It is at rest.
     Stop,
     /// `V.G.TIMER` takes its count.
     Read,
-    /// It is at 0 and stands; `V.G.TIMER` stays.
+    /// It is at 0 and stopped; `V.G.TIMER` stays.
     Clear,
 }
 

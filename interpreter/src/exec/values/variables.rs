@@ -175,7 +175,7 @@ impl Decoder {
             for expr in &segment.subscripts {
                 let x = self.number(expr)?;
                 let index = whole(x, 0, u32::MAX).ok_or_else(|| {
-                    let text = format!("subscript {x} is no whole number from 0");
+                    let text = format!("subscript {x} is not a whole number from 0");
                     Fault::new(Condition::VariableIndex, text, expr.span)
                 })?;
                 // writing to a String cannot fail

@@ -14,7 +14,7 @@ pub(super) struct Line<'a> {
     utf8: bool,
 }
 
-/// Lines of a file; LF, CR LF and CR end a line as in programs, a byte order mark is skipped, what is no UTF-8 is read as
+/// Lines of a file; LF, CR LF and CR end a line as in programs, a byte order mark is skipped, what is not UTF-8 is read as
 /// Latin-1.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
     let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };

@@ -64,7 +64,7 @@ fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Vec<Diagnosti
         "{}: ACTIVE_EXTENDED acts as ACTIVE, measuring runs and homing follow the override of feed",
         channel::RAPID_OVERRIDE.place()
     );
-    let hint = "rapid_override_percent of --input acts on G00 alone";
+    let hint = "rapid_override_percent of --input acts on G00 only";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

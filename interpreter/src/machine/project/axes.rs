@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 impl Project<'_> {
     /// Enters the axes of the first channel by their dialogs, as the tool does, and says where its list has others. Empty
-    /// if no dialog names one: the list of the channel rules.
+    /// if no dialog names one: the list of the channel applies.
     pub(super) fn name_axes(
         &mut self,
         content: &mut Content,
@@ -93,7 +93,7 @@ pub(super) fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
         .map(|(axis, _)| format!("`{}` of {}", axis.list.name, axis.list.file))
         .collect();
     let message = format!("axis lists with the same kopf.achs_nr {number}: {}", names.join(", "));
-    let hint = "give each axis a number of its own, or take the list out that is left over; only \
+    let hint = "give each axis its own number, or remove the list that is left over; only \
                 where all lists have the same number they are numbered in their order";
     Diagnostic::new(Condition::ProjectWrong, message).hint(hint)
 }

@@ -2,7 +2,7 @@
 
 use super::{monitors, plant};
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::machine::axis::AxisKind;
+use crate::machine::kind::AxisKind;
 use crate::machine::table::param::{Number, Param, Place};
 use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, kontur};
 use crate::machine::transmission::{
@@ -148,7 +148,7 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
                 Condition::ListRange,
                 of::FEEDFORWARD,
                 &format!("feedforward {flags:#x}"),
-                "bits that mean nothing are ignored",
+                "bits without a meaning are ignored",
             )
             .hint("VEL 0x1, ACC 0x2, JERK 0x4, ADD_VEL 0x101, ADD_ACC 0x202, ADD_JERK 0x804"),
         );
@@ -296,7 +296,7 @@ fn dynamic_kv(
         if let Some(value) = written.filter(|_| axis.set_by(switch).is_none()) {
             without_effect(
                 value.place(),
-                "dynamic kv that nothing switches on",
+                "dynamic kv that is not switched on",
                 "getriebe[0].dyn_kv.dyn_kv_active 1 switches it on, 0 says that it is meant to be off",
             );
         }
@@ -381,7 +381,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
         if feed_given && !is_one(resolution) {
             let what = format!("encoder resolution {resolution} in addition to a feed constant");
             diagnostics.push(
-                issues::about(axis, Condition::ResolutionWithoutEffect, param, &what, "the feed constant rules, it has no effect")
+                issues::about(axis, Condition::ResolutionWithoutEffect, param, &what, "the feed constant takes precedence, the resolution has no effect")
                     .hint("older builds took the gear ratio from it: write gear_fact_num, gear_fact_denom"),
             );
         }

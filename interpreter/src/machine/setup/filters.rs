@@ -2,8 +2,8 @@
 
 use crate::diag::{Condition, Diagnostic};
 use crate::machine::Axis;
-use crate::machine::axis::AxisKind;
 use crate::machine::issues;
+use crate::machine::kind::AxisKind;
 use crate::machine::table::axis_filters as of;
 use crate::machine::table::axis_guard;
 use crate::machine::table::param::Place;

@@ -27,7 +27,7 @@ pub(super) fn lag(axis: &Axis, digital: bool) -> LagMonitorConfig {
     }
 }
 
-/// P-AXIS-00532 rules; below 0 the older P-AXIS-00151 does. 0 of either switches off.
+/// P-AXIS-00532 applies; below 0 the older P-AXIS-00151 does. 0 in either switches off.
 pub(super) fn exact_stop(axis: &Axis) -> ExactStopConfig {
     let time_s = axis.get(axis_control::SETTLING_TIME);
     let time_s = if time_s < 0.0 { axis.get(axis_control::SETTLING_TIME_OLD) } else { time_s };

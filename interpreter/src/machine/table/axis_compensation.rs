@@ -1,4 +1,4 @@
-//! Axis lists: compensations and weightings of the control that are not simulated. A list that switches one on is told so, see
+//! Axis lists: compensations and weightings of the control that are not simulated. A list that switches one on gets a message, see
 //! [`inert`](crate::machine); their other values are read and ignored.
 
 use super::param::parameters;

@@ -118,7 +118,7 @@ pub(crate) fn suggestions(list: Option<ListKind>, shape: &str) -> Vec<&'static s
     found
 }
 
-/// The part of a key behind its last dot.
+/// The part of a key after its last dot.
 fn last_name(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or_default()
 }

@@ -30,7 +30,7 @@ pub(crate) enum Optional {}
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Whole {}
 
-/// On if it is set to something else than 0.
+/// On if it is set to a value other than 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Switch {}
 

@@ -87,11 +87,11 @@ pub enum Bound {
     None,
     /// This value is allowed.
     At(f64),
-    /// This value is not allowed any more.
+    /// This value is no longer allowed.
     Beyond(f64),
     /// The value of another parameter is allowed.
     Of(&'static str),
-    /// The value of another parameter is not allowed any more.
+    /// The value of another parameter is no longer allowed.
     BeyondOf(&'static str),
     /// A multiple of another parameter is allowed.
     Times(f64, &'static str),
@@ -99,7 +99,7 @@ pub enum Bound {
     LeastOf(&'static [&'static str]),
     /// The greatest of some parameters is allowed.
     GreatestOf(&'static [&'static str]),
-    /// So many cycles, in us, are not allowed any more.
+    /// So many cycles, in us, are no longer allowed.
     BeyondCycles(f64),
     /// Depends on other words of the function; checked where the function is set up.
     Text(&'static str),

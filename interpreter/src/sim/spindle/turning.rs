@@ -1,9 +1,9 @@
 //! How the speed of a spindle changes: accelerations and ramp times of its list.
 //!
-//! Source: TF5200 axis parameters, P-AXIS-00270: since V2.11.2800 the slope type has no say in it; a ramp time shorter than
+//! Source: TF5200 axis parameters, P-AXIS-00270: since V2.11.2800 the slope type no longer matters; a ramp time shorter than
 //! the cycle is none, others make the speed non-linear. P-AXIS-00556: the accelerations are those of the jerk-limited slope.
 //!
-//! Assumptions: each of the four ramp times is judged for itself; ramps are straight, and short ones keep their jerk; on the
+//! Assumptions: each of the four ramp times is judged separately; ramps are straight, and short ones keep their jerk; on the
 //! way to the other sense of rotation the acceleration is zero at rest; a change under way keeps its weight (G130).
 
 use kontur_filters::time::CycleTime;

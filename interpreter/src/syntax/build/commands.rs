@@ -174,7 +174,7 @@ impl Builder<'_> {
                     if of_vector && command.on.is_none() {
                         command.on = Some(part.as_str().eq_ignore_ascii_case("ON"));
                     } else {
-                        let text = format!("{} behind the bracket", part.as_str());
+                        let text = format!("{} after the bracket", part.as_str());
                         self.report(Problem::syntax(self.span(&part), text));
                     }
                 }

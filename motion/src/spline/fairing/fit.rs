@@ -76,7 +76,7 @@ fn third_of(knots: &[f64], factors: &[f64; 4], p: &[f64]) -> f64 {
     let slope = |i: usize| (p[i + 1] - p[i]) / (knots[i + 1] - knots[i]);
     let bend = |i: usize| (slope(i + 1) - slope(i)) / (knots[i + 2] - knots[i]);
     let whole = (bend(1) - bend(0)) / (knots[3] - knots[0]);
-    // the last factor stands for the whole without its division
+    // the last factor is that of the whole without its division
     factors[3] * (knots[3] - knots[0]) * (knots[3] - knots[1]) * (knots[3] - knots[2]) * whole
 }
 

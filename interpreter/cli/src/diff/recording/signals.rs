@@ -142,8 +142,8 @@ pub(super) struct Statistics {
     pub(super) rms: f64,
 }
 
-/// The signals row by row: row of the trace and both values. Of a recording with fewer samples than rows its samples count, as
-/// between them it says nothing.
+/// The signals row by row: row of the trace and both values. A recording with fewer samples than rows is compared at its samples:
+/// between them its value is not known.
 pub(super) fn rows<'a>(
     times_s: &'a [f64],
     a: &'a [f64],

@@ -34,11 +34,11 @@ macro_rules! commands {
     ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
     ExchangeNumberRange = Vendor 21253: Error ProgramAbort 3 1, "axis exchange: axis number outside the data format", hint "the logical axis numbers are in the axis lists (kopf.achs_nr)";
     ExchangeIndexRange = Vendor 21254: Error ProgramAbort 3 1, "axis exchange: index outside the data format", cause "#CALL AX [X,1,99]", hint "the index is the place of the axis in the channel";
-    ExchangeNameTwice = Vendor 21256: Error ProgramAbort 3 1, "axis exchange: name of an axis twice", cause "#SET AX [X,1,0][X,2,1]", hint "give every axis of the channel a name of its own";
+    ExchangeNameTwice = Vendor 21256: Error ProgramAbort 3 1, "axis exchange: name of an axis twice", cause "#SET AX [X,1,0][X,2,1]", hint "give every axis of the channel its own name";
     ExchangeIndexTwice = Vendor 21257: Error ProgramAbort 3 1, "axis exchange: index twice", cause "#CALL AX [X,1,0][Y,2,0]", hint "give every axis its own index";
     ExchangeNumberTwice = Vendor 21258: Error ProgramAbort 3 1, "axis exchange: axis number twice", cause "#CALL AX [X,1,0][Y,1,1]", hint "name every axis once";
     ExchangeIndexTaken = Vendor 21260: Error ProgramAbort 3 1, "axis exchange: the axis index is in use", cause "#CALL AX [Z,3,0] while X is the axis 0", hint "take a free index, or release the other axis with #PUT AX first";
-    ExchangeNameTaken = Vendor 21261: Error ProgramAbort 3 1, "axis exchange: name of an axis that the channel has already", cause "#CALL AX [X,3,2] beside X", hint "call the axis by another name, or release the other one before";
+    ExchangeNameTaken = Vendor 21261: Error ProgramAbort 3 1, "axis exchange: name of an axis that the channel has already", cause "#CALL AX [X,3,2] beside X", hint "call the axis by another name, or release the other one first";
     CouplingPairs = Vendor 21281: Error ProgramAbort 3 1, "too many pairs in a coupling group", cause "#SET AX LINK with 16 pairs", hint "divide them into several groups: a group has at most 15 pairs";
     SlaveIsActiveSlave = Vendor 21283: Error ProgramAbort 3 1, "slave is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     SlaveIsActiveMaster = Vendor 21284: Error ProgramAbort 3 1, "slave is a master in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
@@ -51,10 +51,10 @@ macro_rules! commands {
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block may precede %NAME";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
-    SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "change of the way of selection within that of G238", cause "G139 between G41 and G40", hint "write G40 first";
+    SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "change of the selection mode within that of G238", cause "G139 between G41 and G40", hint "write G40 first";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "leave SYN out: parameters are read without synchronisation";
     HeightKeyTwice = Vendor 21349: Error ProgramAbort 3 1, "key of #TGC twice", cause "#TGC ON [OPMODE=1 OPMODE=2]", hint "leave one of the two out";
-    AreaAxis = Vendor 21363: Error ProgramAbort 3 1, "axis that the contour of a control area must not have", cause "Z in G17", hint "the contour lies in the first two main axes of the plane, MIN_EXCUR and MAX_EXCUR bound the third";
+    AreaAxis = Vendor 21363: Error ProgramAbort 3 1, "axis that is not allowed in the contour of a control area", cause "Z in G17", hint "the contour lies in the first two main axes of the plane, MIN_EXCUR and MAX_EXCUR bound the third";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
     CycleInThread = Vendor 21380: Error ProgramAbort 3 1, "cycle called while a thread is cut", cause "G63, then L CYCLE [..]", hint "write G01 before the call";
     CycleWhileModal = Vendor 21381: Error ProgramAbort 3 1, "cycle called while a modal cycle is active", hint "write #DISABLE MODAL CYCLE before the call";
@@ -86,7 +86,7 @@ macro_rules! commands {
     OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
     OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write the closing statement before the end of the program";
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
-    DirectWithCompensation = Vendor 21525: Error ProgramAbort 3 1, "#PTP with active tool radius compensation", hint "switch the compensation off with G40 before";
+    DirectWithCompensation = Vendor 21525: Error ProgramAbort 3 1, "#PTP with active tool radius compensation", hint "switch the compensation off with G40 first";
     TimerTwice = Vendor 21537: Error ProgramAbort 3 1, "word twice in #TIMER", cause "#TIMER START STOP, #TIMER START [ID=1 ID=2]", hint "one of START, STOP, READ and CLEAR, and one ID";
     ThreadOffsetTwice = Vendor 21540: Error ProgramAbort 3 1, "offset angle of a thread twice in one block", hint "leave one of the two out";
     BehindCall = Vendor 21542: Error ProgramAbort 3 1, "NC command after a subroutine or cycle call", cause "LL SUB Z300", hint "write it before the call or in the next block";
@@ -99,7 +99,7 @@ macro_rules! commands {
     LiftTwice = Vendor 21558: Error ProgramAbort 3 1, "lifting begins twice", cause "Z[LIFT_START ..] twice", hint "write Z[LIFT_END] between them";
     LiftNotBegun = Vendor 21559: Error ProgramAbort 3 1, "end of lifting without its start", cause "Z[LIFT_END] alone", hint "write Z[LIFT_START ..] before it";
     LogicalNumber = Vendor 21567: Error ProgramAbort 3 1, "logical axis number outside its range", cause "#CHANNEL INIT [ACTPOS AXNR=99999]", hint "logical numbers are 1 to 65534", parameter "P-AXIS-00016";
-    BlocksAheadTwice = Vendor 21575: Error ProgramAbort 3 1, "two limits of the blocks ahead", cause "V.G.MAX_NC_BLOCKS_AHEAD beside V.G.MAX_MOTION_BLOCKS_AHEAD", hint "set the other one to 0 before";
+    BlocksAheadTwice = Vendor 21575: Error ProgramAbort 3 1, "two limits of the blocks ahead", cause "V.G.MAX_NC_BLOCKS_AHEAD beside V.G.MAX_MOTION_BLOCKS_AHEAD", hint "set the other one to 0 first";
     SystemNameInUse = Vendor 21599: Error ProgramAbort 3 1, "name of a coordinate system already in use", cause "#CS ADD [WCS][..] twice", hint "choose another name, or change the system by #CS SET";
     SystemNameUnknown = Vendor 21601: Error ProgramAbort 3 1, "name of a coordinate system unknown", cause "#CS SELECT [WCS] without #CS ADD [WCS]..", hint "is the name right? Case counts";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
@@ -111,7 +111,7 @@ macro_rules! commands {
     SpindleCommandsExclude = Vendor 21736: Error ProgramAbort 3 1, "words of a spindle bracket that exclude each other", cause "S[G136=80 G130=60]", hint "write feedforward and G130 in separate brackets";
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
-    NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is no array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
+    NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is not an array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
     AxisPositionOfSlave = Vendor 21784: Error ProgramAbort 3 1, "V.A.ACS.ABS of a slave axis", cause "read while its coupling is active", hint "read it after #DISABLE AX LINK, or that of the master";
     DwellWithoutTime = Vendor 21786: Error ProgramAbort 3 1, "G04 without a time", hint "write G04 2.5";
     AreaAxes = Vendor 21797: Error ProgramAbort 3 1, "more than two axes in the contour of a control area", cause "X0 Y100 Z100", hint "MIN_EXCUR and MAX_EXCUR bound the third axis";
@@ -144,7 +144,7 @@ macro_rules! commands {
     CircleAngleAndEnd = Vendor 22253: Error ProgramAbort 3 1, "#CANG together with an end point", cause "G02 X10 I5 #CANG=90", hint "an arc ends at its angle or at its end point: delete one of them";
     MacroLengthArgument = Vendor 22254: Error ProgramAbort 3 1, "MACRO_LENGTH without the name of a macro", cause "MACRO_LENGTH[NAME]", hint "write the name in quotes: MACRO_LENGTH[\"NAME\"]";
     MacroContentArgument = Vendor 22275: Error ProgramAbort 3 1, "MACRO_CONTENT without the name of a macro", cause "MACRO_CONTENT[NAME]", hint "write the name in quotes: MACRO_CONTENT[\"NAME\"]";
-    MacroContentFailed = Vendor 22276: Error ProgramAbort 3 1, "macro of MACRO_CONTENT that cannot be resolved", cause "no macro of that name, macros nested too deeply, a text that is too long", hint "define the macro before: \"NAME\" = \"text\"";
+    MacroContentFailed = Vendor 22276: Error ProgramAbort 3 1, "macro of MACRO_CONTENT that cannot be resolved", cause "no macro of that name, macros nested too deeply, a text that is too long", hint "define the macro first: \"NAME\" = \"text\"";
         }
     };
 }

@@ -63,14 +63,14 @@ macro_rules! lists {
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring although the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
     ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes change after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is on", cause "G261 before G100", hint "write G260 before the run";
-    AreaOfArcs = Vendor 120691: Error ProgramAbort 6 1, "motion that the contour of a control area must not have", cause "G02 in a control area POLY", hint "polygons have lines alone, CIRC has one full circle";
-    IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline before, or move the axis with the path";
+    AreaOfArcs = Vendor 120691: Error ProgramAbort 6 1, "motion that is not allowed in the contour of a control area", cause "G02 in a control area POLY", hint "a polygon has straight lines only, CIRC one full circle";
+    IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline first, or move the axis with the path";
     SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";
-    AreaHeightInBase = Vendor 120734: Error ProgramAbort 6 1, "axis of EXCUR_AX in the base of its control area", cause "EXCUR_AX=X with a contour in X and Y", hint "the third axis is none of those of the contour";
+    AreaHeightInBase = Vendor 120734: Error ProgramAbort 6 1, "axis of EXCUR_AX in the base of its control area", cause "EXCUR_AX=X with a contour in X and Y", hint "the third axis must not be an axis of the contour";
     AreaOneAxis = Vendor 120736: Error ProgramAbort 6 1, "control area with one axis in its base", cause "X2 without Y2", hint "the contour needs two axes";
     AreaAxisMissing = Vendor 120740: Error ProgramAbort 6 1, "axis of a control area that is not in the channel", cause "#PUT AX [Y] before #CONTROL AREA ON", hint "call the axis back with #CALL AX";
     AreaAxisAlone = Vendor 120742: Error ProgramAbort 6 1, "independent axis of a control area", cause "X[INDP_ASYN ..] while an area of X is watched", hint "write #CONTROL AREA OFF [ID=..] before it";
-    AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis that the circle of a control area must not have", cause "G02 with an axis that is no main axis", hint "the base of CIRC lies in main axes";
+    AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis that is not allowed in the circle of a control area", cause "G02 with an axis that is not a main axis", hint "the base of CIRC lies in main axes";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "numbers are written 10, -10, 1.5 or 0x101";
         }

@@ -17,7 +17,7 @@ macro_rules! motion {
     OscillationLimited = Vendor 50487: Warning None 1 0, "oscillation slower than programmed", cause "FREQ, TIME or FEED beyond what velocity and acceleration of the axis allow", hint "lower FREQ or FEED, or bring the reversal positions closer together", parameter "P-AXIS-00212";
     SpindleStandsInThread = Vendor 50499: Error AllStop 6 0, "spindle speed 0 with G33", cause "G33 before M3 and S", hint "write S1000 M3 before it";
     OscillationFeed = Vendor 50593: Error AbruptStop 6 1, "oscillation without a feed", cause "X[OSC ON ..] with FEED=0, or without FEED, FREQ and TIME", hint "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]";
-    BandingPath = Vendor 50655: Error FeedHold 6 1, "not enough path for the way after the signal of edge banding", cause "the block ends before, or the path is too fast to stop that soon", hint "lengthen the block, lower F, or raise V.G.RW", parameter "P-CHAN-00030";
+    BandingPath = Vendor 50655: Error FeedHold 6 1, "not enough path left for the travel after the signal of edge banding", cause "the block ends earlier, or the path is too fast to stop that soon", hint "lengthen the block, lower F, or raise V.G.RW", parameter "P-CHAN-00030";
     FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
     AreaPoints = Vendor 50786: Error ProgramAbort 6 1, "too many points of a control area", hint "a polygon has 20 blocks at most";
     GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "use a smaller cycle, less damping or a higher frequency (the manual's advice); kontur tune proposes both";
@@ -26,8 +26,8 @@ macro_rules! motion {
     FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
     SpindleSpeedError = Vendor 60101: Error AllStop 6 0, "spindle speed limit exceeded", cause "+9 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpindleSpeedWarning = Vendor 60102: Warning None 1 0, "spindle speed above the warning level", cause "+5 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
-    SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle at rest", cause "G95 before M3 and S", hint "start the spindle before: S1000 M3";
-    SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed before: S1000 M3";
+    SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle at rest", cause "G95 before M3 and S", hint "start the spindle first: S1000 M3";
+    SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed first: S1000 M3";
     SpindleStoppedInThread = Vendor 60154: Error AllStop 6 0, "G33 with a spindle at rest", cause "S1000 and G33 without M3", hint "write M3 or M4 before it";
     SpindleSlopeType = Vendor 60226: Warning None 1 0, "slope type of a spindle invalid", cause "P-AXIS-00270", hint "getriebe[i].slope_type is 0 to 3 (P-AXIS-00270)";
     ToolLimitsInvalid = Vendor 60296: Error AllStop 6 0, "dynamic data of the tool are no limits of its spindle", cause "P-TOOL-00014 or P-TOOL-00015 is 0", hint "wz[i].vb_max and wz[i].a_max are above 0, or wz[i].log_ax_nr_spdl is 0", parameter "P-TOOL-00014";
@@ -42,7 +42,7 @@ macro_rules! motion {
     NoAdditiveVelocity = Vendor 70350: Warning None 1 11, "additive velocity not in the process data", cause "P-AXIS-00223 ADD_VEL", hint "name S_0_0037 in antr.sercos.mdt[i].nc_ref";
     NoAdditiveTorque = Vendor 70351: Warning None 1 11, "additive torque not in the process data", cause "P-AXIS-00223 ADD_ACC", hint "name S_0_0080 in antr.sercos.mdt[i].nc_ref";
     ControllerSpeed = Vendor 70382: Error ControlledStop 6 11, "axis speed above the limit in the controller", cause "00407 (default 100 % over vb_max; 0 = off)", hint "lower the gain kv or the feed, or raise lr_param.dyn_monitoring_v_err; 0 switches the monitor off", parameter "P-AXIS-00407";
-    IpcGantrySlave = Vendor 70600: Warning None 7 11, "Improved Position Control enabled in a gantry slave", cause "P-AXIS-00758", hint "write the parameters into the list of the master";
+    IpcGantrySlave = Vendor 70600: Warning None 7 11, "Improved Position Control enabled for a gantry slave", cause "P-AXIS-00758", hint "write the parameters into the list of the master";
     IpcChangedMoving = Vendor 70601: Error ControlledStop 6 11, "IPC parameters changed while moving", hint "change them at standstill";
     IpcNumerator = Vendor 70603: Warning None 1 11, "weight numerator of Improved Position Control is not above 0", cause "P-AXIS-00754", hint "write a value above 0 (P-AXIS-00754)";
     IpcDenominator = Vendor 70604: Warning None 1 11, "weight denominator of Improved Position Control is not above 0", cause "P-AXIS-00755", hint "write a value above 0 (P-AXIS-00755)";

@@ -152,7 +152,7 @@ impl Decoder {
                 )
             };
             if !several && items[..i].iter().any(|other| same(other) && !directs(other)) {
-                let text = "two words of a spindle bracket that set the same";
+                let text = "two words of a spindle bracket that set the same value";
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
                     SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,

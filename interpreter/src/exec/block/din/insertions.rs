@@ -8,7 +8,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::LARGEST_MM;
 
-/// `#CHR`, `#CHF` and `#RND` in a motion belong to the corner at its end; as blocks of their own they lie between two motions anyway.
+/// `#CHR`, `#CHF` and `#RND` in a motion belong to the corner at its end; as separate blocks they lie between two motions anyway.
 ///
 /// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
 pub(super) fn inserts_behind(words: &Words<'_>) -> bool {

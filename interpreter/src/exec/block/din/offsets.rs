@@ -114,7 +114,7 @@ impl Decoder {
 
     /// P-CHAN-00100 = 1: axes whose tool offset a D word changes move in its block, as if their coordinate were programmed absolutely.
     ///
-    /// Source: TF5200 channel parameters 149123467. Assumption: an axis with a word of its own in the block follows that; arcs, threads
+    /// Source: TF5200 channel parameters 149123467. Assumption: an axis with its own word in the block follows that; arcs, threads
     /// and functions that take the axis words are refused.
     pub(super) fn tool_moves(
         &mut self,
@@ -158,7 +158,7 @@ impl Decoder {
             (None, None) => return false,
         };
         if (0..self.machine.axes.len()).any(|axis| self.geometry.coordinates.mirrored(axis)) {
-            let text = "#PSET and #PRESET do not go with mirroring";
+            let text = "#PSET and #PRESET cannot be used with mirroring";
             self.report.note(Fault::new(Condition::PresetWhileMirrored, text, at));
             return true;
         }
@@ -173,13 +173,14 @@ impl Decoder {
             None
         };
         if let Some((condition, what)) = conflict {
-            let text = format!("#PSET and #PRESET do not go with {what}");
+            let text = format!("#PSET and #PRESET cannot be used with {what}");
             self.report.note(Fault::new(condition, text, at));
             return true;
         }
         let beside = words.axes.iter().find(|(axis, _, _)| coordinates.main_index(*axis).is_none());
         if let Some((_, _, span)) = beside.filter(|_| coordinates.systems() > 0) {
-            let what = "#PSET and #PRESET of an axis that is no main axis, in a coordinate system";
+            let what =
+                "#PSET and #PRESET of an axis that is not a main axis, in a coordinate system";
             self.report.note(Fault::unsupported(what, *span));
             return true;
         }

@@ -52,7 +52,7 @@ pub(super) fn straight(
     Some(Box::new(motion))
 }
 
-/// The same in front of a motion, whose E word belongs to its own end.
+/// The same before a motion, whose E word belongs to its own end.
 pub(super) fn straight_before(
     next: &Motion,
     at: &AxisVec,

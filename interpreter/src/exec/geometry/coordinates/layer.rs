@@ -3,7 +3,7 @@
 //! Offsets that are programmed while a system is active lie in its axes, add to those below it, and go with it. A new system has
 //! none. Tool and measuring offsets belong to no system.
 //!
-//! With P-CHAN-00397 = 0 that is true of the main axes alone: offsets of the others belong to the channel, whichever system is
+//! With P-CHAN-00397 = 0 this is true only of the main axes: offsets of the others belong to the channel, whichever system is
 //! active while they are programmed.
 //!
 //! Source: TF5200 programming manual 1086442763, offsets in the coordinate system; channel parameters 149618059; zero offsets

@@ -10,7 +10,7 @@ pub(in crate::exec) const WEAR_UNIT: f64 = 1e-7;
 pub(in crate::exec) enum WearSource {
     /// DISC: from outside.
     Outside,
-    /// CONT: by the way that is driven.
+    /// CONT: by the distance driven.
     Way,
     /// AUTO: the sum.
     Both,

@@ -19,7 +19,7 @@ pub(super) struct Budget {
 #[derive(Debug)]
 pub(super) enum Verdict {
     Continue,
-    /// Somebody outside stops the program.
+    /// The program is stopped from outside.
     Stopped,
     /// The reason.
     Endless(String),

@@ -55,7 +55,7 @@ impl Executor {
         let foreign = diagnostic.id == Condition::ForeignProgram.id();
         self.found.add(diagnostic, self.budget.blocks());
         if foreign {
-            // the rest of such a program would say the same in other words
+            // the rest of such a program would give the same messages in other words
             self.end(EndReason::Aborted);
         }
     }

@@ -1,8 +1,8 @@
 //! Plain straight motions in a row: almost all of a long program.
 //!
-//! What the long way of a block looks up each time cannot have changed after a plain motion: macros, names, loops
+//! What the general route looks up for each block cannot have changed after a plain motion: macros, names, loops
 //! and levels change in other blocks only. So the next line is taken as it is in the text; if it is anything but one
-//! more plain motion, nothing has happened and it goes the long way.
+//! more plain motion, nothing has happened and it takes the general route.
 
 use super::{Executor, State};
 use crate::exec::motion::state::Straight;

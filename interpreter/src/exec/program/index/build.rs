@@ -76,7 +76,7 @@ impl Builder<'_> {
             self.program_head(raw, head.rest);
             return;
         }
-        // of a block that is too long something may follow what is looked at
+        // in a block that is too long, more may follow the part that is looked at
         let comment = first == Some(b'#') && is_command(head.rest, "COMMENT", "BEGIN");
         let content = first.is_some_and(|b| b != b';' && !comment)
             || head.label.is_some()
@@ -167,7 +167,7 @@ impl Builder<'_> {
             }
             self.open_section(name, true, next);
         } else if let (Some(_), Some(name)) = (self.unfinished, name_of(behind.trim_start())) {
-            // whoever reads %MAIN takes it for the program
+            // a reader takes %MAIN for the program
             let text = format!(
                 "program {name} never runs: the blocks before the first % are the main program"
             );

@@ -231,7 +231,7 @@ impl Entries {
         if let Some(last) = recent.checked_sub(1) {
             return Some(((self.packed() + last) as EntryId, self.recent[last].0.position));
         }
-        // asked for every row: one in front of all of them, if there are any, waits for no lock
+        // asked for every row: a row before the first mark needs no lock
         if self.marks.first().is_none_or(|first| offset < first.position.offset) {
             return None;
         }
