@@ -13,10 +13,10 @@
 //! at rest, independent axes, threads, probes, wear, spindles that position or go with the path, exact stops.
 
 use super::axes::Driver;
-use super::chain::{AxisChain, Records};
+use super::chain::{AxisChain, Mark, Records};
 use super::spindle::Spindle;
 use super::{Phase, SettledStop, Simulation, Underway};
-use crate::record::{AxisRecord, CycleRecord};
+use crate::record::AxisRecord;
 use kontur_filters::control::fault::{Fault, Faults};
 use kontur_filters::ring::Ring;
 use kontur_motion::ahead::Ahead;
@@ -49,13 +49,14 @@ pub(super) struct Batch {
     tried: usize,
     /// Up to here cycles go alone, because too few follow.
     single_before: u64,
-    /// Records of the computed ones, if each of them is read.
-    records: Vec<CycleRecord>,
+    /// The axes in the computed ones, if each of them is read.
+    records: Vec<Vec<AxisRecord>>,
     each: bool,
     /// Faults of the last one.
     pub(super) faults: Vec<(usize, Fault)>,
     /// The chains and their records before the row, and the spindles.
-    before: Vec<(AxisChain, AxisRecord)>,
+    marks: Vec<Option<Mark>>,
+    records_before: Vec<AxisRecord>,
     spindles_before: Vec<Spindle>,
     /// Set positions of the spindles from the current cycle on.
     spindle_deg: Vec<Vec<f64>>,
@@ -105,7 +106,7 @@ impl Simulation {
             *now = x + 0.0;
         }
         if self.batch.each {
-            std::mem::swap(&mut self.batch.records[last], &mut self.record);
+            std::mem::swap(&mut self.batch.records[last], &mut self.record.axes);
         }
         self.end_cycle();
         self.check_time();
@@ -162,14 +163,17 @@ impl Simulation {
         let mut count = 1 + later;
         let mut records = std::mem::take(&mut self.batch.records);
         while self.batch.each && records.len() < count - 1 {
-            records.push(self.record.clone());
+            records.push(self.record.axes.clone());
         }
         self.turn_spindles(count);
-        self.batch.before.clear();
+        if count > 1 {
+            self.batch.marks.resize_with(self.chains.len(), || None);
+            self.batch.records_before.clone_from(&self.record.axes);
+        }
         let mut faulty = false;
         for i in 0..self.chains.len() {
             if count > 1 {
-                self.batch.before.push((self.chains[i].clone(), self.record.axes[i]));
+                self.chains[i].mark(&mut self.batch.marks[i]);
             }
             let settles = self.chains[i].settles();
             let done = self.run_chain(i, count, &mut records);
@@ -180,8 +184,10 @@ impl Simulation {
             if done < count {
                 (count, self.batch.tried) = (done, 0);
                 for other in 0..=i {
-                    (self.chains[other], self.record.axes[other]) =
-                        self.batch.before[other].clone();
+                    if let Some(mark) = &self.batch.marks[other] {
+                        self.chains[other].return_to(mark);
+                    }
+                    self.record.axes[other] = self.batch.records_before[other];
                     self.run_chain(other, count, &mut records);
                 }
                 self.spindles.clone_from(&self.batch.spindles_before);
@@ -206,7 +212,7 @@ impl Simulation {
     }
 
     /// Runs one chain through this cycle and the computed ones after it, to `count` cycles; the number of them.
-    fn run_chain(&mut self, i: usize, count: usize, records: &mut [CycleRecord]) -> usize {
+    fn run_chain(&mut self, i: usize, count: usize, records: &mut [Vec<AxisRecord>]) -> usize {
         let chain = &mut self.chains[i];
         let ipo = &mut self.batch.ipo;
         ipo.clear();
@@ -226,7 +232,7 @@ impl Simulation {
             (None, Driver::Standing) => ipo.push(chain.set_mm()),
         }
         let first = &mut self.record.axes[i];
-        let later: &mut [CycleRecord] =
+        let later: &mut [Vec<AxisRecord>] =
             if self.batch.each { &mut records[..count - 1] } else { &mut [] };
         let mut records = Records { axis: i, first, later };
         chain.run(ipo, self.gains[i], self.jerk_limited, &mut self.batch.set, &mut records)
