@@ -39,7 +39,7 @@ impl Ring {
 
     /// Takes the value of the next cycle.
     #[inline]
-    pub(crate) fn push(&mut self, x: f64) {
+    pub fn push(&mut self, x: f64) {
         if self.end == self.values.len() {
             self.move_to_front();
         }

@@ -29,6 +29,9 @@ pub(super) const MOST_READ: usize = 64;
 /// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
 const FEW: usize = 8;
 
+/// Cycles that go alone, at most, before rows are tried again.
+const MOST_PATIENCE: u64 = 32;
+
 /// Who looks at the records of cycles in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Watched {
@@ -49,6 +52,8 @@ pub(super) struct Batch {
     tried: usize,
     /// Up to here cycles go alone, because too few follow.
     single_before: u64,
+    /// So many cycles at least go alone when too few follow.
+    patience: u64,
     /// The axes in the computed ones, if each of them is read.
     records: Vec<Vec<AxisRecord>>,
     each: bool,
@@ -130,9 +135,12 @@ impl Simulation {
         let read = self.batch.ahead.len();
         let count = (0..read).find(|later| waits_for_input(*later)).unwrap_or(read);
         if count < FEW {
-            self.batch.single_before = k + 1 + count as u64;
+            // where it is in vain again and again, it is tried less often
+            self.batch.patience = (2 * self.batch.patience).clamp(1, MOST_PATIENCE);
+            self.batch.single_before = k + 1 + (count as u64).max(self.batch.patience);
             return 0;
         }
+        self.batch.patience = 0;
         count
     }
 
@@ -143,6 +151,7 @@ impl Simulation {
             !chain.goes_alone() && *driver != Driver::Standing
         };
         matches!(self.phase, Phase::Running)
+            && self.frozen.iter().all(Option::is_none)
             && !self.is_held
             && self.thread.is_none()
             && self.thread_delay <= 0.0
@@ -214,22 +223,28 @@ impl Simulation {
     /// Runs one chain through this cycle and the computed ones after it, to `count` cycles; the number of them.
     fn run_chain(&mut self, i: usize, count: usize, records: &mut [Vec<AxisRecord>]) -> usize {
         let chain = &mut self.chains[i];
+        if count == 1 {
+            let ipo = match (self.frozen[i], self.drivers[i]) {
+                (Some(x), _) => x,
+                (None, Driver::Path(p)) => self.path_position[p],
+                (None, Driver::Spindle(s)) => self.batch.spindle_deg[s][0],
+                (None, Driver::Standing) => chain.set_mm(),
+            };
+            chain.step(ipo, self.gains[i], self.jerk_limited, &mut self.record.axes[i]);
+            return 1;
+        }
         let ipo = &mut self.batch.ipo;
         ipo.clear();
-        match (self.frozen[i], self.drivers[i]) {
-            (Some(x), _) => ipo.push(x),
-            (None, Driver::Path(p)) => {
+        match self.drivers[i] {
+            Driver::Path(p) => {
                 ipo.push(self.path_position[p]);
-                if count > 1 {
-                    let ahead = &self.batch.ahead.positions(p)[..count - 1];
-                    // as with the ways of independent axes, which are 0
-                    ipo.extend(ahead.iter().map(|x| x + 0.0));
-                }
+                let ahead = &self.batch.ahead.positions(p)[..count - 1];
+                // as with the ways of independent axes, which are 0
+                ipo.extend(ahead.iter().map(|x| x + 0.0));
             }
-            (None, Driver::Spindle(s)) => {
-                ipo.extend_from_slice(&self.batch.spindle_deg[s][..count]);
-            }
-            (None, Driver::Standing) => ipo.push(chain.set_mm()),
+            Driver::Spindle(s) => ipo.extend_from_slice(&self.batch.spindle_deg[s][..count]),
+            // goes alone
+            Driver::Standing => {}
         }
         let first = &mut self.record.axes[i];
         let later: &mut [Vec<AxisRecord>] =

@@ -2,7 +2,7 @@
 
 use crate::machine::{AdditionalInterface, ChainSetup};
 use crate::record::AxisRecord;
-use kontur_filters::control::axis_control::{AxisControl, AxisInputs};
+use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::iir::AxisFilter;
@@ -379,36 +379,9 @@ impl AxisChain {
         let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
             let [vel, acc, jerk] = derived.at(i);
             faulty |= out.faulty;
-            *records.of(rested + i) = AxisRecord {
-                ipo: ipo[i],
-                set: set[i],
-                vel,
-                acc,
-                jerk,
-                err: set[i] - aligned(past, *delay, (last - i) as u32),
-                dev: 0.0,
-                dev_both_ways: 0.0,
-                ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
-                cmd: out.command_mm_s,
-                vadd: out.additive_speed_mm_s,
-                vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
-                reference: out.reference_mm,
-                act: out.act_mm,
-                load: out.load_mm,
-                lag: out.lag_mm,
-                lag_limit: out.lag_limit_mm.unwrap_or(0.0),
-                add: additional_mm,
-                settling_s: out.settling_s,
-                tcp: out.tcp_mm,
-                tcp_acc: out.tcp_acc_mm_s2,
-                // of the block, not of the axis
-                target: 0.0,
-                cmd_drive: out.drive.command,
-                vff_drive: out.drive.feedforward,
-                vadd_drive: out.drive.additive_speed,
-                torque_drive: out.drive.torque,
-                torque_n_m: out.drive.torque_n_m,
-            };
+            let err = set[i] - aligned(past, *delay, (last - i) as u32);
+            *records.of(rested + i) =
+                recorded([ipo[i], set[i], vel, acc, jerk, err], additional_mm, &out);
         });
         let [vel, acc, _] = derived.at(last);
         (self.set, self.vel, self.acc) = (set[last], vel, acc);
@@ -416,7 +389,34 @@ impl AxisChain {
         rested + count
     }
 
-    /// What the monitors have raised in the last cycle of [`Self::run`], if anything.
+    /// One cycle: what a row of one does, without what rows cost.
+    pub(crate) fn step(
+        &mut self,
+        ipo: f64,
+        gain: f64,
+        jerk_limited: bool,
+        record: &mut AxisRecord,
+    ) {
+        self.faulty = false;
+        if self.rests_under(ipo, gain, jerk_limited) {
+            self.shaping.rest(1);
+            return;
+        }
+        self.ipo.push(ipo);
+        let set = self.shaping.step(ipo);
+        let vel = (set - self.set) / self.cycle_s;
+        let acc = (vel - self.vel) / self.cycle_s;
+        let jerk = (acc - self.acc) / self.cycle_s;
+        (self.set, self.vel, self.acc) = (set, vel, acc);
+        let additional_mm = self.additional_mm();
+        self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
+        let out = self.control.step(set, gain, jerk_limited);
+        self.faulty = out.faulty;
+        let err = set - aligned(&self.ipo, self.delay, 0);
+        *record = recorded([ipo, set, vel, acc, jerk, err], additional_mm, &out);
+    }
+
+    /// What the monitors have raised in the last cycle of [`Self::run`] or [`Self::step`], if anything.
     pub(crate) fn faults(&self) -> Option<&Faults> {
         self.faulty.then(|| self.control.faults())
     }
@@ -436,6 +436,45 @@ impl AxisChain {
         };
         let inputs = AxisInputs { additional_mm: additional_mm + self.wear_mm, ..self.inputs };
         self.control.rests_under(self.set, gain, jerk_limited, &inputs)
+    }
+}
+
+/// The record of a cycle: interpolated setpoint, set position, its three derivatives, `err`, and what the control has made of it.
+#[inline]
+fn recorded(
+    [ipo, set, vel, acc, jerk, err]: [f64; 6],
+    additional_mm: f64,
+    out: &ControlOutput,
+) -> AxisRecord {
+    AxisRecord {
+        ipo,
+        set,
+        vel,
+        acc,
+        jerk,
+        err,
+        dev: 0.0,
+        dev_both_ways: 0.0,
+        ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
+        cmd: out.command_mm_s,
+        vadd: out.additive_speed_mm_s,
+        vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
+        reference: out.reference_mm,
+        act: out.act_mm,
+        load: out.load_mm,
+        lag: out.lag_mm,
+        lag_limit: out.lag_limit_mm.unwrap_or(0.0),
+        add: additional_mm,
+        settling_s: out.settling_s,
+        tcp: out.tcp_mm,
+        tcp_acc: out.tcp_acc_mm_s2,
+        // of the block, not of the axis
+        target: 0.0,
+        cmd_drive: out.drive.command,
+        vff_drive: out.drive.feedforward,
+        vadd_drive: out.drive.additive_speed,
+        torque_drive: out.drive.torque,
+        torque_n_m: out.drive.torque_n_m,
     }
 }
 
