@@ -280,6 +280,17 @@ impl KernelFilter {
         self.rest_cycles = rest_cycles;
     }
 
+    /// Equal inputs in a row so far: with it a row is [taken back](Self::take_back).
+    pub(crate) const fn rest_cycles(&self) -> u32 {
+        self.rest_cycles
+    }
+
+    /// As if the last row, of so many cycles, had not been run; before it the inputs had rested for `rest_cycles`.
+    pub(crate) fn take_back(&mut self, cycles: usize, rest_cycles: u32) {
+        self.history.take_back(cycles);
+        self.rest_cycles = rest_cycles;
+    }
+
     /// The kernel that runs.
     pub fn kernel(&self) -> &Arc<Kernel> {
         &self.kernel
@@ -289,12 +300,25 @@ impl KernelFilter {
 impl Stage for KernelFilter {
     #[inline]
     fn step(&mut self, x: f64) -> f64 {
-        let mut value = [x];
-        self.run_in_room(&mut value);
-        value[0]
+        let at_rest = x.to_bits() == self.history.newest().to_bits();
+        self.rest_cycles = if at_rest { self.rest_cycles.saturating_add(1) } else { 1 };
+        self.history.push(x);
+        match self.kernel.taps() {
+            _ if self.settled() => x,
+            [Tap { delay, .. }] => self.history.past(*delay),
+            taps => {
+                let pull = |tap: &Tap| tap.weight * (self.history.past(tap.delay) - x);
+                x + taps.iter().map(pull).sum::<f64>()
+            }
+        }
     }
 
     fn run(&mut self, values: &mut [f64]) {
+        // a row of one costs ten times a step
+        if let [x] = values {
+            *x = self.step(*x);
+            return;
+        }
         for values in values.chunks_mut(Ring::ROOM) {
             self.run_in_room(values);
         }

@@ -37,15 +37,37 @@ impl Ring {
         self.kept
     }
 
+    /// Takes the value of the next cycle.
+    #[inline]
+    pub fn push(&mut self, x: f64) {
+        if self.end == self.values.len() {
+            self.move_to_front();
+        }
+        self.values[self.end] = x;
+        self.end += 1;
+    }
+
+    #[cold]
+    fn move_to_front(&mut self) {
+        self.values.copy_within(self.end - self.kept..self.end, 0);
+        self.end = self.kept;
+    }
+
     /// Takes the values of the next cycles, at most [`Self::ROOM`].
     #[inline]
     pub fn extend(&mut self, values: &[f64]) {
         if self.end + values.len() > self.values.len() {
-            self.values.copy_within(self.end - self.kept..self.end, 0);
-            self.end = self.kept;
+            self.move_to_front();
         }
         self.values[self.end..][..values.len()].copy_from_slice(values);
         self.end += values.len();
+    }
+
+    /// As if the last so many values, all of them taken at once, had not been taken: what was kept before them is still there.
+    #[inline]
+    pub fn take_back(&mut self, cycles: usize) {
+        debug_assert!(self.end >= self.kept + cycles, "more than were taken at once");
+        self.end -= cycles;
     }
 
     /// The value of this cycle.
@@ -87,6 +109,27 @@ impl Ring {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Against a list of all values, through many moves to the front.
+    #[test]
+    fn what_is_taken_back_was_never_there() {
+        let mut ring = Ring::new(5, 0.0);
+        let mut all = vec![0.0; 6];
+        for i in 1..2000_u32 {
+            let row: Vec<f64> =
+                (0..i % 257).map(|j| f64::from(i) + f64::from(j) / 1024.0).collect();
+            ring.extend(&row);
+            if i % 3 == 0 {
+                ring.take_back(row.len());
+            } else {
+                all.extend(row);
+            }
+            ring.push(f64::from(i));
+            all.push(f64::from(i));
+            let past: Vec<f64> = (0..6).rev().map(|age| ring.past(age)).collect();
+            assert_eq!(past, all[all.len() - 6..], "{i}");
+        }
+    }
 
     #[test]
     fn growing_keeps_the_history() {

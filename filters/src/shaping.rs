@@ -31,6 +31,8 @@
 use crate::iir::AxisFilter;
 use crate::kernel::{Kernel, KernelFilter, SwitchWhileMoving};
 use crate::response::{Angle, Response};
+#[cfg(doc)]
+use crate::ring::Ring;
 use crate::stage::Stage;
 use std::sync::Arc;
 
@@ -40,6 +42,14 @@ pub struct Shaping {
     kernel: KernelFilter,
     filters: Vec<AxisFilter>,
     /// Last input and output.
+    newest: (f64, f64),
+}
+
+/// Where a chain is before a row of cycles that may have to be taken back. What it remembers stays where it is.
+#[derive(Clone, Debug, Default)]
+pub struct Mark {
+    rest_cycles: u32,
+    filters: Vec<AxisFilter>,
     newest: (f64, f64),
 }
 
@@ -126,6 +136,21 @@ impl Shaping {
     #[inline]
     pub fn rest(&mut self, cycles: usize) {
         self.kernel.rest(cycles);
+    }
+
+    /// Marks where the chain is.
+    pub fn mark(&self, mark: &mut Mark) {
+        mark.rest_cycles = self.kernel.rest_cycles();
+        mark.filters.clone_from(&self.filters);
+        mark.newest = self.newest;
+    }
+
+    /// Returns to a mark: so many cycles have been run since, at most [`Ring::ROOM`] and all of them in one
+    /// [`run`](Stage::run), besides those in which the chain rested.
+    pub fn return_to(&mut self, mark: &Mark, cycles: usize) {
+        self.kernel.take_back(cycles, mark.rest_cycles);
+        self.filters.clone_from(&mark.filters);
+        self.newest = mark.newest;
     }
 
     /// Cycles of constant input that flush the kernel; the standard filters come on top.

@@ -216,6 +216,17 @@ impl Simulation {
         &mut self.record
     }
 
+    /// Writes the record of the cycle computed last, which is not read any more, in the place of another one.
+    pub(crate) fn give_record(&mut self, to: &mut CycleRecord) {
+        if self.batch.is_pending() {
+            // the axes of the next cycle do not begin with those of this one: they have been computed
+            let given = std::mem::replace(&mut self.record.axes, std::mem::take(&mut to.axes));
+            *to = CycleRecord { axes: given, ..self.record };
+        } else {
+            to.clone_from(&self.record);
+        }
+    }
+
     /// The deviation from the contour is wanted.
     pub(crate) fn is_measured(&self) -> bool {
         self.planner.reports_changes()

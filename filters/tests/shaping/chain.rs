@@ -9,7 +9,8 @@ use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
 use kontur_filters::issue::FilterIssue;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::response::Angle;
-use kontur_filters::shaping::Shaping;
+use kontur_filters::ring::Ring;
+use kontur_filters::shaping::{Mark, Shaping};
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -341,6 +342,33 @@ proptest! {
         for (a, b) in a.into_iter().zip(b) {
             let sum = of_a.step(a) + factor * of_b.step(b);
             prop_assert!((of_sum.step(a + factor * b) - sum).abs() < 1e-9);
+        }
+    }
+
+    /// Against a chain that is stepped and never goes a way that is taken back.
+    #[test]
+    fn a_row_that_is_taken_back_was_never_run(
+        shaping in any_shaping(),
+        rows in proptest::collection::vec((1..=Ring::ROOM, -1.0..1.0_f64, any::<bool>()), 1..12),
+    ) {
+        let (mut stepped, mut rows_run, mut mark) = (shaping.clone(), shaping, Mark::default());
+        let mut x = 0.0;
+        for (cycles, speed, rests) in rows {
+            let way = |astray: f64| {
+                let speed = if rests { 0.0 } else { speed };
+                move |k: usize| x + astray + speed * (k + 1) as f64
+            };
+            rows_run.mark(&mut mark);
+            let mut astray: Vec<f64> = (0..cycles).map(way(0.5)).collect();
+            rows_run.run(&mut astray);
+            rows_run.return_to(&mark, cycles);
+            let mut row: Vec<f64> = (0..cycles).map(way(0.0)).collect();
+            let wanted: Vec<u64> = row.iter().map(|x| stepped.step(*x).to_bits()).collect();
+            x = row[cycles - 1];
+            rows_run.run(&mut row);
+            let seen: Vec<u64> = row.iter().map(|y| y.to_bits()).collect();
+            prop_assert_eq!(seen, wanted);
+            prop_assert_eq!(stepped.flushed(), rows_run.flushed());
         }
     }
 

@@ -12,7 +12,7 @@ use crate::console::Console;
 use crate::files::STANDARD;
 use crate::target::Target;
 use background::Background;
-use batch::Batch;
+use batch::{Batch, Numbers};
 use kontur_interpreter::job::{Facts, Run};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::{self, Column};
@@ -107,7 +107,7 @@ impl Trace {
         }
         let name = if path.as_os_str() == STANDARD { "stdout".into() } else { path.to_owned() };
         let to_error = |e| Error::io(name.display().to_string(), e);
-        let shown = columns.clone();
+        let numbers = Numbers::of(&columns);
         let rows = |columns| csv::Rows::new(columns, facts);
         let writer = if path.as_os_str() == STANDARD {
             let target = csv::Target::Standard(console.output());
@@ -123,7 +123,7 @@ impl Trace {
                 _ => Writer::Csv(csv::CsvWriter::new(csv::Target::File(target), rows(columns))),
             }
         };
-        let way = Way::Thread(Background::start(writer, shown).map_err(to_error)?);
+        let way = Way::Thread(Background::start(writer, numbers).map_err(to_error)?);
         Ok(Self { path: name, way, decimate: decimate.max(1), shows_deviation })
     }
 

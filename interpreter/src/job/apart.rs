@@ -53,7 +53,7 @@ impl Stretch {
             self.messages = simulation.take_messages();
             simulation.sample(samples);
             match self.records.get_mut(self.count) {
-                Some(record) => record.clone_from(simulation.record()),
+                Some(record) => simulation.give_record(record),
                 None => self.records.push(simulation.record().clone()),
             }
             self.count += 1;

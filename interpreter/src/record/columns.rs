@@ -54,6 +54,23 @@ pub enum Content {
     Axis(usize, fn(&AxisRecord) -> f64),
 }
 
+impl Content {
+    /// The value of a numeric column; zero where an axis is missing in the record.
+    #[inline] // for every value of a trace
+    pub fn number(self, record: &CycleRecord) -> Option<f64> {
+        match self {
+            Self::Path(f) => Some(f(record)),
+            Self::Axis(i, f) => Some(record.axes.get(i).map_or(0.0, f)),
+            _ => None,
+        }
+    }
+
+    /// It is a number with decimals.
+    pub const fn is_number(self) -> bool {
+        matches!(self, Self::Path(_) | Self::Axis(..))
+    }
+}
+
 /// One column.
 #[derive(Clone, Debug)]
 pub struct Column {
@@ -78,19 +95,9 @@ impl Column {
     }
 
     /// The value of a numeric column; zero where an axis is missing in the record.
-    #[inline] // for every value of a trace
     pub fn number(&self, record: &CycleRecord) -> Option<f64> {
-        match self.content {
-            Content::Path(f) => Some(f(record)),
-            Content::Axis(i, f) => Some(of_axis(record, i, f)),
-            _ => None,
-        }
+        self.content.number(record)
     }
-}
-
-#[inline]
-fn of_axis(record: &CycleRecord, axis: usize, value: fn(&AxisRecord) -> f64) -> f64 {
-    record.axes.get(axis).map_or(0.0, value)
 }
 
 /// How the unit of an axis quantity is written after its name, and its decimals.

@@ -13,10 +13,10 @@
 //! at rest, independent axes, threads, probes, wear, spindles that position or go with the path, exact stops.
 
 use super::axes::Driver;
-use super::chain::{AxisChain, Records};
+use super::chain::{AxisChain, Mark, Records};
 use super::spindle::Spindle;
 use super::{Phase, SettledStop, Simulation, Underway};
-use crate::record::{AxisRecord, CycleRecord};
+use crate::record::AxisRecord;
 use kontur_filters::control::fault::{Fault, Faults};
 use kontur_filters::ring::Ring;
 use kontur_motion::ahead::Ahead;
@@ -28,6 +28,9 @@ pub(super) const MOST_READ: usize = 64;
 
 /// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
 const FEW: usize = 8;
+
+/// Cycles that go alone, at most, before rows are tried again.
+const MOST_PATIENCE: u64 = 32;
 
 /// Which records of cycles in a row are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,13 +52,16 @@ pub(super) struct Batch {
     tried: usize,
     /// Up to here cycles go alone, because too few follow.
     single_before: u64,
-    /// Records of the computed ones, if each of them is read.
-    records: Vec<CycleRecord>,
+    /// So many cycles at least go alone when too few follow.
+    patience: u64,
+    /// The axes in the computed ones, if each of them is read.
+    records: Vec<Vec<AxisRecord>>,
     each: bool,
     /// Faults of the last one.
     pub(super) faults: Vec<(usize, Fault)>,
     /// The chains and their records before the row, and the spindles.
-    before: Vec<(AxisChain, AxisRecord)>,
+    marks: Vec<Option<Mark>>,
+    records_before: Vec<AxisRecord>,
     spindles_before: Vec<Spindle>,
     /// Set positions of the spindles from the current cycle on.
     spindle_deg: Vec<Vec<f64>>,
@@ -105,7 +111,7 @@ impl Simulation {
             *now = x + 0.0;
         }
         if self.batch.each {
-            std::mem::swap(&mut self.batch.records[last], &mut self.record);
+            std::mem::swap(&mut self.batch.records[last], &mut self.record.axes);
         }
         self.end_cycle();
         self.check_time();
@@ -129,9 +135,12 @@ impl Simulation {
         let read = self.batch.ahead.len();
         let count = (0..read).find(|later| waits_for_input(*later)).unwrap_or(read);
         if count < FEW {
-            self.batch.single_before = k + 1 + count as u64;
+            // where it is in vain again and again, it is tried less often
+            self.batch.patience = (2 * self.batch.patience).clamp(1, MOST_PATIENCE);
+            self.batch.single_before = k + 1 + (count as u64).max(self.batch.patience);
             return 0;
         }
+        self.batch.patience = 0;
         count
     }
 
@@ -142,6 +151,7 @@ impl Simulation {
             !chain.goes_alone() && *driver != Driver::Standing
         };
         matches!(self.phase, Phase::Running)
+            && self.frozen.iter().all(Option::is_none)
             && !self.is_held
             && self.thread.is_none()
             && self.thread_delay <= 0.0
@@ -162,14 +172,17 @@ impl Simulation {
         let mut count = 1 + later;
         let mut records = std::mem::take(&mut self.batch.records);
         while self.batch.each && records.len() < count - 1 {
-            records.push(self.record.clone());
+            records.push(self.record.axes.clone());
         }
         self.turn_spindles(count);
-        self.batch.before.clear();
+        if count > 1 {
+            self.batch.marks.resize_with(self.chains.len(), || None);
+            self.batch.records_before.clone_from(&self.record.axes);
+        }
         let mut faulty = false;
         for i in 0..self.chains.len() {
             if count > 1 {
-                self.batch.before.push((self.chains[i].clone(), self.record.axes[i]));
+                self.chains[i].mark(&mut self.batch.marks[i]);
             }
             let settles = self.chains[i].settles();
             let done = self.run_chain(i, count, &mut records);
@@ -180,8 +193,10 @@ impl Simulation {
             if done < count {
                 (count, self.batch.tried) = (done, 0);
                 for other in 0..=i {
-                    (self.chains[other], self.record.axes[other]) =
-                        self.batch.before[other].clone();
+                    if let Some(mark) = &self.batch.marks[other] {
+                        self.chains[other].return_to(mark);
+                    }
+                    self.record.axes[other] = self.batch.records_before[other];
                     self.run_chain(other, count, &mut records);
                 }
                 self.spindles.clone_from(&self.batch.spindles_before);
@@ -206,27 +221,33 @@ impl Simulation {
     }
 
     /// Runs one chain through this cycle and the computed ones after it, to `count` cycles; the number of them.
-    fn run_chain(&mut self, i: usize, count: usize, records: &mut [CycleRecord]) -> usize {
+    fn run_chain(&mut self, i: usize, count: usize, records: &mut [Vec<AxisRecord>]) -> usize {
         let chain = &mut self.chains[i];
+        if count == 1 {
+            let ipo = match (self.frozen[i], self.drivers[i]) {
+                (Some(x), _) => x,
+                (None, Driver::Path(p)) => self.path_position[p],
+                (None, Driver::Spindle(s)) => self.batch.spindle_deg[s][0],
+                (None, Driver::Standing) => chain.set_mm(),
+            };
+            chain.step(ipo, self.gains[i], self.jerk_limited, &mut self.record.axes[i]);
+            return 1;
+        }
         let ipo = &mut self.batch.ipo;
         ipo.clear();
-        match (self.frozen[i], self.drivers[i]) {
-            (Some(x), _) => ipo.push(x),
-            (None, Driver::Path(p)) => {
+        match self.drivers[i] {
+            Driver::Path(p) => {
                 ipo.push(self.path_position[p]);
-                if count > 1 {
-                    let ahead = &self.batch.ahead.positions(p)[..count - 1];
-                    // as with the ways of independent axes, which are 0
-                    ipo.extend(ahead.iter().map(|x| x + 0.0));
-                }
+                let ahead = &self.batch.ahead.positions(p)[..count - 1];
+                // as with the ways of independent axes, which are 0
+                ipo.extend(ahead.iter().map(|x| x + 0.0));
             }
-            (None, Driver::Spindle(s)) => {
-                ipo.extend_from_slice(&self.batch.spindle_deg[s][..count]);
-            }
-            (None, Driver::Standing) => ipo.push(chain.set_mm()),
+            Driver::Spindle(s) => ipo.extend_from_slice(&self.batch.spindle_deg[s][..count]),
+            // goes alone
+            Driver::Standing => {}
         }
         let first = &mut self.record.axes[i];
-        let later: &mut [CycleRecord] =
+        let later: &mut [Vec<AxisRecord>] =
             if self.batch.each { &mut records[..count - 1] } else { &mut [] };
         let mut records = Records { axis: i, first, later };
         chain.run(ipo, self.gains[i], self.jerk_limited, &mut self.batch.set, &mut records)

@@ -1,14 +1,14 @@
 //! One axis from its interpolated setpoint to its actual position, for cycles in a row.
 
 use crate::machine::{AdditionalInterface, ChainSetup};
-use crate::record::{AxisRecord, CycleRecord};
-use kontur_filters::control::axis_control::{AxisControl, AxisInputs};
+use crate::record::AxisRecord;
+use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::iir::AxisFilter;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
 use kontur_filters::ring::Ring;
-use kontur_filters::shaping::{Origin, Shaping};
+use kontur_filters::shaping::{self, Origin, Shaping};
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub(crate) struct Records<'a> {
     /// That of the first cycle; where no one reads each of them, that of the last one.
     pub(crate) first: &'a mut AxisRecord,
     /// Those of the cycles after it, or none.
-    pub(crate) later: &'a mut [CycleRecord],
+    pub(crate) later: &'a mut [Vec<AxisRecord>],
 }
 
 impl Records<'_> {
@@ -51,21 +51,30 @@ impl Records<'_> {
 
     fn of(&mut self, i: usize) -> &mut AxisRecord {
         match i.checked_sub(1).and_then(|i| self.later.get_mut(i)) {
-            Some(record) => &mut record.axes[self.axis],
+            Some(axes) => &mut axes[self.axis],
             None => self.first,
         }
     }
 
     /// The first ones are that of the cycle before them.
     fn repeat(&mut self, count: usize) {
-        for record in self.later.iter_mut().take(count.saturating_sub(1)) {
-            record.axes[self.axis] = *self.first;
+        for axes in self.later.iter_mut().take(count.saturating_sub(1)) {
+            axes[self.axis] = *self.first;
         }
     }
 }
 
+/// Where a chain is before a row of cycles that may have to be taken back.
+#[derive(Debug)]
+pub(crate) struct Mark {
+    shaping: shaping::Mark,
+    control: AxisControl,
+    /// Set position, velocity and acceleration.
+    derived: [f64; 3],
+}
+
 /// Shaping and control of one axis with what the trace derives from them.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct AxisChain {
     shaping: Shaping,
     control: AxisControl,
@@ -83,6 +92,8 @@ pub(crate) struct AxisChain {
     vel: f64,
     acc: f64,
     cycle_s: f64,
+    /// Cycles of the last row in which it did not rest.
+    moved: usize,
     /// The monitors have raised something in the last cycle.
     faulty: bool,
 }
@@ -120,6 +131,7 @@ impl AxisChain {
             vel: 0.0,
             acc: 0.0,
             cycle_s: cycle.seconds(),
+            moved: 0,
             faulty: false,
         };
         chain.align(x);
@@ -313,8 +325,29 @@ impl AxisChain {
         self.control.goes_alone() || self.additional.as_ref().is_some_and(filtered)
     }
 
-    /// Cycles in a row with these interpolated setpoints. The number up to the first one in which the monitors have raised
-    /// something, see [`Self::faults`]: if it is not the last one, the chain has to be put back to where it was.
+    /// Marks where the chain is, in the place of an earlier mark: no row can be taken back any more than to here.
+    pub(crate) fn mark(&self, mark: &mut Option<Mark>) {
+        let mark = mark.get_or_insert_with(|| Mark {
+            shaping: shaping::Mark::default(),
+            control: self.control.clone(),
+            derived: [0.0; 3],
+        });
+        self.shaping.mark(&mut mark.shaping);
+        mark.control.clone_from(&self.control);
+        mark.derived = [self.set, self.vel, self.acc];
+    }
+
+    /// Takes back the last row, if it is the only one since the mark.
+    pub(crate) fn return_to(&mut self, mark: &Mark) {
+        self.ipo.take_back(self.moved);
+        self.shaping.return_to(&mark.shaping, self.moved);
+        self.control.clone_from(&mark.control);
+        [self.set, self.vel, self.acc] = mark.derived;
+    }
+
+    /// Cycles in a row with these interpolated setpoints, at most [`Ring::ROOM`]. The number up to the first one in which the
+    /// monitors have raised something, see [`Self::faults`]: if it is not the last one, the row has to be
+    /// [taken back](Self::return_to).
     pub(crate) fn run(
         &mut self,
         ipo: &[f64],
@@ -331,6 +364,7 @@ impl AxisChain {
             records.repeat(rested);
         }
         let ipo = &ipo[rested..];
+        self.moved = ipo.len();
         let Some(last) = ipo.len().checked_sub(1) else { return rested };
         self.ipo.extend(ipo);
         set.clear();
@@ -345,36 +379,9 @@ impl AxisChain {
         let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
             let [vel, acc, jerk] = derived.at(i);
             faulty |= out.faulty;
-            *records.of(rested + i) = AxisRecord {
-                ipo: ipo[i],
-                set: set[i],
-                vel,
-                acc,
-                jerk,
-                err: set[i] - aligned(past, *delay, (last - i) as u32),
-                dev: 0.0,
-                dev_both_ways: 0.0,
-                ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
-                cmd: out.command_mm_s,
-                vadd: out.additive_speed_mm_s,
-                vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
-                reference: out.reference_mm,
-                act: out.act_mm,
-                load: out.load_mm,
-                lag: out.lag_mm,
-                lag_limit: out.lag_limit_mm.unwrap_or(0.0),
-                add: additional_mm,
-                settling_s: out.settling_s,
-                tcp: out.tcp_mm,
-                tcp_acc: out.tcp_acc_mm_s2,
-                // of the block, not of the axis
-                target: 0.0,
-                cmd_drive: out.drive.command,
-                vff_drive: out.drive.feedforward,
-                vadd_drive: out.drive.additive_speed,
-                torque_drive: out.drive.torque,
-                torque_n_m: out.drive.torque_n_m,
-            };
+            let err = set[i] - aligned(past, *delay, (last - i) as u32);
+            *records.of(rested + i) =
+                recorded([ipo[i], set[i], vel, acc, jerk, err], additional_mm, &out);
         });
         let [vel, acc, _] = derived.at(last);
         (self.set, self.vel, self.acc) = (set[last], vel, acc);
@@ -382,7 +389,34 @@ impl AxisChain {
         rested + count
     }
 
-    /// What the monitors have raised in the last cycle of [`Self::run`], if anything.
+    /// One cycle: what a row of one does, without what rows cost.
+    pub(crate) fn step(
+        &mut self,
+        ipo: f64,
+        gain: f64,
+        jerk_limited: bool,
+        record: &mut AxisRecord,
+    ) {
+        self.faulty = false;
+        if self.rests_under(ipo, gain, jerk_limited) {
+            self.shaping.rest(1);
+            return;
+        }
+        self.ipo.push(ipo);
+        let set = self.shaping.step(ipo);
+        let vel = (set - self.set) / self.cycle_s;
+        let acc = (vel - self.vel) / self.cycle_s;
+        let jerk = (acc - self.acc) / self.cycle_s;
+        (self.set, self.vel, self.acc) = (set, vel, acc);
+        let additional_mm = self.additional_mm();
+        self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
+        let out = self.control.step(set, gain, jerk_limited);
+        self.faulty = out.faulty;
+        let err = set - aligned(&self.ipo, self.delay, 0);
+        *record = recorded([ipo, set, vel, acc, jerk, err], additional_mm, &out);
+    }
+
+    /// What the monitors have raised in the last cycle of [`Self::run`] or [`Self::step`], if anything.
     pub(crate) fn faults(&self) -> Option<&Faults> {
         self.faulty.then(|| self.control.faults())
     }
@@ -402,6 +436,45 @@ impl AxisChain {
         };
         let inputs = AxisInputs { additional_mm: additional_mm + self.wear_mm, ..self.inputs };
         self.control.rests_under(self.set, gain, jerk_limited, &inputs)
+    }
+}
+
+/// The record of a cycle: interpolated setpoint, set position, its three derivatives, `err`, and what the control has made of it.
+#[inline]
+fn recorded(
+    [ipo, set, vel, acc, jerk, err]: [f64; 6],
+    additional_mm: f64,
+    out: &ControlOutput,
+) -> AxisRecord {
+    AxisRecord {
+        ipo,
+        set,
+        vel,
+        acc,
+        jerk,
+        err,
+        dev: 0.0,
+        dev_both_ways: 0.0,
+        ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
+        cmd: out.command_mm_s,
+        vadd: out.additive_speed_mm_s,
+        vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
+        reference: out.reference_mm,
+        act: out.act_mm,
+        load: out.load_mm,
+        lag: out.lag_mm,
+        lag_limit: out.lag_limit_mm.unwrap_or(0.0),
+        add: additional_mm,
+        settling_s: out.settling_s,
+        tcp: out.tcp_mm,
+        tcp_acc: out.tcp_acc_mm_s2,
+        // of the block, not of the axis
+        target: 0.0,
+        cmd_drive: out.drive.command,
+        vff_drive: out.drive.feedforward,
+        vadd_drive: out.drive.additive_speed,
+        torque_drive: out.drive.torque,
+        torque_n_m: out.drive.torque_n_m,
     }
 }
 

@@ -35,6 +35,7 @@ impl AxisControl {
     /// ([`gain`](crate::control::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
     ///
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
+    #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let mut output = ControlOutput::default();
         self.run(&[set_mm], gain, jerk_limited, 0, |_, seen| output = seen);

@@ -1,8 +1,9 @@
 //! Where the rows of a comparison come from: a CSV or Parquet file, or a run that happens now.
 
 use crate::Error;
-use crate::trace::batch::Batch;
+use crate::trace::batch::{Batch, Numbers};
 use crate::trace::csv::Rows;
+use crate::trace::fixed::Cells;
 use crate::trace::select;
 use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
@@ -186,10 +187,11 @@ impl Fresh {
             return Ok(true);
         }
         let Self { run, columns, rows, .. } = self;
-        let (mut text, mut batch) = (Vec::new(), Batch::default());
-        let Ok(()) = run.advance(BATCH, &mut |r: &CycleRecord| batch.push(columns, r));
+        let (mut text, mut batch) = (Cells::default(), Batch::default());
+        let numbers = Numbers::of(columns);
+        let Ok(()) = run.advance(BATCH, &mut |r: &CycleRecord| batch.push(&numbers, r));
         rows.push_rows(&mut text, &batch);
-        self.batch = reader(text);
+        self.batch = reader(text.into_bytes());
         self.batch.read_byte_record(row)
     }
 }

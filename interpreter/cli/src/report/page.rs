@@ -11,7 +11,7 @@ use crate::chart::scale::{Scale, steps};
 use crate::chart::style::{DASHES, variables};
 use crate::chart::view::MOST_STRETCHES;
 use crate::times::Times;
-use crate::trace::fixed::push_fixed;
+use crate::trace::fixed::Cells;
 use serde_json::json;
 
 /// Page with the places `/*STYLE*/`, `/*DATA*/` and `/*SCRIPT*/`.
@@ -173,9 +173,9 @@ fn number(v: f64) -> String {
 }
 
 fn rounded(v: f64, decimals: u8) -> String {
-    let mut text = Vec::new();
-    push_fixed(&mut text, v, decimals);
-    let text = String::from_utf8_lossy(&text);
+    let mut text = Cells::default();
+    text.push_fixed(v, decimals);
+    let text = String::from_utf8_lossy(text.as_bytes());
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short.is_empty() { "null".to_owned() } else { short.to_owned() }
 }

@@ -4,9 +4,8 @@
 //! a run that is faster than its file waits. The rows are the same, and in the same order, as without a thread.
 
 use super::Writer;
-use super::batch::Batch;
+use super::batch::{Batch, Numbers};
 use kontur_interpreter::record::CycleRecord;
-use kontur_interpreter::record::columns::Column;
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
@@ -31,7 +30,7 @@ fn now() -> Instant {
 
 /// A writer on a separate thread.
 pub(super) struct Background {
-    columns: Vec<Column>,
+    numbers: Numbers,
     batch: Batch,
     sent: Instant,
     /// `None` once the thread is to end.
@@ -47,22 +46,22 @@ impl std::fmt::Debug for Background {
 }
 
 impl Background {
-    /// Gives a writer of rows with these columns its thread.
+    /// Gives a writer of rows with these numbers its thread.
     ///
     /// # Errors
     /// The system's, if there can be no more threads.
-    pub(super) fn start(writer: Writer, columns: Vec<Column>) -> io::Result<Self> {
+    pub(super) fn start(writer: Writer, numbers: Numbers) -> io::Result<Self> {
         let (sender, batches) = sync_channel(BATCHES);
         let (back, spare) = sync_channel(BATCHES + 2);
         let thread =
             Builder::new().name("trace".to_owned()).spawn(move || work(writer, &batches, &back))?;
         let (sender, thread) = (Some(sender), Some(thread));
-        Ok(Self { columns, batch: Batch::default(), sent: now(), sender, spare, thread })
+        Ok(Self { numbers, batch: Batch::default(), sent: now(), sender, spare, thread })
     }
 
     /// Takes a record; false if the thread has ended because of an error, which [`Self::end`] returns.
     pub(super) fn write(&mut self, record: &CycleRecord) -> bool {
-        self.batch.push(&self.columns, record);
+        self.batch.push(&self.numbers, record);
         let late = || self.sent.elapsed() >= PERIOD;
         if self.batch.len() == ROWS || self.batch.len().is_multiple_of(LOOK_EVERY) && late() {
             return self.send();
@@ -138,7 +137,7 @@ mod tests {
         let columns = columns::select("s_mm", &facts).unwrap();
         let target = csv::Target::File(Target::create(path).unwrap());
         let writer = Writer::Csv(CsvWriter::new(target, Rows::new(columns.clone(), &facts)));
-        Background::start(writer, columns).unwrap()
+        Background::start(writer, Numbers::of(&columns)).unwrap()
     }
 
     /// Every record of several batches arrives, in order, the last ones too.

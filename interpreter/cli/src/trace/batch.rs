@@ -1,6 +1,6 @@
 //! Rows on their way to a file: of each record only what the trace shows, so that little is handed from thread to thread.
 
-use kontur_interpreter::record::columns::Column;
+use kontur_interpreter::record::columns::{Column, Content};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 
 /// What of a cycle is in no numeric column; see [`CycleRecord`].
@@ -13,6 +13,17 @@ pub(crate) struct Head {
     pub(crate) limit: SpeedLimit,
 }
 
+/// Where the numeric columns of a trace find their values, and nothing else of them: this is read for every row.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbers(Vec<Content>);
+
+impl Numbers {
+    /// Of these columns.
+    pub(crate) fn of(columns: &[Column]) -> Self {
+        Self(columns.iter().map(|c| c.content).filter(|content| content.is_number()).collect())
+    }
+}
+
 /// Rows of a trace, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Batch {
@@ -22,18 +33,16 @@ pub(crate) struct Batch {
 }
 
 impl Batch {
-    /// Adds the row of a record; the columns are the same for every row.
-    pub(crate) fn push(&mut self, columns: &[Column], record: &CycleRecord) {
+    /// Adds the row of a record; the numbers are the same for every row.
+    pub(crate) fn push(&mut self, Numbers(contents): &Numbers, record: &CycleRecord) {
         let CycleRecord { k, block, file, line, .. } = *record;
         self.heads.push(Head { k, block, file, line, limit: record.path.limit });
         // room for all of them at once: this is done for every value of a trace
-        let mut end = self.numbers.len();
-        self.numbers.resize(end + columns.len(), 0.0);
-        for value in columns.iter().filter_map(|column| column.number(record)) {
-            self.numbers[end] = value;
-            end += 1;
+        let end = self.numbers.len();
+        self.numbers.resize(end + contents.len(), 0.0);
+        for (value, content) in self.numbers[end..].iter_mut().zip(contents) {
+            *value = content.number(record).unwrap_or_default();
         }
-        self.numbers.truncate(end);
     }
 
     /// Number of rows.
@@ -85,7 +94,8 @@ mod tests {
         for (signals, width) in [("s_mm,v_limit,set", 2), ("line", 0)] {
             let columns = columns::select(signals, &facts).unwrap();
             let mut batch = Batch::default();
-            (0..10).for_each(|k| batch.push(&columns, &record(k)));
+            let shown = Numbers::of(&columns);
+            (0..10).for_each(|k| batch.push(&shown, &record(k)));
             let mut seen = Vec::new();
             for (heads, numbers) in batch.stretches(4) {
                 assert_eq!(numbers.len(), width * heads.len());

@@ -1,7 +1,7 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
 use super::batch::{Batch, Head};
-use super::fixed::{push_fixed, push_integer, push_seconds};
+use super::fixed::Cells;
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
@@ -24,47 +24,43 @@ impl Rows {
     }
 
     /// Appends the header line.
-    pub(crate) fn push_header(&self, out: &mut Vec<u8>) {
-        for (i, column) in self.columns.iter().enumerate() {
-            if i > 0 {
-                out.push(b',');
-            }
-            out.extend_from_slice(quoted(&column.name).as_bytes());
+    pub(crate) fn push_header(&self, out: &mut Cells) {
+        for column in &self.columns {
+            out.push_bytes(quoted(&column.name).as_bytes());
+            out.push_comma();
         }
-        out.push(b'\n');
+        out.end_line();
     }
 
     /// Appends the line of each row.
-    pub(crate) fn push_rows(&self, out: &mut Vec<u8>, batch: &Batch) {
+    pub(crate) fn push_rows(&self, out: &mut Cells, batch: &Batch) {
         batch.rows().for_each(|(head, numbers)| self.push_row(out, head, numbers));
     }
 
-    fn push_row(&self, out: &mut Vec<u8>, head: &Head, numbers: &[f64]) {
+    fn push_row(&self, out: &mut Cells, head: &Head, numbers: &[f64]) {
         let mut numbers = numbers.iter();
         for column in &self.columns {
             match column.content {
                 Content::Axis(..) | Content::Path(_) => {
                     if let Some(value) = numbers.next() {
-                        push_fixed(out, *value, column.decimals);
+                        out.push_fixed(*value, column.decimals);
                     }
                 }
-                Content::Time => push_seconds(out, head.k.saturating_mul(self.cycle_us)),
-                Content::Line => push_integer(out, u64::from(head.line)),
+                Content::Time => out.push_seconds(head.k.saturating_mul(self.cycle_us)),
+                Content::Line => out.push_integer(u64::from(head.line)),
                 Content::Block => {
                     if let Some(n) = head.block {
-                        push_integer(out, n);
+                        out.push_integer(n);
                     }
                 }
                 Content::File => {
-                    out.extend_from_slice(quoted(&self.files.name(head.file)).as_bytes());
+                    out.push_bytes(quoted(&self.files.name(head.file)).as_bytes());
                 }
-                Content::Limit => out.extend_from_slice(head.limit.name().as_bytes()),
+                Content::Limit => out.push_bytes(head.limit.name().as_bytes()),
             }
-            out.push(b',');
+            out.push_comma();
         }
-        if let Some(last) = out.last_mut() {
-            *last = b'\n';
-        }
+        out.end_line();
     }
 }
 
@@ -135,7 +131,7 @@ impl Target {
 pub(crate) struct CsvWriter {
     rows: Rows,
     target: Target,
-    buffer: Vec<u8>,
+    buffer: Cells,
     /// Bytes handed over.
     written: u64,
     /// Rows in the buffer.
@@ -156,7 +152,7 @@ impl CsvWriter {
 
     /// Starts a trace with its header.
     pub(crate) fn new(target: Target, rows: Rows) -> Self {
-        let mut buffer = Vec::with_capacity(Self::PIECE + 4096);
+        let mut buffer = Cells::with_capacity(Self::PIECE + 4096);
         rows.push_header(&mut buffer);
         Self { rows, target, buffer, written: 0, waiting: 0, flushed: now(), failed: false }
     }
@@ -187,9 +183,10 @@ impl CsvWriter {
             return Ok(());
         }
         let mut done = 0;
+        let lines = self.buffer.as_bytes();
         let result = loop {
-            match self.target.write(&self.buffer[done..]) {
-                _ if done == self.buffer.len() => break self.target.flush(),
+            match self.target.write(&lines[done..]) {
+                _ if done == lines.len() => break self.target.flush(),
                 Ok(0) => break Err(io::ErrorKind::WriteZero.into()),
                 Ok(n) => done += n,
                 Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
@@ -198,7 +195,7 @@ impl CsvWriter {
         };
         self.failed |= result.is_err();
         if result.is_err() {
-            let whole = self.buffer[..done].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+            let whole = lines[..done].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
             self.target.cut(self.written + whole as u64);
         }
         self.written += done as u64;
@@ -219,6 +216,7 @@ impl CsvWriter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trace::batch::Numbers;
     use crate::trace::columns;
     use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::{AxisRecord, CycleRecord, PathRecord, SpeedLimit};
@@ -251,7 +249,8 @@ mod tests {
     fn batch(signals: &str, facts: &Facts, cycles: impl IntoIterator<Item = u64>) -> (Rows, Batch) {
         let columns = columns::select(signals, facts).unwrap();
         let mut batch = Batch::default();
-        cycles.into_iter().for_each(|k| batch.push(&columns, &record(k)));
+        let numbers = Numbers::of(&columns);
+        cycles.into_iter().for_each(|k| batch.push(&numbers, &record(k)));
         (Rows::new(columns, facts), batch)
     }
 
@@ -259,11 +258,11 @@ mod tests {
     fn rows_read_as_plain_csv() {
         let facts = facts(&["a.nc", "sub, \"old\".nc"]);
         let (rows, batch) = batch("v_mm_s,v_limit,ipo", &facts, [0, 3]);
-        let mut out = Vec::new();
+        let mut out = Cells::default();
         rows.push_header(&mut out);
         rows.push_rows(&mut out, &batch);
         assert_eq!(
-            String::from_utf8(out).unwrap(),
+            std::str::from_utf8(out.as_bytes()).unwrap(),
             "t_s,line,block,file,v_mm_s,v_limit,X_ipo_mm\n\
              0.000000,6,,\"sub, \"\"old\"\".nc\",66.666667,ax_dev,-0.5000000\n\
              0.001500,6,50,\"sub, \"\"old\"\".nc\",66.666667,ax_dev,-0.5000000\n"

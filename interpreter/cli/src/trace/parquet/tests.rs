@@ -1,4 +1,5 @@
 use super::*;
+use crate::trace::batch::Numbers;
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::RowAccessor;
 use kontur_interpreter::job::AxisFacts;
@@ -14,7 +15,7 @@ fn parts_outlive_an_error() {
     let columns = columns::select("time", &facts).unwrap();
     let target = Target::create(&path).unwrap();
     let mut row = Batch::default();
-    row.push(&columns, &CycleRecord::default());
+    row.push(&Numbers::of(&columns), &CycleRecord::default());
     let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
     for _ in 0..ROWS_PER_GROUP {
         writer.write(&row).unwrap();
@@ -61,7 +62,7 @@ fn reads_back_bit_by_bit() {
     // batches that do not end where groups do
     for first in (0..rows).step_by(700) {
         let mut batch = Batch::default();
-        (first..rows.min(first + 700)).for_each(|k| batch.push(&columns, &record(k)));
+        (first..rows.min(first + 700)).for_each(|k| batch.push(&Numbers::of(&columns), &record(k)));
         writer.write(&batch).unwrap();
     }
     let totals = Totals { filter_delay_cycles: vec![12.5], ..Totals::default() };
