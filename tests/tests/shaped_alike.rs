@@ -136,7 +136,7 @@ fn a_listed_guard_that_cannot_be_built_is_off() {
     assert!(run.records.iter().all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
 }
 
-/// What makes a bridge rack or is not watched in its slave is noted; equal entries are not.
+/// What makes a bridge rack or is not monitored in its slave is noted; equal entries are not.
 #[test]
 fn differences_of_a_gantry_slave_are_noted() {
     let notes = |settings: &[&str]| {
@@ -149,5 +149,5 @@ fn differences_of_a_gantry_slave_are_noted() {
     assert!(one.len() == 1 && one[0].contains("feedforward"), "{one:?}");
     assert_eq!(notes(&["*.vorsteuer.vorsteuerung=NONE"]), [""; 0]);
     let limit = notes(&["X2.kenngr.swe_pos=100000"]);
-    assert!(limit.len() == 1 && limit[0].contains("not watched"), "{limit:?}");
+    assert!(limit.len() == 1 && limit[0].contains("not monitored"), "{limit:?}");
 }

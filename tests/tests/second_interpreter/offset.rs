@@ -258,27 +258,29 @@ pub fn inserted(kind: Insert, size: f64, [before, after]: &[Piece; 2], plane: Pl
     let (u, w) = (direction(before, 1.0, plane), direction(after, 0.0, plane));
     let turn = cross(u, w);
     let whole = |piece: &Piece| length(along(piece, 0.0, plane));
-    let angle = libm::atan2(turn.abs(), product(u, w));
-    let back = match kind {
-        Insert::Chamfer => size,
-        // the base of the triangle is the inserted line
-        Insert::ChamferLength => size / 2.0 / libm::cos(angle / 2.0),
-        Insert::Rounding => 0.0,
-    };
     // share of an element from its end to a point that is so far away from it as the crow flies
-    let share = |piece: &Piece| {
+    let share = |piece: &Piece, back: f64| {
         if piece.angle == 0.0 {
             return back / whole(piece);
         }
         let radius = dot(piece.u, piece.u).sqrt();
         2.0 * libm::asin(back / 2.0 / radius) / piece.angle
     };
+    let mut back = size;
+    if kind == Insert::ChamferLength {
+        // the base of the triangle is the inserted line: nearly as long as the distance times a factor
+        for _ in 0..200 {
+            let (p, q) = (before.at(1.0 - share(before, back)), after.at(share(after, back)));
+            let base = plus(p, q, -1.0);
+            back *= size / dot(base, base).sqrt();
+        }
+    }
     let inwards = if turn > 0.0 { size } else { -size };
     let [s, t] = if kind == Insert::Rounding {
         let (p, q) = (parallel(before, inwards, plane), parallel(after, inwards, plane));
         meet(&p, &q, plane).expect("the rounding fits")
     } else {
-        [1.0 - share(before), share(after)]
+        [1.0 - share(before, back), share(after, back)]
     };
     let (first, second) = (part(before, 0.0, s, plane), part(after, t, 1.0, plane));
     let (p, q) = (first.at(1.0), second.at(0.0));
