@@ -445,8 +445,8 @@ impl Simulation {
             wait::Action::Resume => self.resume(),
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData => self.machine_data(),
-            wait::Action::SetPosition { axis, offset_mm } => {
-                self.set_position(axis, offset_mm);
+            wait::Action::SetPosition { axis, offset_mm, moves } => {
+                self.set_position(axis, offset_mm, moves);
                 self.phase = Phase::Waiting(Wait::for_a_cycle());
             }
             wait::Action::End(reason) => {

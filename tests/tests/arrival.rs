@@ -233,3 +233,22 @@ fn a_named_main_spindle() {
         assert!((most - 1000.0).abs() < 1e-6, "{text}: {most} {:?}", run.diagnostics);
     }
 }
+
+/// `#CHANNEL INIT [ACTPOS]` (206709515): the actual position becomes the set position. The set position goes back by the lag, and the
+/// axis, whose encoder counts on, moves to it without a jump.
+#[test]
+fn an_actual_position_that_is_taken_over_lets_the_axis_move() {
+    let run = kontur_tests::run("G01 X10 F6000\n#CHANNEL INIT [ACTPOS]\nG04 1\nM30\n", &[]);
+    assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
+    let (set, act) = (run.axis(0, |a| a.set), run.axis(0, |a| a.act));
+    let taken = (1..set.len()).find(|k| set[*k] < set[k - 1]).unwrap();
+    let lag = set[taken - 1] - act[taken - 1];
+    assert!(lag > 1e-4, "{lag}");
+    assert!((set[taken] - act[taken - 1]).abs() < 1e-9, "{} {}", set[taken], act[taken - 1]);
+    // along its way the axis was slowing down; at no time it is faster, and it ends at its new set position
+    let most = (act[taken - 1] - act[taken - 2]).abs();
+    for k in taken..act.len() {
+        assert!((act[k] - act[k - 1]).abs() <= most * (1.0 + 1e-9), "{k}");
+    }
+    assert!((act[act.len() - 1] - set[taken]).abs() < 1e-6);
+}

@@ -162,8 +162,8 @@ impl Decoder {
         self.report.extend(outside);
     }
 
-    /// Axes take over where they really are; all of them if none is named. Nothing moves: the set position goes back by the
-    /// lag, which is inside its window, as by `X[SET_POSITION ..]`. The lag and not the actual position, which has
+    /// Axes take over where they really are; all of them if none is named. The set position goes back by the lag, which is inside its
+    /// window, and the axis follows it: repeated in a loop, it drifts (206709515). The lag and not the actual position, which has
     /// additional values of the position loop in it: they would act twice.
     ///
     /// Assumption: coupled axes keep their set positions, so that slaves stay where their masters put them.
@@ -173,7 +173,7 @@ impl Decoder {
             let lag_mm = self.feedback.lag_mm.get(axis).copied().unwrap_or(0.0);
             let named = axes.is_empty() || axes.contains(&axis);
             if named && lag_mm.abs() > 0.0 && self.motion.couplings.group_of(axis).is_none() {
-                self.shift_position(axis, -lag_mm);
+                self.shift_position(axis, -lag_mm, true);
             }
         }
     }

@@ -111,12 +111,15 @@ pub(crate) enum Sync {
     ReadActual,
     /// The same with every axis in its window first (P-AXIS-00236): `#CHANNEL INIT [ACTPOS]`.
     TakeActual,
-    /// `X[SET_POSITION ..]`: an axis in its window gets another position and does not move.
+    /// An axis in its window gets another set position.
     SetPosition {
         /// Path axis.
         axis: usize,
         /// New position less the present one in mm (deg).
         offset_mm: f64,
+        /// The axis follows (`#CHANNEL INIT [ACTPOS]`); otherwise it does not move, its place has another position from now on
+        /// (`X[SET_POSITION ..]`).
+        moves: bool,
     },
     /// `#MACHINE DATA`: a parameter of an axis list has changed in [`Executor::machine`](super::Executor::machine).
     MachineData {

@@ -183,11 +183,11 @@ impl Simulation {
         }
     }
 
-    /// `X[SET_POSITION ..]`: the axis and its gantry slaves get new positions without moving. Those of the path do not change.
-    pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64) {
+    /// The axis and its gantry slaves get new set positions. Those of the path do not change.
+    pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64, moves: bool) {
         for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
             if *driver == Driver::Path(axis) {
-                chain.shift(offset_mm);
+                chain.shift(offset_mm, moves);
             }
         }
         self.independent.shift(axis, offset_mm);

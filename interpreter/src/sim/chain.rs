@@ -159,12 +159,17 @@ impl AxisChain {
         (self.set, self.vel, self.acc) = (before.set, before.vel, before.acc);
     }
 
-    /// The current place of the axis gets another position, `by_mm` further on.
-    pub(crate) fn shift(&mut self, by_mm: f64) {
+    /// The set position at rest becomes another one, `by_mm` further on; the axis `moves` there, or its present place gets that
+    /// position.
+    pub(crate) fn shift(&mut self, by_mm: f64, moves: bool) {
         self.set += by_mm;
         self.shaping.settle(self.set);
         self.align(self.set);
-        self.control.shift(by_mm);
+        if moves {
+            self.control.command(by_mm);
+        } else {
+            self.control.shift(by_mm);
+        }
     }
 
     /// The delay changed: the setpoints that it reaches back to are those of the present standstill.

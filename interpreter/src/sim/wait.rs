@@ -19,6 +19,7 @@ pub(super) enum Action {
     SetPosition {
         axis: usize,
         offset_mm: f64,
+        moves: bool,
     },
     /// The axes are in their windows where the path has halted.
     Halted,
@@ -103,8 +104,9 @@ impl Wait {
             }
             Sync::TakeActual => (Until::AllInPosition, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
-            Sync::SetPosition { axis, offset_mm } => {
-                (Until::InPosition { alone: false }, Action::SetPosition { axis, offset_mm })
+            Sync::SetPosition { axis, offset_mm, moves } => {
+                let action = Action::SetPosition { axis, offset_mm, moves };
+                (Until::InPosition { alone: false }, action)
             }
             Sync::MachineData { .. } => (Until::Flushed, Action::MachineData),
         };

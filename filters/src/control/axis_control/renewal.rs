@@ -55,4 +55,13 @@ impl AxisControl {
         }
         self.still_cycles = 0;
     }
+
+    /// The set position at rest becomes another one, `by_mm` further on, to which the axis moves as its controller lets it: what
+    /// watches the set position does not see a motion.
+    pub fn command(&mut self, by_mm: f64) {
+        self.exact_stop.shift(by_mm);
+        self.setpoint.shift(by_mm);
+        self.set_mm += by_mm;
+        self.still_cycles = 0;
+    }
 }

@@ -55,13 +55,13 @@ impl Decoder {
                 return Err(Fault::new(Condition::TokenUnknown, text, span).hint(hint));
             }
         };
-        self.shift_position(axis, offset_mm);
+        self.shift_position(axis, offset_mm, false);
         Ok(())
     }
 
-    /// An axis at rest gets another position without a motion.
-    pub(in crate::exec) fn shift_position(&mut self, axis: usize, offset_mm: f64) {
-        self.sync(Sync::SetPosition { axis, offset_mm });
+    /// The set position of an axis at rest becomes another one; `moves`: the axis follows.
+    pub(in crate::exec) fn shift_position(&mut self, axis: usize, offset_mm: f64, moves: bool) {
+        self.sync(Sync::SetPosition { axis, offset_mm, moves });
         let mut target = self.geometry.coordinates.target().clone();
         target[axis] += offset_mm;
         self.motion.independent.way[axis] += offset_mm;
