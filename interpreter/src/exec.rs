@@ -29,6 +29,7 @@ pub(crate) use step::{
     OscillatingMotion, Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion,
     SpindleState, Step, Sync, WearSetting, WornPart,
 };
+pub(crate) use values::system::{meaning_of, meanings};
 
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "programmed positions are exact")]

@@ -14,6 +14,7 @@ mod explanation;
 mod language;
 mod notes;
 mod row;
+mod variables;
 mod words;
 
 pub use explanation::{Explanation, Kind};
@@ -25,7 +26,7 @@ use crate::machine::table::{self, Bound, Correction, Default, ListKind, Raw, Row
 use crate::machine::value::{self, Value};
 
 /// Explains an ID (`22060`, `P-ERR-70082`, `K-0031`, `K-LIST-LINK`), a parameter (`P-AXIS-00571` or its key), a command
-/// (`#VIB GUARD`, `G136`), an object or a word.
+/// (`#VIB GUARD`, `G136`), a system variable (`V.A.ABS.X`), an object or a word.
 ///
 /// # Errors
 /// What was probably meant (possibly nothing), if the thing is not known.
@@ -36,6 +37,7 @@ pub fn explain(thing: &str) -> Result<Explanation, Vec<String>> {
         .or_else(|| table::by_id(thing).map(parameter))
         .or_else(|| key_of(thing).map(parameter))
         .or_else(|| commands::find(thing))
+        .or_else(|| variables::find(thing))
         .or_else(|| words::find(thing))
         .ok_or_else(|| probably(thing))
 }
@@ -53,6 +55,7 @@ pub fn all(kind: Kind) -> Vec<Explanation> {
         Kind::Message => condition::rows().map(message).collect(),
         Kind::Parameter => table::rows().map(parameter).collect(),
         Kind::Command => commands::all().collect(),
+        Kind::Variable => variables::all().collect(),
         Kind::Word => words::all().map(words::explained).collect(),
     }
 }

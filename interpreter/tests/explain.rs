@@ -239,3 +239,20 @@ fn table_of_the_vibration_guard() {
         says(&format!("P-AXIS-{n}"), &["axes       T, R, S"]);
     }
 }
+
+/// System variables are explained whatever axis, spindle or index they are written with; one that does not exist is not.
+#[test]
+fn system_variables_have_a_meaning() {
+    for (written, title) in [
+        ("V.A.ABS.X", "V.A.ABS.X"),
+        ("v.a.act_pos.y2", "V.A.ACT_POS.X"),
+        ("V.G.NP[3].V.Z", "V.G.NP[i].V.X"),
+        ("V.G.WZ_AKT.R", "V.G.WZ_AKT.R"),
+        ("V.G.TIMER[7]", "V.G.TIMER[i]"),
+        ("V.G.@P[1].VALID", "V.G.@P[i].VALID"),
+        ("V.SPDL_PROG.SPEED.S2", "V.SPDL_PROG.SPEED.S"),
+    ] {
+        assert_eq!(explain(written).unwrap().title, title, "{written}");
+    }
+    assert!(explain("V.A.NOTHING.X").is_err());
+}

@@ -61,6 +61,14 @@ const PAGES: &[Page] = &[
         takes: |_| true,
     },
     Page {
+        name: "variables.md",
+        title: "System variables",
+        text: "Variables that programs read, with X for the name of an axis, S for a spindle and i for an index. Others are declared by programs \
+               (`#VAR`) or come from outside (`V.E.`).",
+        kind: Kind::Variable,
+        takes: |_| true,
+    },
+    Page {
         name: "words.md",
         title: "Words",
         text: "Objects and words of the vendor's documents, and the reasons for a speed or a wait in traces and in `run --times`.",
@@ -152,7 +160,7 @@ mod tests {
     /// Every row of the tables is on one page, and on one alone.
     #[test]
     fn every_row_has_its_entry() {
-        for kind in [Kind::Parameter, Kind::Message, Kind::Command, Kind::Word] {
+        for kind in [Kind::Parameter, Kind::Message, Kind::Command, Kind::Variable, Kind::Word] {
             for e in all(kind) {
                 let taken = PAGES.iter().filter(|p| p.kind == kind && (p.takes)(&e));
                 assert_eq!(taken.count(), 1, "{}", e.title);
@@ -169,7 +177,7 @@ mod tests {
     /// What an entry says is what `kontur explain` says.
     #[test]
     fn entries_are_what_explain_prints() {
-        for kind in [Kind::Parameter, Kind::Message, Kind::Word] {
+        for kind in [Kind::Parameter, Kind::Message, Kind::Variable, Kind::Word] {
             for e in all(kind) {
                 let name = e.title.split("  ").next().unwrap();
                 assert_eq!(explain(name).unwrap(), e);

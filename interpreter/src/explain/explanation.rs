@@ -9,6 +9,8 @@ pub enum Kind {
     Parameter,
     /// A command or G function.
     Command,
+    /// A system variable.
+    Variable,
     /// An object or word of the documents.
     Word,
 }

@@ -103,7 +103,11 @@ impl Decoder {
         if let Some(sign) = sign
             && self.machine.axes[axis].is_modulo()
         {
-            let sum = matches!(value.kind, ExprKind::Binary(_));
+            // of a sum in brackets the last term ends before the bracket does
+            let sum = match &value.kind {
+                ExprKind::Binary(binary) => binary.right.span.end() == value.span.end(),
+                _ => false,
+            };
             block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
         }
         let value = self.number(value)?;
