@@ -20,6 +20,7 @@ mod step;
 mod suggest;
 mod values;
 
+pub(crate) use block::groups::unsupported as unsupported_function;
 pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value};
 pub use program::check::Checked;
 pub(crate) use program::check::check;

@@ -256,3 +256,14 @@ fn system_variables_have_a_meaning() {
     }
     assert!(explain("V.A.NOTHING.X").is_err());
 }
+
+/// Commands and functions of which there is nothing to say but what becomes of them.
+#[test]
+fn commands_without_a_description_have_a_state() {
+    says("#TRAFO ON", &["#TRAFO", "kontur check"]);
+    says("#GANTRY", &["refused"]);
+    says("G141", &["contour masking", "refused"]);
+    says("#SET DEC LR SOLL", &["kontur check"]);
+    says("#ELSE", &["#IF"]);
+    assert!(explain("#NOTHING").is_err() && explain("G999").is_err());
+}

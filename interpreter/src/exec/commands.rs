@@ -252,6 +252,23 @@ pub(crate) fn explained() -> impl Iterator<Item = &'static Row> {
     ROWS.iter().filter(|row| !row.form.is_empty())
 }
 
+/// The longest name of a command that a text begins with, and what becomes of it; for a command there is nothing else to say about.
+pub(crate) fn state_of(text: &str) -> Option<(&'static str, &'static str)> {
+    let named = ROWS.iter().filter(|row| {
+        text.strip_prefix(row.name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    });
+    let row = named.max_by_key(|row| row.name.len())?;
+    let state = match row.act {
+        Act::Run(_) => "kontur check says what of it is carried out",
+        Act::Ignored(why) => why,
+        Act::OffOnly => {
+            "OFF is accepted; ON is refused: it would change the path and is not simulated"
+        }
+        Act::Unsupported => "refused: it would change the path and is not simulated",
+    };
+    Some((row.name, state))
+}
+
 /// The row of a command and how many of its words belong to the name.
 fn find(command: &Command) -> Option<(&'static Row, usize)> {
     ROWS.iter()

@@ -3,7 +3,7 @@
 use super::explanation::{Explanation, Kind};
 use super::language::LANGUAGE;
 use super::row::{Command, row};
-use crate::exec::commands;
+use crate::exec::{commands, unsupported_function};
 
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]
@@ -102,7 +102,28 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     let named = commands::explained()
         .filter(|row| is_named(&format!("#{}", row.name)))
         .max_by_key(|row| row.name.len());
-    named.map(of_row).or_else(|| family(wanted))
+    named.map(of_row).or_else(|| family(wanted)).or_else(|| state(wanted))
+}
+
+/// Commands and G functions of which there is nothing to say but what becomes of them.
+fn state(wanted: &str) -> Option<Explanation> {
+    let (title, state) = if let Some(name) = wanted.strip_prefix('#') {
+        let (name, state) = commands::state_of(name)?;
+        (format!("#{name}"), format!("command of the control; here: {state}"))
+    } else {
+        let number: u32 = wanted.strip_prefix('G')?.parse().ok()?;
+        let what = unsupported_function(number)?;
+        (format!("G{number}"), format!("{what}; refused: it is not simulated"))
+    };
+    Some(Explanation {
+        kind: Kind::Command,
+        title,
+        meaning: state,
+        facts: Vec::new(),
+        notes: Vec::new(),
+        example: None,
+        related: Vec::new(),
+    })
 }
 
 /// Commands that begin with the same word: `#CS` is `#CS DEF`, `#CS ON` and so on.

@@ -13,6 +13,8 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["R"], "G02 X.. Y.. R..", "radius of an arc: above 0 the shorter one, below 0 the longer one", "mm (G70: inch)", "", "G02 X10 Y10 R10", &["G02", "20034"]),
     row(&["I", "J", "K"], "G02 X.. Y.. I.. J..", "centre of an arc in X, Y, Z, from its start (G162) or absolute (G161); pitch of threads", "mm (G70: inch)", "", "G02 X20 I10", &["G02", "G161", "G33"]),
     row(&["N"], "N10 ..", "number of a block; N10: is a label for $GOTO", "", "", "N10 G01 X10", &["$GOTO"]),
+    row(&["#IF", "#ELSE", "#ENDIF"], "#IF expression   #ELSE   #ENDIF", "text that is part of the program only if the expression is true", "", "decided when the block is reached; no jump leads into a branch from outside (K-0016)", "#IF V.E.ROUGHING", &["$IF", "K-0016"]),
+    row(&["L SEQUENCE"], "L SEQUENCE [NAME=.. N10 N50 REPEAT=..]", "runs the blocks from one number to another, the last one included, as a subroutine", "", "", "L SEQUENCE [N10 N50]", &["L", "$GOTO"]),
     row(&["L", "LL", "L CYCLE"], "L name   LL name   L CYCLE [NAME=name @P1=..]", "calls a global subroutine, a local one (%L), or a cycle with parameters", "", "a cycle keeps its G functions and variables for itself (P-CHAN-00210)", "LL DRILL", &["M17", "M29", "P-CHAN-00210"]),
     row(&["G09"], "G09", "braking to a lower feed ends at the end of this block", "", "", "N10 G09 X10", &["G900"]),
     row(&["G08"], "G08", "a higher feed is reached at the start of its block", "", "ignored here (K-0100)", "G08", &["K-0100"]),

@@ -426,6 +426,14 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
     ) || matches!(row.number, 74 | 107 | 108 | 112 | 200..=202 | 333 | 338)
 }
 
+/// What a G function does that is refused.
+pub(crate) fn unsupported(number: u32) -> Option<&'static str> {
+    ROWS.iter().filter(|row| row.number == number).find_map(|row| match row.act {
+        Act::Unsupported(what) => Some(what),
+        _ => None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Act, ROWS};
