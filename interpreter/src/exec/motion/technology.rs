@@ -24,7 +24,7 @@ impl Decoder {
         self.technology.spindles.extend(waited_for(&self.machine.channel, function));
     }
 
-    /// M01 and the end of a program: only a declared duration counts, they do without one.
+    /// M00, M01 and the end of a program: only a declared duration counts, they do without one.
     pub(in crate::exec) fn takes_declared_time(&mut self, function: Function) {
         if declared(&self.machine.channel, function).is_some() {
             self.takes_time(function);

@@ -74,19 +74,6 @@ fn functions_before_and_behind_the_motion() {
     );
 }
 
-/// Somebody has to continue after M0, which takes a time that is not counted; M1 may be switched off.
-#[test]
-fn a_programmed_stop_takes_a_time_that_is_not_counted() {
-    let run = clean("X1 F100\nM0\nX2\nM1\nX3\nM0\nX4\nM30\n");
-    let events = run.steps.iter().flat_map(|step| match step {
-        super::Step::Motion { events, .. } | super::Step::Sync { events, .. } => events.clone(),
-        _ => Vec::new(),
-    });
-    let uncounted: Vec<Event> =
-        events.filter(|event| matches!(event, Event::Uncounted { .. })).collect();
-    assert_eq!(uncounted, [Event::Uncounted { function: "M0".to_owned() }]);
-}
-
 /// P-CHAN-00351: 1800000 mm/min2 are 500 mm/s2, 216000 mm/min3 are 1 mm/s3; JERK and TRANS_ACC are not among its keys. G70
 /// turns VEL into inch/min.
 #[test]

@@ -128,9 +128,7 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::Plain => self.m_function(m),
                 // Assumption: waited for before the motion, as every function; m_synch is not simulated
-                // somebody starts it again: after M0 in any case
-                MKind::Stop { optional: false } => self.takes_time(Function::M(m.number)),
-                MKind::Stop { optional: true } => self.takes_declared_time(Function::M(m.number)),
+                MKind::Stop { .. } => self.takes_declared_time(Function::M(m.number)),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
                 _ => {}
             }
