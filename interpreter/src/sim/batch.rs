@@ -4,7 +4,7 @@
 //! no axis asks what another one does. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its own column
 //! before the next one starts: its code and its state stay in the processor, and what is not read is not written. Then the
 //! cycles are taken one by one, in their order: path, blocks and records are in every cycle what they would have been alone. A
-//! single cycle is a row of one.
+//! single cycle is a step of the chain, which does what a row of one does.
 //!
 //! A fault ends the row with the cycle that raised it. Chains that were already beyond it are put back to where they were before
 //! the row, and run once more up to that cycle.

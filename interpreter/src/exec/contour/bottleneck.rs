@@ -13,6 +13,10 @@ use std::collections::VecDeque;
 
 /// Elements, the last ones of the contour and of the way each, that are compared with a new one: a limit of the memory.
 const WINDOW: usize = 20_000;
+/// Elements around a new one that are looked at, at most: a limit of the time where many passes lie beside each other.
+const MOST_AROUND: usize = 200;
+/// Distance in mm within which an element lies on another one: a pass that repeats it says nothing new.
+const SAME_MM: f64 = 1e-6;
 
 /// How much closer than its radius the tool must come, in mm: the smallest increment of the language.
 const TOLERANCE_MM: f64 = 1e-4;
@@ -58,6 +62,9 @@ struct Parts {
 
 impl Parts {
     fn push(&mut self, part: Part) {
+        if self.around(&part, SAME_MM).any(|other| other.side.is_at(&part.side)) {
+            return;
+        }
         if self.order.len() >= WINDOW
             && let Some(oldest) = self.order.pop_front()
         {
@@ -67,10 +74,14 @@ impl Parts {
         self.tree.insert(part);
     }
 
+    fn around(&self, part: &Part, gap: f64) -> impl Iterator<Item = &Part> {
+        let around = AABB::from_corners(part.low.map(|x| x - gap), part.high.map(|x| x + gap));
+        self.tree.locate_in_envelope_intersecting(around).take(MOST_AROUND)
+    }
+
     /// The first one of those around a part with which it gives something.
     fn first<T>(&self, part: &Part, gap: f64, with: impl Fn(&Part) -> Option<T>) -> Option<T> {
-        let around = AABB::from_corners(part.low.map(|x| x - gap), part.high.map(|x| x + gap));
-        let near = self.tree.locate_in_envelope_intersecting(around);
+        let near = self.around(part, gap);
         let found = near.filter_map(|other| Some((other.number, other.place, with(other)?)));
         found.min_by_key(|(number, place, _)| (*number, *place)).map(|(.., found)| found)
     }
@@ -201,6 +212,27 @@ fn passing(a: &Side, b: &Side, p: Point) -> f64 {
 }
 
 impl Side {
+    /// True if another element lies where this one does.
+    fn is_at(&self, other: &Self) -> bool {
+        let same = |a: f64, b: f64| (a - b).abs() <= SAME_MM;
+        let at = |p: Point, q: Point| same(p[0], q[0]) && same(p[1], q[1]);
+        match (self, other) {
+            (Self::Line { from, to }, Self::Line { from: other_from, to: other_to }) => {
+                at(*from, *other_from) && at(*to, *other_to)
+            }
+            (
+                Self::Arc { centre, radius, sweep_rad, .. },
+                Self::Arc { centre: c, radius: r, sweep_rad: s, .. },
+            ) => {
+                at(*centre, *c)
+                    && same(*radius, *r)
+                    && same(radius * sweep_rad, r * s)
+                    && at(self.start_point(), other.start_point())
+            }
+            _ => false,
+        }
+    }
+
     /// True if a point of the element's curve lies between its ends.
     fn contains(&self, p: Point) -> bool {
         (0.0..=1.0).contains(&self.share_of(p))
