@@ -87,15 +87,18 @@ mod demands;
 mod dwell;
 mod even;
 mod examine;
+mod findings;
 mod glance;
 mod harvest;
 mod kernels;
 mod leaves;
 mod measure;
+mod ranges;
 mod search;
 mod set_points;
 mod tighten;
 mod view;
+mod violation;
 
 use crate::axis::AxisVec;
 use crate::contour::Contour;

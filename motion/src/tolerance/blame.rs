@@ -13,11 +13,11 @@
 //! filter holds them are isolated again: between them it is faster to speed up and to brake. Where a stretch exceeds however slowly
 //! it is run, the starts and stops next to it are the cause (`du a M2 / 2`, whatever the speed): then the path rests at its ends.
 
-use super::Demands;
+use super::demands::{Demands, PATIENCE, hurry};
 use super::even::{ALIKE, Evenly, aim, fastest};
-use super::measure::{Record, Violation};
-use super::tighten::{PATIENCE, hurry};
+use super::findings::Findings;
 use super::view::{Mark, View};
+use super::violation::{Record, Violation};
 use crate::axis::AxisVec;
 use crate::contour::SAME_START_MM;
 
@@ -33,41 +33,6 @@ const LEAST_OF_ROUND: f64 = 0.5;
 const MOST: f64 = 0.25;
 /// Least part of the speed planned that an even speed can be.
 const LEAST: f64 = 2.5e-4;
-
-/// What exceeded the tolerance in one round.
-pub(super) struct Findings {
-    /// Largest excess in mm blamed on each boundary alone.
-    pub(super) corner: Vec<f64>,
-    /// Even speed in mm/s asked of each block.
-    pub(super) even: Vec<f64>,
-    /// The same at each boundary.
-    pub(super) even_at: Vec<f64>,
-    /// Largest excess in mm and its tolerance on each block to blame.
-    pub(super) block: Vec<Option<(f64, f64)>>,
-    /// First and last mark within reach of the violation of either kind looked at last, with its excess.
-    last: [Option<((usize, usize), f64)>; 2],
-}
-
-impl Findings {
-    pub(super) fn none(blocks: usize) -> Self {
-        Self {
-            corner: vec![0.0; blocks + 1],
-            even: vec![f64::INFINITY; blocks],
-            even_at: vec![f64::INFINITY; blocks + 1],
-            block: vec![None; blocks],
-            last: [None; 2],
-        }
-    }
-
-    /// Asks for an even speed on a block because of a violation.
-    fn evenly(&mut self, block: usize, speed: f64, v: &Violation) {
-        self.even[block] = self.even[block].min(speed);
-        let slot = &mut self.block[block];
-        if slot.is_none_or(|(e, _)| e < v.excess()) {
-            *slot = Some((v.excess(), v.tolerance_mm));
-        }
-    }
-}
 
 /// A kink or a bent block within reach.
 struct Part {

@@ -9,6 +9,9 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Times that a place is made slower without effect after which the steps grow.
+pub(super) const PATIENCE: u32 = 8;
+
 /// What the monitor asks of the blocks ahead, one entry per boundary or block of the window; it stays with them when the
 /// window moves on.
 #[derive(Clone, Debug)]
@@ -190,4 +193,10 @@ fn even_on_a_line(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
     let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
     let is_long = speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length;
     if is_long { speed } else { f64::INFINITY }
+}
+
+/// How many steps to take at once where so many have been without effect.
+pub(super) fn hurry(before: u32) -> u32 {
+    let rows = before / PATIENCE;
+    1 + rows * rows
 }

@@ -3,8 +3,8 @@
 //! What the path does around the stop is sampled once; a dwell of another length puts the same states further apart. A few set
 //! points are enough: the next plan is measured in any case.
 
-use super::measure::within;
 use super::view::{Mark, View};
+use super::violation::within;
 use crate::axis::AxisVec;
 use crate::deviation::{Excursion, SetPath};
 use crate::timeline::{PathState, Reader};

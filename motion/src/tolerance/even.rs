@@ -4,8 +4,8 @@
 //! search begins with where the free plan does not keep the tolerance ([`foresee`]): where they hold the speed down, a higher
 //! feed changes nothing.
 
-use super::measure::within;
 use super::view::STRAIGHT;
+use super::violation::within;
 use super::{Demands, Kernels};
 use crate::axis::AxisVec;
 use crate::contour::Contour;

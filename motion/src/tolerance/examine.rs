@@ -1,13 +1,13 @@
 //! The examination of a plan: what has changed is measured, and what exceeds is answered.
 
-use super::blame::Findings;
 use super::demands::Demands;
 use super::even::{foresee, foresees};
+use super::findings::Findings;
 use super::leaves::Left;
-use super::measure::{Record, Violation};
-use super::search::joined;
+use super::ranges::joined;
 use super::set_points::SetPoints;
 use super::view::View;
+use super::violation::{Record, Violation};
 use super::{BORDER_CYCLES, Monitor, Trial, Unkept, Verdict};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Seen};

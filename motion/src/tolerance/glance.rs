@@ -6,9 +6,9 @@
 
 use super::Unkept;
 use super::harvest::Harvest;
-use super::measure::{Record, Violation, within};
-use super::search::chunks;
+use super::ranges::chunks;
 use super::view::{Buffer, View};
+use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
 use crate::contour::WARY;
 

@@ -1,8 +1,8 @@
 //! The violations that are answered: of those that lie close together the worst one.
 
 use super::Unkept;
-use super::measure::{Record, Violation};
 use super::view::View;
+use super::violation::{Record, Violation};
 
 /// Takes violations in order of their cycles, and hands on at most one for half a kernel.
 pub(super) struct Harvest<'a, F> {

@@ -2,10 +2,11 @@
 
 use super::bound::Companion;
 use super::harvest::Harvest;
-use super::measure::{Record, SPACING, Violation, within};
-use super::search::chunks;
+use super::measure::SPACING;
+use super::ranges::chunks;
 use super::set_points::SetPoints;
 use super::view::View;
+use super::violation::{Record, Violation, within};
 use super::{BORDER_CYCLES, Unkept};
 use crate::contour::Sight;
 use crate::deviation::{Excursion, SetPath};

@@ -1,7 +1,7 @@
 //! The set points of a plan under examination, each computed once: what leaves the contour and what of it is missed are looked
 //! for along the same ones, stretch by stretch.
 
-use super::search::CHUNK;
+use super::ranges::CHUNK;
 use super::view::{Buffer, View};
 
 /// Set points kept, at most, so that long plans need little memory.

@@ -1,8 +1,9 @@
 //! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
 
-use super::blame::Findings;
+use super::Trial;
+use super::demands::{Demands, hurry};
+use super::findings::Findings;
 use super::view::View;
-use super::{Demands, Trial};
 use crate::overshoot::gentle;
 use crate::queue::Queued;
 use kontur_filters::kernel::{Kernel, Tap};
@@ -18,8 +19,6 @@ const LEAST_SHARE: f64 = 0.1;
 /// it back and forth.
 const GROWTH: f64 = 1.0 / 256.0;
 
-/// Times that a place is made slower without effect after which the steps grow.
-pub(super) const PATIENCE: u32 = 8;
 /// Part of an excess from which on it counts as left.
 const WITHOUT_EFFECT: f64 = 0.9;
 
@@ -184,12 +183,6 @@ fn spread_cycles2(kernel: &Kernel) -> f64 {
         tap.weight.abs() * d * d
     };
     kernel.taps().iter().map(part).sum()
-}
-
-/// How many steps to take at once where so many have been without effect.
-pub(super) fn hurry(before: u32) -> u32 {
-    let rows = before / PATIENCE;
-    1 + rows * rows
 }
 
 /// Keeps the larger excess.

@@ -1,0 +1,31 @@
+//! Ranges of cycles, from the first one to the last one.
+
+/// Cycles measured in one go.
+pub(super) const CHUNK: u64 = 8192;
+
+/// The parts of a range of moments, in whole cycles, that lie in one of some ranges of cycles.
+pub(super) fn within_of(among: &[(u64, u64)], (from, to): (f64, f64)) -> Vec<(u64, u64)> {
+    let (from, to) = (from.floor().max(0.0) as u64, to.ceil() as u64);
+    let first = among.partition_point(|range| range.1 < from);
+    let inside = among[first..].iter().take_while(|range| range.0 <= to);
+    inside.map(|range| (range.0.max(from), range.1.min(to))).collect()
+}
+
+/// A range of cycles in parts, so that long stretches need little memory.
+pub(super) fn chunks(from: u64, to: u64) -> impl Iterator<Item = (u64, u64)> {
+    let starts = std::iter::successors(Some(from), |from| Some(from + CHUNK + 1));
+    starts.take_while(move |from| *from <= to).map(move |from| (from, to.min(from + CHUNK)))
+}
+
+/// Ranges of cycles in order; those less than `reach` apart are one.
+pub(super) fn joined(mut ranges: Vec<(u64, u64)>, reach: u64) -> Vec<(u64, u64)> {
+    ranges.sort_unstable();
+    let mut out: Vec<(u64, u64)> = Vec::new();
+    for (from, to) in ranges {
+        match out.last_mut().filter(|last| from <= last.1.saturating_add(reach)) {
+            Some(last) => last.1 = last.1.max(to),
+            None => out.push((from, to)),
+        }
+    }
+    out
+}
