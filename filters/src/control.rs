@@ -39,3 +39,6 @@ pub use feedforward::{FeedforwardConfig, FeedforwardMode};
 pub use ipc::{IpcConfig, IpcMode};
 pub use plant::{Plant, PlantConfig, PlantModel};
 pub use position::{PositionConfig, PositionLoop};
+
+/// Largest set position in mm: far beyond any machine, and small enough for every difference to stay finite.
+const RANGE_MM: f64 = 1e9;

@@ -143,8 +143,6 @@ pub struct AxisControl {
 }
 
 impl AxisControl {
-    /// Largest set position in mm: far beyond any machine, and small enough for every difference to stay finite.
-    pub(crate) const RANGE_MM: f64 = 1e9;
     /// Still cycles after which everything that remembers a fixed number of cycles (buffer, delays of the feedforward, dead
     /// time, differences) holds equal values only.
     const REST_CYCLES: u32 = 32;

@@ -2,6 +2,7 @@
 
 use super::given::Given;
 use super::{AxisControl, ControlOutput, DriveValues, Encoder};
+use crate::control::RANGE_MM;
 use crate::control::{
     buffer::Setpoint,
     fault::Fault,
@@ -34,7 +35,7 @@ impl AxisControl {
     /// One cycle: set position after filters or Vibration Guard, feedforward gain of this motion
     /// ([`gain`](crate::control::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
     ///
-    /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
+    /// A set position beyond [`RANGE_MM`] (or not a number) counts as standing still.
     #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let mut output = ControlOutput::default();
@@ -74,7 +75,7 @@ impl AxisControl {
             let last = i + 1 == count;
             let before = std::mem::replace(&mut given.set, set_mm.to_bits());
             let before = if i == 0 { self.given.set } else { before };
-            let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
+            let set_mm = if set_mm.abs() <= RANGE_MM { set_mm } else { self.set_mm };
             let position_mm = set_mm + inputs.additional_mm;
             self.moving = (position_mm - self.position_mm).abs() > 0.0;
             (self.set_mm, self.position_mm) = (set_mm, position_mm);

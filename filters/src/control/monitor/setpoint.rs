@@ -5,7 +5,7 @@
 //! Source: TF5200 axis parameters, P-AXIS-00439 to 00444; IDs 50118 and 50119 (velocity). No document gives the ID for
 //! acceleration and jerk.
 
-use crate::control::axis_control::AxisControl;
+use crate::control::RANGE_MM;
 use crate::control::fault::{Derivative, Fault, Faults};
 use crate::time::CycleTime;
 
@@ -134,7 +134,7 @@ impl SetpointMonitor {
             let good = d1.abs() <= v
                 && (d1 - d2[0]).abs() <= a
                 && (d1 - 2.0 * d2[0] + d2[1]).abs() <= j
-                && set_mm.abs() <= AxisControl::RANGE_MM;
+                && set_mm.abs() <= RANGE_MM;
             (p1, d2) = (*set_mm, [d1, d2[0]]);
             !good
         };

@@ -4,8 +4,6 @@
 
 mod spindle;
 
-pub(in crate::exec) use spindle::SPINDLE_OVERRIDE;
-
 use super::collected::Words;
 use crate::diag::Condition;
 use crate::exec::commands::keys::arguments;

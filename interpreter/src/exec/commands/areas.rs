@@ -10,7 +10,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::area::Purpose;
-use crate::exec::motion::areas::Heading;
+use crate::exec::motion::state::areas::Heading;
 use crate::exec::values::number::whole;
 use crate::machine::Axis;
 

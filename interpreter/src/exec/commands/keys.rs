@@ -3,12 +3,14 @@
 
 use super::range::Range;
 use crate::diag::Condition;
-use crate::exec::block::brackets::SPINDLE_OVERRIDE;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
 use crate::exec::values::number::as_number;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
+
+/// Title of the override of spindles in messages.
+pub(in crate::exec) const SPINDLE_OVERRIDE: &str = "S[OVERRIDE]";
 
 /// The arguments of a command: a struct with one field per key, and the description of the keys.
 ///

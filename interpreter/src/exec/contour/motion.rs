@@ -1,7 +1,7 @@
 //! A programmed motion on its way through the stages of the contour.
 
 use crate::exec::block::modal::Selection;
-use crate::exec::motion::areas::Watch;
+use crate::exec::motion::state::areas::Watch;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;

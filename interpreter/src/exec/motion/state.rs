@@ -1,15 +1,16 @@
 //! State of motions from block to block.
 
+pub(in crate::exec) mod areas;
 pub(in crate::exec) mod coupling;
 mod cutting;
 pub(in crate::exec) mod measuring;
 pub(in crate::exec) mod wear;
 
+use self::areas::Areas;
 use self::coupling::Couplings;
 use self::cutting::Cutting;
 use self::measuring::Measuring;
 use self::wear::OnlineCompensation;
-use super::areas::Areas;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};

@@ -7,7 +7,7 @@ use super::{function, once};
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::modes::weight_ratio;
-use crate::exec::commands::keys::arguments;
+use crate::exec::commands::keys::{SPINDLE_OVERRIDE, arguments};
 use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -66,9 +66,6 @@ enum SpindleItem {
     /// G74.
     Home,
 }
-
-/// The override of spindles in messages.
-pub(in crate::exec) const SPINDLE_OVERRIDE: &str = "S[OVERRIDE]";
 
 /// `GET_DYNAMIC_DATA` (false) and `DEFAULT_DYNAMIC_DATA`.
 fn tool_limits(item: &Item) -> Option<(bool, Span)> {

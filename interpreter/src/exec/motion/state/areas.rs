@@ -1,0 +1,122 @@
+//! Control areas: those defined, the definition that is not complete, and those that motions are compared with.
+//!
+//! Source: TF5200 workspace monitoring (291148299); 120484.
+
+use crate::diag::{Condition, ValueKind};
+use crate::exec::fault::Fault;
+use crate::exec::geometry::area::{Area, Purpose, Violation};
+use crate::exec::step::SourceRef;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::Path;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Areas of the program.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Areas {
+    pub(in crate::exec::motion) defined: BTreeMap<u32, Arc<Area>>,
+    /// In the order in which they were switched on.
+    pub(in crate::exec::motion) active: Vec<Arc<Area>>,
+    pub(in crate::exec::motion) draft: Option<Box<Draft>>,
+    /// What the motions of a row have in common.
+    pub(in crate::exec::motion) watch: Option<Arc<Watch>>,
+}
+
+/// What a definition begins with.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct Heading {
+    pub(in crate::exec) number: u32,
+    pub(in crate::exec) purpose: Purpose,
+    /// CIRC, not POLY.
+    pub(in crate::exec) circle: bool,
+    pub(in crate::exec) low_mm: f64,
+    pub(in crate::exec) high_mm: f64,
+    /// EXCUR_AX, EXCUR_AXNR.
+    pub(in crate::exec) height_axis: Option<usize>,
+    pub(in crate::exec) span: Span,
+}
+
+/// A definition that is not complete.
+#[derive(Debug)]
+pub(in crate::exec::motion) struct Draft {
+    pub(in crate::exec::motion) heading: Heading,
+    /// Where the axes are meanwhile.
+    pub(in crate::exec::motion) before: AxisVec,
+    /// Axes that its blocks name.
+    pub(in crate::exec::motion) named: Vec<usize>,
+    pub(in crate::exec::motion) points: Vec<AxisVec>,
+    /// Plane, centre and radius of the full circle.
+    pub(in crate::exec::motion) circle: Option<([usize; 2], [f64; 2], f64)>,
+}
+
+/// The areas that a motion is compared with.
+#[derive(Debug, PartialEq)]
+pub(in crate::exec) struct Watch {
+    pub(in crate::exec::motion) areas: Vec<Arc<Area>>,
+    /// From the path to the tip of the tool.
+    pub(in crate::exec::motion) offsets_mm: AxisVec,
+    /// Names of the axes.
+    pub(in crate::exec::motion) names: Vec<String>,
+}
+
+impl Areas {
+    /// Neither a definition nor a watched area: motions are what they are without.
+    pub(in crate::exec) fn are_idle(&self) -> bool {
+        self.draft.is_none() && self.active.is_empty()
+    }
+
+    /// A block between BEGIN and END.
+    pub(in crate::exec) fn is_defining(&self) -> bool {
+        self.draft.is_some()
+    }
+
+    /// A definition that the program has not completed.
+    pub(in crate::exec) fn open(&self) -> Option<Span> {
+        self.draft.as_ref().map(|draft| draft.heading.span)
+    }
+
+    pub(in crate::exec::motion) fn is_active(&self, number: u32) -> bool {
+        self.active.iter().any(|area| area.number == number)
+    }
+}
+
+impl Watch {
+    /// What a motion violates.
+    pub(in crate::exec) fn fault(
+        &self,
+        path: &Path,
+        source: SourceRef,
+        span: Span,
+    ) -> Option<Fault> {
+        let (area, violation) = self.areas.iter().find_map(|area| {
+            let violation = area.violation(path, &self.offsets_mm)?;
+            Some((area, violation))
+        })?;
+        Some(*violated(area, violation, &self.names, span).in_block(source))
+    }
+}
+
+/// 120484, K-0147.
+pub(in crate::exec::motion) fn violated(
+    area: &Area,
+    violation: Violation,
+    names: &[String],
+    span: Span,
+) -> Box<Fault> {
+    let condition = match (area.purpose, violation.at_end) {
+        (Purpose::Workspace, true) => Condition::OutsideWorkspace,
+        _ => Condition::AreaViolated,
+    };
+    let place: Vec<String> = area
+        .axes
+        .iter()
+        .zip(violation.point_mm)
+        .map(|(axis, x)| format!("{}{}", names[*axis], (x * 1e4).round() / 1e4))
+        .collect();
+    let text = match area.purpose {
+        Purpose::Workspace => format!("{} is outside workspace {}", place.join(" "), area.number),
+        Purpose::Protection => format!("{} is in protection area {}", place.join(" "), area.number),
+    };
+    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Current, area.number, "-"))
+}
