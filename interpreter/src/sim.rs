@@ -317,10 +317,12 @@ impl Simulation {
                 }
             }
         }
+        if self.is_out_of_time() {
+            return false;
+        }
         self.through_the_axes(most.saturating_sub(1), watched);
         self.watch_probe();
         self.watch_banding();
-        self.check_time();
         true
     }
 
@@ -456,17 +458,19 @@ impl Simulation {
         }
     }
 
-    fn check_time(&mut self) {
-        let k = self.planner.setpoint().k;
-        let over = k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping(_));
-        if over {
-            let mut late = fault::out_of_time(k, self.cycle, self.max_cycles);
-            let waits = matches!(self.phase, Phase::Waiting(_));
-            let block = if waits { self.waits_at } else { self.current };
-            late.source = self.executor.locate(block);
-            self.messages.own.push(late);
-            self.totals.aborted = true;
-            self.phase = Phase::Done;
+    /// Ends the run where the program needs a cycle beyond its time; braking after a fault has the time it takes.
+    fn is_out_of_time(&mut self) -> bool {
+        let last = self.max_cycles;
+        if self.planner.setpoint().k <= last || matches!(self.phase, Phase::Stopping(_)) {
+            return false;
         }
+        let mut late = fault::out_of_time(last, self.cycle);
+        let waits = matches!(self.phase, Phase::Waiting(_));
+        let block = if waits { self.waits_at } else { self.current };
+        late.source = self.executor.locate(block);
+        self.messages.own.push(late);
+        self.totals.aborted = true;
+        self.phase = Phase::Done;
+        true
     }
 }

@@ -194,6 +194,7 @@ impl Decoder {
             return Ok(());
         }
         let cycle = machine.cycle;
+        let known = machine.chain_issues(axis);
         let changed = &mut machine.axes[axis];
         let limits_mm = changed.software_limits_mm();
         let corrected =
@@ -210,6 +211,12 @@ impl Decoder {
             self.geometry.limits_mm[axis] = changed.software_limits_mm();
         }
         let number = changed.number();
+        // what is not as it was: a filter that cannot be designed with the new value, an input that the drive does not have
+        let new = machine.chain_issues(axis).into_iter().filter(|issue| !known.contains(issue));
+        let new: Vec<Diagnostic> = new.collect();
+        for diagnostic in new {
+            self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
+        }
         self.motion.dynamics_changed();
         // first: a kernel is replaced when the axes have been at rest for as long as it remembers
         self.update_shaping(span);

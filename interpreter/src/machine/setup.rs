@@ -57,14 +57,28 @@ impl Machine {
         (chains, diagnostics)
     }
 
+    /// What there is to say about the chain of an axis, but for the kernels, which are worked out with what the program has set.
+    pub(crate) fn chain_issues(&self, axis: usize) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        let axis = &self.axes[axis];
+        filters::check_fir_kind(axis, &mut diagnostics);
+        self.unshaped(axis, &mut diagnostics);
+        diagnostics
+    }
+
     fn chain(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
-        let cascade = filters::cascade(axis, self.cycle, diagnostics);
         match self.master_of(axis) {
             Some(master) => {
                 filters::check_slave(axis, &self.axes[master], self.cycle, diagnostics);
             }
             None => filters::check_kernels(axis, self.cycle, diagnostics),
         }
+        self.unshaped(axis, diagnostics)
+    }
+
+    /// The chain, without a look at the kernels.
+    fn unshaped(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
+        let cascade = filters::cascade(axis, self.cycle, diagnostics);
         let mut config = control::config(axis, diagnostics);
         config.ipc = self.ipc(axis, diagnostics);
         let (control, found) = config.checked(self.cycle);

@@ -114,7 +114,6 @@ impl Simulation {
             std::mem::swap(&mut self.batch.records[last], &mut self.record.axes);
         }
         self.end_cycle();
-        self.check_time();
     }
 
     /// How many of the cycles after this one, `most` at the most, follow without anything that acts on the axes but the path.

@@ -318,14 +318,12 @@ pub(super) fn switch_while_moving() -> Diagnostic {
 }
 
 /// The program time is used up.
-pub(super) fn out_of_time(k: u64, cycle: CycleTime, max_cycles: u64) -> Diagnostic {
-    let mut d = Diagnostic::new(
-        Condition::Endless,
-        format!("program time exceeds {} s: the run was stopped", cycle.time_of(max_cycles)),
-    )
-    .hint("raise the limit with --max-time");
-    d.cycle = Some(k);
-    d.time_s = Some(cycle.time_of(k));
+pub(super) fn out_of_time(last: u64, cycle: CycleTime) -> Diagnostic {
+    let time_s = cycle.time_of(last);
+    let text = format!("program time exceeds {time_s} s: the run was stopped");
+    let mut d = Diagnostic::new(Condition::Endless, text).hint("raise the limit with --max-time");
+    d.cycle = Some(last);
+    d.time_s = Some(time_s);
     d
 }
 

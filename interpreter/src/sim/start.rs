@@ -16,6 +16,7 @@ use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
+use kontur_filters::time::CycleTime;
 use kontur_motion::planner::Planner;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -33,7 +34,7 @@ impl Simulation {
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
-        let max_cycles = (options.max_time_s / cycle.seconds()) as u64;
+        let max_cycles = cycles_in(options.max_time_s, cycle);
         let executor = Executor::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let start = executor.start_position();
@@ -110,4 +111,10 @@ impl Simulation {
         simulation.planner.report_changes(true);
         Ok(simulation)
     }
+}
+
+/// Whole cycles in a time in s: one of 0.286 s has 286 of 1 ms, although the quotient of the two is a little less.
+fn cycles_in(time_s: f64, cycle: CycleTime) -> u64 {
+    const ROUNDING: f64 = 1e-6;
+    (time_s / cycle.seconds() + ROUNDING) as u64
 }

@@ -177,18 +177,7 @@ fn fir(axis: &Axis) -> Option<FirPreset> {
 /// What is wrong with the kernels that are on from program start, and with the HSC filter.
 pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) {
     let preset = preset(axis, cycle);
-    let number = axis.get(of::FIR_FILTER.kind);
-    if number > 4 {
-        let what = format!("type {number} of the FIR filter, 0 to 4 exist");
-        let effect = "no FIR filter";
-        diagnostics.push(issues::about(
-            axis,
-            Condition::ListRange,
-            of::FIR_FILTER.kind,
-            &what,
-            effect,
-        ));
-    }
+    check_fir_kind(axis, diagnostics);
     let fir = preset.fir.filter(|fir| fir.enable).map(|fir| fir.config.design(cycle).1);
     let hsc = preset.hsc.map(|hsc| hsc.design(cycle).1);
     for (keys, found) in [(of::FIR_FILTER, fir), (of::standard(0), hsc)] {
@@ -199,6 +188,16 @@ pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec
         && let Err(error) = preset.vib_guard.settings.kernel(cycle)
     {
         diagnostics.push(issues::vib_guard(axis, true, &error, cycle));
+    }
+}
+
+/// A type of FIR filter that does not exist (P-AXIS-00586).
+pub(super) fn check_fir_kind(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
+    let number = axis.get(of::FIR_FILTER.kind);
+    if number > 4 {
+        let what = format!("type {number} of the FIR filter, 0 to 4 exist");
+        let place = of::FIR_FILTER.kind;
+        diagnostics.push(issues::about(axis, Condition::ListRange, place, &what, "no FIR filter"));
     }
 }
 
