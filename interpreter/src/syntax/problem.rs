@@ -287,7 +287,7 @@ fn refine(
         Context::Control if rest.starts_with('=') => problem.hint("`==` compares"),
         Context::Control => match behind_control(content, before, rest, expected) {
             Some(condition) => raised(problem, condition),
-            None if rest.starts_with('$') => problem.hint(CONTROL_HINT),
+            None if rest.starts_with('$') => not_a_statement(&problem, rest),
             None => problem,
         },
         Context::Words if starts_with(rest, "$ELSE") => raised(problem, Condition::ElseNotAlone),
@@ -381,6 +381,36 @@ const TRAILING: [(&str, Condition); 16] = [
     ("$BREAK", Condition::BreakNotAlone),
     ("$CONTINUE", Condition::ContinueNotAlone),
 ];
+
+/// A word after `$` that is not a control statement: one that continues without a blank, or another one.
+fn not_a_statement(problem: &Problem, rest: &str) -> Problem {
+    let apart = rest.len() - rest[1..].trim_ascii_start().len();
+    let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let length = rest[apart..].find(|c| !of_name(c)).unwrap_or(rest.len() - apart);
+    let (start, word) = (problem.span.start as usize, &rest[apart..apart + length]);
+    let span = Span::new(start, start + apart + length);
+    let longest =
+        TRAILING.iter().map(|(statement, _)| *statement).chain(["$FOR", "$ENDSWITCH", "$GOTO"]);
+    let longest = longest.filter(|statement| {
+        word.get(..statement.len() - 1)
+            .is_some_and(|head| head.eq_ignore_ascii_case(&statement[1..]))
+    });
+    match longest.max_by_key(|statement| statement.len()) {
+        Some(statement) if apart > 1 => {
+            let text = format!("blank between `$` and {}", &statement[1..]);
+            Problem::new(problem.condition, span, text).hint(format!("write {statement}"))
+        }
+        Some(statement) => {
+            let text = format!("`${word}` without a blank after {statement}");
+            Problem::new(problem.condition, span, text)
+                .hint(format!("write {statement} {}", &word[statement.len() - 1..]))
+        }
+        None => {
+            let text = format!("`${word}` is not a control statement");
+            Problem::new(problem.condition, span, text).hint(CONTROL_HINT)
+        }
+    }
+}
 
 /// Hint for a word after `$` that is not a control statement.
 const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \

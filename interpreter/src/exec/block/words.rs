@@ -121,6 +121,9 @@ impl Decoder {
                 let known = self.calls.macros.keys().map(|k| &**k);
                 let fault = Fault::new(Condition::Undefined, text, span);
                 Err(match suggest::hint(name, known) {
+                    _ if self.calls.macros.contains_key(name.trim_ascii()) => {
+                        fault.hint("it is defined in this block: it counts from the next one on")
+                    }
                     Some(hint) => fault.hint(hint),
                     None => fault.hint(
                         "define it before its use: \"NAME\" = \"NC code\", or in the channel list (makro_def)",

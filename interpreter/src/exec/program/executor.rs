@@ -131,7 +131,10 @@ impl Executor {
             let text = format!("{name} holds no main program");
             let severity =
                 if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
-            let diagnostic = Diagnostic::new(Condition::NoEnd, text).severity(severity);
+            let mut diagnostic = Diagnostic::new(Condition::NoEnd, text).severity(severity);
+            if severity == Severity::Error {
+                diagnostic = diagnostic.hint("write % and the main program after the subroutines");
+            }
             let (file, text) = (name, Arc::from(""));
             let (line, column, offset, length, block) = (1, 1, 0, 1, None);
             let beginning = Location { file, line, column, offset, length, block, text };

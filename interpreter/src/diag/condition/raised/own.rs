@@ -7,7 +7,7 @@ macro_rules! own {
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
     Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "kontur explain shows how words and commands are written";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
-    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, then more blocks", hint "move M30 to the end, or delete what comes after it";
+    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, M02 or M17, then more blocks", hint "move the word that ends the program to its end, or delete what comes after it";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "nesting of calls, or the structure of a program, beyond the limit", hint "does a subroutine call itself? A parameter can hold a part of a long expression";
     DuplicateKey = Kontur 7 "K-DUPKEY": Error ProgramAbort 3 0, "key twice in one command (no vendor ID known)", hint "leave one of the two out";
     DuplicateGroup = Kontur 8 "K-DUPGROUP": Error ProgramAbort 3 0, "two functions of one group (no vendor ID known)", hint "write the second one in a separate block";

@@ -148,13 +148,13 @@ impl Builder<'_> {
             // without a name it is a main program called L
             .filter(|name| name_of(name).is_some());
         let next = Position { offset: raw.position.offset, line: raw.position.line };
-        if let Some(name) = local {
+        if let Some(text) = local {
             self.behind_end = None;
             let nameless = |main: &usize| self.index.sections[*main].name.is_none();
             self.unfinished =
                 self.unfinished.or(self.section.filter(nameless)).filter(|_| !self.end_seen);
             self.close(raw.position.offset);
-            let name = name_of(name);
+            let name = name_of(text);
             if self.has_main {
                 let text = "a local subroutine after the main program: the control may refuse it";
                 let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
@@ -165,6 +165,7 @@ impl Builder<'_> {
                 let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Warning);
                 self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
             }
+            self.words_after_name(raw, text);
             self.open_section(name, true, next);
         } else if let (Some(_), Some(name)) = (self.unfinished, name_of(behind.trim_start())) {
             // a reader takes %MAIN for the program
@@ -187,7 +188,24 @@ impl Builder<'_> {
             self.remarks.push((id, self.end_seen));
         } else {
             self.close(raw.position.offset);
+            self.words_after_name(raw, behind.trim_start());
             self.open_section(name_of(behind.trim_start()), false, next);
+        }
+    }
+
+    /// What follows the name in the block of a `%` is not executed, unlike a remark it may look as if it were; `head` ends with the
+    /// block.
+    fn words_after_name(&mut self, raw: &RawBlock<'_>, head: &str) {
+        let Some(name) = name_of(head) else { return };
+        let words = head[name.len()..].trim_start();
+        let is_remark = words.starts_with(['(', ';']) || words.is_empty();
+        if !is_remark {
+            let words = words.trim_end();
+            let text = format!("`{words}` after the name of a program is not executed");
+            let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Warning);
+            let d = d.hint("write words of the program in a block of their own, remarks in (..)");
+            let at = raw.text.len() - head[name.len()..].trim_start().len();
+            self.report(raw, at, words.len(), d);
         }
     }
 
@@ -317,8 +335,9 @@ impl Builder<'_> {
     }
 
     fn control(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
-        let name = word(&head.rest[1..]);
-        let Some(mut keyword) = Keyword::of_control(&name) else { return };
+        let name = word(head.rest[1..].trim_start());
+        let found = Keyword::of_control(&name).or_else(|| Keyword::meant_by(&name));
+        let Some(mut keyword) = found else { return };
         if keyword == Keyword::If && contains_goto(head.rest) {
             keyword = Keyword::IfGoto;
         }
@@ -347,6 +366,7 @@ impl Builder<'_> {
                 inner.position.line
             );
             let d = Diagnostic::new(keyword.unexpected(), text);
+            let d = d.hint(format!("write {closer} before it"));
             self.report(raw, head.at, name.len() + 1, d);
             self.stack.truncate(depth + 1);
         }
