@@ -1,7 +1,8 @@
 ; run: exit 0
 ; end X10
-; warning K-0033 at 7:21
-; warning K-0075 at 10:21
+; warning K-0033 at 8:21
+; warning K-0075 at 11:21
+; warning K-0112 at 12:21
 #MACHINE DATA [AX=X AXPARAM="filter[0].fg_f0 600"]
 #MACHINE DATA [AX=X AXPARAM="filter[0].order 2"]
 #MACHINE DATA [AX=X AXPARAM="filter[0].enable 1"]

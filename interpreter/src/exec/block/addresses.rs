@@ -4,7 +4,10 @@ use super::collected::Words;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::syntax::ast::{Assign, Expr, ExprKind, Name, Sign, Span};
+use crate::exec::values::number::{as_number, whole};
+use crate::syntax::ast::{
+    Assign, Expr, ExprKind, Name, ParameterIndex, Place, PlaceKind, Sign, Span,
+};
 
 /// Letters I, J, K.
 fn centre_index(letter: u8) -> Option<usize> {
@@ -35,7 +38,8 @@ impl Decoder {
             return self.spindle_angle(spindle, what, value, span, block);
         }
         // R1 is the only index of the radius
-        let radius = name.as_str().eq_ignore_ascii_case("R1").then_some(b'R');
+        let written = name.as_str().eq_ignore_ascii_case("R1");
+        let radius = (written || self.is_radius_of_parameter(name.as_str(), span)?).then_some(b'R');
         let Some(letter) = name.letter().or(radius) else {
             return Err(self.unknown_name(name.as_str(), span));
         };
@@ -63,6 +67,20 @@ impl Decoder {
             });
         }
         Ok(())
+    }
+
+    /// True for `RP2` where P2 is 1, the only index of the radius.
+    fn is_radius_of_parameter(&self, name: &str, span: Span) -> Outcome<bool> {
+        let digits = name.strip_prefix(['R', 'r']).and_then(|rest| rest.strip_prefix(['P', 'p']));
+        let Some(index) = digits.and_then(|digits| digits.parse().ok()) else { return Ok(false) };
+        let index = ParameterIndex::Literal(index);
+        let kind = PlaceKind::Parameter { indirections: 0, index, subscripts: Vec::new() };
+        let index = as_number(&self.read(&Place { kind, span })?, span)?;
+        if whole(index, 1, 1).is_none() {
+            let text = format!("the radius has the index 1 only, not {index}");
+            return Err(Fault::new(Condition::RadiusIndex, text, span));
+        }
+        Ok(true)
     }
 
     /// `S.POS=180`, `S.OFFSET=90`.

@@ -29,8 +29,8 @@ pub(in crate::exec) struct Code {
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct CycleCall {
     pub(in crate::exec) number: u32,
-    /// Values in written order; `None` for an empty place.
-    pub(in crate::exec) values: Vec<Option<Value>>,
+    /// Values in written order, `None` for an empty place; without any it is not a cycle.
+    pub(in crate::exec) values: Option<Vec<Option<Value>>>,
     pub(in crate::exec) span: Span,
 }
 

@@ -18,14 +18,27 @@ use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_behind;
 
-/// What follows a block.
+/// What follows a block: a call first, then where the program continues.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct After<'b> {
+    pub(in crate::exec) call: Option<CallAfter<'b>>,
+    pub(in crate::exec) then: Then<'b>,
+}
+
+/// What a block calls at its end.
 #[derive(Debug)]
-pub(in crate::exec) enum After<'b> {
-    Next,
-    Call(&'b Call, Span),
+pub(in crate::exec) enum CallAfter<'b> {
+    Written(&'b Call, Span),
     Cycle(CycleCall),
     /// M06 with its own program.
     ToolChange(Span),
+}
+
+/// Where a program continues after a block.
+#[derive(Debug, Default)]
+pub(in crate::exec) enum Then<'b> {
+    #[default]
+    Next,
     Goto(&'b Jump),
     /// M17, M29, with the place they name.
     Return(Option<(&'b Return, Span)>),
@@ -46,7 +59,7 @@ impl Decoder {
         let mut words = Words::default();
         self.collect(written, &mut words);
         if self.is_of_a_printer(&words) {
-            return After::Next;
+            return After::default();
         }
         self.dialect_guard(&words);
         self.planes_and_units(&words);
@@ -68,7 +81,7 @@ impl Decoder {
         let late_speed = is_speed.then(|| self.spindle_speeds(&words)).flatten();
         if let Err(fault) = self.leaves_the_spindle(&words) {
             self.report.note(fault);
-            return After::Next;
+            return After::default();
         }
         self.functions_before(&words);
         let (late, early): (Vec<_>, Vec<_>) =

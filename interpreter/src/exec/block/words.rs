@@ -104,7 +104,12 @@ impl Decoder {
                         }
                         _ => Condition::ToolTwice,
                     };
-                    block.tool_written = Some((condition, span));
+                    let radius = Condition::ToolRadiusTwice;
+                    let before = block.tool_written.replace((condition, span));
+                    if condition == radius && before.is_some_and(|(before, _)| before == radius) {
+                        let text = "V.G.WZ_AKT.R is written twice in one block";
+                        return Err(Fault::new(Condition::ToolRadiusWrittenTwice, text, span));
+                    }
                 }
                 self.assign(assign)
             }
@@ -331,6 +336,7 @@ impl Decoder {
                 .with(|d| d.value(ValueKind::Current, number, "-"));
             return Err(fault.hint(hint));
         }
+        let written = value.is_some();
         let mut values = Vec::new();
         match value {
             None => {}
@@ -348,6 +354,7 @@ impl Decoder {
             let text = format!("{} values, a call takes up to 50", values.len());
             return Err(Fault::new(Condition::Range, text, span));
         }
+        let values = written.then_some(values);
         if block.cycle.replace(CycleCall { number, values, span }).is_some() {
             return Err(Fault::new(
                 Condition::SeveralCalls,

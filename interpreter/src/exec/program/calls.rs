@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, subroutine techniques. Plain subroutines share everything with their caller.
 
 use super::executor::Executor;
-use super::state::{ModalCycle, Passed};
+use super::state::{ModalCycle, Passed, Target};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::CycleCall;
 use crate::exec::fault::Fault;
@@ -25,12 +25,6 @@ pub(super) fn too_deep() -> String {
 
 /// Local subroutines that a hint names.
 const NAMED_MAX: usize = 12;
-
-/// What a call names.
-pub(super) struct Target {
-    pub(super) file: usize,
-    pub(super) section: usize,
-}
 
 impl Executor {
     /// `L`, `LL`.
@@ -54,19 +48,27 @@ impl Executor {
     }
 
     fn call_named(&mut self, name: &Ident, local: bool, cycle: Option<Passed>) {
-        if self.levels.len() >= LEVELS_MAX {
-            let text = too_deep();
+        if self.has_room(local, name.span)
+            && let Some(target) = self.named(name, local)
+        {
+            self.push_level(target, cycle);
+        }
+    }
+
+    fn named(&mut self, name: &Ident, local: bool) -> Option<Target> {
+        if local { self.local(name) } else { self.global(name) }
+    }
+
+    /// True if one more level may be entered; otherwise an error.
+    fn has_room(&mut self, local: bool, span: Span) -> bool {
+        let room = self.levels.len() < LEVELS_MAX;
+        if !room {
             let condition = if local { Condition::Nesting } else { Condition::SubroutineNesting };
-            let fault = Fault::new(condition, text, name.span);
-            self.decoder
-                .report
-                .note(fault.with(|d| d.value(ValueKind::Limit, LEVELS_MAX as f64, "-")));
-            return;
+            let fault = Fault::new(condition, too_deep(), span);
+            let fault = fault.with(|d| d.value(ValueKind::Limit, LEVELS_MAX as f64, "-"));
+            self.decoder.report.note(fault);
         }
-        let target = if local { self.local(name) } else { self.global(name) };
-        if let Some(Target { file, section }) = target {
-            self.push_level(file, section, cycle);
-        }
+        room
     }
 
     fn local(&mut self, name: &Ident) -> Option<Target> {
@@ -199,11 +201,16 @@ impl Executor {
             self.decoder.report.note(Fault::new(Condition::CycleWhileModal, text, span));
             return;
         }
-        if let Some(every_block) = modal {
-            let (name, passed) = (name.clone(), passed.clone());
-            self.decoder.calls.modal_cycle = Some(ModalCycle { name, local, passed, every_block });
+        if !self.has_room(local, name.span) {
+            return;
         }
-        self.call_named(&name, local, Some(passed));
+        let Some(target) = self.named(&name, local) else { return };
+        if let Some(every_block) = modal {
+            let (named, passed) = (name.span, passed.clone());
+            let modal = ModalCycle { target, named, passed, every_block };
+            self.decoder.calls.modal_cycle = Some(modal);
+        }
+        self.push_level(target, Some(passed));
     }
 
     fn cycle_name(&self, value: &ItemValue) -> Result<Ident, Box<Fault>> {
@@ -231,17 +238,23 @@ impl Executor {
         }
     }
 
-    /// G80 to G89, G800 to G839.
+    /// G80 to G89, G800 to G839: a cycle if it has values, otherwise a subroutine.
     pub(in crate::exec) fn implicit_call(&mut self, call: &CycleCall) {
         let Some(file) = self.decoder.calls.cycle_files.get(&call.number).cloned() else { return };
-        let passed = call
-            .values
-            .iter()
-            .zip(1..)
-            .filter_map(|(value, i): (_, u32)| Some((format!("P{i}").into(), value.clone()?)))
-            .collect();
         let name = Ident { text: file.into(), span: call.span };
-        self.call_named(&name, false, Some(passed));
+        let Some(values) = &call.values else {
+            self.call_named(&name, false, None);
+            return;
+        };
+        if self.decoder.calls.modal_cycle.is_some() {
+            let text = format!("a modal cycle is active: no other cycle (G{})", call.number);
+            self.decoder.report.note(Fault::new(Condition::CycleWhileModal, text, call.span));
+            return;
+        }
+        let values = values.iter().zip(1..);
+        let passed = values
+            .filter_map(|(value, i): (_, u32)| Some((format!("P{i}").into(), value.clone()?)));
+        self.call_named(&name, false, Some(passed.collect()));
     }
 
     /// A global subroutine that a parameter names.
@@ -274,7 +287,9 @@ impl Executor {
         if inside || self.has_ended() || !wanted {
             return;
         }
-        let cycle = cycle.clone();
-        self.call_named(&cycle.name, cycle.local, Some(cycle.passed));
+        let ModalCycle { target, named, passed, .. } = cycle.clone();
+        if self.has_room(false, named) {
+            self.push_level(target, Some(passed));
+        }
     }
 }

@@ -10,7 +10,7 @@ use self::budget::Budget;
 use self::found::Found;
 use super::files::Files;
 use super::reached::Reached;
-use super::state::{Level, Sequences};
+use super::state::{Level, Sequences, Target};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels};
@@ -146,7 +146,7 @@ impl Executor {
         let info = &mut self.decoder.calls.info;
         info.main_program = index.sections[section].name.clone().unwrap_or_else(|| Arc::from(""));
         info.main_file = name;
-        self.push_level(file, section, None);
+        self.push_level(Target { file, section }, None);
         self.position = index.sections[section].start;
         self.decoder.report.source.file = file_number(file);
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {

@@ -1,7 +1,7 @@
 //! Program levels: how programs, subroutines and cycles begin and end.
 
 use super::executor::Executor;
-use super::state::{Level, Passed};
+use super::state::{Closing, Level, Passed, Target};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::fault::Fault;
 use crate::exec::step::EndReason;
@@ -11,12 +11,8 @@ use std::sync::Arc;
 
 impl Executor {
     /// Enters a program.
-    pub(in crate::exec) fn push_level(
-        &mut self,
-        file: usize,
-        section: usize,
-        cycle: Option<Passed>,
-    ) {
+    pub(in crate::exec) fn push_level(&mut self, target: Target, cycle: Option<Passed>) {
+        let Target { file, section } = target;
         let index = Arc::clone(&self.files.file(file).index);
         let part = &index.sections[section];
         let (at, end) = (part.start, part.end);
@@ -43,6 +39,7 @@ impl Executor {
             again: None,
             begin: Position::START,
             passes: 0,
+            then: None,
         });
         self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
@@ -64,6 +61,23 @@ impl Executor {
         self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
 
+    /// Leaves a subroutine, and then what the block that called it leaves.
+    fn leave_level(&mut self) {
+        let then = self.levels.last().and_then(|level| level.then);
+        self.pop_level();
+        if let Some(closing) = then {
+            self.close(closing);
+        }
+    }
+
+    /// Leaves a level or ends the program, as M17 and M30 do.
+    pub(super) fn close(&mut self, closing: Closing) {
+        match closing {
+            Closing::Return => self.return_from_level(),
+            Closing::End => self.program_end(),
+        }
+    }
+
     /// The text of a level ends.
     pub(in crate::exec) fn level_ends(&mut self) {
         self.open_blocks();
@@ -75,7 +89,7 @@ impl Executor {
             return;
         }
         if self.levels.len() > 1 {
-            self.pop_level();
+            self.leave_level();
             return;
         }
         let cut = self.levels.last().is_some_and(|level| level.cut);
@@ -170,7 +184,7 @@ impl Executor {
     pub(in crate::exec) fn return_from_level(&mut self) {
         self.open_blocks();
         if self.levels.len() > 1 {
-            self.pop_level();
+            self.leave_level();
         } else {
             self.finish();
         }

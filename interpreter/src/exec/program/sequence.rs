@@ -7,9 +7,10 @@
 //!
 //! Source: TF5200 programming manual, calling block sequences; 21696.
 
-use super::calls::{LEVELS_MAX, Target, too_deep};
+use super::calls::{LEVELS_MAX, too_deep};
 use super::executor::Executor;
 use super::index::LabelPlace;
+use super::state::Target;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
@@ -76,7 +77,7 @@ impl Executor {
             }
             _ => behind.offset,
         };
-        self.push_level(file, section, None);
+        self.push_level(Target { file, section }, None);
         if let Some(level) = self.levels.last_mut() {
             (level.at, level.end) = (start, end);
             level.passes = words.repeat.map_or(0, |n| n - 1);

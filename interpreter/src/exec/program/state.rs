@@ -6,7 +6,7 @@ use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
 use crate::machine::Channel;
 use crate::source::Position;
-use crate::syntax::ast::{Ident, Place};
+use crate::syntax::ast::{Place, Span};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -31,6 +31,24 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec) cut: bool,
     /// First and last block that jumps back lead through again, by their offsets.
     pub(in crate::exec) again: Option<(u64, u64)>,
+    /// What the block that called it does after it.
+    pub(in crate::exec) then: Option<Closing>,
+}
+
+/// What a call names: a file, and a program in it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct Target {
+    pub(super) file: usize,
+    pub(super) section: usize,
+}
+
+/// How a block leaves its level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Closing {
+    /// M17, M29.
+    Return,
+    /// M02, M30.
+    End,
 }
 
 impl Level {
@@ -115,8 +133,9 @@ pub(super) type Passed = BTreeMap<Box<str>, Value>;
 /// A cycle that follows every motion or block.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct ModalCycle {
-    pub(super) name: Ident,
-    pub(super) local: bool,
+    pub(super) target: Target,
+    /// The place of its name in the call.
+    pub(super) named: Span,
     pub(super) passed: Passed,
     /// After every block, not only after motions.
     pub(super) every_block: bool,

@@ -157,6 +157,7 @@ macro_rules! words {
     ZeroOffsetDefault = Vendor 20585: Error ProgramAbort 6 2, "default zero offset outside the groups", cause "default_index 200", hint "groups are 0 to 96", parameter "P-ZERO-00002";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetTooLarge = Vendor 20604: Error ProgramAbort 3 1, "position of #PSET outside the data format", cause "#PSET X94967296", hint "coordinates reach up to 214748.3647 mm or deg";
+    PresetWithPath = Vendor 20607: Error ProgramAbort 3 1, "#PSET or #PRESET in the block of a function of the path", cause "G01 F1000 #PSET X200", hint "write the G function in a separate block";
     PresetWithCompensation = Vendor 20608: Error ProgramAbort 3 1, "#PSET or #PRESET with active tool radius compensation", hint "switch the compensation off with G40 first";
     PresetWithDiameters = Vendor 20610: Error ProgramAbort 3 1, "#PSET or #PRESET with active diameter programming", hint "write G52 before it";
     PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before it";
@@ -182,6 +183,7 @@ macro_rules! words {
     MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
     ToolTwice = Vendor 20738: Error ProgramAbort 3 1, "D and V.G.WZ_AKT in one block", hint "write one of the two in a separate block";
     ToolOffsetTwice = Vendor 20739: Error ProgramAbort 3 1, "D and an offset V.G.WZ_AKT.V in one block", hint "write one of the two in a separate block";
+    ToolRadiusWrittenTwice = Vendor 20740: Error ProgramAbort 3 1, "tool radius written twice in one block", cause "V.G.WZ_AKT.R=25 and V.G.WZ_AKT.R=30", hint "write one of them in a later block";
     SplineParameter = Vendor 20746: Error ProgramAbort 3 1, "parameter of a spline outside the data format", cause "#AKIMA STARTVECTOR X1e30", hint "write the direction with components of ordinary size";
     TimeRange = Vendor 20751: Error ProgramAbort 3 1, "time of #TIME out of range", hint "the time is in seconds";
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time is in seconds";

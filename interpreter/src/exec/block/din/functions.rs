@@ -1,6 +1,6 @@
 //! M functions, spindle words and what follows a block.
 
-use super::After;
+use super::{After, CallAfter, Then};
 use crate::diag::{Condition, rounded};
 use crate::exec::block::collected::{Code, Words};
 use crate::exec::decoder::Decoder;
@@ -193,24 +193,41 @@ impl Decoder {
     }
 
     pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {
-        let mut after = After::Next;
+        let mut then = Then::Next;
         self.turn_main_spindle(words, SpindleMoment::AfterMotion);
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End => {
                     self.takes_declared_time(Function::M(m.number));
-                    after = After::End;
+                    then = Then::End;
                 }
-                MKind::Return if !matches!(after, After::End) => {
-                    after = After::Return(words.back);
+                MKind::Return if !matches!(then, Then::End) => {
+                    then = Then::Return(words.back);
                 }
                 _ => {}
             }
         }
-        if !matches!(after, After::Next) {
-            return after;
+        let call = self.call_after(words);
+        let jumps = match words.goto {
+            Some(label) if matches!(then, Then::Next) => Some(label),
+            _ => None,
+        };
+        match jumps {
+            // of a measuring run, the signal decides
+            Some(_) if self.motion.measuring.is_under_way() => {}
+            Some(label) if call.is_some() => {
+                let text = "$GOTO in a block that calls a subroutine at its end";
+                self.report.note(Fault::new(Condition::BehindCall, text, label.span));
+            }
+            Some(label) => then = Then::Goto(label),
+            None => {}
         }
+        After { call, then }
+    }
+
+    /// The one call at the end of a block.
+    fn call_after<'b>(&mut self, words: &Words<'b>) -> Option<CallAfter<'b>> {
         let tool_change = words.m.iter().find(|m| {
             m_kind(m.number) == MKind::ToolChange && self.calls.tool_change_file.is_some()
         });
@@ -218,20 +235,14 @@ impl Decoder {
             let text = "M06 calls a subroutine: a second call in its block";
             self.report.note(Fault::new(Condition::SeveralCalls, text, m.span));
         }
+        if let (Some(cycle), Some(_)) = (&words.cycle, words.call) {
+            let text = format!("G{} calls a subroutine: a second call in its block", cycle.number);
+            self.report.note(Fault::new(Condition::SeveralCalls, text, cycle.span));
+        }
         if let Some((call, span)) = words.call {
-            return After::Call(call, span);
+            return Some(CallAfter::Written(call, span));
         }
-        if let Some(cycle) = &words.cycle {
-            return After::Cycle(cycle.clone());
-        }
-        if let Some(m) = tool_change {
-            return After::ToolChange(m.span);
-        }
-        match words.goto {
-            // of a measuring run, the signal decides
-            Some(_) if self.motion.measuring.is_under_way() => After::Next,
-            Some(label) => After::Goto(label),
-            None => After::Next,
-        }
+        let cycle = words.cycle.clone().map(CallAfter::Cycle);
+        cycle.or_else(|| tool_change.map(|m| CallAfter::ToolChange(m.span)))
     }
 }

@@ -3,10 +3,11 @@
 use super::budget::Verdict;
 use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::exec::block::din::After;
+use crate::exec::block::din::{After, CallAfter, Then};
 use crate::exec::fault::Fault;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
+use crate::exec::program::state::Closing;
 use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::exec::values::number::whole;
 use crate::source::Position;
@@ -321,9 +322,7 @@ impl Executor {
                 if self.decoder.report.failed() && !self.decoder.checking {
                     return;
                 }
-                let levels = self.levels.len();
                 self.after(after);
-                self.modal_cycle(levels);
             }
         }
     }
@@ -378,16 +377,39 @@ impl Executor {
         }
     }
 
+    /// What is called at the end of a block runs before the block leaves its level or ends the program.
     fn after(&mut self, after: After<'_>) {
-        match after {
-            After::Next => {}
-            After::Call(call, span) => self.call(call, span),
-            After::Cycle(call) => self.implicit_call(&call),
-            After::ToolChange(span) => self.tool_change(span),
-            After::Goto(label) => self.goto(label),
-            After::Return(None) => self.return_from_level(),
-            After::Return(Some((back, span))) => self.return_to(back, span),
-            After::End => self.program_end(),
+        let levels = self.levels.len();
+        match after.call {
+            None => {}
+            Some(CallAfter::Written(call, span)) => self.call(call, span),
+            Some(CallAfter::Cycle(call)) => self.implicit_call(&call),
+            Some(CallAfter::ToolChange(span)) => self.tool_change(span),
+        }
+        let closing = match after.then {
+            Then::Return(None) => Some(Closing::Return),
+            Then::End => Some(Closing::End),
+            _ => None,
+        };
+        match after.then {
+            Then::Goto(label) => self.goto(label),
+            Then::Return(Some((back, span))) => {
+                if self.levels.len() > levels {
+                    let text = format!("M{} to another place in a block that calls", back.number);
+                    self.decoder.report.note(Fault::new(Condition::BehindCall, text, span));
+                }
+                self.return_to(back, span);
+            }
+            Then::Next | Then::Return(None) | Then::End => {}
+        }
+        if closing.is_none() || self.decoder.moved {
+            self.modal_cycle(levels);
+        }
+        let Some(closing) = closing else { return };
+        // the level that runs last is the one that was called first
+        match self.levels.get_mut(levels) {
+            Some(called) => called.then = Some(closing),
+            None => self.close(closing),
         }
     }
 
