@@ -225,3 +225,23 @@ fn sample_of_inputs_of_axes() {
     near(z.load, -0.05);
     assert_eq!(run.diagnostics, []);
 }
+
+/// A hold in any of the last cycles of a motion: the path waits for its release, or is so near to its end that nothing is left
+/// to hold; then no later hold holds it. Either way it ends where the block ends.
+#[test]
+fn a_hold_at_the_end_of_the_last_motion() {
+    let program = "%P\nG90 G01 X10 F3000\nM30\n";
+    let plain = run_with_inputs(machine(&[]), program, &[]);
+    for (column, on, off) in [("feedhold", 1.0, 0.0), ("override_percent", 0.0, 100.0)] {
+        let mut held = true;
+        for cycle in 150..plain.records.len() {
+            let at = (cycle as f64 / 1000.0, column, on);
+            let run = run_with_inputs(machine(&[]), program, &[at, (0.6, column, off)]);
+            near(x_at(&run, f64::INFINITY), 10.0);
+            let ends_as_planned = run.records.len() == plain.records.len();
+            assert!(held || ends_as_planned, "{column} in cycle {cycle}");
+            held = !ends_as_planned;
+        }
+        assert!(!held);
+    }
+}

@@ -388,7 +388,11 @@ fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
 /// What lies after `s` mm; a rest of a block no longer than rounding is dropped.
 fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     let mut gone = 0;
-    while gone < blocks.len() && s >= blocks[gone].queued.length * (1.0 - SAME_LENGTH) {
+    // a leg to the end of a block, and what is left of the block, are computed in different ways
+    let is_over = |length: f64, s: f64| {
+        s >= length * (1.0 - SAME_LENGTH) || s > 0.0 && length - s <= SAME_END_MM
+    };
+    while gone < blocks.len() && is_over(blocks[gone].queued.length, s) {
         s = (s - blocks[gone].queued.length).max(0.0);
         gone += 1;
     }
