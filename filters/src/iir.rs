@@ -209,6 +209,11 @@ impl AxisFilter {
         }
     }
 
+    /// False for a high-pass and a band-pass, which act on the deviation from the position at switch-on.
+    pub(crate) fn lets_rest_through(&self) -> bool {
+        self.start.is_none()
+    }
+
     /// At rest on `x` in the place of another filter: one that acts on the deviation from the position at switch-on keeps that
     /// position, so that it still holds back what has been held back.
     pub(crate) fn settle_as(&mut self, before: &Self, x: f64) {

@@ -88,11 +88,16 @@ impl Shaping {
         self.kernel.settled() && kernel.is_none_or(|kernel| self.kernel.settled_for(kernel))
     }
 
-    /// Other standard filters from now on, with the origin of each. The same ones continue, the others begin at rest on what
-    /// arrives there.
+    /// Other standard filters from now on, with the origin of each. The same ones continue; the others begin at rest on the
+    /// output, which is as close to the input as a wait for [`settled`](Self::settled) has left it, and run into the input from
+    /// there. Where a high-pass or band-pass lets no rest through they begin on what arrives at each of them.
     pub fn change_filters(&mut self, filters: Vec<AxisFilter>, origins: &[Origin]) {
         let before = std::mem::replace(&mut self.filters, filters);
-        let mut x = self.newest.0;
+        let (mut x, y) = self.newest;
+        let passed = before.iter().chain(&self.filters).all(AxisFilter::lets_rest_through);
+        if passed {
+            x = y;
+        }
         for (filter, origin) in self.filters.iter_mut().zip(origins) {
             match *origin {
                 Origin::Same(i) => filter.clone_from(&before[i]),

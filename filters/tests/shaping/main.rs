@@ -5,6 +5,8 @@ mod analysis;
 #[cfg(test)]
 mod chain;
 #[cfg(test)]
+mod changes;
+#[cfg(test)]
 mod corner;
 #[cfg(test)]
 mod figures;
