@@ -2,7 +2,7 @@
 //!
 //! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
 //! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
-//! of less than a thousandth means a standstill. A vibration that settles loses more than a thousandth of its
+//! of less than a thousandth means a standstill, unless it grows: a slow filter has only begun to move then. A vibration that settles loses more than a thousandth of its
 //! amplitude in one of ten periods.
 
 use kontur_filters::time::CycleTime;
@@ -45,14 +45,19 @@ impl Period {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     still: Period,
+    /// Way of the period before.
+    way_mm: f64,
     swing: Period,
-    peak_mm: f64,
+    /// Range of the period before of the vibration.
+    before_mm: (f64, f64),
     swings: u32,
 }
 
 impl Default for Patience {
     fn default() -> Self {
-        Self { still: Period::EMPTY, swing: Period::EMPTY, peak_mm: f64::INFINITY, swings: 0 }
+        let (still, swing) = (Period::EMPTY, Period::EMPTY);
+        let before_mm = (f64::INFINITY, f64::NEG_INFINITY);
+        Self { still, way_mm: 0.0, swing, before_mm, swings: 0 }
     }
 }
 
@@ -68,14 +73,17 @@ impl Patience {
         let length_s = settling_s.unwrap_or(PERIOD_S.1).clamp(PERIOD_S.0, PERIOD_S.1);
         let peak = |(low, high): (f64, f64)| low.abs().max(high.abs());
         if let Some(range) = self.swing.add(distance_mm, SWING_S, cycle) {
-            let lasts = peak(range) >= (1.0 - CHANGE) * self.peak_mm;
-            self.swings = if lasts { self.swings + 1 } else { 0 };
-            self.peak_mm = peak(range);
+            // what moves one way leaves the range of the period before
+            let returns = range.0 < self.before_mm.1 && range.1 > self.before_mm.0;
+            let lasts = peak(range) >= (1.0 - CHANGE) * peak(self.before_mm);
+            self.swings = if returns && lasts { self.swings + 1 } else { 0 };
+            self.before_mm = range;
         }
-        let still = self
-            .still
-            .add(distance_mm, length_s, cycle)
-            .is_some_and(|range| range.1 - range.0 <= CHANGE * peak(range));
+        let still = self.still.add(distance_mm, length_s, cycle).is_some_and(|range| {
+            let way_mm = range.1 - range.0;
+            let before_mm = std::mem::replace(&mut self.way_mm, way_mm);
+            way_mm <= CHANGE * peak(range) && way_mm <= before_mm
+        });
         still || self.swings >= SWINGS
     }
 }
@@ -104,7 +112,8 @@ mod tests {
 
     #[test]
     fn what_still_settles_is_waited_for() {
-        // the slowest gain of a list, and vibrations down to a damping of 0.001
+        // what gets faster, as a filter of higher order at first, the slowest gain of a list, and vibrations down to a damping of 0.001
+        assert_eq!(ends(Some(0.2), |t| 2.0 - libm::pow(t / 100.0, 3.0)), None);
         assert_eq!(ends(Some(0.2), |t| 2.0 * libm::exp(-t / 100.0)), None);
         for (f, d) in [(1.0, 0.001), (11.0, 0.02), (53.0, 0.001)] {
             let w = std::f64::consts::TAU * f;
