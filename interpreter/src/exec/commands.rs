@@ -37,7 +37,7 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::suggest;
 use crate::diag::Condition;
-use crate::syntax::ast::{Command, Span};
+use crate::syntax::ast::{Command, Ident, Span};
 pub(crate) use row::Row;
 use row::{Act, Call};
 pub(super) use slope::{slope_of_number, slope_type};
@@ -294,12 +294,29 @@ fn unknown(command: &Command) -> Box<Fault> {
     }
 }
 
+/// A word of the program after a command, `X5` of `#TRAFO OFF X5`: no command has a word of a letter and a number, or a value after
+/// OFF.
+fn words_after(call: &Call<'_>) -> Option<Span> {
+    let is_word = |word: &&Ident| {
+        let mut letters = word.text.bytes();
+        letters.next().is_some_and(|b| b.is_ascii_alphabetic())
+            && letters.next().is_some_and(|b| b.is_ascii_digit() || b"+-.=".contains(&b))
+    };
+    let word = call.rest.iter().chain(&call.command.tail).find(is_word).map(|word| word.span);
+    let value = call.command.arguments.first().filter(|_| call.command.on == Some(false));
+    word.or(value.map(|value| value.span))
+}
+
 impl Decoder {
     /// Executes a plain-text command.
     pub(super) fn execute_command(&mut self, command: &Command) -> Outcome<()> {
         self.dialect.own = true;
         let Some((row, count)) = find(command) else { return Err(unknown(command)) };
         let call = Call { command, name: row.name, rest: &command.words[count..] };
+        if let Some(span) = words_after(&call) {
+            let text = format!("{}: a word of the program after it in its block", call.title());
+            return Err(Fault::new(Condition::WordsBehindCommand, text, span));
+        }
         match row.act {
             Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)),
             Act::OffOnly if command.on == Some(false) => Ok(()),

@@ -92,6 +92,10 @@ impl Decoder {
             }
             return Ok(());
         }
+        let mut before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
+        if before.any(|other| self.excludes(other, axis, bracket)) {
+            return Err(self.axis_twice(axis, group.span));
+        }
         match group.items.split_first() {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
                 let rest = Group { items: rest.to_vec(), span: group.span };
@@ -143,6 +147,23 @@ impl Decoder {
                 Err(Fault::new(Condition::Syntax, text, group.span))
             }
         }
+    }
+
+    /// Another bracket of the same axis that moves it, or sets the same.
+    fn excludes(&self, other: &Bracket, axis: usize, bracket: &Bracket) -> bool {
+        const MOVES: [&str; 5] = ["INDP_SYN", "INDP_ASYN", "OSC", "OSC_ON", "SET_POSITION"];
+        fn first(bracket: &Bracket) -> Option<&Ident> {
+            match &bracket.group.items.first()?.kind {
+                ItemKind::Flag(word) => Some(word),
+                _ => None,
+            }
+        }
+        let moves = |word: &Ident| MOVES.iter().any(|name| word.is(name));
+        self.names.of_name(other.name.as_str()) == Some(axis)
+            && match (first(other), first(bracket)) {
+                (Some(a), Some(b)) => moves(a) && moves(b) || a.is(&b.text),
+                _ => false,
+            }
     }
 
     /// `FEED_FACT` and `RAPID_FACT` in percent.

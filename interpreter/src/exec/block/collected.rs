@@ -1,7 +1,7 @@
 //! What has been collected from one block.
 
 use crate::diag::Condition;
-use crate::exec::block::groups::{Group, Row};
+use crate::exec::block::groups::{Act, Group, Row};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Bracket, Call, HashWord, Jump, Return, Sign, Span};
 use smallvec::SmallVec;
@@ -72,6 +72,18 @@ pub(in crate::exec) struct Words<'b> {
 }
 
 impl Words<'_> {
+    /// A G function that moves, measures, dwells or stops in this block.
+    pub(in crate::exec) fn of_the_path(&self) -> Option<&GWord> {
+        self.g.iter().find(|g| {
+            matches!(g.row.group, Group::Path | Group::Measuring) || g.row.act == Act::ExactStopOnce
+        })
+    }
+
+    /// The first word of an axis before a place in the block.
+    pub(in crate::exec) fn axis_before(&self, at: Span) -> Option<Span> {
+        self.axes.iter().map(|(_, _, span)| *span).find(|span| span.start < at.start)
+    }
+
     /// True if the axis word in place `i` is absolute; `modal` is the dimension in force after the block.
     pub(in crate::exec) fn is_absolute(&self, i: usize, modal: bool) -> bool {
         let last = self.dimensions.iter().rfind(|(place, _)| *place <= i);

@@ -32,6 +32,11 @@ impl Decoder {
 
     fn switch_scaling(&mut self, switch: Option<bool>, words: &Words<'_>, at: Span) -> Outcome<()> {
         let factors = &words.axes;
+        let before = words.axis_before(at).or(words.of_the_path().map(|g| g.span));
+        if let Some(span) = before {
+            let text = "#SCALE beside a word of the path: words of axes after it are factors";
+            return Err(Fault::new(Condition::CommandNotAlone, text, span));
+        }
         if let (Some(false), Some((_, _, span))) = (switch, factors.first()) {
             let text = "#SCALE OFF takes no factors";
             return Err(Fault::new(Condition::TokenUnknown, text, *span));

@@ -157,12 +157,14 @@ impl Decoder {
             (None, Some((_, _, at))) => (false, *at),
             (None, None) => return false,
         };
-        let of_the_path = |g: &&GWord| {
-            matches!(g.row.group, Group::Path | Group::Measuring) || g.row.act == Act::ExactStopOnce
-        };
-        if let Some(g) = words.g.iter().find(of_the_path) {
+        if let Some(g) = words.of_the_path() {
             let text = format!("G{:02} in the block of #PSET or #PRESET", g.row.number);
             self.report.note(Fault::new(Condition::PresetWithPath, text, g.span));
+            return true;
+        }
+        if let Some(span) = words.axis_before(at) {
+            let text = "a word of an axis before #PSET or #PRESET";
+            self.report.note(Fault::new(Condition::CommandNotAlone, text, span));
             return true;
         }
         if (0..self.machine.axes.len()).any(|axis| self.geometry.coordinates.mirrored(axis)) {

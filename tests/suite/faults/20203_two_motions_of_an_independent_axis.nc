@@ -1,0 +1,4 @@
+; run: exit 1
+; error 20203 at 3:41
+X[INDP_SYN G90 G01 FEED=600 POS=5]     X[INDP_SYN G90 G01 FEED=600 POS=2]
+M30
