@@ -121,6 +121,30 @@ impl Executor {
         }
     }
 
+    /// Searches the name of `#FILE EXIST`, as a subroutine of this name would be searched.
+    ///
+    /// Assumption: the page prints paths with a backslash after the folder and does not say what they are without a file.
+    pub(super) fn search_file(&mut self) {
+        let Some((name, span)) = self.decoder.calls.searched.wanted.take() else { return };
+        let caller = self.levels.last().map(|level| Arc::clone(&self.files.file(level.file).name));
+        let found = self.sources.open(&name.replace('\\', "/"), caller.as_deref());
+        self.decoder.calls.searched.found = match found {
+            Ok(source) => {
+                let (path, caller) = (source.name(), caller.unwrap_or_default());
+                let folder = caller.rfind(['/', '\\']).map_or("", |last| &caller[..=last]);
+                Some(path.strip_prefix(folder).unwrap_or(&path).replace('/', "\\").into())
+            }
+            Err(error) => {
+                let text = format!("#FILE EXIST: {name} is not there ({})", error.reason);
+                let note = Fault::new(Condition::Odd, text, span);
+                self.decoder
+                    .report
+                    .note(note.hint(format!("searched: {}", error.searched.join(", "))));
+                None
+            }
+        };
+    }
+
     /// A note where the file has the name of the call in other letters: not every file system finds it.
     fn other_case(&mut self, path: &str, file: usize, span: Span) {
         let parts = path.trim_start_matches("./").split('/').count();

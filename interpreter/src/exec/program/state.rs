@@ -6,7 +6,7 @@ use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
 use crate::machine::Channel;
 use crate::source::Position;
-use crate::syntax::ast::{Ident, Place};
+use crate::syntax::ast::{Ident, Place, Span};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -94,6 +94,10 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) blocks_ahead: [f64; 2],
     /// `#RETAIN CYCLE CHANGES`, or what cycles do: the cycle in work gives nothing back.
     pub(in crate::exec) retain_cycle_changes: bool,
+    /// `#RT WHILE` without its end so far.
+    pub(in crate::exec) real_time_loop: Option<Span>,
+    /// `#FILE EXIST`.
+    pub(in crate::exec) searched: Searched,
 }
 
 impl Calls {
@@ -105,6 +109,31 @@ impl Calls {
             tool_change_file: channel.tool_change_program.clone(),
             cycle_changes_stay: channel.cycle_changes_stay,
             ..Self::default()
+        }
+    }
+}
+
+/// What `#FILE EXIST` searches and has found.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Searched {
+    /// Name that the block in work searches, and its place.
+    pub(in crate::exec) wanted: Option<(Box<str>, Span)>,
+    /// Path with `\\` between folders, relative to the folder of the program that has searched if it lies below it.
+    pub(in crate::exec) found: Option<Box<str>>,
+}
+
+impl Searched {
+    /// `V.G.FILE_EXIST_PATH_NAME`.
+    pub(in crate::exec) fn path(&self) -> &str {
+        self.found.as_deref().unwrap_or("")
+    }
+
+    /// `V.G.FILE_EXIST_DIRECTORY`.
+    pub(in crate::exec) fn folder(&self) -> &str {
+        match self.path().rfind('\\') {
+            Some(last) => &self.path()[..=last],
+            None if self.found.is_some() => ".\\",
+            None => "",
         }
     }
 }

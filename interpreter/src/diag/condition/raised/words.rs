@@ -63,7 +63,8 @@ macro_rules! words {
     PositionRequest = Vendor 20186: Error ProgramAbort 3 1, "syntax after #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", cause "[P1=X P2=Y], [P1 X]", hint "write [variable=axis, variable=axis]: #GET CMDPOS [P1=X, V.P.POS=Y]";
     RadiusIndexFormat = Vendor 20187: Error ProgramAbort 3 1, "index of the radius outside the data format", cause "R-1=10", hint "write R=.. or R1=..";
     RadiusIndex = Vendor 20188: Error ProgramAbort 3 1, "index of the radius is not 1", cause "R2=10", hint "write R=.. or R1=..";
-    ONotImplemented = Vendor 20191: Error ProgramAbort 3 1, "O word not implemented";
+    OFormat = Vendor 20191: Error ProgramAbort 3 1, "number of an O word outside the data format", cause "O9999999999", hint "there are no O words: a program begins with %NAME, a subroutine is called by L or LL";
+    ONotImplemented = Vendor 20192: Error ProgramAbort 3 1, "unknown O word", cause "O1000", hint "a program begins with %NAME, a subroutine is called by L or LL";
     PercentInProgram = Vendor 20193: Error ProgramAbort 3 1, "% inside a main program", cause "% text as a remark, %L after the main program", hint "remarks begin with ; or (; local subroutines come before the main program";
     AssignmentExpected = Vendor 20194: Error ProgramAbort 3 1, "assignment operator missing or unknown", cause "V.G.X without =", hint "write = between the parameter and its value";
     ToolIndex = Vendor 20197: Error ProgramAbort 3 1, "index of a variable outside the data format", cause "V.G.WZ[-1].L", hint "indices begin at 0";
@@ -165,6 +166,7 @@ macro_rules! words {
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
     TappingWithSpeedLimit = Vendor 20637: Error ProgramAbort 3 1, "tapping and G196 in one block", hint "write G196 in another block";
+    PositioningWithCuttingSpeed = Vendor 20642: Error ProgramAbort 3 1, "M19 with constant cutting speed", cause "M19 under G96", hint "write G97 before it";
     PositioningWithMaximum = Vendor 20643: Error ProgramAbort 3 1, "M19 in a block with G196", cause "G196 S2000 M19", hint "write M19 in a separate block";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
     FunctionInSystem = Vendor 20663: Error ProgramAbort 3 1, "G function that is not allowed in a coordinate system", cause "#CS ON, then G98 X-500", hint "write it before #CS ON or after #CS OFF";

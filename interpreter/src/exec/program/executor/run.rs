@@ -75,6 +75,7 @@ impl Executor {
                 self.source_of(file, at, number);
                 self.execute(&tree.block, entry);
                 self.behind_real_time_cycle(entry);
+                self.search_file();
             }
         }
         if self.decoder.contour.waiting() >= EVENTS_MAX {
