@@ -26,6 +26,8 @@ pub(in crate::exec) enum After<'b> {
     Cycle(CycleCall),
     /// M06 with its own program.
     ToolChange(Span),
+    /// D with its own program.
+    ToolData(Span),
     Goto(&'b Jump),
     /// M17, M29, with the place they name.
     Return(Option<(&'b Return, Span)>),

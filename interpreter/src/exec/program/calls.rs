@@ -289,6 +289,15 @@ impl Executor {
         }
     }
 
+    /// D with its own program.
+    ///
+    /// Assumption: `#TOOL DATA` is no D word and calls nothing; a D word of the program called calls it again.
+    pub(in crate::exec) fn tool_data(&mut self, span: Span) {
+        if let Some(file) = self.decoder.calls.tool_data_file.clone() {
+            self.call_of_list(&file, "P-CHAN-00429", span);
+        }
+    }
+
     /// The modal cycle after a block that began at this number of levels; not inside cycles, and after a block that moves nothing
     /// only where it neither calls nor ends a program. Source: TF5200 programming manual, cycles as subroutines.
     pub(in crate::exec) fn modal_cycle(&mut self, levels: usize) {

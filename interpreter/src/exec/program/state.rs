@@ -86,6 +86,8 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
     /// Subroutine of M06.
     pub(in crate::exec) tool_change_file: Option<String>,
+    /// Subroutine of D words.
+    pub(in crate::exec) tool_data_file: Option<String>,
     /// Cycle that is called after every motion or block.
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
     /// `V.G.CYCLE_CHANGES_MODAL`, P-CHAN-00210: cycles give nothing back.
@@ -107,6 +109,7 @@ impl Calls {
             macros: channel.macros.clone(),
             cycle_files: channel.g8x_programs.clone(),
             tool_change_file: channel.tool_change_program.clone(),
+            tool_data_file: channel.tool_data_program.clone(),
             cycle_changes_stay: channel.cycle_changes_stay,
             ..Self::default()
         }

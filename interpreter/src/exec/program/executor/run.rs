@@ -385,6 +385,7 @@ impl Executor {
             After::Call(call, span) => self.call(call, span),
             After::Cycle(call) => self.implicit_call(&call),
             After::ToolChange(span) => self.tool_change(span),
+            After::ToolData(span) => self.tool_data(span),
             After::Goto(label) => self.goto(label),
             After::Return(None) => self.return_from_level(),
             After::Return(Some((back, span))) => self.return_to(back, span),
