@@ -224,6 +224,7 @@ macro_rules! words {
     ParameterUnknown = Vendor 20925: Error ProgramAbort 3 1, "unknown parameter", cause "read before it was written, or with other dimensions than declared", hint "assign a value before it is read: P1=5";
     DeletedNotOwn = Vendor 20931: Error ProgramAbort 3 1, "#DELETE of a variable that the program has not defined", cause "#DELETE V.A.ABS.X", hint "only P parameters and V.P, V.L, V.S, V.CYC can be deleted";
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] checks whether it exists";
+    DeletedAbove = Vendor 20933: Error ProgramAbort 3 1, "V.CYC variable to be deleted belongs to a level above", cause "#DELETE V.CYC.NAME in a cycle below the one that has created it", hint "delete it in the program that has created it, or leave it to the end of that program";
     MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 with G100 or G310", hint "measuring runs are straight";
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     WayAfterDirection = Vendor 20958: Error ProgramAbort 3 1, "negative way of a modulo axis in relative programming", cause "G91 C--200, C-[P1] with a negative P1", hint "the first sign is the direction, the way after it is positive: C+200 or C-200";
