@@ -12,6 +12,7 @@ mod contour;
 mod corner;
 mod couplings;
 mod drives;
+mod files;
 mod frames;
 pub(in crate::exec) mod keys;
 mod manual;
@@ -96,7 +97,7 @@ const ROWS: &[Row] = &[
     run("INIT MAKRO TAB", misc::init_macros).bare(),
     run("FILE NAME", misc::file_name).several(),
     run("FILENAME", misc::file_name).several(),
-    unsupported("FILE EXIST"),
+    files::FILE_EXIST,
     unsupported("FILE RENAME"),
     unsupported("FILE DELETE"),
     misc::MACHINE_DATA,
@@ -174,7 +175,9 @@ const ROWS: &[Row] = &[
     manual::SET_HR,
     unsupported("INFO"),
     unsupported("GET WCS POSLIMIT"),
+    unsupported("LIMIT"),
     unsupported("LOCK"),
+    manual::MANUAL,
     manual::MANUAL_LIMITS,
     unsupported("MCS TO WCS"),
     measuring::MEAS,
@@ -233,6 +236,9 @@ const ROWS: &[Row] = &[
     tools::TOOL_REFRESH,
     unsupported("TOOL"),
     unsupported("TOOL DEF"),
+    ignored("TOOL LIFE DEF"),
+    ignored("TOOL LIFE READ"),
+    ignored("TOOL LIFE REMOVE"),
     ignored("EXPL SYN"),
     unsupported("LOAD CONFIG"),
     ignored("SAVE CONFIG"),

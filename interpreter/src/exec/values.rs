@@ -23,12 +23,19 @@ pub(super) struct Values {
     /// `V.G.KIN..` under `--identity-trafo`, by their names with indices: known, and without effect.
     pub(super) kinematics: BTreeMap<String, f64>,
     pub(super) timers: Timers,
+    /// `V.TLM.TIME_FACT` and `V.TLM.DIST_FACT`: kept, and without effect. Source: TF5200 programming manual, 208584843.
+    pub(super) tool_life: [f64; 2],
 }
 
 impl Values {
     /// At program start.
     pub(super) fn new(external: BTreeMap<String, External>) -> Self {
         let variables = Variables::new(external);
-        Self { variables, kinematics: BTreeMap::new(), timers: Timers::default() }
+        Self {
+            variables,
+            kinematics: BTreeMap::new(),
+            timers: Timers::default(),
+            tool_life: [1.0; 2],
+        }
     }
 }

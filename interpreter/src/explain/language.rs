@@ -42,7 +42,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["#FGROUP"], "#FGROUP [X, Y, Z]", "axes over which F counts", "", "", "#FGROUP [X, Y]", &["F", "P-CHAN-00011"]),
     row(&["#VAR", "#ENDVAR", "#DELETE"], "#VAR .. V.P.NAME = 0 .. #ENDVAR   #DELETE V.P.NAME", "declares variables, deletes them", "", "the same name twice: 20909", "#DELETE V.P.NAME", &["V.P", "20909"]),
     row(&["#COMMENT"], "#COMMENT BEGIN .. #COMMENT END", "the lines in between are a remark", "", "", "#COMMENT BEGIN", &["K-0101"]),
-    row(&["#FILE NAME"], "#FILE NAME [M6=\"file\"]", "names the subroutine that M06 or a G8x calls", "", "", "#FILE NAME [M6=\"CHANGE\"]", &["M06", "G80"]),
+    row(&["#FILE NAME"], "#FILE NAME [M6=\"file\"]", "names the subroutine that M06, D or a G8x calls", "", "", "#FILE NAME [M6=\"CHANGE\"]", &["M06", "G80"]),
     row(&["$IF", "$ELSEIF", "$ELSE", "$ENDIF"], "$IF condition .. $ELSEIF condition .. $ELSE .. $ENDIF", "branches", "", "", "$IF V.L.N == 1", &["$SWITCH"]),
     row(&["$SWITCH", "$CASE", "$DEFAULT", "$ENDSWITCH"], "$SWITCH value .. $CASE value .. $BREAK .. $DEFAULT .. $ENDSWITCH", "branches by a value", "", "", "$SWITCH P1", &["$IF"]),
     row(&["$FOR", "$ENDFOR"], "$FOR P1=1, 10, 1 .. $ENDFOR", "loop over a count: start, end, step", "", "", "$FOR P1=0, 4, 1", &["$WHILE", "$BREAK"]),

@@ -197,6 +197,8 @@ pub struct Channel {
     pub end_program: Option<String>,
     /// Subroutine called by M06 (P-CHAN-00118); `None`: M06 is a function like any other.
     pub tool_change_program: Option<String>,
+    /// Subroutine called by D words (P-CHAN-00429).
+    pub tool_data_program: Option<String>,
     /// Logical number of the main spindle (P-CHAN-00051), `None`: the first one.
     pub main_spindle: Option<u32>,
     /// Name that addresses the main spindle in the NC program (P-CHAN-00053).
@@ -345,6 +347,7 @@ impl Channel {
             start_program: program(of::START_PROGRAM),
             end_program: program(of::END_PROGRAM),
             tool_change_program: program(of::TOOL_CHANGE_PROGRAM),
+            tool_data_program: program(of::TOOL_DATA_PROGRAM),
             main_spindle: Some(choice(of::MAIN_SPINDLE)).filter(|n| *n != 0),
             main_spindle_name: p.get(of::MAIN_SPINDLE_NAME).unwrap_or_default(),
             default_couplings: default_couplings(p).0,

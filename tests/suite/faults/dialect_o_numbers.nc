@@ -1,5 +1,5 @@
 ; check: exit 1
-; error 20191 at 4:1
+; error 20192 at 4:1
 ; program numbers of other dialects
 O1000
 X1 F100

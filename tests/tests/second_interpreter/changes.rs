@@ -80,7 +80,8 @@ impl Writer<'_> {
 
     pub fn frames(&mut self, place: Place) -> Vec<Statement> {
         let inside = place.inside();
-        let (open, close, place) = match self.random.below(5) {
+        let (open, close, place) = match self.random.below(6) {
+            5 => return self.scaled(place),
             4 if place.lowest => {
                 let count = 1 + self.random.below(4);
                 let systems = (0..count).map(|_| self.place_of_system()).collect();

@@ -116,7 +116,9 @@ impl Writer<'_> {
         let changes = way != Way::Perpendicular && self.random.chance(0.4);
         let change = straight
             .filter(|_| changes)
-            .map(|i| (i, rounded(radius * self.random.between(0.3, 1.2))));
+            .map(|i| (i, rounded(radius * self.random.between(0.3, 1.2))))
+            // the same radius is no change, and its corners are those of all others
+            .filter(|(_, other)| (other - radius).abs() > 1e-9);
         let contour = Contour {
             way,
             change,

@@ -65,6 +65,9 @@ pub struct Model<'a> {
     coordinates: Coordinates,
     table: BTreeMap<(u32, usize), f64>,
     pub machine: Point,
+    /// Factors of `#SCALE`, kept while it is off.
+    factors: Point,
+    scaled: bool,
     /// Length and offsets of the axes.
     tools: BTreeMap<u32, (f64, Point)>,
     tool: u32,
@@ -125,6 +128,8 @@ impl<'a> Model<'a> {
             tool: 0,
             table: BTreeMap::new(),
             machine: [0.0; 3],
+            factors: [1.0; 3],
+            scaled: false,
             values: BTreeMap::new(),
             local: vec![BTreeMap::new()],
             passed: Vec::new(),
@@ -163,6 +168,11 @@ impl<'a> Model<'a> {
             map = map.then_inner(&turned);
         }
         map
+    }
+
+    /// What a unit of an axis is in the coordinates of the program.
+    pub fn unit(&self, axis: usize) -> f64 {
+        if self.scaled { self.factors[axis] } else { 1.0 }
     }
 
     /// Another plane ends a contour rotation.
@@ -280,6 +290,15 @@ impl<'a> Model<'a> {
                 let before = std::mem::replace(&mut self.coordinates, bare);
                 let flow = self.all(body);
                 self.coordinates = before;
+                return flow;
+            }
+            Statement::Scaled(_, factors, body) => {
+                for (axis, factor) in factors {
+                    self.factors[*axis] = *factor;
+                }
+                self.scaled = true;
+                let flow = self.all(body);
+                self.scaled = false;
                 return flow;
             }
             Statement::Break => return Flow::Break,

@@ -97,7 +97,7 @@ impl Model<'_> {
         let from = map.back(self.machine);
         let mut to = from;
         for word in &motion.words {
-            let value = self.value(&word.value);
+            let value = self.value(&word.value) * self.unit(word.axis);
             to[word.axis] = if self.modal.absolute { value } else { from[word.axis] + value };
         }
         if let Some(deg) = motion.angle {
@@ -125,7 +125,7 @@ impl Model<'_> {
         let (dx, dy) = (to[a] - from[a], to[b] - from[b]);
         let way = libm::hypot(dx, dy);
         let centre = if motion.centre.is_empty() {
-            let radius = self.modal.radius;
+            let radius = self.modal.radius * self.unit(a);
             // the short arc against the clock has its centre on the left of the chord
             let height = (radius * radius - way * way / 4.0).max(0.0).sqrt();
             let left = if against_the_clock == (radius > 0.0) { height } else { -height };
@@ -135,7 +135,8 @@ impl Model<'_> {
             let base = if self.modal.absolute_centres { [0.0; 3] } else { from };
             let given = |axis: usize| {
                 let letter = ['I', 'J', 'K'][axis];
-                motion.centre.iter().find(|(l, _)| *l == letter).map_or(0.0, |(_, value)| *value)
+                let value = motion.centre.iter().find(|(l, _)| *l == letter);
+                value.map_or(0.0, |(_, value)| *value) * self.unit(axis)
             };
             let centre = [base[a] + given(a), base[b] + given(b)];
             // G165, in force from the start: the foot of the centre on the bisector of the chord

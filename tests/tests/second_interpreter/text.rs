@@ -181,6 +181,19 @@ impl File {
                 self.statements(body, program);
                 self.line("#MCS OFF");
             }
+            Statement::Scaled(at_once, factors, body) => {
+                let mut words = String::new();
+                for (axis, factor) in factors {
+                    let _ = write!(words, " {}{factor}", AXES[*axis]);
+                }
+                self.line(&if *at_once {
+                    format!("#SCALE ON{words}")
+                } else {
+                    format!("#SCALE{words}\n#SCALE ON")
+                });
+                self.statements(body, program);
+                self.line("#SCALE OFF");
+            }
             Statement::Break => self.line("$BREAK"),
             Statement::Continue => self.line("$CONTINUE"),
             Statement::Call(number) => match program.subroutines[*number].kind {

@@ -164,6 +164,8 @@ pub enum Statement {
     StackOff(usize, bool),
     /// `#MCS ON` to `#MCS OFF`.
     Machine(Vec<Statement>),
+    /// `#SCALE ON` with factors of axes, or `#SCALE` with them and `#SCALE ON`, to `#SCALE OFF`.
+    Scaled(bool, Vec<(usize, f64)>, Vec<Statement>),
     /// Conditions with their branches, and the `$ELSE` branch.
     If(Vec<(Expr, Vec<Statement>)>, Option<Vec<Statement>>),
     /// Counter, first and last value, step.

@@ -53,6 +53,7 @@ impl Decoder {
                 Some(i) => &mut block.centre[i],
                 None => return Ok(()),
             },
+            b'O' => return Err(o_word(self.number(value)?, span)),
             _ => return Err(self.unknown_letter(letter, span)),
         };
         let twice = slot.is_some();
@@ -150,12 +151,6 @@ impl Decoder {
     fn unknown_letter(&self, letter: u8, span: Span) -> Box<Fault> {
         let name = char::from(letter);
         match letter {
-            b'O' => Fault::new(
-                Condition::ONotImplemented,
-                "the O word does not exist in this dialect",
-                span,
-            )
-            .hint("a program begins with %NAME, a subroutine is called by L or LL"),
             b'S' => Fault::unsupported("S: the machine has no spindle of that name", span),
             b'A'..=b'C' | b'U'..=b'Z' | b'Q' => self.unknown_axis(&name.to_string(), span),
             _ => Fault::new(
@@ -249,4 +244,15 @@ fn spindle_word(block: &mut Words<'_>, spindle: usize, rpm: f64, span: Span) -> 
     }
     block.speeds.push((spindle, rpm, span));
     Ok(())
+}
+
+/// There are no O words: 20192, or 20191 for a number that is no SGN32.
+fn o_word(value: f64, span: Span) -> Box<Fault> {
+    let condition = if (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&value) {
+        Condition::ONotImplemented
+    } else {
+        Condition::OFormat
+    };
+    Fault::new(condition, "the O word does not exist in this dialect", span)
+        .with(|d| d.value(ValueKind::Wrong, value, "-"))
 }

@@ -2,6 +2,7 @@
 //!
 //! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); 21301, 21736.
 
+mod axis_compensation;
 mod spindle;
 
 use super::collected::Words;
@@ -119,6 +120,9 @@ impl Decoder {
                 }
                 let items = if word.is("OSC") { rest } else { &group.items[..] };
                 self.oscillating_axis(axis, items, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("COMP") => {
+                self.axis_compensation(axis, rest, group.span)
             }
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("SET_POSITION") => {
                 if words.axes.iter().any(|(moved, _, _)| *moved == axis) {

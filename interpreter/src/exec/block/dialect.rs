@@ -6,11 +6,16 @@ use crate::exec::fault::Fault;
 use crate::syntax::ast::Span;
 
 /// True for errors that a file of another control repeats in every line: unassigned G functions (20131) and parameters
-/// without a value (20194), each for itself, and O words (20191).
+/// without a value (20194), each for itself, and O words (20191, 20192).
 pub(in crate::exec) fn is_foreign_word(id: Id) -> bool {
-    [Condition::GUnknown, Condition::ONotImplemented, Condition::AssignmentExpected]
-        .iter()
-        .any(|condition| id == *condition)
+    [
+        Condition::GUnknown,
+        Condition::OFormat,
+        Condition::ONotImplemented,
+        Condition::AssignmentExpected,
+    ]
+    .iter()
+    .any(|condition| id == *condition)
 }
 
 /// Hint for a G number that is not assigned here.

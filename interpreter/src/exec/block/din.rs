@@ -32,6 +32,8 @@ pub(in crate::exec) enum CallAfter<'b> {
     Cycle(CycleCall),
     /// M06 with its own program.
     ToolChange(Span),
+    /// D with its own program.
+    ToolData(Span),
 }
 
 /// Where a program continues after a block.

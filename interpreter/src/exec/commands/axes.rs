@@ -41,7 +41,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     } else {
         call.command.groups.iter().flat_map(|g| &g.items).filter_map(released).collect()
     };
-    decoder.releases_no_coupled(named.iter().copied(), call.span())?;
+    decoder.moves_no_coupled(named.iter().copied(), Condition::CoupledAxisReleased, call.span())?;
     exchange(decoder, call.span())?;
     if decoder.modal.diameter.is_some_and(|axis| named.contains(&axis)) {
         let text = "the face turning axis cannot be released under G51";
@@ -103,7 +103,8 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
 
 /// `#SET AX [name, number, index, options]..`: a new set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    decoder.releases_no_coupled(0..decoder.machine.axes.len(), call.span())?;
+    let axes = 0..decoder.machine.axes.len();
+    decoder.moves_no_coupled(axes, Condition::CoupledAxisSorted, call.span())?;
     exchange(decoder, call.span())?;
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
@@ -118,7 +119,8 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    decoder.releases_no_coupled(0..decoder.machine.axes.len(), call.span())?;
+    let axes = 0..decoder.machine.axes.len();
+    decoder.moves_no_coupled(axes, Condition::CoupledAxisSorted, call.span())?;
     exchange(decoder, call.span())?;
     match call.rest {
         [word] if word.is("DEFAULT") => {
@@ -343,7 +345,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
         return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)).hint(hint));
     };
     taken.add(index, logical, [at(1), at(2)])?;
-    decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
+    decoder.moves_no_coupled(std::iter::once(axis), Condition::CoupledAxisSorted, at(0))?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
         // the manual has a number for two names of the command, and one for an axis that is there already
         let condition = if taken.numbers.contains(&decoder.machine.axes[other].number()) {

@@ -68,6 +68,15 @@ pub(super) const SET_OFFSET: Row = Row::run("SET OFFSET", set_limits)
     .example("#SET OFFSET [-5, 5] X")
     .related(&["#MANUAL LIMITS"]);
 
+/// Row of `#MANUAL`.
+pub(super) const MANUAL: Row = Row::run("MANUAL", manual)
+    .form("#MANUAL [ORI_MODE=..]")
+    .meaning(
+        "mode of orientation axes in manual mode; without effect, as nobody moves them by hand",
+    )
+    .example("#MANUAL [ORI_MODE=1]")
+    .related(&["G201", "22385"]);
+
 /// Row of `#GET MANUAL OFFSETS`.
 pub(super) const GET_MANUAL_OFFSETS: Row = Row::run("GET MANUAL OFFSETS", get_offsets)
     .bare()
@@ -123,6 +132,17 @@ fn jog(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let text = format!("#JOG INCR: DIST{stage} and FEED{stage} belong together");
             return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
         }
+    }
+    without_effect(decoder, call);
+    Ok(())
+}
+
+/// `#MANUAL [ORI_MODE=..]`. Source: TF5200 diagnosis, 22385 (1256561291).
+fn manual(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    if decoder.motion.manual.contains(&true) {
+        let text = "#MANUAL while manual mode is active (G201)";
+        return Err(Fault::new(Condition::ManualWhileActive, text, call.span()));
     }
     without_effect(decoder, call);
     Ok(())

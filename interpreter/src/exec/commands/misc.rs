@@ -273,7 +273,7 @@ pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()>
     Ok(())
 }
 
-/// `#FILE NAME [G80="x.nc" M6="z.nc" MSG="y"]`.
+/// `#FILE NAME [G80="x.nc" M6="z.nc" D="d.nc" MSG="y"]`.
 pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let mut written: Vec<&Ident> = Vec::new();
@@ -319,6 +319,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 decoder.calls.cycle_files.insert(n, file);
             }
             _ if key.is("M6") || key.is("M06") => decoder.calls.tool_change_file = Some(file),
+            _ if key.is("D") => decoder.calls.tool_data_file = Some(file),
             // messages go to the log, whatever the name of their file
             _ if key.is("MSG") => {}
             _ => {

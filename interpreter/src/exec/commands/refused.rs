@@ -1,13 +1,15 @@
 //! Commands that are refused: what the diagnosis manual calls a mistake in them is said in place of the refusal.
 //!
-//! Source: TF5200 diagnosis, 21089 (253417867), 21235 (253879179), 21236 (253883531), 21349 (254314379), 21453 (254732171),
-//! 21872 (256368523), 22003 (480451723).
+//! Source: TF5200 diagnosis, 21089 (253417867), 21158 (253618059), 21235 (253879179), 21236 (253883531), 21349 (254314379),
+//! 21410 (254562443), 21453 (254732171), 21872 (256368523), 22003 (480451723), 22128 and 22129 (real-time loops 791893515),
+//! 22158 (real-time loops 793352331), 22181 (991397515).
 
 use super::row::Call;
 use crate::diag::Condition;
+use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
-use crate::syntax::ast::{Command, Ident, ItemKind};
+use crate::syntax::ast::{Command, Ident, ItemKind, ItemValue};
 
 /// Numbers of a key that is written twice.
 const KEY_TWICE: &[(&str, Condition)] = &[
@@ -20,7 +22,7 @@ const KEY_TWICE: &[(&str, Condition)] = &[
 ];
 
 /// Why the command is not carried out.
-pub(super) fn refused(decoder: &Decoder, call: &Call<'_>) -> Box<Fault> {
+pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
     if call.command.groups.iter().any(|group| group.items.is_empty()) {
         let text = format!("{}: there is nothing in its brackets", call.title());
         return Fault::new(Condition::EmptyBracket, text, call.span());
@@ -42,7 +44,57 @@ pub(super) fn refused(decoder: &Decoder, call: &Call<'_>) -> Box<Fault> {
         let text = "#RT CYCLE DEF without ID";
         return Fault::new(Condition::CycleWithoutId, text, call.span());
     }
-    Fault::unsupported(call.title(), call.span())
+    if call.name == "COMMAND"
+        && let Some(word) = call.rest.iter().find(|word| word.is("RD"))
+    {
+        let text = "#COMMAND RD: procedures of drives cannot be read";
+        return Fault::new(Condition::CommandRead, text, word.span);
+    }
+    if call.name == "GET WCS POSLIMIT"
+        && let Some(fault) = direction_zero(decoder, call)
+    {
+        return fault;
+    }
+    real_time_loop(decoder, call).unwrap_or_else(|| Fault::unsupported(call.title(), call.span()))
+}
+
+/// 21410 for VC1, VC2 and VC3 that are all 0.
+fn direction_zero(decoder: &Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
+    let components = call.command.groups.iter().flat_map(|group| &group.items);
+    let components = components.filter_map(|item| match &item.kind {
+        ItemKind::Pair { key, value: ItemValue::Expr(value) }
+            if ["VC1", "VC2", "VC3"].iter().any(|name| key.is(name)) =>
+        {
+            decoder.number(value).ok()
+        }
+        _ => None,
+    });
+    let components: Vec<f64> = components.collect();
+    let text = "#GET WCS POSLIMIT: the direction VC1, VC2, VC3 is 0";
+    (components.len() == 3 && components.iter().all(|c| *c == 0.0))
+        .then(|| Fault::new(Condition::DirectionZero, text, call.span()))
+}
+
+/// What is wrong with the place of `#RT WHILE` or `#RT ENDWHILE`.
+fn real_time_loop(decoder: &mut Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
+    let (begins, title, span) = (call.name == "RT WHILE", call.title(), call.span());
+    if !begins && call.name != "RT ENDWHILE" {
+        return None;
+    }
+    let before = std::mem::replace(&mut decoder.calls.real_time_loop, begins.then_some(span));
+    let fault =
+        |condition, what: &str| Some(Fault::new(condition, format!("{title} {what}"), span));
+    if decoder.contour.akima.selected {
+        let condition = if begins { Condition::LoopInSpline } else { Condition::LoopEndInSpline };
+        return fault(condition, "in a spline (G151)");
+    }
+    if begins && decoder.modal.compensation != Compensation::Off {
+        return fault(Condition::LoopWithCompensation, "with G41 or G42");
+    }
+    if !begins && before.is_none() {
+        return fault(Condition::LoopEndWithoutLoop, "without #RT WHILE");
+    }
+    None
 }
 
 /// Names of the items in brackets.

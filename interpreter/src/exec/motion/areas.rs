@@ -12,6 +12,7 @@
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::Words;
+use crate::exec::block::groups::Group;
 use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -66,6 +67,10 @@ impl Decoder {
     ) -> Outcome<()> {
         if !self.modal.absolute {
             return Err(Fault::unsupported("G91 in the definition of a control area", span));
+        }
+        if let Some(g) = words.group(Group::Compensation).filter(|g| g.row.number != 40) {
+            let text = format!("G{} in the definition of a control area", g.row.number);
+            return Err(Fault::new(Condition::AreaFunction, text, g.span));
         }
         let end = self.tip(self.geometry.coordinates.target());
         let straight = matches!(self.modal.path, PathMode::Rapid | PathMode::Linear);

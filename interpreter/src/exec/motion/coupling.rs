@@ -7,8 +7,8 @@
 //! Assumptions: the path comes to rest where a group is switched on or off, because otherwise the slave would jump to the
 //! speed of its master; the path keeps the limits of the slave as well as those of the master. The pages are silent.
 //!
-//! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579); 20169, 20457, 20467 to 20469,
-//! 20472, 20545, 21283 to 21285, 21481.
+//! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579, 207139467); 20169, 20457, 20467 to 20469,
+//! 20472, 20545, 21283 to 21285, 21312, 21481.
 //!
 //! [`Independent::way`]: super::state::Independent::way
 
@@ -70,6 +70,7 @@ impl Decoder {
             self.report.note_once("gantry", Fault::new(Condition::Ignored, text, span));
         }
         self.motion.couplings.active.push((group, followers));
+        self.motion.couplings.last = group;
         self.motion.dynamics_changed();
         Ok(())
     }
@@ -181,18 +182,21 @@ impl Decoder {
             .with(|d| d.axis(number, name).value(ValueKind::Current, group, "-")))
     }
 
-    /// 20545 for a coupled axis that is to be released; the first of them.
-    pub(in crate::exec) fn releases_no_coupled(
+    /// 20545 for a coupled axis that is to be released, 21312 for one whose place in the channel is to change; the first
+    /// of them.
+    pub(in crate::exec) fn moves_no_coupled(
         &self,
-        mut released: impl Iterator<Item = usize>,
+        mut axes: impl Iterator<Item = usize>,
+        condition: Condition,
         span: Span,
     ) -> Outcome<()> {
-        let coupled = released.find_map(|axis| Some((axis, self.motion.couplings.group_of(axis)?)));
+        let coupled = axes.find_map(|axis| Some((axis, self.motion.couplings.group_of(axis)?)));
         let Some((axis, group)) = coupled else { return Ok(()) };
         let name = self.machine.axes[axis].name().to_owned();
-        let text = format!("axis {name} is coupled in group {group}: it cannot be released");
+        let text =
+            format!("axis {name} is coupled in group {group}: it keeps its place in the channel");
         let number = self.machine.axes[axis].number();
-        Err(Fault::new(Condition::CoupledAxisReleased, text, span).with(|d| d.axis(number, name)))
+        Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
     }
 
     /// 20169.

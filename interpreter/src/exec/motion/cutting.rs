@@ -7,7 +7,7 @@
 //! Assumption: the turning centre is where the programmed coordinate of the face turning axis and its G92 offset are 0.
 //!
 //! Source: TF5200 turning functions, constant cutting speed, constant cutting speed at feed rate per revolution;
-//! P-AXIS-00015; 20633, 20643, 50182, 120167, 120169.
+//! P-AXIS-00015; 20633, 20642, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
 use crate::exec::block::collected::Words;
@@ -40,6 +40,11 @@ impl Decoder {
             let text = "M19 with G196";
             return Err(Fault::new(Condition::PositioningWithMaximum, text, m.span));
         }
+        if let Some(m) = words.m.iter().find(|m| m.number == 19)
+            && !matches!(g.map(|g| g.row.act), Some(Act::CuttingSpeed(false)))
+        {
+            self.positions_main_spindle(m.span)?;
+        }
         match g.map(|g| (g.row.act, g.span)) {
             Some((Act::CuttingSpeedMax, span)) => match speed {
                 Some((_, rpm, _)) if rpm > 0.0 && rpm <= 1e6 => {
@@ -69,6 +74,15 @@ impl Decoder {
             }
             _ => self.cut_with(speed.map(|(_, v, at)| (v, at))),
         }
+    }
+
+    /// 20642 for M19 of the main spindle under G96.
+    pub(in crate::exec) fn positions_main_spindle(&self, span: Span) -> Outcome<()> {
+        if self.motion.cutting.speed.is_none() {
+            return Ok(());
+        }
+        let text = "M19 while the cutting speed is constant (G96)";
+        Err(Fault::new(Condition::PositioningWithCuttingSpeed, text, span))
     }
 
     fn cut_with(&mut self, speed: Option<(f64, Span)>) -> Outcome<()> {

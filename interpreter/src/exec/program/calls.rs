@@ -123,6 +123,30 @@ impl Executor {
         }
     }
 
+    /// Searches the name of `#FILE EXIST`, as a subroutine of this name would be searched.
+    ///
+    /// Assumption: the page prints paths with a backslash after the folder and does not say what they are without a file.
+    pub(super) fn search_file(&mut self) {
+        let Some((name, span)) = self.decoder.calls.searched.wanted.take() else { return };
+        let caller = self.levels.last().map(|level| Arc::clone(&self.files.file(level.file).name));
+        let found = self.sources.open(&name.replace('\\', "/"), caller.as_deref());
+        self.decoder.calls.searched.found = match found {
+            Ok(source) => {
+                let (path, caller) = (source.name(), caller.unwrap_or_default());
+                let folder = caller.rfind(['/', '\\']).map_or("", |last| &caller[..=last]);
+                Some(path.strip_prefix(folder).unwrap_or(&path).replace('/', "\\").into())
+            }
+            Err(error) => {
+                let text = format!("#FILE EXIST: {name} is not there ({})", error.reason);
+                let note = Fault::new(Condition::Odd, text, span);
+                self.decoder
+                    .report
+                    .note(note.hint(format!("searched: {}", error.searched.join(", "))));
+                None
+            }
+        };
+    }
+
     /// A note where the file has the name of the call in other letters: not every file system finds it.
     fn other_case(&mut self, path: &str, file: usize, span: Span) {
         let parts = path.trim_start_matches("./").split('/').count();
@@ -275,6 +299,15 @@ impl Executor {
     pub(in crate::exec) fn tool_change(&mut self, span: Span) {
         if let Some(file) = self.decoder.calls.tool_change_file.clone() {
             self.call_of_list(&file, "P-CHAN-00118", span);
+        }
+    }
+
+    /// D with its own program.
+    ///
+    /// Assumption: `#TOOL DATA` is no D word and calls nothing; a D word of the program called calls it again.
+    pub(in crate::exec) fn tool_data(&mut self, span: Span) {
+        if let Some(file) = self.decoder.calls.tool_data_file.clone() {
+            self.call_of_list(&file, "P-CHAN-00429", span);
         }
     }
 

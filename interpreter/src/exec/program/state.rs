@@ -104,6 +104,8 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
     /// Subroutine of M06.
     pub(in crate::exec) tool_change_file: Option<String>,
+    /// Subroutine of D words.
+    pub(in crate::exec) tool_data_file: Option<String>,
     /// Cycle that is called after every motion or block.
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
     /// `V.G.CYCLE_CHANGES_MODAL`, P-CHAN-00210: cycles give nothing back.
@@ -112,6 +114,10 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) blocks_ahead: [f64; 2],
     /// `#RETAIN CYCLE CHANGES`, or what cycles do: the cycle in work gives nothing back.
     pub(in crate::exec) retain_cycle_changes: bool,
+    /// `#RT WHILE` without its end so far.
+    pub(in crate::exec) real_time_loop: Option<Span>,
+    /// `#FILE EXIST`.
+    pub(in crate::exec) searched: Searched,
 }
 
 impl Calls {
@@ -121,8 +127,34 @@ impl Calls {
             macros: channel.macros.clone(),
             cycle_files: channel.g8x_programs.clone(),
             tool_change_file: channel.tool_change_program.clone(),
+            tool_data_file: channel.tool_data_program.clone(),
             cycle_changes_stay: channel.cycle_changes_stay,
             ..Self::default()
+        }
+    }
+}
+
+/// What `#FILE EXIST` searches and has found.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Searched {
+    /// Name that the block in work searches, and its place.
+    pub(in crate::exec) wanted: Option<(Box<str>, Span)>,
+    /// Path with `\\` between folders, relative to the folder of the program that has searched if it lies below it.
+    pub(in crate::exec) found: Option<Box<str>>,
+}
+
+impl Searched {
+    /// `V.G.FILE_EXIST_PATH_NAME`.
+    pub(in crate::exec) fn path(&self) -> &str {
+        self.found.as_deref().unwrap_or("")
+    }
+
+    /// `V.G.FILE_EXIST_DIRECTORY`.
+    pub(in crate::exec) fn folder(&self) -> &str {
+        match self.path().rfind('\\') {
+            Some(last) => &self.path()[..=last],
+            None if self.found.is_some() => ".\\",
+            None => "",
         }
     }
 }

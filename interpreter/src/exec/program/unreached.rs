@@ -156,6 +156,10 @@ impl Executor {
             WordKind::M(CodeNumber::Literal(6) | CodeNumber::Computed(_), _) => {
                 self.decoder.calls.tool_change_file.is_some()
             }
+            WordKind::Address { name, .. } => {
+                let data = matches!(name.letter(), Some(b'D' | b'T'));
+                data && self.decoder.calls.tool_data_file.is_some()
+            }
             _ => false,
         })
     }

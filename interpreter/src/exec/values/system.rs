@@ -1,162 +1,28 @@
 //! System variables `V.A.`, `V.G.`, `V.SPDL.`, `V.SPDL_PROG.`: what they give and take.
 //!
-//! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.; served
-//! values are kontur's choice where a headless tool has none.
+//! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.
 
 use super::number::whole;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::tools::Tool;
-use crate::exec::motion::state::wear::WEAR_UNIT;
 use crate::exec::options::Value;
-use crate::exec::suggest;
 use crate::syntax::ast::{Segment, Span};
 
+mod refused;
+mod rows;
 mod write;
 
+use refused::unknown;
+use rows::{ROWS, Row};
 pub(in crate::exec) use write::write;
-
-/// One readable variable: its name with `*` for an axis name or index.
-type Reader = fn(&Decoder, &Path<'_>) -> Outcome<Value>;
-
-/// One row.
-struct Row {
-    /// Segments in upper case; `*` an axis, `n` a name with an index, `?` anything.
-    name: &'static [&'static str],
-    /// In one sentence, for `explain`.
-    meaning: &'static str,
-    read: Reader,
-}
 
 /// A variable as it is written, taken apart.
 struct Path<'a> {
     segments: &'a [Segment],
     span: Span,
 }
-
-#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
-fn number(x: f64) -> Outcome<Value> {
-    Ok(Value::Number(x))
-}
-
-#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
-fn truth(b: bool) -> Outcome<Value> {
-    Ok(Value::truth(b))
-}
-
-#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
-fn text(s: &str) -> Outcome<Value> {
-    Ok(Value::Text(s.into()))
-}
-
-#[rustfmt::skip]
-const ROWS: &[Row] = &[
-    Row { name: &["A", "ABS", "*"], meaning: "programmed position of an axis, without offsets", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
-    Row { name: &["A", "PROG", "*"], meaning: "last coordinate word of an axis", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
-    Row { name: &["A", "MENT", "*"], meaning: "programmed position of an axis with its mirroring undone", read: |d, p| p.coordinate(d, 2, |d, a| {
-        if d.geometry.coordinates.mirrored(a) { -d.geometry.coordinates.programmed(a) } else { d.geometry.coordinates.programmed(a) }
-    }) },
-    Row { name: &["A", "ACT_POS", "*"], meaning: "actual position of an axis; motion comes to rest before it is read", read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
-    Row { name: &["A", "ACS", "ABS", "*"], meaning: "position of an axis with all offsets", read: |d, p| p.axis_position(d) },
-    Row { name: &["A", "BZP", "*"], meaning: "reference point offset of an axis (#PSET)", read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.preset(a)) },
-    Row { name: &["A", "MESS", "*"], meaning: "measured value of an axis", read: |d, p| p.position(d, 2, |d, a| d.motion.measuring.results[a].value) },
-    Row { name: &["A", "MERF", "*"], meaning: "1 if the probe has signalled for the axis", read: |d, p| { let a = p.axis(d, 2)?; truth(d.motion.measuring.results[a].signalled) } },
-    Row { name: &["A", "MOFFS", "*"], meaning: "offset between target and measured value of an axis", read: |d, p| p.position(d, 2, |d, a| d.motion.measuring.results[a].offset.unwrap_or_default()) },
-    Row { name: &["A", "MEIN", "*"], meaning: "measuring offset of an axis that G101 has taken in", read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.measuring_offset(a)) },
-    Row { name: &["A", "MEAS", "ACS", "VALUE", "*"], meaning: "measured value of an axis in coordinates of the axis", read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].axis) },
-    Row { name: &["A", "MEAS", "PCS", "VALUE", "*"], meaning: "measured value of an axis in coordinates of the program", read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].program) },
-    // axes count as homed where they are, and no clamp position offsets are read
-    Row { name: &["A", "RERF", "*"], meaning: "1 if the axis is homed; here always 1", read: |d, p| { p.axis(d, 2)?; truth(true) } },
-    Row { name: &["A", "PZV", "*"], meaning: "clamp position offset of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
-    // manual mode moves nothing here
-    Row { name: &["A", "MANUAL_OFFSETS", "*"], meaning: "offset of manual mode of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
-    Row { name: &["A", "SOFFS", "*"], meaning: "offset of manual mode of an axis (older name); here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
-    Row { name: &["G", "MEAS_TYPE"], meaning: "type of measuring runs", read: |d, _| number(f64::from(d.motion.measuring.kind)) },
-    Row { name: &["G", "CYCLE_CHANGES_MODAL"], meaning: "1 if changes of a cycle remain after it", read: |d, _| truth(d.calls.cycle_changes_stay) },
-    Row { name: &["G", "RW"], meaning: "distance after the signal of the probe at which edge banding stops", read: |d, _| number(d.motion.measuring.residual_path_mm / d.modal.unit_mm()) },
-    Row { name: &["A", "-SWE", "*"], meaning: "negative software limit of an axis in force", read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).0) },
-    Row { name: &["A", "+SWE", "*"], meaning: "positive software limit of an axis in force", read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).1) },
-    Row { name: &["A", "-SWE_MDS", "*"], meaning: "negative software limit of an axis by its list", read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
-    Row { name: &["A", "+SWE_MDS", "*"], meaning: "positive software limit of an axis by its list", read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
-    Row { name: &["A", "REF", "*"], meaning: "reference position of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
-    Row { name: &["A", "MODE", "*"], meaning: "mode of an axis as bits (P-AXIS-00015)", read: |d, p| { let a = p.axis(d, 2)?; number(f64::from(d.machine.axes[a].mode_bits())) } },
-    Row { name: &["A", "MODULO_VALUE", "*"], meaning: "modulo range of an axis in deg; 0 for an axis that does not count modulo", read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
-    Row { name: &["G", "BLOCK_NR"], meaning: "block number (N) of the present block", read: |d, _| number(d.calls.info.block_number as f64) },
-    Row { name: &["G", "SATZ_NR"], meaning: "block number (N) of the present block (older name)", read: |d, _| number(d.calls.info.block_number as f64) },
-    Row { name: &["G", "FEEDRATE"], meaning: "F word in force", read: |d, _| number(d.modal.feed().map_or(0.0, |f| f.value)) },
-    Row { name: &["G", "FEEDRATE_MODE"], meaning: "G function of the type of feed: 93, 94, 95, 194", read: |d, _| number(f64::from(d.modal.feed_type.g())) },
-    Row { name: &["G", "FEEDRATE_SCALE"], meaning: "unit of the F word in mm/min", read: |d, _| number(d.machine.channel.feed_unit_mm_min) },
-    Row { name: &["G", "MASS_MM"], meaning: "1 under G70 (inch)", read: |d, _| truth(d.modal.inch) },
-    Row { name: &["G", "MASS_360"], meaning: "scaling of rotary axes; here 0", read: |_, _| number(0.0) },
-    Row { name: &["G", "I"], meaning: "centre of the last arc along the first main axis", read: |d, _| centre(d, 0) },
-    Row { name: &["G", "J"], meaning: "centre of the last arc along the second main axis", read: |d, _| centre(d, 1) },
-    Row { name: &["G", "K"], meaning: "centre of the last arc along the third main axis", read: |d, _| centre(d, 2) },
-    Row { name: &["G", "R"], meaning: "radius of the last arc", read: |d, _| number(d.geometry.last_arc.radius_mm / d.modal.unit_mm()) },
-    Row { name: &["G", "MERR"], meaning: "correction of the centre of the last arc along main axis i", read: |d, p| {
-        let i = p.index(d, 1, 2)?;
-        let place = d.geometry.last_arc.plane.iter().position(|m| *m == i as usize);
-        number(place.map_or(0.0, |k| d.geometry.last_arc.shift_mm[k]) / d.modal.unit_mm())
-    } },
-    Row { name: &["G", "NP", "V", "*"], meaning: "zero offset of an axis in group i", read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
-    Row { name: &["G", "NP_AKT", "V", "*"], meaning: "zero offset of an axis in force", read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
-    Row { name: &["G", "NP_DEFAULT"], meaning: "group of zero offsets at program start", read: |d, _| number(f64::from(d.machine.zero_offsets.start_group)) },
-    Row { name: &["G", "WZ_AKT", "R"], meaning: "radius of the active tool in mm", read: |d, _| number(d.geometry.tools.active.radius_mm) },
-    Row { name: &["G", "WZR"], meaning: "radius of the active tool in mm (older name)", read: |d, _| number(d.geometry.tools.active.radius_mm) },
-    Row { name: &["G", "WZL"], meaning: "length of the active tool in mm (older name)", read: |d, _| number(d.geometry.tools.active.length_mm) },
-    Row { name: &["G", "WZ_AKT", "L"], meaning: "length of the active tool in mm", read: |d, _| number(d.geometry.tools.active.length_mm) },
-    Row { name: &["G", "WZ_AKT", "V", "*"], meaning: "offset of the active tool along an axis", read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.geometry.tools.active, a)) } },
-    Row { name: &["G", "WZ_AKT", "P"], meaning: "parameter i of the active tool", read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&d.geometry.tools.active, i)) } },
-    Row { name: &["G", "WZ", "R"], meaning: "radius of tool i in mm", read: |d, p| number(p.tool(d)?.radius_mm) },
-    Row { name: &["G", "WZ", "L"], meaning: "length of tool i in mm", read: |d, p| number(p.tool(d)?.length_mm) },
-    Row { name: &["G", "WZ", "V", "*"], meaning: "offset of tool i along an axis", read: |d, p| { let a = p.axis(d, 3)?; number(offset(&p.tool(d)?, a)) } },
-    Row { name: &["G", "WZ", "P"], meaning: "parameter of tool i", read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&p.tool(d)?, i)) } },
-    Row { name: &["G", "WZ", "OK"], meaning: "1 if tool i may be used", read: |d, p| { let i = p.index(d, 1, u32::MAX)?; truth(d.geometry.tools.table.get(&i).is_some_and(|t| t.is_valid)) } },
-    Row { name: &["G", "WZ", "TYPE"], meaning: "type of tool i (P-TOOL-00001)", read: |d, p| number(f64::from(p.tool(d)?.kind as u32)) },
-    Row { name: &["G", "WZ_AKT", "TYPE"], meaning: "type of the active tool (P-TOOL-00001)", read: |d, _| number(f64::from(d.geometry.tools.active.kind as u32)) },
-    Row { name: &["G", "WZ", "SPDL_AX_NR"], meaning: "logical number of the spindle that the dynamic limits of tool i are for", read: |d, p| number(f64::from(p.tool(d)?.spindle)) },
-    Row { name: &["G", "WZ_AKT", "SPDL_AX_NR"], meaning: "logical number of the spindle that the dynamic limits of the active tool are for", read: |d, _| number(f64::from(d.geometry.tools.active.spindle)) },
-    Row { name: &["G", "WZ", "ME"], meaning: "unit of the data of tool i; here 0 (mm)", read: |_, _| number(0.0) },
-    Row { name: &["G", "WZ_AKT", "WEAR_CONST"], meaning: "wear by the way of the active grinding tool in 0.1 um/m", read: |d, _| number(wear_constant(d)) },
-    Row { name: &["G", "OTC_ACTIVE"], meaning: "1 while online tool compensation is on", read: |d, _| truth(d.motion.wear.on) },
-    Row { name: &["G", "MAX_NC_BLOCKS_AHEAD"], meaning: "limit of the NC blocks that are read ahead", read: |d, _| number(d.calls.blocks_ahead[0]) },
-    Row { name: &["G", "MAX_MOTION_BLOCKS_AHEAD"], meaning: "limit of the motion blocks that are read ahead", read: |d, _| number(d.calls.blocks_ahead[1]) },
-    Row { name: &["G", "T_AKT"], meaning: "T word in force", read: |d, _| number(f64::from(d.geometry.tools.tool)) },
-    Row { name: &["G", "D_AKT"], meaning: "D word in force", read: |d, _| number(f64::from(d.geometry.tools.data)) },
-    Row { name: &["G", "TIMER"], meaning: "latched time of timer i in ms (#TIMER)", read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.latched_ms(i)) } },
-    Row { name: &["G", "RANDOM"], meaning: "a random number; here always 0.5, so that runs repeat", read: |_, _| number(0.5) },
-    Row { name: &["G", "MAIN_FILE_NAME"], meaning: "file of the main program", read: |d, _| text(&d.calls.info.main_file) },
-    Row { name: &["G", "MAIN_PROG_NAME"], meaning: "name of the main program", read: |d, _| text(&d.calls.info.main_program) },
-    Row { name: &["G", "FILE_NAME"], meaning: "file of the present program", read: |d, _| text(&d.calls.info.file) },
-    Row { name: &["G", "PROG_NAME"], meaning: "name of the present program or subroutine", read: |d, _| text(&d.calls.info.program) },
-    Row { name: &["G", "PROG_NR"], meaning: "number of the program; here 0", read: |_, _| number(0.0) },
-    Row { name: &["G", "PROG_LEVEL"], meaning: "level of calls, 1 for the main program", read: |d, _| number(f64::from(d.calls.info.level)) },
-    Row { name: &["G", "FILE_OFFSET"], meaning: "place of the present block in its file in bytes", read: |d, _| number(d.calls.info.offset as f64) },
-    Row { name: &["G", "@P", "VALID"], meaning: "1 if parameter @Pi was passed to the cycle", read: |d, p| p.passed(d) },
-    Row { name: &["G", "CNC_VERSION", "MAJOR"], meaning: "first number of the version of the control", read: |_, _| number(3.0) },
-    Row { name: &["G", "CNC_VERSION", "MINOR"], meaning: "second number of the version of the control", read: |_, _| number(1.0) },
-    Row { name: &["G", "CNC_VERSION", "BUILD"], meaning: "third number of the version of the control", read: |_, _| number(3079.0) },
-    Row { name: &["G", "CNC_VERSION", "PATCH"], meaning: "fourth number of the version of the control", read: |_, _| number(0.0) },
-    Row { name: &["G", "ROT_ACTIVE"], meaning: "1 while contour rotation is on", read: |d, _| truth(d.geometry.coordinates.rotation().is_some()) },
-    Row { name: &["G", "ROT_ANGLE"], meaning: "angle of contour rotation in deg", read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.deg)) },
-    Row { name: &["G", "ROT_CENTER1"], meaning: "centre of contour rotation along the first main axis", read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[0]) / d.modal.unit_mm()) },
-    Row { name: &["G", "ROT_CENTER2"], meaning: "centre of contour rotation along the second main axis", read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[1]) / d.modal.unit_mm()) },
-    Row { name: &["G", "CS_ACTIVE"], meaning: "1 while a coordinate system is on", read: |d, _| truth(d.geometry.coordinates.systems() > 0) },
-    Row { name: &["G", "CS_COUNT"], meaning: "number of coordinate systems that are on", read: |d, _| number(d.geometry.coordinates.systems() as f64) },
-    Row { name: &["SPDL_PROG", "SPEED", "s"], meaning: "programmed speed of a spindle in rev/min", read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].rpm) } },
-    Row { name: &["SPDL_PROG", "MOVE_CMD", "s"], meaning: "M function of a spindle in force: 3, 4, 5 or 19", read: |d, p| { let i = p.spindle(d, 2)?; number(f64::from(d.motion.spindles[i].turning.number())) } },
-    Row { name: &["SPDL_PROG", "POSITION", "s"], meaning: "programmed position of a spindle in deg", read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].angle_deg) } },
-    Row { name: &["SPDL_PROG", "MAX_SPEED", "s"], meaning: "largest speed under G96 in rev/min (G196)", read: |d, p| p.of_main_spindle(d, d.motion.cutting.most_rpm()) },
-    Row { name: &["SPDL_PROG", "CONST_CUT_SPEED", "s"], meaning: "cutting speed of G96 in m/min", read: |d, p| p.of_main_spindle(d, d.motion.cutting.speed_m_min()) },
-    Row { name: &["SPDL_PROG", "DWELL_ROT_COUNT", "s"], meaning: "revolutions of the last G04 with S", read: |d, p| p.of_main_spindle(d, d.motion.dwell_revolutions) },
-    Row { name: &["SPDL", "PLC_CONTROL", "s"], meaning: "1 while the PLC moves the spindle; here 0", read: |d, p| { p.spindle(d, 2)?; truth(false) } },
-    Row { name: &["SPDL", "NBR_IN_CHANNEL"], meaning: "number of spindles of the channel", read: |d, _| number(d.machine.spindles.len() as f64) },
-    Row { name: &["SPDL", "M_FCT_FREE"], meaning: "1 if M functions of the spindle are free; here 0", read: |_, _| truth(false) },
-    Row { name: &["SPDL", "LOG_AX_NR", "s"], meaning: "logical number of a spindle", read: |d, p| {
-        let i = p.spindle(d, 2)?;
-        number(d.motion.spindles[i].index.map_or(0.0, |i| f64::from(d.machine.spindles[i].number())))
-    } },
-];
 
 /// Names that are followed by an index.
 const INDEXED: [&str; 6] = ["NP", "WZ", "P", "MERR", "TIMER", "@P"];
@@ -194,29 +60,6 @@ pub(crate) fn meaning_of(text: &str) -> Option<(String, &'static str)> {
     ROWS.iter().find(is).map(|row| (row.title(), row.meaning))
 }
 
-fn limit(software_limits_mm: Option<(f64, f64)>) -> (f64, f64) {
-    software_limits_mm.unwrap_or((-1e9, 1e9))
-}
-
-fn offset(tool: &Tool, axis: usize) -> f64 {
-    tool.offsets_mm.get(&axis).copied().unwrap_or(0.0)
-}
-
-/// Wear by the way of the tool in use in 0.1 um/m, as it was written.
-fn wear_constant(d: &Decoder) -> f64 {
-    (d.geometry.tools.active.wear_ratio / WEAR_UNIT * 1e9).round() / 1e9
-}
-
-fn parameter(tool: &Tool, index: u32) -> f64 {
-    tool.parameters.get(&index).copied().unwrap_or(0.0)
-}
-
-/// Centre of the last arc relative to its start, along a main axis.
-fn centre(d: &Decoder, main: usize) -> Outcome<Value> {
-    let place = d.geometry.last_arc.plane.iter().position(|m| *m == main);
-    number(place.map_or(0.0, |k| d.geometry.last_arc.centre_mm[k]) / d.modal.unit_mm())
-}
-
 impl Path<'_> {
     /// A position of an axis in the unit of the program.
     fn position(
@@ -226,7 +69,7 @@ impl Path<'_> {
         f: impl Fn(&Decoder, usize) -> f64,
     ) -> Outcome<Value> {
         let axis = self.axis(d, at)?;
-        number(f(d, axis) / d.axis_unit(axis))
+        Ok(Value::Number(f(d, axis) / d.axis_unit(axis)))
     }
 
     /// A coordinate of the program; refused for an axis that is scaled, as no page says whether it is the coordinate
@@ -278,7 +121,7 @@ impl Path<'_> {
 
     /// A value that only the main spindle has, 0 for another one.
     fn of_main_spindle(&self, d: &Decoder, value: f64) -> Outcome<Value> {
-        number(if self.spindle(d, 2)? == 0 { value } else { 0.0 })
+        Ok(Value::Number(if self.spindle(d, 2)? == 0 { value } else { 0.0 }))
     }
 
     /// Index after a segment.
@@ -314,7 +157,7 @@ impl Path<'_> {
     fn passed(&self, d: &Decoder) -> Outcome<Value> {
         let name = format!("P{}", self.index(d, 1, 200)?);
         if let Some(passed) = d.values.variables.passed(&name) {
-            truth(passed)
+            Ok(Value::truth(passed))
         } else {
             let text = "V.G.@P[i].VALID is known only inside a cycle";
             Err(Fault::new(Condition::ParameterOutsideCycle, text, self.span))
@@ -346,7 +189,7 @@ fn written(segments: &[Segment]) -> String {
 pub(in crate::exec) fn read(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<Value> {
     if is_kinematic(segments) {
         let name = kinematic(d, segments, span)?;
-        return number(d.values.kinematics.get(&name).copied().unwrap_or(0.0));
+        return Ok(Value::Number(d.values.kinematics.get(&name).copied().unwrap_or(0.0)));
     }
     match find(segments) {
         Some(row) => (row.read)(d, &Path { segments, span }),
@@ -378,66 +221,17 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
-/// Variables of functions that are not simulated. Source: TF5200 volumetric compensation; outputs of M and H functions
-/// before their place (148946059); number of the commanding channel of a job manager (1139945739); block type (tccncprogramming
-/// 15557116555).
-const OTHERS: &[(&str, &str)] =
-    &[("G", "VOLCOMP"), ("G", "M_FCT"), ("G", "H_FCT"), ("G", "IP_NR"), ("G", "PROG_SA")];
-
-/// Data of tools that nothing here needs. Source: TF5200 external tool management 318262795; online tool compensation
-/// 213748491, whose wear only the simulation knows.
-const OTHER_TOOL_DATA: &[&str] = &[
-    "KIN_ID",
-    "KIN_PARAM",
-    "SISTER",
-    "SISTER_VALID",
-    "SRK_ID",
-    "SUB_TYPE",
-    "S_MAX_ACC",
-    "S_MAX_SPEED",
-    "S_MIN_SPEED",
-    "TOOL_FIXED",
-    "VARIANT",
-    "VARIANT_VALID",
-    "WEAR",
-    "WEAR_RADIUS",
-    "WEAR_RADIUS_CONT",
-];
-
-fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
-    let name = written(segments);
-    let class = segments.first().map_or("", |s| &*s.name).to_ascii_uppercase();
-    if matches!(class.as_str(), "TOOL" | "TLM" | "RTG" | "RTA" | "I") {
-        return Fault::unsupported(format!("variables V.{class}."), span);
-    }
-    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
-    if let [class, name, ..] = &names[..]
-        && OTHERS.contains(&(class.as_str(), name.as_str()))
-    {
-        return Fault::unsupported(format!("variables V.{class}.{name}"), span);
-    }
-    if let [class, tool, name, ..] = &names[..]
-        && class == "G"
-        && matches!(tool.as_str(), "WZ" | "WZ_AKT")
-        && OTHER_TOOL_DATA.contains(&name.as_str())
-    {
-        return Fault::unsupported(format!("variables V.G.{tool}.{name}"), span);
-    }
-    let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
-    let names: Vec<String> =
-        ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
-    let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
-    match suggest::nearest(&name, names.iter().map(String::as_str)) {
-        Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
-        None => fault,
-    }
-}
-
 /// True if reading this variable needs the machine at rest and its actual positions.
 pub(in crate::exec) fn needs_actual(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
-    is(0, "A") && is(1, "ACT_POS")
+    is(0, "A") && (is(1, "ACT_POS") || segments.get(1).is_some_and(|s| is_compensation(&s.name)))
+}
+
+/// True for `V.A.LEAD_COMP_ACTIVE` and the like, whose page says that reading them flushes the channel.
+fn is_compensation(name: &str) -> bool {
+    let name = name.to_ascii_uppercase();
+    name.ends_with("_COMP_INIT") || name.ends_with("_COMP_ACTIVE")
 }
 
 /// True for `V.G.WZ_AKT`, `V.G.WZL` and `V.G.WZR`: the tool data in use.

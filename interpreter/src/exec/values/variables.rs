@@ -367,6 +367,9 @@ impl Decoder {
             Target::Own(class, name, _) => {
                 let gone =
                     self.values.variables.table(class).and_then(|table| table.remove(&*name));
+                if gone.is_none() && class == Class::Cycle {
+                    return self.absent_cycle_variable(&name, span);
+                }
                 if gone.is_none() {
                     let what = "does not exist";
                     let unknown = self.values.variables.unknown(class, &name, what, span);
@@ -383,6 +386,19 @@ impl Decoder {
         };
         self.values.variables.elements -= removed.map_or(0, |v| v.elements());
         Ok(())
+    }
+}
+
+impl Decoder {
+    /// A V.CYC variable that this level has not created: without any there is nothing to do, 20933 for that of a level above.
+    ///
+    /// Source: TF5200 programming manual, 486167307.
+    fn absent_cycle_variable(&self, name: &str, span: Span) -> Outcome<()> {
+        if self.values.variables.find(Class::Cycle, name).is_none() {
+            return Ok(());
+        }
+        let text = format!("V.CYC.{name} was created on a level above");
+        Err(Fault::new(Condition::DeletedAbove, text, span))
     }
 }
 

@@ -203,6 +203,8 @@ parameters! {
         .default_is(Default::Text("MM_M2")), as PATH_ACC_UNIT: Text;
     chan("P-CHAN-00361", "vector.radial_acceleration", Raw::Real64, "v2/r limit on curves")
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_RADIAL_ACC: Number;
+    chan("P-CHAN-00429", "d_prog_file", Raw::Text, "global subroutine called by D words")
+        .source("TF5200 channel parameters 405038859"), as TOOL_DATA_PROGRAM: Text;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")
         .default(0.0), as CONTOURING_INCH: Switch;
     chan("P-CHAN-00451", "mode_implicite_sync_indp_asyn_axis", Raw::Uns16, "the path waits for an independent axis (INDP_ASYN) or ends an oscillating one: 0 when it moves the axis, 1 when a block names it")

@@ -18,10 +18,10 @@ macro_rules! commands {
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
     CouplingFactorInvalid = Vendor 21111: Warning None 1 1, "coupling factor is neither 1 nor -1", cause "#SET AX LINK [1, [Y=X, 1, 2]]", hint "the control couples with the factor 1: write [Y=X, 1, 1] or, mirrored, [Y=X, -1, 1]";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
+    CommandRead = Vendor 21158: Error ProgramAbort 3 1, "#COMMAND reads a procedure of a drive", cause "#COMMAND RD [..]", hint "procedures are only written: #COMMAND WR";
     TimerNumber = Vendor 21167: Error ProgramAbort 3 1, "number of a timer outside 0 to 127", hint "timers have the numbers 0 to 127";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after words of its block", cause "N10 X100 [NAME] Y200", hint "a label comes first in its block: N10 [NAME] X100 Y200";
     ArrayWithoutIndex = Vendor 21216: Error ProgramAbort 3 1, "index of an array is missing", cause "P1 = V.P.TAB", hint "write V.P.TAB[0]";
-    VariableClass = Vendor 21218: Error ProgramAbort 3 1, "variable type not available", cause "V.L.", hint "V.P, V.L, V.S and V.CYC can be declared";
     TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";
     MessageFormat = Vendor 21232: Error ProgramAbort 3 1, "unknown format in #MSG", cause "only %s %S %d %D %f %F", hint "formats are %s, %d and %f";
     SystemsTooMany = Vendor 21234: Error ProgramAbort 3 1, "more coordinate systems than can be stored", cause "a sixth #CS DEF", hint "define a number again that is no longer needed";
@@ -48,6 +48,7 @@ macro_rules! commands {
     KeyRange = Vendor 21296: Error ProgramAbort 3 1, "value of a keyword outside its range", cause "#CONTOUR MODE [REMAIN_PART=300]", hint "the message names the range";
     AxisFunctionMissing = Vendor 21301: Error ProgramAbort 3 1, "bracket of an axis that does not begin with its function", cause "X[POS=10 INDP_SYN ..]", hint "the function comes first: INDP_SYN, INDP_ASYN, OSC, OVERRIDE, SET_POSITION, M or H functions";
     MainSpindleUnknown = Vendor 21306: Error ProgramAbort 3 1, "#MAIN SPINDLE names no spindle of the channel", hint "spindles are named in the channel list", parameter "P-CHAN-00007";
+    CoupledAxisSorted = Vendor 21312: Error ProgramAbort 3 1, "axis exchange of a coupled axis", cause "#SET AX after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block may precede %NAME";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
@@ -66,6 +67,7 @@ macro_rules! commands {
     WearKeyTwice = Vendor 21388: Error ProgramAbort 3 0, "key of #OTC twice", cause "#OTC [WEAR_CONST=1 WEAR_CONST=2]", hint "leave one of the two out";
     WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
     WordsWithoutDimensions = Vendor 21404: Warning None 1 2, "several words of an axis without several G90 and G91, switched off", cause "multi_axes_in_block 1 with multi_dimension_in_block 0", hint "set both, or none", parameter "P-CHAN-00148";
+    DirectionZero = Vendor 21410: Error ProgramAbort 3 1, "direction of #GET WCS POSLIMIT is 0", cause "VC1=0 VC2=0 VC3=0", hint "give at least one component another value";
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     SpindleOverrideKeyTwice = Vendor 21422: Error ProgramAbort 3 1, "keyword twice in S[OVERRIDE ..]", hint "leave one of the two out";
@@ -114,6 +116,7 @@ macro_rules! commands {
     NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is not an array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
     AxisPositionOfSlave = Vendor 21784: Error ProgramAbort 3 1, "V.A.ACS.ABS of a slave axis", cause "read while its coupling is active", hint "read it after #DISABLE AX LINK, or that of the master";
     DwellWithoutTime = Vendor 21786: Error ProgramAbort 3 1, "G04 without a time", hint "write G04 2.5";
+    AreaFunction = Vendor 21793: Error ProgramAbort 3 1, "G function that is not allowed in the definition of a control area", cause "G41 between #CONTROL AREA BEGIN and END", hint "write G40 before the definition";
     AreaAxes = Vendor 21797: Error ProgramAbort 3 1, "more than two axes in the contour of a control area", cause "X0 Y100 Z100", hint "MIN_EXCUR and MAX_EXCUR bound the third axis";
     FileNameTwice = Vendor 21823: Error ProgramAbort 3 1, "key of #FILE NAME twice", hint "leave one of the two out";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
@@ -135,9 +138,13 @@ macro_rules! commands {
     FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two may not be mixed", hint "use one of the two in a program; the OFF forms count too";
     GuardMode = Vendor 22062: Error ProgramAbort 3 1, "Vibration Guard mode not allowed", cause "MODE outside 1…4", hint "modes are 1 to 4";
     FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "keys are HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
+    LoopInSpline = Vendor 22128: Error ProgramAbort 3 1, "#RT WHILE in a spline", cause "G151 before it", hint "write G150 before #RT WHILE";
+    LoopEndInSpline = Vendor 22129: Error ProgramAbort 3 1, "#RT ENDWHILE in a spline", cause "G151 before it", hint "write G150 before #RT ENDWHILE";
     CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "wrong character in an implicit call", cause "G80 [..]", hint "separate the values with commas: G80 [1, 2, , 4]";
     RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation is given by the two axes of the plane";
+    LoopWithCompensation = Vendor 22158: Error ProgramAbort 3 1, "real-time loop with tool radius compensation", cause "#RT WHILE after G41", hint "write G40 before #RT WHILE";
     TwoRampWeights = Vendor 22180: Error ProgramAbort 3 1, "two weights of ramp times in one block", cause "G132 X70 G133=100", hint "write them in separate blocks";
+    LoopEndWithoutLoop = Vendor 22181: Error ProgramAbort 3 1, "#RT ENDWHILE without #RT WHILE", hint "write #RT WHILE before it";
     TwoVelocityWeights = Vendor 22182: Error ProgramAbort 3 1, "two weights of the highest speed in one block", cause "G127 X70 G128=100", hint "write them in separate blocks";
     MessageSuppressed = Vendor 22194: Warning None 1 1, "#MSG to the diagnosis receiver is suppressed, warning", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     MessageForbidden = Vendor 22195: Error ProgramAbort 3 1, "#MSG to the diagnosis receiver is suppressed, error", cause "P-CHAN-00518", parameter "P-CHAN-00518";
@@ -145,6 +152,7 @@ macro_rules! commands {
     MacroLengthArgument = Vendor 22254: Error ProgramAbort 3 1, "MACRO_LENGTH without the name of a macro", cause "MACRO_LENGTH[NAME]", hint "write the name in quotes: MACRO_LENGTH[\"NAME\"]";
     MacroContentArgument = Vendor 22275: Error ProgramAbort 3 1, "MACRO_CONTENT without the name of a macro", cause "MACRO_CONTENT[NAME]", hint "write the name in quotes: MACRO_CONTENT[\"NAME\"]";
     MacroContentFailed = Vendor 22276: Error ProgramAbort 3 1, "macro of MACRO_CONTENT that cannot be resolved", cause "no macro of that name, macros nested too deeply, a text that is too long", hint "define the macro first: \"NAME\" = \"text\"";
+    ManualWhileActive = Vendor 22385: Error ProgramAbort 3 1, "#MANUAL while manual mode is active", cause "#MANUAL [ORI_MODE=..] under G201", hint "write it before G201, or G202 before it";
         }
     };
 }

@@ -63,7 +63,8 @@ macro_rules! words {
     PositionRequest = Vendor 20186: Error ProgramAbort 3 1, "syntax after #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", cause "[P1=X P2=Y], [P1 X]", hint "write [variable=axis, variable=axis]: #GET CMDPOS [P1=X, V.P.POS=Y]";
     RadiusIndexFormat = Vendor 20187: Error ProgramAbort 3 1, "index of the radius outside the data format", cause "R-1=10", hint "write R=.. or R1=..";
     RadiusIndex = Vendor 20188: Error ProgramAbort 3 1, "index of the radius is not 1", cause "R2=10", hint "write R=.. or R1=..";
-    ONotImplemented = Vendor 20191: Error ProgramAbort 3 1, "O word not implemented";
+    OFormat = Vendor 20191: Error ProgramAbort 3 1, "number of an O word outside the data format", cause "O9999999999", hint "there are no O words: a program begins with %NAME, a subroutine is called by L or LL";
+    ONotImplemented = Vendor 20192: Error ProgramAbort 3 1, "unknown O word", cause "O1000", hint "a program begins with %NAME, a subroutine is called by L or LL";
     PercentInProgram = Vendor 20193: Error ProgramAbort 3 1, "% inside a main program", cause "% text as a remark, %L after the main program", hint "remarks begin with ; or (; local subroutines come before the main program";
     AssignmentExpected = Vendor 20194: Error ProgramAbort 3 1, "assignment operator missing or unknown", cause "V.G.X without =", hint "write = between the parameter and its value";
     ToolIndex = Vendor 20197: Error ProgramAbort 3 1, "index of a variable outside the data format", cause "V.G.WZ[-1].L", hint "indices begin at 0";
@@ -166,6 +167,7 @@ macro_rules! words {
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
     TappingWithSpeedLimit = Vendor 20637: Error ProgramAbort 3 1, "tapping and G196 in one block", hint "write G196 in another block";
+    PositioningWithCuttingSpeed = Vendor 20642: Error ProgramAbort 3 1, "M19 with constant cutting speed", cause "M19 under G96", hint "write G97 before it";
     PositioningWithMaximum = Vendor 20643: Error ProgramAbort 3 1, "M19 in a block with G196", cause "G196 S2000 M19", hint "write M19 in a separate block";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
     FunctionInSystem = Vendor 20663: Error ProgramAbort 3 1, "G function that is not allowed in a coordinate system", cause "#CS ON, then G98 X-500", hint "write it before #CS ON or after #CS OFF";
@@ -224,6 +226,7 @@ macro_rules! words {
     ParameterUnknown = Vendor 20925: Error ProgramAbort 3 1, "unknown parameter", cause "read before it was written, or with other dimensions than declared", hint "assign a value before it is read: P1=5";
     DeletedNotOwn = Vendor 20931: Error ProgramAbort 3 1, "#DELETE of a variable that the program has not defined", cause "#DELETE V.A.ABS.X", hint "only P parameters and V.P, V.L, V.S, V.CYC can be deleted";
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] checks whether it exists";
+    DeletedAbove = Vendor 20933: Error ProgramAbort 3 1, "V.CYC variable to be deleted belongs to a level above", cause "#DELETE V.CYC.NAME in a cycle below the one that has created it", hint "delete it in the program that has created it, or leave it to the end of that program";
     MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 with G100 or G310", hint "measuring runs are straight";
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     WayAfterDirection = Vendor 20958: Error ProgramAbort 3 1, "negative way of a modulo axis in relative programming", cause "G91 C--200, C-[P1] with a negative P1", hint "the first sign is the direction, the way after it is positive: C+200 or C-200";

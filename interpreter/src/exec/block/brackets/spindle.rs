@@ -277,6 +277,9 @@ impl Decoder {
     ) -> Outcome<()> {
         match *item {
             SpindleItem::Turn(number) => {
+                if number == 19 && spindle == 0 {
+                    self.positions_main_spindle(span)?;
+                }
                 let state = &mut self.motion.spindles[spindle];
                 let directs =
                     matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;

@@ -231,9 +231,14 @@ impl Decoder {
         let tool_change = words.m.iter().find(|m| {
             m_kind(m.number) == MKind::ToolChange && self.calls.tool_change_file.is_some()
         });
-        if let (Some(m), true) = (tool_change, words.call.is_some() || words.cycle.is_some()) {
+        let tool_data = self.tool_data_word(words).filter(|_| self.calls.tool_data_file.is_some());
+        let called = words.call.is_some() || words.cycle.is_some();
+        if let (Some(m), true) = (tool_change, called || tool_data.is_some()) {
             let text = "M06 calls a subroutine: a second call in its block";
             self.report.note(Fault::new(Condition::SeveralCalls, text, m.span));
+        } else if let (Some(at), true) = (tool_data, called) {
+            let text = "D calls a subroutine: a second call in its block";
+            self.report.note(Fault::new(Condition::SeveralCalls, text, at));
         }
         if let (Some(cycle), Some(_)) = (&words.cycle, words.call) {
             let text = format!("G{} calls a subroutine: a second call in its block", cycle.number);
@@ -243,6 +248,14 @@ impl Decoder {
             return Some(CallAfter::Written(call, span));
         }
         let cycle = words.cycle.clone().map(CallAfter::Cycle);
-        cycle.or_else(|| tool_change.map(|m| CallAfter::ToolChange(m.span)))
+        cycle
+            .or_else(|| tool_change.map(|m| CallAfter::ToolChange(m.span)))
+            .or_else(|| tool_data.map(CallAfter::ToolData))
+    }
+
+    /// The D word, or the T word that selects tool data too (P-CHAN-00014).
+    fn tool_data_word(&self, words: &Words<'_>) -> Option<Span> {
+        let with_tool = words.tool.filter(|_| self.machine.channel.tool_data_with_tool);
+        words.tool_data.or(with_tool).map(|(_, span)| span)
     }
 }

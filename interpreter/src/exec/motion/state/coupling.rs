@@ -33,6 +33,10 @@ pub(in crate::exec) struct Couplings {
     pub(in crate::exec::motion) groups: BTreeMap<u32, Vec<Pair>>,
     /// In the order in which they were switched on.
     pub(in crate::exec::motion) active: Vec<(u32, Vec<Follower>)>,
+    /// The group that was switched on last, also after it was switched off; 0 before the first one (`V.G.AX_LINK.NR`).
+    ///
+    /// Assumption: the page says "current or last active group" and neither what is read before the first nor of several.
+    pub(in crate::exec) last: u32,
 }
 
 impl Couplings {
@@ -46,7 +50,7 @@ impl Couplings {
         let listed = &machine.channel.default_couplings;
         let pairs: Option<Vec<Pair>> = listed.iter().map(pair).collect();
         let group = pairs.filter(|pairs| !pairs.is_empty()).map(|pairs| (0, pairs));
-        Self { groups: group.into_iter().collect(), active: Vec::new() }
+        Self { groups: group.into_iter().collect(), active: Vec::new(), last: 0 }
     }
 
     /// No group is switched on.

@@ -76,6 +76,7 @@ impl Executor {
                 self.source_of(file, at, number);
                 self.execute(&tree.block, entry);
                 self.behind_real_time_cycle(entry);
+                self.search_file();
             }
         }
         if self.decoder.contour.waiting() >= EVENTS_MAX {
@@ -385,6 +386,7 @@ impl Executor {
             Some(CallAfter::Written(call, span)) => self.call(call, span),
             Some(CallAfter::Cycle(call)) => self.implicit_call(&call),
             Some(CallAfter::ToolChange(span)) => self.tool_change(span),
+            Some(CallAfter::ToolData(span)) => self.tool_data(span),
         }
         let closing = match after.then {
             Then::Return(None) => Some(Closing::Return),

@@ -66,6 +66,16 @@ pub(in crate::exec) fn write(
                 return Err(Fault::unsupported("V.SPDL.M_FCT_FREE = 1", span));
             }
         }
+        ["TLM", name @ ("TIME_FACT" | "DIST_FACT")] => {
+            let weight = x()?;
+            if weight < 0.0 {
+                let text = format!("V.TLM.{name} = {weight}, allowed are values from 0");
+                return Err(Fault::new(Condition::Range, text, span));
+            }
+            d.values.tool_life[usize::from(name == "DIST_FACT")] = weight;
+            let text = "V.TLM: the life of tools is not counted, its weights have no effect";
+            d.report.note_once("V.TLM", Fault::new(Condition::Ignored, text, span));
+        }
         ["G", "RW"] => {
             d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();
         }

@@ -24,7 +24,8 @@ impl Decoder {
                 let first = segments.first().map_or("", |s| &*s.name);
                 let Some((class, _)) = class(first) else {
                     let text = format!("variables of class V.{first} cannot be declared");
-                    return Err(Fault::new(Condition::VariableClass, text, span));
+                    let fault = Fault::new(Condition::VariableType, text, span);
+                    return Err(fault.hint("V.P, V.L, V.S and V.CYC can be declared"));
                 };
                 let names: Vec<&str> = segments[1..].iter().map(|s| &*s.name).collect();
                 (names.join("."), Some(class))

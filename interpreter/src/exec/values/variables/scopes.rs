@@ -131,7 +131,7 @@ impl Variables {
         let elements = variable.elements();
         let Some(table) = self.table(class) else {
             let text = "V.CYC variables exist only inside a cycle";
-            return Err(Fault::new(Condition::VariableClass, text, span));
+            return Err(Fault::new(Condition::VariableType, text, span));
         };
         if table.contains_key(name) {
             return Ok(true);

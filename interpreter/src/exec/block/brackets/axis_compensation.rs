@@ -1,0 +1,60 @@
+//! `X[COMP ON LEAD]`, `X[COMP OFF CROSS PLANE]`, `X[COMP OFF_ALL]`: compensations of an axis.
+//!
+//! Compensations are not simulated, so that no axis has an offset that would have to be driven out: the path only stops.
+//!
+//! Assumption: it stops with NO_MOVE too, as the channel is initialised then; the page does not say it.
+//!
+//! Source: TF5200 axis compensation, 308729483.
+
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::Sync;
+use crate::syntax::ast::{Item, ItemKind, Span};
+
+const KINDS: [&str; 7] = ["BACKLASH", "CROSS", "PLANE", "LEAD", "TEMP", "FRICT", "CROSSTALK"];
+
+impl Decoder {
+    /// The words after COMP: 21220 for those that do not belong together.
+    pub(super) fn axis_compensation(
+        &mut self,
+        axis: usize,
+        items: &[Item],
+        span: Span,
+    ) -> Outcome<()> {
+        let name = self.names.name(axis).to_owned();
+        let wrong = |what: String, span| {
+            let text = format!("{name}[COMP]: {what}");
+            let hint = "write [COMP ON LEAD], [COMP OFF CROSS TEMP] or [COMP OFF_ALL]";
+            Err(Fault::new(Condition::TokenUnknown, text, span).hint(hint))
+        };
+        let (mut switch, mut kinds) = (None, 0);
+        for item in items {
+            let ItemKind::Flag(word) = &item.kind else {
+                if matches!(item.kind, ItemKind::Missing) {
+                    continue;
+                }
+                return wrong("a value".to_owned(), item.span);
+            };
+            let switches = ["ON", "OFF", "OFF_ALL"].into_iter().find(|name| word.is(name));
+            if switches.is_some() && switch.is_none() {
+                switch = switches;
+            } else if KINDS.iter().any(|kind| word.is(kind)) {
+                kinds += 1;
+            } else if !word.is("NO_MOVE") {
+                return wrong(format!("unexpected `{}`", word.text), item.span);
+            }
+        }
+        match switch {
+            None => return wrong("ON, OFF or OFF_ALL is missing".to_owned(), span),
+            Some("OFF_ALL") if kinds > 0 => {
+                return wrong("OFF_ALL takes no compensation".to_owned(), span);
+            }
+            Some(_) => {}
+        }
+        let text = "axis compensations are not simulated: the path stops, and nothing else happens";
+        self.report.note_once("COMP", Fault::new(Condition::Fallback, text, span));
+        self.sync(Sync::FlushWait);
+        Ok(())
+    }
+}

@@ -1,0 +1,81 @@
+//! Variables that are refused by their own name, with the reason, and names that no list has.
+
+use super::{ROWS, written};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::Fault;
+use crate::exec::suggest;
+use crate::syntax::ast::{Segment, Span};
+
+/// Classes of variables that are refused as a whole, and why.
+const CLASSES: &[(&str, &str)] = &[
+    (
+        "TOOL",
+        "the parts of a tool ID have no tool management here; T and D words are V.G.T_AKT and V.G.D_AKT",
+    ),
+    ("TLM", "the weights of tool life are V.TLM.TIME_FACT and V.TLM.DIST_FACT"),
+    ("RTG", "real-time cycles (#RT CYCLE) are not simulated"),
+    ("RTA", "real-time cycles (#RT CYCLE) are not simulated"),
+    ("I", "no page says what these variables are"),
+];
+
+/// Variables of functions that are not simulated, and why. Source: TF5200 volumetric compensation; outputs of M and H
+/// functions before their place (148946059); number of the commanding channel of a job manager (1139945739); block type
+/// (tccncprogramming 15557116555); ADS access (312808843).
+const OTHERS: &[(&str, &str, &str)] = &[
+    ("A", "WCS", "the page names the variable and not the system that it counts in"),
+    ("G", "VOLCOMP", "volumetric compensation is not simulated"),
+    ("G", "M_FCT", "outputs before their place are not simulated"),
+    ("G", "H_FCT", "outputs before their place are not simulated"),
+    ("G", "IP_NR", "there is no job manager here"),
+    ("G", "PROG_SA", "the numbers of the block types are printed nowhere"),
+];
+
+/// Data of tools that nothing here needs. Source: TF5200 external tool management 318262795; online tool compensation
+/// 213748491, whose wear only the simulation knows.
+const OTHER_TOOL_DATA: &[&str] = &[
+    "KIN_ID",
+    "KIN_PARAM",
+    "SISTER",
+    "SISTER_VALID",
+    "SRK_ID",
+    "SUB_TYPE",
+    "S_MAX_ACC",
+    "S_MAX_SPEED",
+    "S_MIN_SPEED",
+    "TOOL_FIXED",
+    "VARIANT",
+    "VARIANT_VALID",
+    "WEAR",
+    "WEAR_RADIUS",
+    "WEAR_RADIUS_CONT",
+];
+
+pub(super) fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
+    let name = written(segments);
+    let class = segments.first().map_or("", |s| &*s.name).to_ascii_uppercase();
+    if let Some((_, why)) = CLASSES.iter().find(|(refused, _)| *refused == class) {
+        return Fault::unsupported(format!("V.{name}"), span).hint(*why);
+    }
+    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
+    if let [class, name, ..] = &names[..]
+        && let Some((_, _, why)) = OTHERS.iter().find(|(c, n, _)| c == class && n == name)
+    {
+        return Fault::unsupported(format!("V.{class}.{name}"), span).hint(*why);
+    }
+    if let [class, tool, name, ..] = &names[..]
+        && class == "G"
+        && matches!(tool.as_str(), "WZ" | "WZ_AKT")
+        && OTHER_TOOL_DATA.contains(&name.as_str())
+    {
+        return Fault::unsupported(format!("variables V.G.{tool}.{name}"), span);
+    }
+    let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
+    let names: Vec<String> =
+        ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
+    let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
+    match suggest::nearest(&name, names.iter().map(String::as_str)) {
+        Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
+        None => fault,
+    }
+}

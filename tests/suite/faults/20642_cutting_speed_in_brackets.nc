@@ -1,0 +1,6 @@
+; check --set Y.kenngr.achs_mode=0x45: exit 1
+; error 20642 at 5:3
+G00 Y20
+G96 S100
+S[M19 POS90]
+M30

@@ -1,0 +1,9 @@
+; check: exit 0
+; page 254170763 diagnosis 21312, right
+#SET AX [X,1,0][Y,2,1][C,3,3]
+N10 G00 X0 Y0
+N30 #SET AX LINK[1, C=Y]
+N40 #ENABLE AX LINK[1]
+N500 #DISABLE AX LINK[1]
+N510 #SET AX [X,1,0] [Y,2,1] [C,3,2]
+N1000 M30
