@@ -42,7 +42,7 @@ enum Way {
 /// The writer of a file.
 #[derive(Debug)]
 enum Writer {
-    Csv(csv::CsvWriter),
+    Csv(Box<csv::CsvWriter>),
     #[cfg(feature = "parquet")]
     Parquet(Box<parquet::ParquetWriter>),
 }
@@ -108,10 +108,12 @@ impl Trace {
         let name = if path.as_os_str() == STANDARD { "stdout".into() } else { path.to_owned() };
         let to_error = |e| Error::io(name.display().to_string(), e);
         let numbers = Numbers::of(&columns);
-        let rows = |columns| csv::Rows::new(columns, facts);
+        let csv = |target| {
+            let rows = csv::Rows::new(&columns, facts);
+            Writer::Csv(Box::new(csv::CsvWriter::new(target, rows)))
+        };
         let writer = if path.as_os_str() == STANDARD {
-            let target = csv::Target::Standard(console.output());
-            Writer::Csv(csv::CsvWriter::new(target, rows(columns)))
+            csv(csv::Target::Standard(console.output()))
         } else {
             let target = Target::create(path).map_err(to_error)?;
             match is_parquet {
@@ -120,7 +122,7 @@ impl Trace {
                     let writer = parquet::ParquetWriter::new(path, target, columns, facts);
                     Writer::Parquet(Box::new(writer.map_err(to_error)?))
                 }
-                _ => Writer::Csv(csv::CsvWriter::new(csv::Target::File(target), rows(columns))),
+                _ => csv(csv::Target::File(target)),
             }
         };
         let way = Way::Thread(Background::start(writer, numbers).map_err(to_error)?);

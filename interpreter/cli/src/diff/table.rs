@@ -140,7 +140,7 @@ impl Table {
         };
         let header = columns.iter().map(|c| c.name.clone()).collect();
         let name = facts.program.clone();
-        let rows = Rows::new(columns.clone(), facts);
+        let rows = Rows::new(&columns, facts);
         let batch = reader(Vec::new());
         // no column shows both ways
         let run = run.without_both_ways();

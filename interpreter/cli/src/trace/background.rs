@@ -11,8 +11,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Rows of a batch.
-const ROWS: usize = 256;
+/// Rows of a batch: with fewer of them, waking the threads costs more than a twentieth of a run.
+const ROWS: usize = 1024;
 /// Batches on their way.
 const BATCHES: usize = 3;
 /// Rows between two looks at the clock.
@@ -136,7 +136,7 @@ mod tests {
         let facts = Facts { cycle_us: 1000, ..Facts::default() };
         let columns = columns::select("s_mm", &facts).unwrap();
         let target = csv::Target::File(Target::create(path).unwrap());
-        let writer = Writer::Csv(CsvWriter::new(target, Rows::new(columns.clone(), &facts)));
+        let writer = Writer::Csv(Box::new(CsvWriter::new(target, Rows::new(&columns, &facts))));
         Background::start(writer, Numbers::of(&columns)).unwrap()
     }
 

@@ -1,7 +1,7 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
 use super::batch::{Batch, Head};
-use super::fixed::Cells;
+use super::fixed::{Cells, NumberRow};
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
@@ -12,40 +12,64 @@ use std::time::{Duration, Instant};
 /// Turns rows into lines of CSV.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows {
-    columns: Vec<Column>,
+    names: Vec<String>,
+    stretches: Vec<Stretch>,
+    numbers: NumberRow,
     cycle_us: u64,
     files: FileNames,
 }
 
+/// A column that is not a number, and those after it that are: what is read of the columns for every row.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    content: Content,
+    /// Number of numeric columns up to the next one that is not.
+    numbers_to: usize,
+}
+
 impl Rows {
-    /// Rows with the given columns.
-    pub(crate) fn new(columns: Vec<Column>, facts: &Facts) -> Self {
-        Self { columns, cycle_us: u64::from(facts.cycle_us), files: facts.files.clone() }
+    /// Rows with the given columns, of which the first one is the time.
+    pub(crate) fn new(columns: &[Column], facts: &Facts) -> Self {
+        let mut stretches: Vec<Stretch> = Vec::new();
+        let mut decimals = Vec::new();
+        for column in columns {
+            if column.content.is_number() {
+                decimals.push(column.decimals);
+            } else {
+                stretches.push(Stretch { content: column.content, numbers_to: 0 });
+            }
+            if let Some(last) = stretches.last_mut() {
+                last.numbers_to = decimals.len();
+            }
+        }
+        Self {
+            names: columns.iter().map(|column| column.name.clone()).collect(),
+            stretches,
+            numbers: NumberRow::new(decimals),
+            cycle_us: u64::from(facts.cycle_us),
+            files: facts.files.clone(),
+        }
     }
 
     /// Appends the header line.
     pub(crate) fn push_header(&self, out: &mut Cells) {
-        for column in &self.columns {
-            out.push_bytes(quoted(&column.name).as_bytes());
+        for name in &self.names {
+            out.push_bytes(quoted(name).as_bytes());
             out.push_comma();
         }
         out.end_line();
     }
 
     /// Appends the line of each row.
-    pub(crate) fn push_rows(&self, out: &mut Cells, batch: &Batch) {
+    pub(crate) fn push_rows(&mut self, out: &mut Cells, batch: &Batch) {
         batch.rows().for_each(|(head, numbers)| self.push_row(out, head, numbers));
     }
 
-    fn push_row(&self, out: &mut Cells, head: &Head, numbers: &[f64]) {
-        let mut numbers = numbers.iter();
-        for column in &self.columns {
-            match column.content {
-                Content::Axis(..) | Content::Path(_) => {
-                    if let Some(value) = numbers.next() {
-                        out.push_fixed(*value, column.decimals);
-                    }
-                }
+    fn push_row(&mut self, out: &mut Cells, head: &Head, values: &[f64]) {
+        self.numbers.take(values);
+        let mut from = 0;
+        for &Stretch { content, numbers_to } in &self.stretches {
+            match content {
                 Content::Time => out.push_seconds(head.k.saturating_mul(self.cycle_us)),
                 Content::Line => out.push_integer(u64::from(head.line)),
                 Content::Block => {
@@ -57,8 +81,12 @@ impl Rows {
                     out.push_bytes(quoted(&self.files.name(head.file)).as_bytes());
                 }
                 Content::Limit => out.push_bytes(head.limit.name().as_bytes()),
+                // those after it
+                Content::Axis(..) | Content::Path(_) => {}
             }
             out.push_comma();
+            self.numbers.push(out, from..numbers_to, values);
+            from = numbers_to;
         }
         out.end_line();
     }
@@ -251,13 +279,13 @@ mod tests {
         let mut batch = Batch::default();
         let numbers = Numbers::of(&columns);
         cycles.into_iter().for_each(|k| batch.push(&numbers, &record(k)));
-        (Rows::new(columns, facts), batch)
+        (Rows::new(&columns, facts), batch)
     }
 
     #[test]
     fn rows_read_as_plain_csv() {
         let facts = facts(&["a.nc", "sub, \"old\".nc"]);
-        let (rows, batch) = batch("v_mm_s,v_limit,ipo", &facts, [0, 3]);
+        let (mut rows, batch) = batch("v_mm_s,v_limit,ipo", &facts, [0, 3]);
         let mut out = Cells::default();
         rows.push_header(&mut out);
         rows.push_rows(&mut out, &batch);

@@ -3,6 +3,13 @@
 //! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine needs some 30
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
 //! rounding error matters only when the product lands on a tie, and then a fused multiply-add gives its sign.
+//!
+//! The numbers of a row are rounded and divided at their decimal points together ([`NumberRow`]), several in one instruction;
+//! ties and what is too large are left to [`Cells::push_fixed`]. Then each number is written where it belongs, in words of a fixed
+//! length whose last bytes the next number overwrites. Digits that are put together elsewhere first can only be copied once all of
+//! them have been stored, and the processor waits for that.
+
+use std::ops::Range;
 
 /// Three decimal digits of 0..=999 as bytes, the first one lowest.
 static TRIPLES: [u32; 1000] = {
@@ -29,10 +36,120 @@ const ZERO: [u8; 16] = *b"0.00000000000000";
 /// Products below this have room for a tie bit: `2^52`.
 const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 
+/// `1.5 * 2^52`: added to a number below `2^51` it leaves its whole part, rounded, in the lowest bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// Sign of a number in the word of its whole part.
+const SIGN: u64 = 1 << 63;
+
+/// In the place of a whole part where [`NumberRow::take`] does not round.
+const UNROUNDED: u64 = u64::MAX;
+
+/// The numbers of one row of a table after another, each column with its own number of decimals.
+#[derive(Clone, Debug)]
+pub(crate) struct NumberRow {
+    decimals: Vec<u8>,
+    /// Of every column `10^decimals`, its inverse, and what is left of `10^7`.
+    powers: Vec<f64>,
+    inverses: Vec<f64>,
+    fills: Vec<f64>,
+    /// Of every number its sign and what is before its point, and what is after it times `10^7`.
+    wholes: Vec<u64>,
+    parts: Vec<u64>,
+}
+
+impl NumberRow {
+    /// For columns with so many decimals.
+    pub(crate) fn new(decimals: Vec<u8>) -> Self {
+        // more decimals than are rounded here: not a number, which is not rounded
+        let power = |d: &u8| POWERS.get(usize::from(*d)).map_or(f64::NAN, |power| *power as f64);
+        let powers: Vec<f64> = decimals.iter().map(power).collect();
+        let (wholes, parts) = (vec![0; decimals.len()], vec![0; decimals.len()]);
+        let inverses = powers.iter().map(|power| 1.0 / power).collect();
+        let fills = powers.iter().map(|power| POWERS[MOST_DECIMALS] as f64 / power).collect();
+        Self { decimals, powers, inverses, fills, wholes, parts }
+    }
+
+    /// Takes the numbers of a row. One that lies on a tie, is too large or not finite is marked.
+    pub(crate) fn take(&mut self, values: &[f64]) {
+        let Self { powers, inverses, fills, wholes, parts, .. } = self;
+        let columns = powers.iter().zip(inverses).zip(fills);
+        let found = wholes.iter_mut().zip(parts);
+        for ((value, ((power, inverse), fill)), (whole, part)) in
+            values.iter().zip(columns).zip(found)
+        {
+            // no branches, so that several of them are done at once
+            let product = value * *power;
+            let rounded = (product + ROUNDER) - ROUNDER;
+            // not a number fails both
+            let known = (product - rounded).abs() < 0.5 && product.abs() < 0.5 * EXACT_BELOW;
+            let magnitude = rounded.abs();
+            // one too large where more than half is left; products of whole numbers below 2^53 are exact
+            let about = (magnitude * *inverse + ROUNDER) - ROUNDER;
+            let left = magnitude - about * *power;
+            let (before, after) =
+                if left < 0.0 { (about - 1.0, left + *power) } else { (about, left) };
+            let sign = rounded.to_bits() & SIGN;
+            *whole = if known {
+                ((before + ROUNDER).to_bits() - ROUNDER.to_bits()) | sign
+            } else {
+                UNROUNDED
+            };
+            *part = u64::from((after * *fill + ROUNDER).to_bits() as u32);
+        }
+    }
+
+    /// Appends some of the numbers taken, each with a comma; `values`: those of the whole row.
+    #[inline]
+    pub(crate) fn push(&self, out: &mut Cells, columns: Range<usize>, values: &[f64]) {
+        let found = self.wholes[columns.clone()].iter().zip(&self.parts[columns.clone()]);
+        let shown = self.decimals[columns.clone()].iter().zip(&values[columns]);
+        for ((whole, part), (decimals, value)) in found.zip(shown) {
+            if *whole == UNROUNDED {
+                out.push_fixed(*value, *decimals);
+                out.push_comma();
+            } else {
+                let number = Divided {
+                    negative: *whole & SIGN != 0,
+                    whole: *whole & !SIGN,
+                    part: *part as u32,
+                };
+                out.push_cell(|cell| number.put(cell, *decimals) + 1);
+            }
+        }
+    }
+}
+
+/// A number in the decimal system.
+#[derive(Clone, Copy, Debug)]
+struct Divided {
+    negative: bool,
+    whole: u64,
+    /// What is after the point times `10^7`.
+    part: u32,
+}
+
+impl Divided {
+    /// Writes it at the beginning of a cell, and a comma after it; its length without the comma.
+    #[inline]
+    fn put(self, cell: &mut Cell, decimals: u8) -> usize {
+        let after_point = if decimals > 0 { 1 + usize::from(decimals) } else { 0 };
+        let length = if self.whole == 0 && self.part == 0 {
+            // an axis at rest, and a column that is not in use
+            cell[..ZERO.len()].copy_from_slice(&ZERO);
+            1 + after_point
+        } else {
+            cell[0] = b'-';
+            let at = put_whole(cell, usize::from(self.negative), self.whole);
+            put_part(cell, at, self.part);
+            at + after_point
+        };
+        cell[length] = b',';
+        length
+    }
+}
+
 /// Text of a table that grows at its end, cell by cell.
-///
-/// Numbers are written where they belong, in words of a fixed length whose last bytes the next number overwrites. Digits that
-/// are put together elsewhere first can only be copied once all of them have been stored, and the processor waits for that.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cells {
     /// The text, and room.
@@ -40,13 +157,13 @@ pub(crate) struct Cells {
     end: usize,
 }
 
-impl Cells {
-    /// More than any number but those of [`Self::push_slow`] takes: 20 digits, sign, point, decimals, and one word.
-    const LONGEST: usize = 48;
+/// Room for any number but those of [`Cells::push_slow`]: 20 digits, sign, point, decimals, comma, and one word.
+type Cell = [u8; 48];
 
+impl Cells {
     /// An empty text with room for so many bytes.
     pub(crate) fn with_capacity(bytes: usize) -> Self {
-        Self { bytes: vec![0; bytes + Self::LONGEST], end: 0 }
+        Self { bytes: vec![0; bytes + size_of::<Cell>()], end: 0 }
     }
 
     pub(crate) fn as_bytes(&self) -> &[u8] {
@@ -70,16 +187,19 @@ impl Cells {
     }
 
     /// Appends bytes.
+    #[inline]
     pub(crate) fn push_bytes(&mut self, bytes: &[u8]) {
-        self.make_room(bytes.len());
+        if self.bytes.len() - self.end < bytes.len() {
+            self.grow(bytes.len());
+        }
         self.bytes[self.end..][..bytes.len()].copy_from_slice(bytes);
         self.end += bytes.len();
     }
 
     /// Appends a comma.
+    #[inline]
     pub(crate) fn push_comma(&mut self) {
-        self.make_room(1);
-        self.put([b','], 1);
+        self.push_bytes(b",");
     }
 
     /// The last byte becomes the end of a line.
@@ -89,119 +209,102 @@ impl Cells {
         }
     }
 
-    /// Room for `more` bytes, and for a word after them.
-    #[inline]
-    fn make_room(&mut self, more: usize) {
-        if self.bytes.len() - self.end < more + Self::LONGEST {
-            self.grow(more + Self::LONGEST);
-        }
-    }
-
     #[cold]
     fn grow(&mut self, more: usize) {
-        self.bytes.resize(2 * self.end + more, 0);
+        self.bytes.resize(2 * self.end + more + size_of::<Cell>(), 0);
     }
 
-    /// Stores a word of which `count` bytes are part of the text.
+    /// Appends what `put` writes into a cell; the number of bytes it returns is part of the text.
     #[inline]
-    fn put<const N: usize>(&mut self, word: [u8; N], count: usize) {
-        self.bytes[self.end..][..N].copy_from_slice(&word);
-        self.end += count;
+    fn push_cell(&mut self, put: impl FnOnce(&mut Cell) -> usize) {
+        loop {
+            let room = self.bytes.get_mut(self.end..).and_then(<[u8]>::first_chunk_mut);
+            if let Some(cell) = room {
+                self.end += put(cell);
+                return;
+            }
+            self.grow(0);
+        }
     }
 
     /// Appends `value` with `decimals` digits after the point, rounded half away from zero.
     ///
     /// Zero has no sign. A value that is not finite leaves nothing: an empty cell reads as "not a number" everywhere and
     /// keeps the columns in place.
-    #[inline]
     pub(crate) fn push_fixed(&mut self, value: f64, decimals: u8) {
-        self.make_room(Self::LONGEST);
-        // with the number of decimals known, divisions become multiplications
-        match decimals {
-            0 => self.push::<0>(value),
-            1 => self.push::<1>(value),
-            2 => self.push::<2>(value),
-            3 => self.push::<3>(value),
-            4 => self.push::<4>(value),
-            5 => self.push::<5>(value),
-            6 => self.push::<6>(value),
-            7 => self.push::<7>(value),
-            _ => self.push_slow(value, decimals),
-        }
-    }
-
-    #[inline]
-    fn push<const DECIMALS: usize>(&mut self, value: f64) {
-        let scale = POWERS[DECIMALS] as f64;
+        let Some(&power) = POWERS.get(usize::from(decimals)) else {
+            return self.push_slow(value, decimals);
+        };
+        let scale = power as f64;
         let product = value * scale;
-        if product == 0.0 {
-            // an axis at rest, and a column that is not in use
-            self.put(ZERO, if DECIMALS > 0 { DECIMALS + 2 } else { 1 });
-        } else if product.abs() < EXACT_BELOW {
-            self.push_scaled::<DECIMALS>(round_product(value, scale, product));
-        } else if value.is_finite() {
-            self.push_slow(value, DECIMALS as u8);
+        if product.abs() < EXACT_BELOW {
+            let rounded = round_product(value, scale, product);
+            let magnitude = rounded.unsigned_abs();
+            let part = (magnitude % power * (POWERS[MOST_DECIMALS] / power)) as u32;
+            let number = Divided { negative: rounded < 0, whole: magnitude / power, part };
+            self.push_cell(|cell| number.put(cell, decimals));
+        } else {
+            self.push_slow(value, decimals);
         }
     }
 
-    /// Appends `scaled / 10^DECIMALS`.
-    #[inline]
-    fn push_scaled<const DECIMALS: usize>(&mut self, scaled: i64) {
-        let magnitude = scaled.unsigned_abs();
-        let (whole, part) = (magnitude / POWERS[DECIMALS], magnitude % POWERS[DECIMALS]);
-        self.put([b'-'], usize::from(scaled < 0));
-        self.push_whole(whole);
-        if DECIMALS > 0 {
-            self.put_part((part * POWERS[MOST_DECIMALS - DECIMALS]) as u32, 1 + DECIMALS);
-        }
-    }
-
-    /// A point and the first digits of `part / 10^7`, `count` bytes in all. The word is made in a register: of bytes that are
-    /// stored one by one it could not be read before all of them are there.
-    #[inline]
-    fn put_part(&mut self, part: u32, count: usize) {
-        let (first, rest) = (part / 1_000_000, part % 1_000_000);
-        let begin = u32::from(b'.') | (u32::from(b'0') + first) << 8;
-        let middle = u64::from(TRIPLES[(rest / 1000) as usize]) << 16;
-        let end = u64::from(TRIPLES[(rest % 1000) as usize]) << 40;
-        self.put((u64::from(begin) | middle | end).to_le_bytes(), count);
-    }
-
-    /// Appends the digits of `n`.
-    #[inline]
-    fn push_whole(&mut self, n: u64) {
-        if n >= 1000 {
-            self.push_long(n);
-            return;
-        }
-        let length = 1 + usize::from(n >= 10) + usize::from(n >= 100);
-        let digits = TRIPLES[n as usize] >> (8 * (3 - length));
-        self.put(digits.to_le_bytes(), length);
-    }
-
-    /// The same for more than three of them.
-    fn push_long(&mut self, n: u64) {
-        self.push_whole(n / 1000);
-        self.put(TRIPLES[(n % 1000) as usize].to_le_bytes(), 3);
-    }
-
-    /// Values beyond the range of machines, and more decimals than any column has.
+    /// Values beyond the range of machines, nothing for what is not finite, and more decimals than any column has.
     #[cold]
     fn push_slow(&mut self, value: f64, decimals: u8) {
-        self.push_bytes(format!("{value:.*}", usize::from(decimals)).as_bytes());
+        if value.is_finite() {
+            self.push_bytes(format!("{value:.*}", usize::from(decimals)).as_bytes());
+        }
     }
 
     /// Appends an unsigned integer.
+    #[inline]
     pub(crate) fn push_integer(&mut self, n: u64) {
-        self.make_room(Self::LONGEST);
-        self.push_whole(n);
+        self.push_cell(|cell| put_whole(cell, 0, n));
     }
 
     /// Appends microseconds as seconds with six decimals, exactly.
+    #[inline]
     pub(crate) fn push_seconds(&mut self, micros: u64) {
-        self.push_integer(micros / 1_000_000);
-        self.put_part((micros % 1_000_000 * 10) as u32, 7);
+        self.push_cell(|cell| {
+            let at = put_whole(cell, 0, micros / 1_000_000);
+            put_part(cell, at, (micros % 1_000_000 * 10) as u32);
+            at + 7
+        });
     }
+}
+
+/// Writes a point and the seven digits of `part / 10^7`. The word is made in a register: of bytes that are stored one by one it
+/// could not be read before all of them are there.
+#[inline]
+fn put_part(cell: &mut Cell, at: usize, part: u32) {
+    let (first, rest) = (part / 1_000_000, part % 1_000_000);
+    let begin = u32::from(b'.') | (u32::from(b'0') + first) << 8;
+    let middle = u64::from(TRIPLES[(rest / 1000) as usize]) << 16;
+    let end = u64::from(TRIPLES[(rest % 1000) as usize]) << 40;
+    cell[at..][..8].copy_from_slice(&(u64::from(begin) | middle | end).to_le_bytes());
+}
+
+/// Writes the digits of `n`, and returns where they end.
+#[inline]
+fn put_whole(cell: &mut Cell, at: usize, n: u64) -> usize {
+    if n < 1000 { put_short(cell, at, n) } else { put_long(cell, at, n) }
+}
+
+/// The same for up to three of them.
+#[inline]
+fn put_short(cell: &mut Cell, at: usize, n: u64) -> usize {
+    let length = 1 + usize::from(n >= 10) + usize::from(n >= 100);
+    let digits = TRIPLES[n as usize] >> (8 * (3 - length));
+    cell[at..][..4].copy_from_slice(&digits.to_le_bytes());
+    at + length
+}
+
+/// The same for more than three of them.
+fn put_long(cell: &mut Cell, at: usize, n: u64) -> usize {
+    let (before, last) = (n / 1000, n % 1000);
+    let at = if before < 1000 { put_short(cell, at, before) } else { put_long(cell, at, before) };
+    cell[at..][..4].copy_from_slice(&TRIPLES[last as usize].to_le_bytes());
+    at + 3
 }
 
 /// `value * scale` rounded half away from zero, where `product` is their rounded product.
@@ -228,10 +331,16 @@ mod tests {
     use super::*;
     use kontur_kit::Random;
 
+    /// Alone, and as a number of a row.
     fn fixed(value: f64, decimals: u8) -> String {
-        let mut out = Cells::default();
+        let (mut out, mut row) = (Cells::default(), Cells::default());
         out.push_fixed(value, decimals);
-        String::from_utf8(out.as_bytes().to_vec()).unwrap()
+        let mut numbers = NumberRow::new(vec![2, decimals]);
+        numbers.take(&[0.5, value]);
+        numbers.push(&mut row, 1..2, &[0.5, value]);
+        let text = String::from_utf8(out.as_bytes().to_vec()).unwrap();
+        assert_eq!(row.as_bytes(), format!("{text},").as_bytes());
+        text
     }
 
     /// Schoolbook: the exact decimal expansion of the f64 (never more than 1074 digits), rounded half away by hand.

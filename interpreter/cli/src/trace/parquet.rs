@@ -2,7 +2,9 @@
 //!
 //! Numbers are stored as byte streams (all first bytes, all second bytes, ...), which is what makes smooth curves
 //! compress, lines and block numbers as differences; a dictionary of 64 K different values would cost time and save nothing.
-//! Snappy is the codec because it is plain Rust and every reader knows it.
+//! Snappy is the codec because it is plain Rust and every reader knows it. Minimum and maximum of a group are there for the
+//! columns by which readers select rows (time, line, block, words), not for the other numbers: finding them costs more than
+//! splitting their bytes.
 //!
 //! A Parquet file is readable only once its footer is written. So each group of rows goes to a separate file in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
@@ -15,7 +17,7 @@ use ::parquet::column::writer::ColumnCloseResult;
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
-use ::parquet::file::properties::WriterProperties;
+use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
 use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::{ColumnPath, Type};
@@ -89,6 +91,7 @@ impl ParquetWriter {
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
             // whole pages: the memory of a page is allocated once and does not grow
             .set_write_batch_size(ROWS_PER_GROUP);
         let mut fields = Vec::with_capacity(columns.len());
@@ -107,8 +110,12 @@ impl ParquetWriter {
                 Physical::INT64 => Some(Encoding::DELTA_BINARY_PACKED),
                 _ => None,
             };
+            let path = || ColumnPath::from(column.name.as_str());
+            if column.content.is_number() {
+                properties =
+                    properties.set_column_statistics_enabled(path(), EnabledStatistics::None);
+            }
             if let Some(encoding) = encoding {
-                let path = || ColumnPath::from(column.name.as_str());
                 properties = properties
                     .set_column_dictionary_enabled(path(), false)
                     .set_column_encoding(path(), encoding);
@@ -170,7 +177,7 @@ impl ParquetWriter {
                 }
                 (Values::Number(v), _) => {
                     let first = nth.next().unwrap_or_default();
-                    v.extend(numbers.iter().skip(first).step_by(width));
+                    v.extend(numbers.chunks_exact(width).map(|row| row[first]));
                 }
                 (Values::Integer(v), _) => v.extend(heads.iter().map(|h| i64::from(h.line))),
                 (Values::Optional(v, present), _) => {
