@@ -84,7 +84,7 @@ impl Decoder {
         if let Some(g) = words.group(Group::Measuring).filter(|g| g.row.act == Act::Measure) {
             let outcome = self.measuring_run(g, words, span);
             self.report.keep(outcome);
-            self.motion.measuring.jump(words.goto.cloned());
+            self.motion.measuring.jump(words.goto.filter(|_| words.jumps_on_signal()).cloned());
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);

@@ -67,6 +67,8 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
     pub(in crate::exec) call: Option<(&'b Call, Span)>,
     pub(in crate::exec) goto: Option<&'b Jump>,
+    /// Where the last assignment ends.
+    pub(in crate::exec) assigned_to: Option<u32>,
     /// Where M17 or M29 leads, if they say so.
     pub(in crate::exec) back: Option<(&'b Return, Span)>,
 }
@@ -77,6 +79,11 @@ impl Words<'_> {
         self.g.iter().find(|g| {
             matches!(g.row.group, Group::Path | Group::Measuring) || g.row.act == Act::ExactStopOnce
         })
+    }
+
+    /// The signal of a measuring run decides about the jump (G310).
+    pub(in crate::exec) fn jumps_on_signal(&self) -> bool {
+        self.g.iter().any(|g| g.row.number == 310)
     }
 
     /// The first word of an axis before a place in the block.

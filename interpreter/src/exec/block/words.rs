@@ -35,6 +35,12 @@ impl Decoder {
             let (axis, _, span) = block.axes.remove(i);
             self.report.note(self.axis_twice(axis, span));
         }
+        if let (Some(_), Some((_, span)), true) =
+            (block.tool, block.tool_data, self.machine.channel.tool_data_with_tool)
+        {
+            let text = "D beside T, which selects the tool data too (P-CHAN-00014)";
+            self.report.note(Fault::new(Condition::ToolDataTwice, text, span));
+        }
         if let (Some(_), Some((condition, span))) = (block.tool_data, block.tool_written) {
             let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
             self.report.note(Fault::new(condition, text, span));
@@ -49,6 +55,11 @@ impl Decoder {
         }
         match &word.kind {
             WordKind::Address { name, sign, value } => {
+                if block.assigned_to == Some(span.start) && name.letter() == Some(b'E') {
+                    let text = "numbers have no exponent in this dialect";
+                    return Err(Fault::new(Condition::Syntax, text, span)
+                        .hint("1e3 is written 1000, 1e-05 0.00001"));
+                }
                 self.address(name, *sign, value, span, block)
             }
             WordKind::G { number, value } => self.g_word(*number, value.as_deref(), span, block),
@@ -92,6 +103,7 @@ impl Decoder {
                     }
                     return self.cycle_address(name, assign, span, block);
                 }
+                block.assigned_to = Some(span.end());
                 if let PlaceKind::Variable(segments) = &assign.target.kind
                     && system::is_active_tool(segments)
                 {
@@ -151,7 +163,10 @@ impl Decoder {
                 Ok(())
             }
             WordKind::Goto(label) => {
-                block.goto = Some(label);
+                if block.goto.replace(label).is_some() {
+                    let text = "two jumps in one block";
+                    return Err(Fault::new(Condition::DuplicateGroup, text, span));
+                }
                 Ok(())
             }
         }
@@ -212,6 +227,10 @@ impl Decoder {
             Some(expr) => Some(self.number(expr)?),
             None => None,
         };
+        if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
+            let text = format!("M{number:02} takes no value, not {value}");
+            return Err(Fault::new(Condition::Syntax, text, span));
+        }
         Ok(Code { number, value, span })
     }
 
@@ -303,7 +322,7 @@ impl Decoder {
         let value = match (value, row.value) {
             (None, ValueRule::Required) => {
                 let text = format!("G{number} needs a value");
-                return Err(Fault::new(Condition::Syntax, text, span));
+                return Err(Fault::new(Condition::ValueMissing, text, span));
             }
             (Some(GValue::Scalar(expr)), ValueRule::Required | ValueRule::Optional) => {
                 Some(self.number(expr)?)

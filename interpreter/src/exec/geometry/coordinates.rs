@@ -21,6 +21,9 @@ use machine::Suspended;
 use stack::Stack;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Last group of the table of zero offsets (P-ZERO-00002).
+pub(in crate::exec) const LAST_ZERO_GROUP: u32 = 96;
+
 /// Contour rotation (G68, `#ROTATION`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Rotation {

@@ -3,7 +3,7 @@
 use super::plane::PlaneImage;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{Placed, Words};
-use crate::exec::block::groups::Group;
+use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::PathMode;
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
@@ -42,6 +42,11 @@ impl Decoder {
             .centre_words(words, [main[0], main[1]], span)
             .map(|word| word.map(|(value, at)| (value * scale, at)));
         let has_centre = centre_words.iter().any(Option::is_some);
+        let by_word = words.g.iter().find(|g| g.row.act == Act::Radius);
+        if let (Some(g), true) = (by_word, has_centre || words.radius.is_some()) {
+            let text = "G163 beside I, J, K or R: the radius is given twice";
+            return Err(Fault::new(Condition::CentreWithG163, text, g.span));
+        }
         if let Some((radius, at)) = words.radius {
             if has_centre {
                 let text = "centre and radius in one block";

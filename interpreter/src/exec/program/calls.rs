@@ -187,6 +187,10 @@ impl Executor {
                     Ok(_) => Err(Fault::new(Condition::CycleKeyTwice, "NAME twice", key.span)),
                     Err(fault) => Err(fault),
                 },
+                ItemKind::Pair { key, .. } if !is_cycle_parameter(&key.text) => {
+                    let text = format!("{}: a cycle takes @P1 to @P200", key.text);
+                    Err(Fault::new(Condition::Range, text, key.span))
+                }
                 ItemKind::Pair { key, value } if key.text.starts_with('@') => {
                     match self.cycle_value(value) {
                         Ok(value) => {
@@ -325,4 +329,10 @@ impl Executor {
             self.push_level(target, Some(passed));
         }
     }
+}
+
+/// False for `@P0` and `@P201`. Source: TF5200 programming manual 206859019.
+fn is_cycle_parameter(key: &str) -> bool {
+    let index = key.strip_prefix("@P").filter(|index| index.bytes().all(|b| b.is_ascii_digit()));
+    index.is_none_or(|index| matches!(index.parse(), Ok(1..=200_u32)))
 }

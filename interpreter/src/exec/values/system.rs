@@ -192,8 +192,25 @@ pub(in crate::exec) fn read(d: &Decoder, segments: &[Segment], span: Span) -> Ou
         return Ok(Value::Number(d.values.kinematics.get(&name).copied().unwrap_or(0.0)));
     }
     match find(segments) {
-        Some(row) => (row.read)(d, &Path { segments, span }),
+        Some(row) => {
+            indices_fit(row, segments, span)?;
+            (row.read)(d, &Path { segments, span })
+        }
         None => Err(unknown(d, segments, span)),
+    }
+}
+
+/// 21768 for an index that the variable does not have; the last name may stand for an axis by its index.
+fn indices_fit(row: &Row, segments: &[Segment], span: Span) -> Outcome<()> {
+    let by_index = row.name.len() > segments.len();
+    let takes = |i: usize| INDEXED.contains(&row.name[i]) || by_index && i + 1 == segments.len();
+    let wrong = (0..segments.len()).find(|i| !segments[*i].subscripts.is_empty() && !takes(*i));
+    match wrong {
+        Some(i) => {
+            let text = format!("{}: {} takes no index", row.title(), segments[i].name);
+            Err(Fault::new(Condition::NoArray, text, span).hint("leave the index out"))
+        }
+        None => Ok(()),
     }
 }
 

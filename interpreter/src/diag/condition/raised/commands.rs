@@ -143,6 +143,7 @@ macro_rules! commands {
     CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "wrong character in an implicit call", cause "G80 [..]", hint "separate the values with commas: G80 [1, 2, , 4]";
     RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation is given by the two axes of the plane";
     LoopWithCompensation = Vendor 22158: Error ProgramAbort 3 1, "real-time loop with tool radius compensation", cause "#RT WHILE after G41", hint "write G40 before #RT WHILE";
+    CentreWithG163 = Vendor 22159: Error ProgramAbort 3 1, "radius of an arc given in two ways", cause "G163=3 G02 X4 I2", hint "leave G163 out, or I, J, K and R";
     TwoRampWeights = Vendor 22180: Error ProgramAbort 3 1, "two weights of ramp times in one block", cause "G132 X70 G133=100", hint "write them in separate blocks";
     LoopEndWithoutLoop = Vendor 22181: Error ProgramAbort 3 1, "#RT ENDWHILE without #RT WHILE", hint "write #RT WHILE before it";
     TwoVelocityWeights = Vendor 22182: Error ProgramAbort 3 1, "two weights of the highest speed in one block", cause "G127 X70 G128=100", hint "write them in separate blocks";

@@ -50,6 +50,8 @@ macro_rules! words {
     CompensationWithoutAxis = Vendor 20136: Error ProgramAbort 3 1, "tool radius compensation without a main axis of its plane", cause "#PUT AX [X] and then G41", hint "the first two main axes of the plane have to be in the channel";
     HomingWithCouplings = Vendor 20137: Error ProgramAbort 3 1, "homing while axes are coupled", cause "G74 after #ENABLE AX LINK", hint "switch every coupling off with #DISABLE AX LINK before G74";
     MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure with G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
+    ValueMissing = Vendor 20147: Error ProgramAbort 3 1, "G function without its value", cause "G115 without `=`", hint "write the value after `=`";
+    ZeroGroup = Vendor 20149: Error ProgramAbort 3 1, "group of G159 is not in the table of zero offsets", cause "G159=500", hint "groups are 0 to 96";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
     TwoSignalFunctions = Vendor 20156: Error ProgramAbort 3 1, "two M functions in a block that wait for the signal of edge banding", cause "P-CHAN-00041 is MNE_SNS for both", hint "write one of them in a separate block", parameter "P-CHAN-00041";

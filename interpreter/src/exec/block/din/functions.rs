@@ -215,7 +215,7 @@ impl Decoder {
         };
         match jumps {
             // of a measuring run, the signal decides
-            Some(_) if self.motion.measuring.is_under_way() => {}
+            Some(_) if words.jumps_on_signal() => {}
             Some(label) if call.is_some() => {
                 let text = "$GOTO in a block that calls a subroutine at its end";
                 self.report.note(Fault::new(Condition::BehindCall, text, label.span));

@@ -6,17 +6,15 @@ use crate::exec::block::groups::{self, Act, Group};
 use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
 /// The group that G159 and G160 name.
 ///
-/// Source: TF5200 diagnosis 251890315, 251894667 (20582, 20583), 251899019 (20584: no such group in the table). Assumption: of G159
-/// the pages print no ID for a group beyond the table, which has no offsets then.
+/// Source: TF5200 diagnosis 250915467 (20149), 251890315, 251894667 (20582, 20583), 251899019 (20584).
 fn zero_group(g: &GWord) -> Outcome<u32> {
-    /// Source: TF5200 zero offsets, P-ZERO-00002.
-    const LAST: u32 = 96;
     let by_axes = g.row.act == Act::ZeroGroupAxes;
     let value = g.value.unwrap_or_default();
     let wrong = |condition, text: String| {
@@ -27,9 +25,11 @@ fn zero_group(g: &GWord) -> Outcome<u32> {
             if by_axes { Condition::MaskedGroupFormat } else { Condition::ZeroGroupFormat };
         wrong(condition, format!("zero-offset group {value} is outside the data format"))
     })?;
-    if by_axes && group > LAST {
-        let text = format!("there is no zero-offset group {group}, the last one is {LAST}");
-        return Err(wrong(Condition::MaskedGroup, text));
+    if group > LAST_ZERO_GROUP {
+        let condition = if by_axes { Condition::MaskedGroup } else { Condition::ZeroGroup };
+        let text =
+            format!("there is no zero-offset group {group}, the last one is {LAST_ZERO_GROUP}");
+        return Err(wrong(condition, text));
     }
     Ok(group)
 }

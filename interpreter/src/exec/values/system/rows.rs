@@ -5,6 +5,7 @@
 use super::Path;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
+use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::geometry::tools::Tool;
 use crate::exec::motion::state::wear::WEAR_UNIT;
 use crate::exec::options::Value;
@@ -104,7 +105,7 @@ pub(super) const ROWS: &[Row] = &[
         let place = d.geometry.last_arc.plane.iter().position(|m| *m == i as usize);
         number(place.map_or(0.0, |k| d.geometry.last_arc.shift_mm[k]) / d.modal.unit_mm())
     } },
-    Row { name: &["G", "NP", "V", "*"], meaning: "zero offset of an axis in group i", read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
+    Row { name: &["G", "NP", "V", "*"], meaning: "zero offset of an axis in group i", read: |d, p| { let g = p.index(d, 1, LAST_ZERO_GROUP)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
     Row { name: &["G", "NP_AKT", "V", "*"], meaning: "zero offset of an axis in force", read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
     Row { name: &["G", "NP_DEFAULT"], meaning: "group of zero offsets at program start", read: |d, _| number(f64::from(d.machine.zero_offsets.start_group)) },
     Row { name: &["G", "WZ_AKT", "R"], meaning: "radius of the active tool in mm", read: |d, _| number(d.geometry.tools.active.radius_mm) },

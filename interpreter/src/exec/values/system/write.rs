@@ -1,9 +1,10 @@
 //! Writing to system variables.
 
-use super::{Path, find, is_kinematic, kinematic, unknown, written};
+use super::{Path, find, indices_fit, is_kinematic, kinematic, unknown, written};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::geometry::tools::Tool;
 use crate::exec::motion::state::wear::WEAR_UNIT;
 use crate::exec::options::Value;
@@ -33,13 +34,16 @@ pub(in crate::exec) fn write(
         d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
         return Ok(());
     }
+    if let Some(row) = find(segments) {
+        indices_fit(row, segments, span)?;
+    }
     let path = Path { segments, span };
     let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let x = || as_number(value, span);
     match names[..] {
         ["G", "NP", "V", _] | ["G", "NP", "V"] => {
-            let group = path.index(d, 1, 999)?;
+            let group = path.index(d, 1, LAST_ZERO_GROUP)?;
             let axis = path.axis(d, 3)?;
             d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
         }
