@@ -42,7 +42,7 @@ pub use run::{Run, Sink};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec;
 use crate::machine::{AxisKind, Machine, ToolKind};
-use crate::sim::Simulation;
+use crate::sim::{Simulation, impossible_axes};
 use crate::source::Sources;
 use std::fmt;
 use std::sync::Arc;
@@ -105,6 +105,7 @@ impl Job {
     pub fn check(&self) -> Checked {
         let mut checked = self.decode();
         let lists = self.warnings.iter().cloned().chain(self.machine.chains().1);
+        let lists = lists.chain(impossible_axes(&self.machine));
         checked.diagnostics.splice(..0, lists);
         checked
     }

@@ -25,6 +25,7 @@ mod totals;
 mod wait;
 mod wear;
 
+pub(crate) use start::impossible_axes;
 pub use inputs::{Change, Changes, Signal};
 pub(crate) use out::{Measuring, Messages, Samples};
 pub use totals::{SettledStop, Stops, Totals};

@@ -118,3 +118,13 @@ fn cycles_in(time_s: f64, cycle: CycleTime) -> u64 {
     const ROUNDING: f64 = 1e-6;
     (time_s / cycle.seconds() + ROUNDING) as u64
 }
+
+/// What keeps the axes of a machine from being simulated: plants that are not physical, or cannot be discretised.
+pub(crate) fn impossible_axes(machine: &Machine) -> Vec<Diagnostic> {
+    let chains = machine.chains().0.into_iter().enumerate();
+    let error = |(i, setup)| {
+        let chain = AxisChain::new(setup, 0.0, AxisInputs::default(), machine.cycle);
+        chain.err().map(|e| fault::plant(&e, machine, i))
+    };
+    chains.filter_map(error).collect()
+}
