@@ -21,6 +21,7 @@ pub use explanation::{Explanation, Kind};
 
 use crate::diag::condition;
 use crate::diag::{Condition, Id};
+use crate::machine::instead_of;
 use crate::machine::key::Key;
 use crate::machine::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
 use crate::machine::value::{self, Value};
@@ -154,6 +155,9 @@ fn parameter(row: &'static Row) -> Explanation {
     if let Some(reaction) = reaction(row) {
         facts.push(("reaction", reaction));
     }
+    if let Some(instead) = instead_of(row.id) {
+        facts.push(("simulated", format!("no (K-0075 where a list changes it): {instead}")));
+    }
     facts.push(("source", row.source.to_owned()));
     Explanation {
         kind: Kind::Parameter,
@@ -232,7 +236,11 @@ fn reaction(row: &Row) -> Option<String> {
         );
     }
     let side = |bound: Bound, name: &str, reaction: table::Reaction| {
-        if bound == Bound::None {
+        // what is negative is not a value of an unsigned type (K-0073)
+        let unsigned = matches!(row.raw, Raw::Uns08 | Raw::Uns16 | Raw::Uns32);
+        let never =
+            name == "below" && unsigned && matches!(bound, Bound::At(least) if least <= 0.0);
+        if bound == Bound::None || never {
             return None;
         }
         let what = match reaction.correction {

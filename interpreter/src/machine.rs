@@ -42,6 +42,7 @@ pub use axis::Axis;
 pub use channel::couplings::DefaultCoupling;
 pub use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
+pub(crate) use inert::instead_of;
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
 pub use kind::AxisKind;

@@ -25,9 +25,9 @@ mod totals;
 mod wait;
 mod wear;
 
-pub(crate) use start::impossible_axes;
 pub use inputs::{Change, Changes, Signal};
 pub(crate) use out::{Measuring, Messages, Samples};
+pub(crate) use start::impossible_axes;
 pub use totals::{SettledStop, Stops, Totals};
 
 use crate::exec::{EndReason, Event, Executor, SourceRef, Step, Sync};

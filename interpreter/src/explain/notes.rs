@@ -53,9 +53,13 @@ const NOTES: &[Note] = &[
     Note("P-AXIS-00756", "less damping gives a larger additive speed; DIRECT does not use it. Builds from V3.1.3132.0 write stage[i].osc_damping", "0.2", &["P-AXIS-00850"]),
     Note("P-AXIS-00757", "0 lets nothing through (K-0026)", "100", &["P-AXIS-00212", "K-0026"]),
     Note("P-AXIS-00758", "set it in the gantry master, not in a slave (70600)", "", &["70600", "P-AXIS-00757"]),
+    Note("P-AXIS-00850", "", "0.2", &[]),
+    Note("P-CHAN-00035", "", "1", &[]),
+    Note("P-CHAN-00036", "", "7", &[]),
     Note("P-CHAN-00063", "groups: 0 motion, 4 plane, 12 units, 14 dimension, 23 arc centre, 25 centre correction", "91", &["P-AXIS-00255"]),
     Note("P-CHAN-00071", "", "1", &["#SLOPE"]),
     Note("P-CHAN-00439", "covers AX_DEV and PATH_DEV, only while G70 is active", "", &["#VIB GUARD", "#CONTOUR MODE", "G70"]),
+    Note("P-STUP-00001", "", "1", &[]),
 ];
 
 fn note(id: &str) -> Option<&'static Note> {

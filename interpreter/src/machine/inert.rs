@@ -43,6 +43,11 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00261", "there is one path"),
 ];
 
+/// What happens in the place of what a parameter describes, if it is not simulated.
+pub(crate) fn instead_of(id: &str) -> Option<&'static str> {
+    INERT.iter().find(|(inert, _)| *inert == id).map(|(_, instead)| *instead)
+}
+
 /// K-0075 for every such parameter that a list changes.
 pub(super) fn check(
     parameters: &Parameters,
@@ -51,7 +56,7 @@ pub(super) fn check(
 ) {
     for (indices, setting) in parameters.settings() {
         let row = setting.row;
-        let Some((_, instead)) = INERT.iter().find(|(id, _)| *id == row.id) else { continue };
+        let Some(instead) = instead_of(row.id) else { continue };
         // what is refused has its message already
         let is_refused =
             |d: &Diagnostic| d.is_error() && d.parameter == Some(row.id) && d.source == setting.at;
