@@ -35,7 +35,7 @@ macro_rules! own {
     ListString = Kontur 30 "K-LIST-STRING": Warning None 1 0, "second word after an unquoted string dropped", hint "put a text with blanks in double quotes, start a comment with (";
     ListLink = Kontur 31 "K-LIST-LINK": Error ProgramAbort 3 0, "log_achs_nr without axis list, or number used twice", hint "every axis of the channel list needs one axis list with its kopf.achs_nr";
     SimulationSampling = Kontur 32 "K-SIMU-SAMPLE": Warning None 1 0, "sampling time of the simulated drive differs from the cycle", hint "write the cycle time, or leave the sampling time out";
-    FilterRange = Kontur 33 "K-FILTER-RANGE": Error ProgramAbort 3 0, "filter order, Q, share or frequency out of range, filter off", hint "kontur explain '#FILTER' lists the ranges of its keys";
+    FilterRange = Kontur 33 "K-FILTER-RANGE": Error ProgramAbort 3 0, "filter order, Q, share or frequency out of range, filter off", hint "kontur explain '#FILTER' and kontur explain P-AXIS-00067 state the ranges";
     GuardRange = Kontur 34 "K-VIB-RANGE": Error ProgramAbort 3 0, "Vibration Guard FREQ, DAMPING, AX_DEV or ACC_FACT out of range", hint "kontur explain '#VIB GUARD' lists the ranges of its keys";
     Unstable = Kontur 35 "K-UNSTABLE": Error AllStop 6 0, "simulated plant diverged (lag beyond ±10 × slep_max or not finite), run stopped", hint "lower the gain kv or the weights of Improved Position Control", parameter "P-AXIS-00099";
     FilterOrderFixed = Kontur 36 "K-FILTER-ORDER": Warning None 1 2, "order of a filter whose type has a fixed one, corrected", cause "P-AXIS-00140: PT1 has the order 1, PT2 the order 2", hint "leave the order out";
