@@ -176,6 +176,8 @@ pub struct Diagnostic {
     pub parameter: Option<&'static str>,
     /// What to do about it.
     pub hint: Option<String>,
+    /// Which of several messages with one ID it is (`MID` of `#ERROR`).
+    pub multiple_id: u32,
 }
 
 /// Characters of a word that a message quotes.
@@ -224,6 +226,7 @@ impl Diagnostic {
             correction: None,
             parameter: row.parameter,
             hint: row.hint.map(str::to_owned),
+            multiple_id: 0,
         }
     }
 
@@ -306,7 +309,7 @@ impl Serialize for Diagnostic {
         s.serialize_field("reaction", &self.reaction().class())?;
         s.serialize_field("remedy", &row.remedy)?;
         s.serialize_field("root", &row.root)?;
-        s.serialize_field("multiple_id", &0)?;
+        s.serialize_field("multiple_id", &self.multiple_id)?;
         s.serialize_field("source", &self.source)?;
         s.serialize_field("cycle", &self.cycle)?;
         s.serialize_field("time_s", &self.time_s)?;

@@ -194,7 +194,7 @@ arguments! {
     struct ErrorArguments {
         id: Number "ID" in between(1.0, 1000.0).whole(), "", "number of the message";
         rc: Number "RC", "", "0 warning, 2 error (the program aborts), 7 fatal; default 2";
-        _mid: Number "MID", "", "no effect";
+        mid: Number "MID" in between(0.0, 65535.0).whole(), "", "which of several messages with this ID";
         pv1: Number "PV1", "", "a value";
         pv2: Number "PV2", "", "a value";
         pv3: Number "PV3", "", "a value";
@@ -205,11 +205,11 @@ arguments! {
         piv3: Number "PIV3", "", "a whole number";
         piv4: Number "PIV4", "", "a whole number";
         piv5: Number "PIV5", "", "a whole number";
-        pm1: Word "PM1", "", "a text";
-        pm2: Word "PM2", "", "a text";
-        pm3: Word "PM3", "", "a text";
-        pm4: Word "PM4", "", "a text";
-        pm5: Word "PM5", "", "a text";
+        pm1: Number "PM1" in between(0.0, 21.0).whole(), "", "meaning of PV1: 0 none, 1 limit, 2 current, 3 wrong, 4 expected, 5 corrected value, ..";
+        pm2: Number "PM2" in between(0.0, 21.0).whole(), "", "meaning of PV2: 0 none, 1 limit, 2 current, 3 wrong, 4 expected, 5 corrected value, ..";
+        pm3: Number "PM3" in between(0.0, 21.0).whole(), "", "meaning of PV3: 0 none, 1 limit, 2 current, 3 wrong, 4 expected, 5 corrected value, ..";
+        pm4: Number "PM4" in between(0.0, 21.0).whole(), "", "meaning of PV4: 0 none, 1 limit, 2 current, 3 wrong, 4 expected, 5 corrected value, ..";
+        pm5: Number "PM5" in between(0.0, 21.0).whole(), "", "meaning of PV5: 0 none, 1 limit, 2 current, 3 wrong, 4 expected, 5 corrected value, ..";
     }
 }
 
@@ -219,6 +219,32 @@ pub(super) const ERROR: Row = Row::run("ERROR", error)
     .meaning("user message with an ID from 1 to 1000")
     .keys(ErrorArguments::KEYS)
     .example("#ERROR [ID=455 RC=2]");
+
+/// Meaning of a value for which none is written.
+const CURRENT: u32 = 2;
+
+/// What a number of PM1 to PM5 says of its value; `None`: the value is ignored.
+///
+/// Source: TF5200 diagnosis 249247371, error management 207457163.
+fn kind_of(meaning: u32) -> Option<ValueKind> {
+    Some(match meaning {
+        0 => return None,
+        1 => ValueKind::Limit,
+        3 => ValueKind::Wrong,
+        4 => ValueKind::Expected,
+        5 => ValueKind::Corrected,
+        6 => ValueKind::AxisNumber,
+        // state, transition, status
+        9 | 10 | 15 => ValueKind::State,
+        // types, senders, classes, instances and numbers
+        7 | 8 | 11..=14 | 16 | 17 => ValueKind::Identification,
+        18 => ValueKind::LowerLimit,
+        19 => ValueKind::UpperLimit,
+        20 => ValueKind::StartValue,
+        21 => ValueKind::TargetValue,
+        _ => ValueKind::Current,
+    })
+}
 
 /// `#ERROR [ID=1..1000 RC=0|2|7 MID= PV1..5= PM1..5= PIV..=]`.
 fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
@@ -237,18 +263,16 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::Range, text, call.span()));
         }
     };
-    let texts = [&keys.pm1, &keys.pm2, &keys.pm3, &keys.pm4, &keys.pm5];
-    let texts: Vec<&str> = texts.into_iter().flatten().map(|(text, _)| &**text).collect();
-    let text = if texts.is_empty() {
-        "message of the program".to_owned()
-    } else {
-        format!("message of the program: {}", texts.join(", "))
-    };
-    let mut diagnostic = Diagnostic::programmed(id, text).severity(severity);
+    let mut diagnostic = Diagnostic::programmed(id, "message of the program").severity(severity);
+    diagnostic.multiple_id = keys.mid.map_or(0, |(mid, _)| mid as u32);
+    let meanings = [keys.pm1, keys.pm2, keys.pm3, keys.pm4, keys.pm5];
     let values = [keys.pv1, keys.pv2, keys.pv3, keys.pv4, keys.pv5];
     let integers = [keys.piv1, keys.piv2, keys.piv3, keys.piv4, keys.piv5];
-    for (x, _) in values.into_iter().chain(integers).flatten() {
-        diagnostic = diagnostic.value(ValueKind::Current, x, "-");
+    for (value, meaning) in values.into_iter().zip(meanings).chain(integers.map(|x| (x, None))) {
+        let meaning = meaning.map_or(CURRENT, |(meaning, _)| meaning as u32);
+        if let (Some((x, _)), Some(kind)) = (value, kind_of(meaning)) {
+            diagnostic = diagnostic.value(kind, x, "-");
+        }
     }
     let fault = Fault::of(diagnostic, call.span());
     if severity == Severity::Error {

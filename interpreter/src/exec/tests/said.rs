@@ -62,3 +62,14 @@ fn levels_count_the_main_program() {
     let refused = said(&program(32));
     assert!(refused[0].contains("more than 31 deep"), "{refused:?}");
 }
+
+/// The example of TF5200 error management 558268811, as a warning. Meanings: diagnosis 249247371.
+#[test]
+fn values_of_an_error_have_the_meanings_that_the_program_states() {
+    use crate::diag::ValueKind::{Current, UpperLimit, Wrong};
+    let found =
+        run("#ERROR [ID455 RC0 MID=7 PV1=5 PV2=4.999 PV3=1 PV4=8 PM1=2 PM2=3 PM3=0 PM4=19]\nM30\n");
+    let d = &found.diagnostics[0];
+    let kinds: Vec<_> = d.values.iter().map(|value| value.kind).collect();
+    assert_eq!((kinds, d.multiple_id), (vec![Current, Wrong, UpperLimit], 7));
+}

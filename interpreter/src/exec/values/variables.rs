@@ -337,8 +337,15 @@ impl Decoder {
     /// Whether a variable or parameter exists.
     pub(in crate::exec) fn exists(&self, place: &Place) -> Outcome<bool> {
         Ok(match self.resolve(place)? {
-            Target::Parameter(index, _) => self.values.variables.parameters().contains_key(&index),
-            Target::Own(class, name, _) => self.values.variables.find(class, &name).is_some(),
+            // an element outside the array is none
+            Target::Parameter(index, subscripts) => {
+                self.values.variables.parameters().contains_key(&index)
+                    && (subscripts.is_empty() || self.read(place).is_ok())
+            }
+            Target::Own(class, name, subscripts) => {
+                self.values.variables.find(class, &name).is_some()
+                    && (subscripts.is_empty() || self.read(place).is_ok())
+            }
             Target::External(name) => self.values.variables.external.contains_key(&name),
             Target::Cycle(name) => self.values.variables.passed(name).unwrap_or(false),
             Target::System(segments) => system::read(self, segments, place.span).is_ok(),

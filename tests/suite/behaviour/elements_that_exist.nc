@@ -1,0 +1,12 @@
+; run: exit 0
+; end X1
+#VAR
+V.P.T[3]
+#ENDVAR
+$IF EXIST[V.P.T[2]]
+X1 F600
+$ENDIF
+$IF EXIST[V.P.T[3]] == TRUE
+X2 F600
+$ENDIF
+M30
