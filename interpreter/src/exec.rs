@@ -17,7 +17,6 @@ mod program;
 mod report;
 mod shaping;
 mod step;
-mod suggest;
 mod values;
 
 pub(crate) use block::groups::unsupported as unsupported_function;

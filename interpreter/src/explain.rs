@@ -25,6 +25,7 @@ use crate::machine::instead_of;
 use crate::machine::key::Key;
 use crate::machine::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
 use crate::machine::value::{self, Value};
+use crate::suggest::edit_distance;
 
 /// Explains an ID (`22060`, `P-ERR-70082`, `K-0031`, `K-LIST-LINK`), a parameter (`P-AXIS-00571` or its key), a command
 /// (`#VIB GUARD`, `G136`), a system variable (`V.A.ABS.X`), an object or a word.
@@ -116,8 +117,7 @@ fn probably(thing: &str) -> Vec<String> {
     let mut found: Vec<String> =
         table::suggestions(None, &shape).into_iter().map(str::to_owned).collect();
     let wanted = thing.to_ascii_uppercase();
-    let near =
-        |name: &String| table::edit_distance(&name.to_ascii_uppercase(), &wanted, 2).is_some();
+    let near = |name: &String| edit_distance(&name.to_ascii_uppercase(), &wanted, 2).is_some();
     found.extend(commands::names().chain(words::names().map(str::to_owned)).filter(near));
     found.truncate(5);
     found

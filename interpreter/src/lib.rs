@@ -25,5 +25,6 @@ pub mod machine;
 pub mod record;
 mod sim;
 pub mod source;
+mod suggest;
 pub mod summary;
 pub mod syntax;

@@ -36,8 +36,8 @@ mod wear;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
-use super::suggest;
 use crate::diag::Condition;
+use crate::suggest;
 use crate::syntax::ast::{Command, Ident, Span};
 pub(crate) use row::Row;
 use row::{Act, Call};

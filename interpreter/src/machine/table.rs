@@ -31,7 +31,6 @@ pub(super) mod zero;
 
 pub use indices::Indices;
 pub(crate) use indices::with_indices;
-pub(crate) use lookup::edit_distance;
 pub use lookup::rows;
 pub(crate) use lookup::{by_id, by_key, misspelt, suggestions};
 pub use row::{Bound, Correction, Default, ListKind, Raw, Reaction, Row};

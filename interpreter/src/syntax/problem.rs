@@ -11,6 +11,7 @@ use self::expected::{BRACKET, COMMA, END, EQUALS, LEVEL, OPERATOR, VALUE, expect
 use super::ast::{Function, Span};
 use super::{Rule, scan};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
+use crate::suggest;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::borrow::Cow;
 
@@ -382,33 +383,60 @@ const TRAILING: [(&str, Condition); 16] = [
     ("$CONTINUE", Condition::ContinueNotAlone),
 ];
 
-/// A word after `$` that is not a control statement: one that continues without a blank, or another one.
+/// Control statements.
+const STATEMENTS: [&str; 19] = [
+    "IF",
+    "ELSEIF",
+    "ELSE",
+    "ENDIF",
+    "SWITCH",
+    "CASE",
+    "DEFAULT",
+    "ENDSWITCH",
+    "FOR",
+    "ENDFOR",
+    "WHILE",
+    "ENDWHILE",
+    "DO",
+    "ENDDO",
+    "REPEAT",
+    "UNTIL",
+    "BREAK",
+    "CONTINUE",
+    "GOTO",
+];
+
+/// Those after which a value follows.
+const WITH_VALUE: [&str; 9] =
+    ["ELSEIF", "IF", "SWITCH", "CASE", "FOR", "WHILE", "UNTIL", "ENDDO", "GOTO"];
+
+/// The control statement that `word`, upper case, was meant to be: one with its value but without a blank, or a misspelt one.
+pub(crate) fn statement_meant(word: &str) -> Option<&'static str> {
+    suggest::nearest(word, STATEMENTS).or_else(|| without_blank(word))
+}
+
+/// The statement that a word in upper case begins with.
+fn without_blank(word: &str) -> Option<&'static str> {
+    WITH_VALUE.into_iter().find(|statement| word.starts_with(statement))
+}
+
+/// A word after `$` that is not a control statement: one that continues without a blank, a misspelt one, or another one.
 fn not_a_statement(problem: &Problem, rest: &str) -> Problem {
     let apart = rest.len() - rest[1..].trim_ascii_start().len();
     let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let length = rest[apart..].find(|c| !of_name(c)).unwrap_or(rest.len() - apart);
     let (start, word) = (problem.span.start as usize, &rest[apart..apart + length]);
-    let span = Span::new(start, start + apart + length);
-    let longest =
-        TRAILING.iter().map(|(statement, _)| *statement).chain(["$FOR", "$ENDSWITCH", "$GOTO"]);
-    let longest = longest.filter(|statement| {
-        word.get(..statement.len() - 1)
-            .is_some_and(|head| head.eq_ignore_ascii_case(&statement[1..]))
-    });
-    match longest.max_by_key(|statement| statement.len()) {
-        Some(statement) if apart > 1 => {
-            let text = format!("blank between `$` and {}", &statement[1..]);
-            Problem::new(problem.condition, span, text).hint(format!("write {statement}"))
-        }
-        Some(statement) => {
-            let text = format!("`${word}` without a blank after {statement}");
-            Problem::new(problem.condition, span, text)
-                .hint(format!("write {statement} {}", &word[statement.len() - 1..]))
-        }
-        None => {
-            let text = format!("`${word}` is not a control statement");
-            Problem::new(problem.condition, span, text).hint(CONTROL_HINT)
-        }
+    let (upper, span) = (word.to_ascii_uppercase(), Span::new(start, start + apart + length));
+    let said = |text: String| Problem::new(problem.condition, span, text);
+    if STATEMENTS.contains(&upper.as_str()) {
+        return said(format!("blank between `$` and {upper}")).hint(format!("write ${upper}"));
+    }
+    let unknown = said(format!("`${word}` is not a control statement"));
+    match (suggest::nearest(&upper, STATEMENTS), without_blank(&upper)) {
+        (Some(near), None) => unknown.hint(format!("did you mean `${near}`?")),
+        (_, Some(statement)) => said(format!("`${word}` without a blank after ${statement}"))
+            .hint(format!("write ${statement} {}", &word[statement.len()..])),
+        (None, None) => unknown.hint(CONTROL_HINT),
     }
 }
 

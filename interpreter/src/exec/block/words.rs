@@ -9,8 +9,8 @@ use super::modal::Selection;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::suggest;
 use crate::exec::values::{every_axis, system};
+use crate::suggest;
 use crate::syntax::ast::{
     Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, GValue, PlaceKind, Span, Word, WordKind,
 };

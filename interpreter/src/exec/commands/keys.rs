@@ -5,8 +5,8 @@ use super::range::Range;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::suggest;
 use crate::exec::values::number::as_number;
+use crate::suggest;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// Title of the override of spindles in messages.

@@ -8,7 +8,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::CycleCall;
 use crate::exec::fault::Fault;
 use crate::exec::options::Value;
-use crate::exec::suggest;
+use crate::suggest;
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
 use std::sync::Arc;
 

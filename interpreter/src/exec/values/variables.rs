@@ -14,7 +14,7 @@ use crate::diag::{Condition, Diagnostic, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::{Access, External, Value};
-use crate::exec::suggest;
+use crate::suggest;
 use crate::syntax::ast::{Expr, ParameterIndex, Place, PlaceKind, Segment, Span};
 use scopes::{Class, Variables, class};
 use smallvec::SmallVec;

@@ -4,6 +4,7 @@ use super::{
     ListKind, Row, axis_compensation, axis_control, axis_drive, axis_dynamics, axis_filters,
     axis_general, axis_guard, channel, kontur, start_up, tool, zero,
 };
+use crate::suggest::edit_distance;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
@@ -132,25 +133,6 @@ fn plain(key: &str) -> String {
     key.to_ascii_lowercase().replace("[i]", "[]").replace("[j]", "[]").replace("[k]", "[]")
 }
 
-/// Number of letters to insert, delete or replace, `None` above `limit`.
-pub(crate) fn edit_distance(a: &str, b: &str, limit: usize) -> Option<usize> {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    if a.len().abs_diff(b.len()) > limit {
-        return None;
-    }
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let replace = diagonal + usize::from(ca != cb);
-            diagonal = row[j + 1];
-            row[j + 1] = replace.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row.last().copied().filter(|d| *d <= limit)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -220,13 +202,5 @@ mod tests {
             let found = misspelt(Some(ListKind::Axis), other);
             assert!(!found.contains(&"getriebe[i].load"), "{other}: {found:?}");
         }
-    }
-
-    #[test]
-    fn edit_distance_counts_letters() {
-        assert_eq!(edit_distance("kitten", "sitting", 3), Some(3));
-        assert_eq!(edit_distance("kitten", "sitting", 2), None);
-        assert_eq!(edit_distance("", "", 0), Some(0));
-        assert_eq!(edit_distance("abc", "abc", 0), Some(0));
     }
 }

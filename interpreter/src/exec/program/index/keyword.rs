@@ -1,6 +1,7 @@
 //! Control statements by their words, partners and closers.
 
 use crate::diag::Condition;
+use crate::syntax::statement_meant;
 
 /// What begins a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,12 +75,10 @@ impl Keyword {
         Self::ALL.get(usize::from(code)).copied().unwrap_or(Self::Remark)
     }
 
-    /// The statement in whose place a word was written that lacks the blank after it, `IF1`: an error of its block alone, not of
-    /// what belongs to it.
+    /// The statement in whose place a word was written that lacks the blank after it, or is misspelt: an error of its block alone,
+    /// not of what belongs to it.
     pub(super) fn meant_by(word: &str) -> Option<Self> {
-        let meant = ["ELSEIF", "IF", "SWITCH", "CASE", "FOR", "WHILE", "UNTIL", "ENDDO"];
-        let meant = meant.into_iter().find(|statement| word.starts_with(statement));
-        meant.and_then(Self::of_control)
+        statement_meant(word).and_then(Self::of_control)
     }
 
     pub(super) fn of_control(word: &str) -> Option<Self> {

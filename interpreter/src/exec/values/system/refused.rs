@@ -4,7 +4,7 @@ use super::{ROWS, written};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
-use crate::exec::suggest;
+use crate::suggest;
 use crate::syntax::ast::{Segment, Span};
 
 /// Classes of variables that are refused as a whole, and why.

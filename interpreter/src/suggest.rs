@@ -1,15 +1,16 @@
 //! "Did you mean": the known name nearest to an unknown one.
 
 /// The candidate that differs least from `name`, by at most a third of it; case is ignored.
-pub(super) fn nearest<'a>(
+pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).max(1);
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
-        let d = distance(&name.to_ascii_uppercase(), &candidate.to_ascii_uppercase());
-        if d <= limit && best.is_none_or(|(b, _)| d < b) {
+        let apart =
+            edit_distance(&name.to_ascii_uppercase(), &candidate.to_ascii_uppercase(), limit);
+        if let Some(d) = apart.filter(|d| best.is_none_or(|(b, _)| d < &b)) {
             best = Some((d, candidate));
         }
     }
@@ -17,27 +18,19 @@ pub(super) fn nearest<'a>(
 }
 
 /// Hint of a diagnostic.
-pub(super) fn hint<'a>(
+pub(crate) fn hint<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<String> {
     nearest(name, candidates).map(|near| format!("did you mean `{near}`?"))
 }
 
-/// Levenshtein distance, of texts up to 64 characters.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(64).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().take(64).enumerate() {
-        let mut diagonal = i;
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let change = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
+/// Number of letters to insert, delete or replace (Levenshtein), `None` above `limit`.
+pub(crate) fn edit_distance(a: &str, b: &str, limit: usize) -> Option<usize> {
+    let lengths = [a, b].map(|text| text.chars().count());
+    // texts of any length come in
+    let may = lengths[0].abs_diff(lengths[1]) <= limit;
+    may.then(|| strsim::levenshtein(a, b)).filter(|distance| *distance <= limit)
 }
 
 #[cfg(test)]
