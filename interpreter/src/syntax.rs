@@ -40,8 +40,8 @@ use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
 use ast::{Block, BlockNumber, Body, Span};
 use build::Builder;
 use pest::Parser as _;
-pub(crate) use problem::statement_meant;
 use problem::Problem;
+pub(crate) use problem::statement_meant;
 use std::sync::Arc;
 
 /// The grammar.

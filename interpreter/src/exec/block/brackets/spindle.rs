@@ -163,6 +163,13 @@ impl Decoder {
         if let Some(unknown) = unknown {
             return Err(unknown);
         }
+        if let Some((_, span)) =
+            items.iter().find(|(i, _)| self.is_set_twice(spindle, i, bracket, words))
+        {
+            let text = "turned, or given a speed, twice in one block";
+            let text = format!("{} is {text}", self.motion.spindles[spindle].name);
+            return Err(Fault::new(Condition::DuplicateGroup, text, *span));
+        }
         let motion = |i: &SpindleItem| matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_));
         let moves = items.iter().any(|(i, _)| motion(i));
         let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
@@ -181,6 +188,31 @@ impl Decoder {
         }
         self.spindle_warning(spindle, group.span);
         Ok(())
+    }
+
+    /// True if a bracket before this one, or a word without a bracket, turns the spindle or gives it a speed as `item` does.
+    fn is_set_twice(
+        &self,
+        spindle: usize,
+        item: &SpindleItem,
+        bracket: &Bracket,
+        words: &Words<'_>,
+    ) -> bool {
+        let same = |other: &SpindleItem| discriminant(other) == discriminant(item);
+        let of_words = match item {
+            SpindleItem::Turn(_) => {
+                spindle == 0 && words.m.iter().any(|m| matches!(m.number, 3..=5 | 19))
+            }
+            SpindleItem::Speed(_) => words.speeds.iter().any(|(other, _, _)| *other == spindle),
+            _ => return false,
+        };
+        let mut before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
+        of_words
+            || before.any(|other| {
+                let mut items = other.group.items.iter().filter_map(|i| self.spindle_item(i).ok());
+                self.spindle_of_name(other.name.as_str()) == Some(spindle)
+                    && items.any(|other| same(&other))
+            })
     }
 
     /// `S[OVERRIDE SPEED_FACT=..]`: the speed of a spindle in percent of the programmed one, until it is changed.
