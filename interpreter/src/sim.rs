@@ -35,7 +35,7 @@ use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use axes::Driver;
 use banding::Banding;
-use batch::{Batch, MOST, MOST_READ, Watched};
+use batch::{Batch, MOST, MOST_READ};
 use chain::AxisChain;
 use independent::IndependentAxes;
 use inputs::Inputs;
@@ -158,6 +158,15 @@ pub(crate) struct Simulation {
     messages: Messages,
     progress: Progress,
     totals: Totals,
+}
+
+/// Which records of cycles in a row are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Watched {
+    /// Each is read.
+    Each,
+    /// Only the last one is read.
+    Last,
 }
 
 impl Simulation {

@@ -257,7 +257,7 @@ impl Axis {
     }
 
     /// Gain of the position controller in 1/s (P-AXIS-00099).
-    pub fn kv_1_s(&self) -> f64 {
+    pub(crate) fn kv_1_s(&self) -> f64 {
         self.get(axis_control::GAIN)
     }
 

@@ -1,8 +1,7 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
-use super::batch::Watched;
 use super::spindle::Spindle;
-use super::{Phase, Simulation};
+use super::{Phase, Simulation, Watched};
 use crate::exec::{ShapingSetup, SourceRef};
 use crate::machine::{Axis, Machine};
 use crate::record::{PathRecord, Rest};

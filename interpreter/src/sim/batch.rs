@@ -15,7 +15,7 @@
 use super::axes::Driver;
 use super::chain::{AxisChain, Mark, Records};
 use super::spindle::Spindle;
-use super::{Phase, SettledStop, Simulation, Underway};
+use super::{Phase, SettledStop, Simulation, Underway, Watched};
 use crate::record::AxisRecord;
 use kontur_filters::control::fault::{Fault, Faults};
 use kontur_filters::ring::Ring;
@@ -31,15 +31,6 @@ const FEW: usize = 8;
 
 /// Cycles that go alone, at most, before rows are tried again.
 const MOST_PATIENCE: u64 = 32;
-
-/// Which records of cycles in a row are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Watched {
-    /// Each is read.
-    Each,
-    /// Only the last one is read.
-    Last,
-}
 
 /// Cycles after the current one whose axes have been computed.
 #[derive(Debug, Default)]
