@@ -167,7 +167,7 @@ pub struct Channel {
     pub spindle_waits: Vec<SpindleWaits>,
     /// Macros of every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
     pub macros: BTreeMap<Box<str>, Box<str>>,
-    /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
+    /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169) and G800 to G839 (P-CHAN-00187), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
     /// Offsets of a face turning axis are diameters (P-CHAN-00091).
     pub offsets_in_diameters: bool,
@@ -326,7 +326,9 @@ impl Channel {
             macros: macros(p),
             g8x_programs: (80..)
                 .zip(CYCLE_PROGRAMS)
+                .chain((0..40).map(|i| (800 + i, of::G800_PROGRAM.at(i))))
                 .filter_map(|(g, param)| Some((g, p.get(param)?)))
+                .filter(|(_, program)| program != "*")
                 .collect(),
             offsets_in_diameters: p.get(of::OFFSETS_IN_DIAMETERS),
             tool_data_with_tool: p.get(of::TOOL_DATA_WITH_TOOL),

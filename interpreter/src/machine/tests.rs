@@ -153,6 +153,8 @@ fn channel_values_are_converted() {
          mode_trans_jerk 2\nvector.velocity 6000\nvector.acceleration 1500\nvector.acc_dec_unit mm_s2\n\
          mittelpkt_diff 100\nm_prozess_zeit[7] 500000\nspindel[0].m3_prozess_zeit 1500000\n\
          prog_start.g_gruppe[14].nr 91\np_param_haltend 1\ng85_prog_file drill.nc\n\
+         g800_prog_file[0] *\n\
+         g800_prog_file[39] pattern.nc\n\
          gruppe[0].achse[1].default_feed_axis 1\n",
     );
     files.add(
@@ -169,7 +171,9 @@ fn channel_values_are_converted() {
     assert!(close(c.vector.vel_mm_s.unwrap(), 100.0) && close(c.vector.acc_mm_s2.unwrap(), 1500.0));
     assert!(close(c.arc_centre.shift_mm, 0.01));
     assert!(close(c.m_durations_s[&7], 0.5));
-    assert_eq!((c.g_groups[&14], c.g8x_programs[&85].as_str()), (91, "drill.nc"));
+    assert_eq!(c.g_groups[&14], 91);
+    let programs: Vec<_> = c.g8x_programs.iter().map(|(g, name)| (*g, name.as_str())).collect();
+    assert_eq!(programs, [(85, "drill.nc"), (839, "pattern.nc")]);
     assert!(c.keep_p_parameters);
     assert_eq!(c.feed_axes, [false, true]);
 }

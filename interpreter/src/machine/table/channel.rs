@@ -174,6 +174,8 @@ parameters! {
         .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
     chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED that of feed, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE its own, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
+    chan("P-CHAN-00187", "g800_prog_file[i]", Raw::Text, "global subroutines called by G800 to G839")
+        .source("TF5200 channel parameters 149419147"), as G800_PROGRAM: Text;
     chan("P-CHAN-00190", "dynamic_weighting_active", Raw::Uns32, "limits depend on the length of a motion: 0 never, 1 in G00, 2 in G01, 3 in both; not simulated")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0);
     chan("P-CHAN-00230", "curve_dynamic_weighting_active", Raw::Boolean, "limits depend on the radius of an arc; not simulated")
