@@ -290,8 +290,23 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.shaping.fir = stored;
         decoder.shaping.fir_on = call.command.on.or(decoder.shaping.fir_on);
     }
+    if configured && call.command.on.is_none() && !filter_is_on(decoder, hsc) {
+        let text = "the filter is off: the values are stored for the next #FILTER ON";
+        decoder.report.note(Fault::new(Condition::GuardStored, text, call.span()));
+    }
     decoder.update_shaping(call.span());
     Ok(())
+}
+
+/// Whether the HSC filter, or the FIR filter of any axis, is on, by the program or by its list.
+fn filter_is_on(decoder: &Decoder, hsc: bool) -> bool {
+    let cycle = decoder.machine.cycle;
+    let listed = |axis| decoder.shaping.listed(axis, cycle).fir.is_some_and(|fir| fir.enable);
+    if hsc {
+        decoder.shaping.hsc_on
+    } else {
+        decoder.shaping.fir_on.unwrap_or_else(|| decoder.machine.axes.iter().any(listed))
+    }
 }
 
 fn filter_keys(keys: &FilterArguments, stored: &mut FilterKeys) {

@@ -18,7 +18,14 @@ impl Decoder {
         let mut axes: Vec<usize> = words.axes.iter().map(|(axis, _, _)| *axis).collect();
         for (hash, _, _) in words.hashes.iter().filter(|(hash, _, _)| &*hash.name == "ACHSE") {
             let bracket: &[Group] = hash.bracket.as_slice();
-            axes.extend(self.names.all_in_command(bracket)?);
+            let named = self.names.all_in_command(bracket)?;
+            if let Some(axis) =
+                named.iter().enumerate().find(|(i, axis)| named[..*i].contains(axis))
+            {
+                let text = format!("axis {} twice after #ACHSE", self.names.name(*axis.1));
+                return Err(Fault::new(Condition::ManualAxisTwice, text, g.span));
+            }
+            axes.extend(named);
         }
         if g.row.number == 201 && axes.is_empty() {
             return Err(Fault::new(Condition::ManualWithoutAxis, "G201 without an axis", g.span));

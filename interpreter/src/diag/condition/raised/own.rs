@@ -68,7 +68,7 @@ macro_rules! own {
     Ignored = Kontur 100 "K-IGNORED": Warning None 1 1, "word without effect here, ignored", cause "it has no influence on set positions, or its function is not simulated", hint "the result is the same without it";
     Dialect = Kontur 101 "K-DIALECT": Warning None 1 1, "word with another meaning in other dialects", cause "e.g. G21 mirrors here; metric is G71", hint "was the file written for another control?";
     GuardExchanged = Kontur 102 "K-GUARD-EXCHANGED": Warning None 1 1, "axis exchange switched the Vibration Guard of the program off", cause "program it again", hint "program #VIB GUARD ON again after it";
-    GuardStored = Kontur 103 "K-GUARD-STORED": Note None 1 1, "values of #VIB GUARD stored while it is off", cause "they act with the next #VIB GUARD ON";
+    GuardStored = Kontur 103 "K-GUARD-STORED": Note None 1 1, "values of #VIB GUARD or #FILTER stored while it is off", cause "they act with the next #VIB GUARD ON or #FILTER ON";
     ListFirAndGuard = Kontur 104 "K-LIST-FIR-GUARD": Error ProgramAbort 3 1, "FIR filter and Vibration Guard active in one axis", cause "P-AXIS-00586 and P-AXIS-00588; the Vibration Guard of the axis is off", hint "leave one of the two out of the list";
     FilterWithListGuard = Kontur 105 "K-FILTER-LIST-GUARD": Error ProgramAbort 3 1, "#FILTER while a list activates the Vibration Guard", cause "P-AXIS-00588", hint "set vib_guard.active to 0, or use #VIB GUARD";
     GuardWithListFilter = Kontur 106 "K-GUARD-LIST-FILTER": Error ProgramAbort 3 1, "#VIB GUARD while a list configures a filter type", cause "P-AXIS-00586, P-AXIS-00153", hint "leave the filter type out of the list, or use #FILTER";

@@ -138,6 +138,7 @@ macro_rules! words {
     MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis after the =";
     SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "leave one of the two couplings out";
     CouplingChain = Vendor 20477: Error ProgramAbort 3 1, "axis is master and slave", cause "#SET AX LINK [1, B=X, C=B]", hint "couple both slaves with the first master";
+    ManualAxisTwice = Vendor 20478: Error ProgramAbort 3 1, "axis named twice after #ACHSE", cause "G200 #ACHSE[X,Y,X]", hint "name each axis once";
     EmptyBracket = Vendor 20480: Error ProgramAbort 3 1, "nothing in the brackets of a command", cause "#SET TIP [ ] X", hint "write its values into the brackets";
     JogStep = Vendor 20485: Error ProgramAbort 3 1, "negative step of incremental jogging", cause "#JOG INCR [AX=X DIST1=-0.1 FEED1=1]", hint "steps are positive";
     JogFeed = Vendor 20486: Error ProgramAbort 3 1, "negative feed of incremental jogging", cause "#JOG INCR [AX=X DIST1=0.1 FEED1=-1]", hint "feeds are positive";
