@@ -42,21 +42,15 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
         if let Some(times) = &mut times {
             times.add(record);
         }
-        traces.iter_mut().try_for_each(|t| match t.write(record) {
-            // stdout is no longer read: the files continue
-            Err(Error::ClosedPipe) if !alone => {
-                t.close();
-                Ok(())
-            }
-            other => other,
-        })
+        traces.iter_mut().try_for_each(|t| go_on_without(t.write(record), alone))
     };
     let take = takes.then_some(take);
     let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), take);
     // a subroutine that it reached may be one of the outputs
     keep_apart(&reads.so_far(), &outputs)?;
     // every trace is brought to its file even if another one failed
-    let finished: Vec<_> = traces.into_iter().map(|t| t.finish(&run)).collect();
+    let finish = |t: Trace| go_on_without(t.finish(&run), alone);
+    let finished: Vec<_> = traces.into_iter().map(finish).collect();
     let interrupted = match written {
         Err(e @ Error::Interrupted { .. }) => Some(e),
         other => {
@@ -99,6 +93,14 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
         Totals { aborted: true, .. } => Exit::Aborted,
         _ => Exit::Finished,
     })
+}
+
+/// Where stdout is no longer read, the other outputs continue.
+fn go_on_without(written: Result<(), Error>, alone: bool) -> Result<(), Error> {
+    match written {
+        Err(Error::ClosedPipe) if !alone => Ok(()),
+        other => other,
+    }
 }
 
 /// The progress of a run on the terminal.

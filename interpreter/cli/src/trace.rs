@@ -146,11 +146,6 @@ impl Trace {
         if thread.write(record) { Ok(()) } else { self.end() }
     }
 
-    /// Writes no more.
-    pub(crate) fn close(&mut self) {
-        self.way = Way::Closed;
-    }
-
     /// Ends the thread.
     fn end(&mut self) -> Result<(), Error> {
         let Way::Thread(thread) = std::mem::replace(&mut self.way, Way::Closed) else {

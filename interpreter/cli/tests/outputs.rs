@@ -270,18 +270,21 @@ fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
     assert!(!f.join("a.csv.rows").exists());
 }
 
+/// Also where the trace is so short that this is noticed at its end.
 #[test]
 fn a_reader_that_goes_away_does_not_end_the_other_output() {
     let folder = tempfile::tempdir().unwrap();
     let f = folder.path();
-    fs::write(f.join("a.nc"), "G01 X40 F600\nM30\n").unwrap();
-    let words = ["run", "a.nc", "-o", "k.csv", "-o", "-", "--summary", "none"];
-    let mut command = kontur(f, &words);
-    let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
-    drop(child.stdout.take());
-    assert_eq!(child.wait().unwrap().code(), Some(0));
-    // 40 mm at 10 mm/s
-    assert!(csv_rows(&f.join("k.csv")) > 4000);
+    // 0.4, 4 and 40 mm at 10 mm/s
+    for (way, rows) in [("0.4", 40), ("4", 400), ("40", 4000)] {
+        fs::write(f.join("a.nc"), format!("G01 X{way} F600\nM30\n")).unwrap();
+        let words = ["run", "a.nc", "-o", "k.csv", "-o", "-", "--summary", "none"];
+        let mut command = kontur(f, &words);
+        let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{way}");
+        assert!(csv_rows(&f.join("k.csv")) > rows);
+    }
 }
 
 /// Every other command: its exit code is documented, nothing half-done has a name or stays under a temporary one.
