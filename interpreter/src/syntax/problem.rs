@@ -436,13 +436,9 @@ fn not_a_statement(problem: &Problem, rest: &str) -> Problem {
         (Some(near), None) => unknown.hint(format!("did you mean `${near}`?")),
         (_, Some(statement)) => said(format!("`${word}` without a blank after ${statement}"))
             .hint(format!("write ${statement} {}", &word[statement.len()..])),
-        (None, None) => unknown.hint(CONTROL_HINT),
+        (None, None) => unknown.hint(format!("${} exist", STATEMENTS.join(" $"))),
     }
 }
-
-/// Hint for a word after `$` that is not a control statement.
-const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
-                            $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
 
 /// 20187 for the radius in which `before` ends.
 fn negative_radius(problem: &Problem, before: &str) -> Problem {

@@ -93,8 +93,7 @@ impl Decoder {
             }
             return Ok(());
         }
-        let mut before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
-        if before.any(|other| self.excludes(other, axis, bracket)) {
+        if words.brackets_before(bracket).any(|other| self.excludes(other, axis, bracket)) {
             return Err(self.axis_twice(axis, group.span));
         }
         match group.items.split_first() {
@@ -229,7 +228,7 @@ fn function(item: &Item) -> Option<(Function, Span)> {
 
 /// 20765, 20766: a function may appear once for each axis and spindle of a block.
 fn once(functions: &[(Function, Span)], bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
-    let before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
+    let before = words.brackets_before(bracket);
     let same = |name: &str| name.eq_ignore_ascii_case(bracket.name.as_str());
     let mut known: Vec<Function> = before
         .filter(|other| same(other.name.as_str()))

@@ -73,7 +73,7 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) back: Option<(&'b Return, Span)>,
 }
 
-impl Words<'_> {
+impl<'b> Words<'b> {
     /// A G function that moves, measures, dwells or stops in this block.
     pub(in crate::exec) fn of_the_path(&self) -> Option<&GWord> {
         self.g.iter().find(|g| {
@@ -84,6 +84,14 @@ impl Words<'_> {
     /// The signal of a measuring run decides about the jump (G310).
     pub(in crate::exec) fn jumps_on_signal(&self) -> bool {
         self.g.iter().any(|g| g.row.number == 310)
+    }
+
+    /// The brackets before one of them.
+    pub(in crate::exec) fn brackets_before(
+        &self,
+        bracket: &Bracket,
+    ) -> impl Iterator<Item = &'b Bracket> {
+        self.brackets.iter().copied().take_while(move |other| !std::ptr::eq(*other, bracket))
     }
 
     /// The first word of an axis before a place in the block.

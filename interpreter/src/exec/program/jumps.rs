@@ -135,12 +135,14 @@ impl Executor {
     pub(in crate::exec) fn return_to(&mut self, back: &Return, span: Span) {
         let outcome = self.way_back(back, span);
         let (levels, landing) = self.decoder.report.keep(outcome).unwrap_or((1, None));
-        for _ in 0..levels.max(1) {
-            self.return_from_level();
-        }
-        if let (Some(landing), Some(level)) = (landing, self.levels.last()) {
-            let from = level.at.offset;
-            self.land(landing, from);
+        let then = self.leave_levels(levels.max(1));
+        match (landing, self.levels.last(), then) {
+            (Some(landing), Some(level), _) => {
+                let from = level.at.offset;
+                self.land(landing, from);
+            }
+            (_, _, Some(closing)) => self.close(closing),
+            _ => {}
         }
     }
 

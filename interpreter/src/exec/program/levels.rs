@@ -70,6 +70,20 @@ impl Executor {
         }
     }
 
+    /// Leaves so many subroutines at once; what the block that called the last of them does after it is still to be done.
+    pub(super) fn leave_levels(&mut self, count: usize) -> Option<Closing> {
+        let mut then = None;
+        for _ in 0..count {
+            if self.levels.len() == 1 {
+                return Some(Closing::Return);
+            }
+            self.open_blocks();
+            then = self.levels.last().and_then(|level| level.then);
+            self.pop_level();
+        }
+        then
+    }
+
     /// Leaves a level or ends the program, as M17 and M30 do.
     pub(super) fn close(&mut self, closing: Closing) {
         match closing {

@@ -206,9 +206,8 @@ impl Decoder {
             SpindleItem::Speed(_) => words.speeds.iter().any(|(other, _, _)| *other == spindle),
             _ => return false,
         };
-        let mut before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
         of_words
-            || before.any(|other| {
+            || words.brackets_before(bracket).any(|other| {
                 let mut items = other.group.items.iter().filter_map(|i| self.spindle_item(i).ok());
                 self.spindle_of_name(other.name.as_str()) == Some(spindle)
                     && items.any(|other| same(&other))

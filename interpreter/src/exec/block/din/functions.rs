@@ -198,27 +198,29 @@ impl Decoder {
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
+                MKind::End | MKind::Return if !matches!(then, Then::Next) => {
+                    let text = format!("M{:02} beside another end of the level", m.number);
+                    self.report.note(Fault::new(Condition::DuplicateGroup, text, m.span));
+                }
                 MKind::End => {
                     self.takes_declared_time(Function::M(m.number));
                     then = Then::End;
                 }
-                MKind::Return if !matches!(then, Then::End) => {
-                    then = Then::Return(words.back);
-                }
+                MKind::Return => then = Then::Return(words.back),
                 _ => {}
             }
         }
         let call = self.call_after(words);
-        let jumps = match words.goto {
-            Some(label) if matches!(then, Then::Next) => Some(label),
-            _ => None,
-        };
-        match jumps {
+        match words.goto {
             // of a measuring run, the signal decides
             Some(_) if words.jumps_on_signal() => {}
             Some(label) if call.is_some() => {
                 let text = "$GOTO in a block that calls a subroutine at its end";
                 self.report.note(Fault::new(Condition::BehindCall, text, label.span));
+            }
+            Some(label) if !matches!(then, Then::Next) => {
+                let text = "$GOTO in a block that ends its level";
+                self.report.note(Fault::new(Condition::DuplicateGroup, text, label.span));
             }
             Some(label) => then = Then::Goto(label),
             None => {}

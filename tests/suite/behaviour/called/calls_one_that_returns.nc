@@ -1,0 +1,3 @@
+L returns_to_main.nc
+X3 F6000
+M17
