@@ -1,7 +1,5 @@
 //! What `explain` says, compared with the parameter tables and remarks of the function manuals.
 
-#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
-
 use kontur_interpreter::explain::explain;
 
 /// Fails unless the explanation of `thing` contains every one of `parts`.

@@ -1,7 +1,5 @@
 //! Axis filters, HSC filters and Vibration Guard as the lists state them: what becomes of the values, and what is said.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use kontur_filters::hsc::HscKind;
 use kontur_filters::iir::AxisFilter;
 use kontur_filters::kernel::Kernel;

@@ -1,7 +1,5 @@
 //! The sample machines of `programs/machines`.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::{self, Default, ListKind};
 use kontur_interpreter::machine::value::Value;

@@ -4,11 +4,7 @@
 //! The bound is computed here on its own: second-order path following (velocity and acceleration of every block, no
 //! jerk limit) by a backward and a forward pass on a fine grid.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Job, axis, channel, second_order_time};
+use crate::common::{Job, axis, channel, second_order_time};
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};

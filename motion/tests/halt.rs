@@ -1,15 +1,9 @@
 //! Halts at a place that becomes known on the way: where they are, when they are reached, and what follows.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::float_cmp,
-    reason = "helpers of tests; exact values are meant"
-)]
+#![expect(clippy::float_cmp, reason = "exact values are meant")]
 
-mod common;
-
-use common::Job;
-use common::events::line;
+use crate::common::events::line;
+use crate::common::{self, Job};
 use kontur_filters::time::CycleTime;
 use kontur_kit::Random;
 use kontur_motion::block::{Block, SlopeKind};

@@ -1,14 +1,8 @@
 //! Independent axes against the closed forms of the slopes.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::float_cmp,
-    reason = "helpers of tests; exact values are meant"
-)]
+#![expect(clippy::float_cmp, reason = "exact values are meant")]
 
-mod common;
-
-use common::axis;
+use crate::common::axis;
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, count, seed};
 use kontur_motion::block::SlopeKind::{self, Sin2, Step, Trapez};

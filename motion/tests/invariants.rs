@@ -1,10 +1,6 @@
 //! What holds for every program: random contours, blocks and limits.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};

@@ -1,8 +1,6 @@
 //! Kinks that hold the path down between two lines, against closed forms.
 
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 use kontur_motion::cap::SpeedLimit;

@@ -1,10 +1,6 @@
 //! G901: braking to a lower feed after the end of the faster block, against closed forms and over random programs.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};

@@ -1,14 +1,8 @@
 //! Velocity limits against worked numbers: kinks (P-AXIS-00013), arcs, oblique lines.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::float_cmp,
-    reason = "helpers of tests; exact values are meant"
-)]
+#![expect(clippy::float_cmp, reason = "exact values are meant")]
 
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};

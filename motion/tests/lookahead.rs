@@ -1,8 +1,7 @@
 //! Look-ahead against worked numbers (TF5200 limits, closed forms of the slopes; computed independently).
 
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
+use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 
@@ -134,5 +133,41 @@ fn constant_ramp_times_belong_to_trapez_and_sin2() {
         job.slope.constant_ramp_time = true;
         let out = job.drive(&[&[0.0, 0.0], &[1.0, 0.0]], &[66.666_667]);
         assert_eq!(out.len() - 1, cycles, "{kind:?}");
+    }
+}
+
+/// Blocks of 0.01 to 10 mm in slowly turning directions, axes of very different accelerations and ramps: a contour in one takes no
+/// longer than its blocks one by one, each from rest to rest.
+#[test]
+fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
+    for seed in 0..count(40) {
+        let mut r = Random::from_state(seed as u64);
+        let limits = |acc: f64, ramp: f64| {
+            let feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
+            AxisDynamics { feed, ..axis(1.0) }
+        };
+        let axes = vec![limits(3500.0, 0.03), limits(2000.0, 0.05), limits(800.0, 0.08)];
+        let dynamics = channel(axes);
+        let mut heading = [r.between(-1.0, 1.0), r.between(-1.0, 1.0), r.between(-1.0, 1.0)];
+        let mut points = vec![[0.0; 3]];
+        for _ in 0..3 + r.below(12) {
+            heading = heading.map(|h| h + r.between(-0.2, 0.2));
+            let norm = heading.iter().map(|h| h * h).sum::<f64>().sqrt();
+            let length = [0.01, 0.03, 0.1, 0.5, 3.0, 10.0][r.below(6)];
+            let at = points[points.len() - 1];
+            points.push([0, 1, 2].map(|i: usize| at[i] + length * heading[i] / norm));
+        }
+        if seed == 0 {
+            // the slow axis moves only in the tiny blocks
+            points = vec![[0.0; 3], [0.02, 0.0, 0.005], [9.0, 0.0, 0.005], [9.02, 0.0, 0.0]];
+        }
+        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        for kind in [Trapez, Sin2, Hsc] {
+            let dynamics = dynamics.clone();
+            let job = Job { dynamics, cycle_us: 100, ..Job::new(1.0, kind) };
+            let cycles = |points: &[&[f64]]| job.drive(points, &[150.0]).len() - 1;
+            let alone: usize = points.windows(2).map(cycles).sum();
+            assert!(cycles(&points) <= alone, "{seed} {kind:?}: {} {alone}", cycles(&points));
+        }
     }
 }

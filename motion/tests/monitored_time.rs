@@ -1,10 +1,6 @@
 //! With `AX_DEV`: more of what helps never costs time.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Job, axis, channel, contour};
+use crate::common::{Job, axis, channel, contour};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::{Random, count, seed};

@@ -2,11 +2,7 @@
 //!
 //! `data/optimum.csv` is made by `reference/table.py`, by convex programming; it shares no code with the planner.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 

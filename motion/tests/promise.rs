@@ -1,17 +1,14 @@
 //! `AX_DEV` as it is promised: both ways, on the lines between the set points, over contours that are driven.
 //!
 //! Everything is measured here on its own: set points from interpolated points and kernel taps, distances by brute force
-//! over polylines. `COUNT=2000 SEED=7 cargo test --release -p kontur-motion --test promise` takes more contours.
+//! over polylines. `COUNT=2000 SEED=7 cargo test --release -p kontur-motion --test all promise` takes more contours.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
 #![expect(
     clippy::disallowed_methods,
     reason = "computing times are printed, nothing depends on them"
 )]
 
-mod common;
-
-use common::{axis, channel};
+use crate::common::{axis, channel};
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

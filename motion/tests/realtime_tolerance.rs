@@ -1,11 +1,7 @@
 //! Override and feedhold under `AX_DEV`: what is planned after a change keeps the tolerance.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::events::{Event, drive, line};
-use common::{Job, deviation, filtered};
+use crate::common::events::{Event, drive, line};
+use crate::common::{Job, deviation, filtered};
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

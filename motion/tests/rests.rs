@@ -1,8 +1,6 @@
 //! With `AX_DEV`, no plan is slower than one that rests at every corner until the filters have let go of it: that always keeps
 //! the tolerance.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 mod doc {
     #![allow(unused_imports, unreachable_pub, dead_code, reason = "written for examples")]
     include!("doc/axis.rs");

@@ -1,8 +1,6 @@
 //! The time of a contour does not depend on what does not matter, and more of what helps never costs any.
 
-mod common;
-
-use common::{Job, axis, channel, contour};
+use crate::common::{Job, axis, channel, contour};
 use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};

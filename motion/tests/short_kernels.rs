@@ -1,10 +1,6 @@
 //! `AX_DEV` with filters of a few cycles: a contour never takes longer than with a rest in every corner.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
-
-mod common;
-
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

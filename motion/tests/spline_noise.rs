@@ -1,8 +1,6 @@
 //! Rounded coordinates under the B-spline: speed, ripple, jerk, and the tolerance in both directions.
 
-mod common;
-
-use common::{Job, channel, circle};
+use crate::common::{self, Job, channel, circle};
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};

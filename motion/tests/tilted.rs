@@ -1,7 +1,5 @@
 //! Arcs askew to the axes, against rotations written out by hand and against dense samples.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use kontur_kit::Random;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::limits::PathExtremes;

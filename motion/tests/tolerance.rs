@@ -2,11 +2,7 @@
 //!
 //! The deviation is measured here on its own, from setpoints, kernel taps and the corners of the program.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
-
-mod common;
-
-use common::{Job, axis, channel, deviation, filtered};
+use crate::common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

@@ -1,10 +1,6 @@
 //! `AX_DEV` on contours of lines and arcs, judged by the geometry of each block.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
-
-mod common;
-
-use common::{Job, axis, channel, filtered};
+use crate::common::{Job, axis, channel, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::{Random, count, seed};

@@ -1,10 +1,6 @@
 //! `AX_DEV` on one curve whose bend grows along it: what the sharpest place allows is not for the whole of it.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Job, deviation, filtered};
+use crate::common::{Job, deviation, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;

@@ -5,7 +5,7 @@
 //! without gaps (`A001` to `A120`). A row that is called reproduced or chosen must name a test that exists and that
 //! names the row in turn, in its documentation or its body.
 //!
-//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test conformance` rewrites `tests/conformance/README.md`.
+//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test all conformance` rewrites `tests/conformance/README.md`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -187,7 +187,7 @@ fn page(ledger: &[(Document, Vec<Row>)], tests: &Tests) -> String {
          what the\ndocument states. *Chosen*: the document is silent or contradicts itself; the test asserts what kontur \
          does. *Open*: not\nproven, with what is missing.\n\n\
          This page is made from the CSV files next to it; a test compares them. Regenerate it with\n\
-         `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test conformance`.\n\n\
+         `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test all conformance`.\n\n\
          | document | rows | reproduced | chosen | open |\n|---|---|---|---|---|\n",
     );
     for (document, rows) in ledger {

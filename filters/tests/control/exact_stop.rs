@@ -1,6 +1,6 @@
 //! Exact stop of whole loops: how long the lag takes into the window.
 
-use crate::profile::Profile;
+use super::profile::Profile;
 use kontur_filters::control::monitor::ExactStopConfig;
 use kontur_filters::control::plant::PlantModel;
 use kontur_filters::control::{

@@ -1,6 +1,6 @@
 //! Lag of a first-order drive with and without feedforward.
 
-use crate::profile::Profile;
+use super::profile::Profile;
 use kontur_filters::control::plant::{PlantConfig, PlantModel};
 use kontur_filters::control::scaling::TorqueFormat;
 use kontur_filters::control::{

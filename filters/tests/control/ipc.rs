@@ -3,7 +3,7 @@
 //! The manual reports 0.81 -> 0.40 m/s2 and 0.52 -> 0.28 m/s2 at the tool point; the figures of the tables below come
 //! from an independent simulation of the same axis.
 
-use crate::profile::Profile;
+use super::profile::Profile;
 use kontur_filters::control::ipc::{
     IpcConfig, IpcFilterConfig, IpcFilterType, IpcMode, IpcStageConfig,
 };

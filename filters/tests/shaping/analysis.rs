@@ -1,6 +1,6 @@
 //! Corners, orders, decays and the choice of Vibration Guard settings against closed forms and the vendor's numbers.
 
-use crate::reference::{assert_close, rows};
+use super::reference::{assert_close, rows};
 use kontur_filters::analysis::corner::{CornerPath, kernel_error_mm, settling_cycles};
 use kontur_filters::analysis::decay::{Decay, damping_of_decrement};
 use kontur_filters::analysis::order::largest_order;

@@ -1,6 +1,6 @@
 //! The shaping chain of an axis: rest, switching, linearity, settling, and the entries of a list.
 
-use crate::reference::assert_close;
+use super::reference::assert_close;
 use kontur_filters::cascade::{Cascade, FilterEntry, ListedPrototype, ListedType};
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};

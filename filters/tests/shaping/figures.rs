@@ -1,7 +1,7 @@
 //! What the axis filter manual says in words and shows in its figures, as numbers.
 
-use crate::corner::{corner, path};
-use crate::reference::assert_close;
+use super::corner::{corner, path};
+use super::reference::assert_close;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
 use kontur_filters::iir::prototype::Prototype;

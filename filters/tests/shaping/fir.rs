@@ -1,7 +1,7 @@
 //! FIR and HSC kernels against reference corner errors, closed forms and the ranges of their parameters.
 
-use crate::corner::corner;
-use crate::reference::{assert_close, rows};
+use super::corner::corner;
+use super::reference::{assert_close, rows};
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
 use kontur_filters::iir::{AxisFilter, FilterConfig};
@@ -245,10 +245,10 @@ fn ranges_of_hsc_filters() {
 /// Symmetric kernels draw the same path in both directions, a recursive low-pass does not.
 #[test]
 fn forward_and_backward() {
-    let mean = crate::corner::forward_backward_gap(&filter(mean(40)), 0.05, 200);
+    let mean = super::corner::forward_backward_gap(&filter(mean(40)), 0.05, 200);
     assert!(mean < 1e-12, "{mean:e}");
     let config = FilterConfig { order: 4, f_hz: 15.0, ..FilterConfig::default() };
     let low_pass = AxisFilter::design(&config, MS).0.unwrap();
-    let low_pass = crate::corner::forward_backward_gap(&low_pass, 0.05, 400);
+    let low_pass = super::corner::forward_backward_gap(&low_pass, 0.05, 400);
     assert!(low_pass > 1e-3, "{low_pass:e}");
 }

@@ -1,6 +1,6 @@
 //! Standard filters against reference responses, biquads and closed forms.
 
-use crate::reference::{Row, assert_close, rows};
+use super::reference::{Row, assert_close, rows};
 use kontur_filters::iir::prototype::Prototype;
 use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
 use kontur_filters::issue::FilterIssue;

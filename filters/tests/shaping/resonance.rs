@@ -1,8 +1,8 @@
 //! A band stop against the resonance of a mass on a spring.
 
-use crate::corner::path;
-use crate::figures::band_stop;
-use crate::reference::assert_close;
+use super::corner::path;
+use super::figures::band_stop;
+use super::reference::assert_close;
 use kontur_filters::iir::AxisFilter;
 use kontur_filters::iir::prototype::Prototype;
 use kontur_filters::stage::Stage;

@@ -1,7 +1,7 @@
 //! Vibration Guard kernels against the reference tables and closed forms.
 
-use crate::corner::corner;
-use crate::reference::{assert_close, rows};
+use super::corner::corner;
+use super::reference::{assert_close, rows};
 use kontur_filters::kernel::{Kernel, KernelFilter};
 use kontur_filters::response::{Impulse, SensitivityBand, residual_vibration_ratio};
 use kontur_filters::time::CycleTime;
@@ -241,7 +241,7 @@ fn acceleration_near_a_corner_adds_the_second_moment() {
 fn the_symmetric_mode_repeats_the_path_backwards() {
     let gap = |mode| {
         let filter = KernelFilter::new(Arc::new(kernel(mode, 40.0, 0.1)), 0.0);
-        crate::corner::forward_backward_gap(&filter, 0.05, 120)
+        super::corner::forward_backward_gap(&filter, 0.05, 120)
     };
     assert!(gap(4) < 1e-12, "{:e}", gap(4));
     assert!(gap(2) > 1e-3, "{:e}", gap(2));

@@ -1,10 +1,6 @@
 //! What `explain`, `response`, `tune`, `sweep` and `report --signals` answer.
 
-#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
-
-mod kit;
-
-use kit::Folder;
+use crate::kit::Folder;
 use kontur::Exit;
 
 #[test]

@@ -2,8 +2,6 @@
 //! only `.ci/run` installs, so they have to be there.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "a test")]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

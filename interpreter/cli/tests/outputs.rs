@@ -1,8 +1,6 @@
 //! What becomes of the files that commands write: refused and broken-off runs, kills, and outputs that are inputs.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

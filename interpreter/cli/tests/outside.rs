@@ -1,10 +1,6 @@
 //! The command line from outside: files, forms, exit codes.
 
-#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
-
-mod kit;
-
-use kit::Folder;
+use crate::kit::{self, Folder};
 use kontur::Exit;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

@@ -1,7 +1,5 @@
 //! What only a process has: standard input, and a reader of stdout that goes away.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Output, Stdio};
 

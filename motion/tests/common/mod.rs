@@ -12,6 +12,7 @@ use kontur_filters::time::CycleTime;
 use kontur_kit::Random;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
+use kontur_motion::cap::SpeedLimit;
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner, Setpoint};
 use kontur_motion::tolerance::Kernels;
@@ -49,6 +50,8 @@ pub(crate) struct Job {
     pub(crate) tolerance: Tolerance,
     pub(crate) kernel: Option<Kernel>,
     pub(crate) window: usize,
+    /// Cycles at rest before the first motion.
+    pub(crate) rest_cycles: usize,
 }
 
 impl Job {
@@ -60,6 +63,7 @@ impl Job {
             tolerance: Tolerance::default(),
             kernel: None,
             window: 120,
+            rest_cycles: 0,
         }
     }
 
@@ -84,6 +88,9 @@ impl Job {
         let mut planner = Planner::new(cycle, self.window, start);
         let kernel = self.kernel.clone().map(Arc::new);
         planner.set_kernels(Kernels::new(vec![kernel; start.len()]), 0);
+        for _ in 0..self.rest_cycles {
+            planner.hold(SpeedLimit::Stop);
+        }
         let mut blocks = blocks;
         let mut out = vec![planner.setpoint().clone()];
         loop {

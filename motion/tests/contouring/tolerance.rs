@@ -1,7 +1,7 @@
 //! What a larger tolerance of contouring may not do, and the tolerance of the axes on curves.
 
-use super::common::{Job, deviation, filtered, peaks};
 use super::{at, contoured_at, dev, line};
+use crate::common::{Job, deviation, filtered, peaks};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::Random;

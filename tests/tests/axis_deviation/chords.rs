@@ -1,8 +1,8 @@
 //! Curves as CAM systems write them: hundreds of chords under the Vibration Guard and other filters, the filter switched or a
 //! dwell between some of them.
 
-use crate::measure::Case;
-use crate::program::{Writer, dynamics, filter, off, reach_of_guard, rounded};
+use super::measure::Case;
+use super::program::{Writer, dynamics, filter, off, reach_of_guard, rounded};
 use kontur_kit::Random;
 use std::f64::consts::TAU;
 

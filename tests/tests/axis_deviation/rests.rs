@@ -1,7 +1,7 @@
 //! Resting at every corner until the filters no longer hold it always keeps the tolerance, so no plan may take longer than
 //! that.
 
-use crate::program::rounded;
+use super::program::rounded;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::run;
 use std::f64::consts::PI;

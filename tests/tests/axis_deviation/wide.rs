@@ -1,12 +1,12 @@
 //! The widest programs: a rotary axis, dwells, an override and feedholds, filters that differ per axis or are switched inside,
 //! arcs, reversals, rapid blocks, cycles of 0.25 to 4 ms.
 //!
-//! `COUNT=10000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- --nocapture programs_of_every_kind` takes
+//! `COUNT=10000 SEED=7 cargo test --release -p kontur-tests --test all programs_of_every_kind -- --nocapture` takes
 //! ten thousand, prints those that are wrong, and at the end how many they are and how much of the tolerance is used.
 
-use crate::SLACK_MM;
-use crate::measure::{Case, largest, missed, off_contour, recomputed};
-use crate::program::{
+use super::SLACK_MM;
+use super::measure::{Case, largest, missed, off_contour, recomputed};
+use super::program::{
     Writer, arcs, dynamics, filter, off, polygon, reach_of_guard, rounded, short_blocks,
 };
 use kontur_interpreter::diag::Condition;

@@ -1,8 +1,8 @@
 //! Random changes of offsets and frames.
 
-use crate::expressions::{both, decimal};
-use crate::random::{Place, Writer};
-use crate::tree::{Expr, Operator, Statement, Word};
+use super::expressions::{both, decimal};
+use super::random::{Place, Writer};
+use super::tree::{Expr, Operator, Statement, Word};
 
 impl Writer<'_> {
     /// A change of offsets or frames, increments, and all axes.

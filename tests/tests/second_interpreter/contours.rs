@@ -1,9 +1,9 @@
 //! Random contours: tool radius compensation, chamfers and roundings, contour lines by angles.
 
-use crate::expressions::decimal;
-use crate::model::axes_of;
-use crate::random::{Place, Writer};
-use crate::tree::{Contour, Expr, Insert, Motion, Statement, Way, Word};
+use super::expressions::decimal;
+use super::model::axes_of;
+use super::random::{Place, Writer};
+use super::tree::{Contour, Expr, Insert, Motion, Statement, Way, Word};
 
 /// Where a contour is, and where it goes to.
 struct Pen {

@@ -1,7 +1,7 @@
 //! Random values and conditions.
 
-use crate::random::{Place, Writer};
-use crate::tree::{Expr, Function, Operator};
+use super::random::{Place, Writer};
+use super::tree::{Expr, Function, Operator};
 use kontur_kit::Random;
 
 pub const TABLE: usize = 5;

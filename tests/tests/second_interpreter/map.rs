@@ -1,6 +1,6 @@
 //! Rigid motions and mirrorings of the model's coordinates.
 
-use crate::path::{Point, dot, plus};
+use super::path::{Point, dot, plus};
 
 /// Rows of a matrix, and a shift.
 #[derive(Clone, Copy, Debug)]

@@ -3,9 +3,9 @@
 //! Coordinates are affine maps that are composed for every word: offsets of the machine, then for each coordinate system
 //! its place, its rotation and its own offsets, then mirroring, then contour rotation. Nothing is kept but the position of the machine.
 
-use crate::map::{Map, UNIT};
-use crate::path::{Driven, Point};
-use crate::tree::{Expr, Function, Operator, Program, Statement, Word};
+use super::map::{Map, UNIT};
+use super::path::{Driven, Point};
+use super::tree::{Expr, Function, Operator, Program, Statement, Word};
 use std::collections::BTreeMap;
 
 /// A zero-offset group without values.

@@ -1,10 +1,10 @@
 //! Motions of the model: from words to pieces of the path.
 
-use crate::model::{Model, axes_of};
-use crate::offset;
-use crate::path::{Piece, Point};
-use crate::spline;
-use crate::tree::{Contour, Motion, Statement, Way};
+use super::model::{Model, axes_of};
+use super::offset;
+use super::path::{Piece, Point};
+use super::spline;
+use super::tree::{Contour, Motion, Statement, Way};
 use std::f64::consts::TAU;
 
 impl Model<'_> {

@@ -2,8 +2,8 @@
 //!
 //! Intersections are found by Newton's method over the shares of both elements.
 
-use crate::path::{Piece, Point, dot, plus};
-use crate::tree::{Contour, Insert, Way};
+use super::path::{Piece, Point, dot, plus};
+use super::tree::{Contour, Insert, Way};
 
 /// The plane of a contour: first, second and third axis.
 pub type Plane = [usize; 3];

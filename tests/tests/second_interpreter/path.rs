@@ -1,7 +1,7 @@
 //! Lines, arcs, helices and cubics of the model, by their lengths.
 
-use crate::map::Map;
-use crate::spline::Cubic;
+use super::map::Map;
+use super::spline::Cubic;
 
 pub type Point = [f64; 3];
 

@@ -3,9 +3,9 @@
 //! Where the manual says nothing, nothing is written: after every change of offsets or frames all axes are programmed absolutely
 //! (before it only increments) where a rotation or a system may couple them, arcs have ends that fit to their centres, loops end.
 
-use crate::expressions::{PARAMETERS, PASSED, TABLE, both, decimal, name, of};
-use crate::model::axes_of;
-use crate::tree::{Expr, Function, Kind, Motion, Operator, Program, Statement, Subroutine, Word};
+use super::expressions::{PARAMETERS, PASSED, TABLE, both, decimal, name, of};
+use super::model::axes_of;
+use super::tree::{Expr, Function, Kind, Motion, Operator, Program, Statement, Subroutine, Word};
 use kontur_kit::Random;
 
 /// Where a statement is.

@@ -3,10 +3,10 @@
 //! The page describes lines, arcs and helices from the zero point of the active system: in a scaled part nothing else is
 //! written but changes of offsets, which are not scaled. Arcs need equal factors in their plane.
 
-use crate::expressions::{PARAMETERS, both, decimal, name};
-use crate::model::axes_of;
-use crate::random::{Place, Writer};
-use crate::tree::{Expr, Motion, Operator, Statement, Word};
+use super::expressions::{PARAMETERS, both, decimal, name};
+use super::model::axes_of;
+use super::random::{Place, Writer};
+use super::tree::{Expr, Motion, Operator, Statement, Word};
 
 impl Writer<'_> {
     /// A scaled part, in the middle of the program.

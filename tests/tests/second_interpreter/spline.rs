@@ -1,6 +1,6 @@
 //! Splines through points, after Akima's paper: each coordinate is a cubic over the length of the chord.
 
-use crate::path::{Piece, Point, dot, plus};
+use super::path::{Piece, Point, dot, plus};
 
 /// Parts of a cubic whose lengths are added up.
 const PARTS: usize = 64;

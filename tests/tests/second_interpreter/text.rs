@@ -1,6 +1,6 @@
 //! A program as the control reads it.
 
-use crate::tree::{
+use super::tree::{
     Expr, Function, Insert, Kind, Motion, Operator, Program, Statement, Subroutine, Way, Word,
 };
 use std::collections::BTreeMap;

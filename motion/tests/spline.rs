@@ -1,12 +1,8 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod ripple;
 
-use common::{Job, axis, channel, circle, deviation, peaks};
+use crate::common::{Job, axis, channel, circle, deviation, peaks};
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;

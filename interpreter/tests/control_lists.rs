@@ -1,7 +1,5 @@
 //! Feedforward, position control and Improved Position Control from the lists to what the axis does.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 mod feedforward;
 mod ipc;
 

@@ -1,13 +1,9 @@
 //! Polynomial contouring: the curve against its closed forms and its neighbours; in `tolerance` what a tolerance may not do.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod runs;
 mod tolerance;
 
-use common::{Job, axis, channel};
+use crate::common::{Job, axis, channel};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::Trapez;

@@ -1,12 +1,8 @@
 //! A TwinCAT project as machine: the built-in machine packed into one must move as it does out of its folder.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-#[path = "../kit/mod.rs"]
-mod kit;
 mod parts;
 
-use kit::Folder;
+use crate::kit::Folder;
 use kontur::Exit;
 use std::fmt::Write as _;
 use std::fs;

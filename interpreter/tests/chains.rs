@@ -1,7 +1,5 @@
 //! Chains of the axes: the values that the lists state arrive in mm and s, and every correction is reported.
 
-#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
-
 mod advice;
 mod listings;
 

@@ -2,7 +2,7 @@
 //! than the tolerance and no point of the contour is missed by more, by the program's own column and by the geometry of this
 //! package.
 //!
-//! `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- the_tolerance` takes as many programs of
+//! `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test all the_tolerance_holds_over_random` takes as many programs of
 //! another kind.
 
 mod chords;
@@ -112,7 +112,7 @@ fn random_programs_that_were_wrong() {
 /// Curves of chords, under filters of a few cycles as well: of a plan that another answer had moved by other than whole cycles what it
 /// misses was not measured again (one of 25 programs, up to 1.14 times the tolerance).
 ///
-/// `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- curves_of_chords` takes as many.
+/// `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test all the_tolerance_holds_over_curves` takes as many.
 #[test]
 fn the_tolerance_holds_over_curves_of_chords() {
     let first = seed() * 1_000_000;

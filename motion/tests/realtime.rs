@@ -1,17 +1,11 @@
 //! Override and feedhold: closed forms, and properties over random programs with events at random cycles.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::float_cmp,
-    reason = "helpers of tests; exact values are meant"
-)]
+#![expect(clippy::float_cmp, reason = "exact values are meant")]
 
-#[path = "../common/mod.rs"]
-mod common;
 mod random;
 
-use common::events::{Event, drive, line};
-use common::{Job, axis, channel, deviation};
+use crate::common::events::{Event, drive, line};
+use crate::common::{Job, axis, channel, deviation};
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;

@@ -1,0 +1,12 @@
+//! The command line from outside, one module per subject: one target, linked once.
+
+#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
+
+mod answers;
+mod book;
+mod kit;
+mod machine_readable;
+mod outputs;
+mod outside;
+mod process;
+mod project;

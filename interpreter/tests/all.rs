@@ -1,0 +1,11 @@
+//! The tests of this crate from outside, one module per subject: one target, linked once. The tables of `language` and `syntax`
+//! belong to the unit tests.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that fails here has failed")]
+
+mod chains;
+mod control_lists;
+mod explain;
+mod filter_lists;
+mod linear;
+mod machines;

@@ -1,0 +1,41 @@
+//! Tests across the crates, one module per subject: one target, linked once. `faults` and `printed` have a test per program
+//! and a harness of their own.
+
+mod accounting;
+mod arrival;
+mod axis_deviation;
+mod axis_filters;
+mod browser;
+mod conformance;
+mod contouring;
+mod control_areas;
+mod couplings;
+mod edge_banding;
+mod feedforward;
+mod figures;
+mod hostile_input;
+mod improved_position_control;
+mod independent_axes;
+mod main_spindle;
+mod measuring;
+mod optimality;
+mod position_monitoring;
+mod programs;
+mod random_programs;
+mod realtime_inputs;
+mod recordings;
+mod report_and_tune;
+mod robustness;
+mod second_interpreter;
+mod shaped_alike;
+mod space_and_angles;
+mod spindle_positions;
+mod square_corner;
+mod strange_files;
+mod threads;
+mod times;
+mod timing;
+mod tolerance_stops;
+mod tool_dynamics;
+mod vibration_guard;
+mod wear;
