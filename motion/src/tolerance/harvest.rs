@@ -8,7 +8,8 @@ use super::violation::{Record, Violation};
 pub(super) struct Harvest<'a, F> {
     view: &'a View<'a>,
     half: u64,
-    bucket: Option<Violation>,
+    /// The worst since a cycle: counted from the first violation, so that a motion is planned alike whenever it begins.
+    bucket: Option<(u64, Violation)>,
     /// The worst of all.
     worst: &'a mut Option<Unkept>,
     found: &'a mut F,
@@ -28,22 +29,21 @@ impl<'a, F: FnMut(&Violation, &Record)> Harvest<'a, F> {
             let Violation { deviation_mm, tolerance_mm, .. } = v;
             *self.worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
         }
-        self.bucket =
-            Some(match self.bucket.take() {
-                Some(b) if b.cycle / self.half == v.cycle / self.half => {
-                    if v.excess() > b.excess() { v } else { b }
-                }
-                Some(b) => {
-                    (self.found)(&b, record);
-                    v
-                }
-                None => v,
-            });
+        self.bucket = Some(match self.bucket.take() {
+            Some((since, b)) if v.cycle < since + self.half => {
+                (since, if v.excess() > b.excess() { v } else { b })
+            }
+            Some((_, b)) => {
+                (self.found)(&b, record);
+                (v.cycle, v)
+            }
+            None => (v.cycle, v),
+        });
     }
 
     /// Nothing follows.
     pub(super) fn end(mut self, record: &Record) {
-        if let Some(v) = self.bucket.take() {
+        if let Some((_, v)) = self.bucket.take() {
             (self.found)(&v, record);
         }
     }
