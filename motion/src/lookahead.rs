@@ -48,7 +48,7 @@ mod stretch;
 use crate::cap::{Cap, SpeedLimit};
 use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
-use crate::ride::{Cell, connects_gently, ride};
+use crate::ride::{Cell, connects_gently, jerk_steps, ride};
 pub(crate) use draft::Draft;
 use std::sync::Arc;
 use stretch::{Stretch, Weakest, cells, most_exceeded};
@@ -202,11 +202,14 @@ impl<'a> Window<'a> {
                 {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
                     let divides = |b| self.only_divides(b);
+                    let mut steps = Vec::new();
                     let along = |cells: Vec<Cell>| {
                         let ride = ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s)?;
-                        let slower = worst.is_some()
-                            && connects_gently(&cells)
-                            && self.part(s, from, to).is_faster_with_knots(ride.duration());
+                        steps = jerk_steps(&cells);
+                        let gentle =
+                            !steps.is_empty() || worst.is_some() && connects_gently(&cells);
+                        let slower = gentle
+                            && self.part(s, from, to).is_faster_with_knots(&steps, ride.duration());
                         (!slower).then_some(ride)
                     };
                     let ridden = (worst.is_some() || s.is_uneven(blocks, divides, profile.peak()))
@@ -216,11 +219,12 @@ impl<'a> Window<'a> {
                     match (ridden, worst) {
                         (Some(ride), None) if ride.duration() >= profile.duration() => {}
                         (Some(ride), _) => profile = ride,
-                        (None, Some(worst)) => {
-                            knot[worst] = true;
-                            again = true;
+                        (None, worst) => {
+                            let steps = steps.iter().map(|step| s.first + step);
+                            for b in steps.chain(worst) {
+                                (knot[b], again) = (true, true);
+                            }
                         }
-                        (None, None) => {}
                     }
                 }
                 spans.push(Span {
@@ -288,12 +292,14 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// True if the window takes less than `most_s` with acceleration zero at every boundary that would be exceeded
-    /// otherwise.
-    fn is_faster_with_knots(&self, most_s: f64) -> bool {
+    /// True if the window takes less than `most_s` with acceleration zero at these boundaries and at every one that would be
+    /// exceeded otherwise.
+    fn is_faster_with_knots(&self, knots: &[usize], most_s: f64) -> bool {
         let n = self.blocks.len();
         let mut knot = vec![false; n + 1];
-        (knot[0], knot[n]) = (true, true);
+        for b in knots.iter().chain(&[0, n]) {
+            knot[*b] = true;
+        }
         loop {
             let stretches = self.stretches(&knot);
             let speeds = self.passes(&stretches);

@@ -30,6 +30,8 @@ const SLACK: f64 = 1e-9;
 const REST_MM_S: f64 = 1e-9;
 /// Relative gain of speed from which on a hill between two equal limits at the ends of a block is driven.
 const HILL: f64 = 0.005;
+/// Ratio of the jerks of neighbouring blocks from which on passing their boundary with acceleration zero may be faster.
+const JERK_STEP: f64 = 1.1;
 
 /// One block of a stretch.
 #[derive(Clone, Copy, Debug)]
@@ -118,8 +120,23 @@ pub(crate) fn connects_gently(cells: &[Cell]) -> bool {
         let least = block.least_jerk();
         block.jerks.iter().any(|jerk| *jerk > least * (1.0 + SLACK))
     };
+    has_sine_ramps(cells) && own(cells).iter().any(lopsided)
+}
+
+/// The cells whose jerk differs much from that of the cell before, so that a ride with sine-square ramps takes the smaller one on
+/// both sides of the boundary ([`sine`]): the whole of a long block suffers from a tiny one beside it.
+pub(crate) fn jerk_steps(cells: &[Cell]) -> Vec<usize> {
+    if !has_sine_ramps(cells) {
+        return Vec::new();
+    }
+    let jerks: Vec<f64> = own(cells).iter().map(Block::least_jerk).collect();
+    let steps = jerks.windows(2).zip(1..);
+    let steps = steps.filter(|(j, _)| j[0].max(j[1]) > JERK_STEP * j[0].min(j[1]));
+    steps.map(|(_, after)| after).collect()
+}
+
+fn has_sine_ramps(cells: &[Cell]) -> bool {
     cells.last().is_some_and(|cell| cell.rates.shape == RampShape::Sin2)
-        && own(cells).iter().any(lopsided)
 }
 
 /// One block, or several between which nothing changes, with one jerk.
