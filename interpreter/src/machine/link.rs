@@ -1,5 +1,7 @@
 //! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
 
+mod gantry;
+
 use super::Machine;
 use super::axis::Axis;
 use super::channel::Channel;
@@ -232,7 +234,11 @@ pub(super) fn machine(
     }
     let mut gantry_slaves = Vec::new();
     for (number, name) in &names.slaves {
-        let parameters = take(*number)?;
+        let mut parameters = take(*number)?;
+        let master = parameters.get(axis_general::GANTRY_MASTER);
+        if let Some(master) = axes.iter().find(|a| a.number() == master) {
+            gantry::take_over(&mut parameters, master.parameters());
+        }
         let kind = kind_of(&parameters);
         gantry_slaves.push(Axis::new(name.clone(), kind, parameters, own_of(&own, *number)));
     }
@@ -362,17 +368,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             });
         }
     }
-    for (number, name) in &names.slaves {
-        let list = settled.axes.iter().find(|l| logical_number(&l.parameters) == *number);
-        let master = list.map(|l| l.parameters.get(axis_general::GANTRY_MASTER));
-        if !names.named.iter().any(|n| Some(n.number) == master) {
-            let master = master.unwrap_or_default();
-            let message =
-                format!("{name}: the gantry master {master} is not an axis of the channel");
-            diagnostics
-                .push(error(Condition::ListLink, message, None).axis(*number, name.as_str()));
-        }
-    }
+    gantry::check(settled, names, diagnostics);
 }
 
 /// 21045: the main spindle must not have the name of another one.

@@ -11,7 +11,7 @@ const AXIS_TYPES: &[(&str, u32)] =
 parameters! {
     axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, no homing needed")
         .default(0.0).drives("Simulation, SERCOS, CANopen");
-    axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, face turning axis 0x40, longitudinal turning axis 0x80, gantry slave 0x20000")
+    axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, face turning axis 0x40, longitudinal turning axis 0x80, gantry master 0x10000, gantry slave 0x20000")
         .default(1.0), as MODE: Whole;
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
         .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(Condition::AxisNumberZero, Correction::Refuse), as NUMBER: Whole;

@@ -19,6 +19,7 @@ macro_rules! lists {
     FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "types are LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2, HSC_MEAN";
     GeometricRampTime = Vendor 110276: Warning None 1 2, "geometric ramp time below the shortest ramp time, limited", hint "raise P-AXIS-00199, or lower P-AXIS-00201", parameter "P-AXIS-00199";
     SpindleWithoutType = Vendor 110304: Error ProgramAbort 7 2, "spindle of the channel list whose axis list is not that of a spindle", hint "kenngr.achs_typ ACHSTYP_SPINDEL makes an axis a spindle", parameter "P-AXIS-00018";
+    GantryMasterOfMaster = Vendor 110342: Error JobAbort 7 2, "gantry master that has a master itself", cause "kenngr.achs_mode with the bit 0x10000 beside kenngr.gantry_ax_nr", hint "set kenngr.gantry_ax_nr of a master to 0", parameter "P-AXIS-00070";
     SpindleMode = Vendor 110352: Warning None 1 2, "axis mode of a spindle that is not modulo, modulo is used", cause "kenngr.achs_mode 1 in the list of a spindle", hint "spindles count modulo: 4", parameter "P-AXIS-00015";
     AxisMode = Vendor 110353: Warning None 1 2, "unknown axis mode, corrected", cause "kenngr.achs_mode 8", hint "the mode has one of 1 linear, 2 optimised positioning, 4 modulo", parameter "P-AXIS-00015";
     FilterFrequencyTooLow = Vendor 110361: Warning None 1 2, "filter frequency below the lowest possible one, lowest frequency used", cause "P-AXIS-00067", hint "write a frequency above it, and below half the sampling rate";
