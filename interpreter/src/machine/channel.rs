@@ -351,7 +351,11 @@ impl Channel {
             tool_change_program: program(of::TOOL_CHANGE_PROGRAM),
             tool_data_program: program(of::TOOL_DATA_PROGRAM),
             main_spindle: Some(choice(of::MAIN_SPINDLE)).filter(|n| *n != 0),
-            main_spindle_name: p.get(of::MAIN_SPINDLE_NAME).unwrap_or_default(),
+            // another first letter is replaced (20971)
+            main_spindle_name: p
+                .get(of::MAIN_SPINDLE_NAME)
+                .filter(|name| name.starts_with(['S', 's']))
+                .unwrap_or_else(|| "S".to_owned()),
             default_couplings: default_couplings(p).0,
             parameters,
             start_up,

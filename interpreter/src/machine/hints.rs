@@ -2,6 +2,7 @@
 //!
 //! Only what a list states is judged; the vendor's defaults are not.
 
+use super::kind::AxisKind;
 use super::table::param::{Number, Param, Place};
 use super::table::{axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
 use super::{Axis, Machine, issues};
@@ -22,6 +23,25 @@ pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
         settling_time(axis, diagnostics);
         window(axis, diagnostics);
         gantry(axis, machine, diagnostics);
+        mode(axis, diagnostics);
+    }
+}
+
+/// Bits of the axis mode that change nothing here.
+///
+/// Source: P-AXIS-00015 (TF5200 axis parameters, 117192331): 0x4 counts modulo for rotary axes and spindles, 0x400 for linear axes.
+fn mode(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
+    const LINEAR: u32 = 0x1;
+    const MODULO: u32 = 0x4;
+    const TURNING: u32 = 0x40 | 0x80;
+    const GANTRY: u32 = 0x1_0000 | 0x2_0000;
+    let modulo = if axis.kind() == AxisKind::Linear { 0 } else { MODULO };
+    let without = axis.get(axis_general::MODE) & !(LINEAR | modulo | TURNING | GANTRY);
+    if listed(axis, axis_general::MODE) && without != 0 {
+        let what = format!("axis mode with the bits {without:#x}");
+        let effect = "they are not simulated";
+        let place = axis_general::MODE;
+        diagnostics.push(issues::about(axis, Condition::ListNoEffect, place, &what, effect));
     }
 }
 

@@ -253,6 +253,8 @@ pub(super) fn machine(
         diagnostics.push(note.hint(hint));
     }
     let channel = Channel::new(channel, start_up, marked);
+    let tools = tools::tools(&tools, axes.len(), diagnostics);
+    let zero_offsets = tools::zero_offsets(&zero, axes.len(), diagnostics);
     Some(Machine {
         name: name.to_owned(),
         cycle,
@@ -260,8 +262,8 @@ pub(super) fn machine(
         spindles,
         gantry_slaves,
         channel,
-        tools: tools::tools(&tools),
-        zero_offsets: tools::zero_offsets(&zero),
+        tools,
+        zero_offsets,
     })
 }
 
@@ -346,7 +348,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
                 .push(error(condition, message, named.at.clone()).axis(*number, name.as_str()));
         }
     }
-    check_main_name(settled, names, diagnostics);
+    check_main_spindle(settled, names, diagnostics);
     for (indices, setting) in settled.own.settings() {
         // a list may describe more axes than the channel has
         let is_set = setting.at.as_ref().is_some_and(|at| &*at.file == OVERRIDE);
@@ -371,22 +373,41 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
     gantry::check(settled, names, diagnostics);
 }
 
-/// 21045: the main spindle must not have the name of another one.
-fn check_main_name(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
-    let Some(setting) = settled.channel.set_by(of::MAIN_SPINDLE_NAME) else { return };
-    let listed = settled.channel.get(of::MAIN_SPINDLE);
+/// 21045: the main spindle must not have the name of another one; K-0031: it is a spindle of the channel; 20971: its name begins
+/// with S.
+///
+/// Source: P-CHAN-00051, P-CHAN-00053 (TF5200 channel parameters).
+fn check_main_spindle(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
+    let (channel, number, name) = (&settled.channel, of::MAIN_SPINDLE, of::MAIN_SPINDLE_NAME);
+    let at = |place| channel.set_by(place).and_then(|s| s.at.clone());
     let mut spindles = names.named.iter().filter(|n| n.spindle);
-    let main = match listed {
-        0 => spindles.clone().next().map(|n| n.number),
-        number => Some(number),
-    };
-    let name = setting.value.text().unwrap_or_default();
-    let other = |n: &&Named| Some(n.number) != main && n.name.eq_ignore_ascii_case(name);
-    if let Some(other) = spindles.find(other) {
-        let message = format!("main_spindle_name: {name} is the name of another spindle");
-        diagnostics.push(
-            error(Condition::MainSpindleName, message, setting.at.clone())
-                .axis(other.number, &*other.name),
+    let listed = Some(channel.get(number)).filter(|n| *n != 0);
+    if let Some(unknown) = listed.filter(|n| !spindles.clone().any(|s| s.number == *n)) {
+        let message = format!(
+            "main_spindle_ax_nr: no spindle of the channel has the logical number {unknown}"
         );
+        let hint = "write the number of one under spindel[i].log_achs_nr";
+        diagnostics.push(error(Condition::ListLink, message, at(number.place())).hint(hint));
+        return;
+    }
+    let named = channel.set_by(name);
+    // a list that names neither has the first spindle under its own name
+    if named.is_none() && listed.is_none() {
+        return;
+    }
+    let text = channel.get(name).unwrap_or_default();
+    let source = at(name.place()).or_else(|| at(number.place()));
+    if !text.to_ascii_uppercase().starts_with('S') {
+        let message = format!("main_spindle_name: {text} does not begin with S");
+        diagnostics.push(error(Condition::SpindleName, message, source));
+        return;
+    }
+    let main = listed.or_else(|| spindles.clone().next().map(|n| n.number));
+    let other = |n: &&Named| Some(n.number) != main && n.name.eq_ignore_ascii_case(&text);
+    if let Some(other) = spindles.find(other) {
+        let message = format!("main_spindle_name: {text} is the name of another spindle");
+        let hint = "without main_spindle_name the name is S";
+        let diagnostic = error(Condition::MainSpindleName, message, source);
+        diagnostics.push(diagnostic.axis(other.number, &*other.name).hint(hint));
     }
 }

@@ -11,8 +11,9 @@ mod plant;
 
 pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};
 
+use super::table::axis_drive;
 use super::{Axis, Machine, issues};
-use crate::diag::Diagnostic;
+use crate::diag::{Condition, Diagnostic};
 use kontur_filters::{
     control::{AxisControlConfig, IpcConfig, Issue, feedforward::channel_delay_cycles},
     iir::AxisFilter,
@@ -45,16 +46,34 @@ impl Machine {
     /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
     /// 110361, K-0033, K-0036 to K-0041 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
     /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063, K-0066 (Improved Position
-    /// Control); K-0070 (numbers that mean nothing); K-0075 (kernels in the list of a gantry slave).
+    /// Control); K-0070 (numbers that mean nothing); K-0075 (kernels in the list of a gantry slave,
+    /// feedforward without delay beside an axis with delay).
     pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
         let mut diagnostics = Vec::new();
         let mut chains: Vec<ChainSetup> =
             self.all_axes().map(|axis| self.chain(axis, &mut diagnostics)).collect();
         let delay = channel_delay_cycles(chains.iter().map(|chain| &chain.control.feedforward));
+        self.shared_delay(&chains, delay, &mut diagnostics);
         for chain in &mut chains {
             chain.control.delay_cycles = delay;
         }
         (chains, diagnostics)
+    }
+
+    /// Axes that are to do without the long buffer and get it because of another one.
+    fn shared_delay(&self, chains: &[ChainSetup], delay: usize, diagnostics: &mut Vec<Diagnostic>) {
+        let own = |chain: &ChainSetup| chain.control.feedforward.delay_cycles();
+        let axes = || self.all_axes().zip(chains);
+        let Some((longest, _)) = axes().find(|(_, chain)| own(chain) == delay) else { return };
+        let param = axis_drive::FF_WITHOUT_DELAY;
+        for (axis, _) in axes().filter(|(a, chain)| a.get(param) && own(chain) < delay) {
+            let effect = format!(
+                "no effect, {} needs a buffer of {delay} cycles and all axes of a channel have the longest one",
+                longest.name()
+            );
+            let what = "feedforward without delay";
+            diagnostics.push(issues::about(axis, Condition::ListNoEffect, param, what, &effect));
+        }
     }
 
     /// What there is to say about the chain of an axis, but for the kernels, which are worked out with what the program has set.

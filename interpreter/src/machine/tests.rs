@@ -304,7 +304,7 @@ fn tool_lists() {
     files.put(
         "m/lists/tools.lis",
         "wz[5].laenge 600000 # 60 mm\nwz[5].radius 200000 # 20 mm\nwz[5].gueltig 1\nwz[5].mass_einheit 0\n\
-         wz[5].ax_versatz[0] 2050000\nwz[5].ax_versatz[1] -4080000\nwz[5].param[1] 20.5\n\
+         wz[5].ax_versatz[0] 2050000\nwz[5].ax_versatz[1] -4080000\nwz[5].ax_versatz[31] 0\nwz[5].param[1] 20.5\n\
          wz[0].laenge 5\nwz[8].laenge 10000\nwz[8].mass_einheit 1\nWz[9].radius 45000\nwz[9].gueltig 1\n",
     );
     let (machine, messages) = files.load(&[]).unwrap();
@@ -326,7 +326,13 @@ fn tool_lists() {
     assert_eq!(other.load(&[]).unwrap().0.tools, machine.tools);
     let changed = files.load(&["tool.wz[5].laenge=700000"]).unwrap().0;
     assert!((changed.tools[&5].length_mm - 70.0).abs() < 1e-12);
-    files.add("m/lists/tools.lis", "wz[5].mass_einheit 7\nwz[5].schneide 1\n");
+    // no channel has that many axes
+    files.add("m/lists/tools.lis", "wz[5].ax_versatz[30] 1\n");
+    assert_eq!(files.ids(&[]), ["K-0075"]);
+    files.add(
+        "m/lists/tools.lis",
+        "wz[5].mass_einheit 7\nwz[5].schneide 1\nwz[5].ax_versatz[30] 0\n",
+    );
     assert_eq!(files.ids(&[]), ["K-0028", "1001119", "K-0070"]);
     let mut missing = Memory::machine();
     missing.add("m/hochlauf.lis", "werkz_data[0] lists/tools.lis\n");

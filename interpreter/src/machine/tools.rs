@@ -2,8 +2,10 @@
 //!
 //! Source: TF5200 tool data (P-TOOL), TF5200 zero offsets (P-ZERO); start-up list P-STUP-00010, P-STUP-00011.
 
-use super::parameters::Parameters;
-use super::table::{tool, zero};
+use super::parameters::{Parameters, Setting};
+use super::table::{Indices, tool, with_indices, zero};
+use super::value::Value;
+use crate::diag::{Condition, Diagnostic};
 use std::collections::BTreeMap;
 
 /// mm in one inch.
@@ -109,8 +111,27 @@ pub struct ZeroOffsets {
     pub has_g53: bool,
 }
 
-/// Tools of a list by the number of the D word. D0 is not a tool: what a list says of it does not count.
-pub(super) fn tools(list: &Parameters) -> BTreeMap<u32, Tool> {
+/// An offset for an axis that the channel does not have, which is not used: K-0075 unless it is 0. The vendor's lists have entries
+/// for 32 axes.
+fn unused(setting: &Setting, [i, j]: Indices, axes: usize) -> Option<Diagnostic> {
+    if setting.value == Value::Number(0.0) {
+        return None;
+    }
+    let key = with_indices(setting.row.key, [i, j]);
+    let text = format!("{key}: the channel has only {axes} axes, no effect");
+    let hint = "the second index counts the axes of the channel list from 0";
+    let mut about = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
+    about.source = setting.at.clone();
+    Some(about)
+}
+
+/// Tools of a list by the number of the D word. D0 is not a tool: what a list says of it does not count. `axes`: number of axes in
+/// the channel.
+pub(super) fn tools(
+    list: &Parameters,
+    axes: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> BTreeMap<u32, Tool> {
     let mut tools = BTreeMap::new();
     for (indices, setting) in list.settings() {
         let [i, j] = indices;
@@ -120,6 +141,10 @@ pub(super) fn tools(list: &Parameters) -> BTreeMap<u32, Tool> {
         let known: &mut Tool = tools.entry(i).or_insert_with(|| tool_of(list, i));
         let scale = scale(list, i);
         if setting.row.key == tool::OFFSET.place().row.key {
+            if j as usize >= axes {
+                diagnostics.extend(unused(setting, indices, axes));
+                continue;
+            }
             known.offsets_mm.insert(j as usize, list.get(tool::OFFSET.at(i).and(j)) * scale);
         } else if setting.row.key == tool::PARAMETER.place().row.key {
             known.parameters.insert(j, list.get(tool::PARAMETER.at(i).and(j)));
@@ -161,14 +186,21 @@ fn scale(list: &Parameters, i: u32) -> f64 {
     if list.get(tool::INCH.at(i)) { INCH_MM } else { 1.0 }
 }
 
-/// Zero offsets of a list.
-pub(super) fn zero_offsets(list: &Parameters) -> ZeroOffsets {
+/// Zero offsets of a list. `axes`: number of axes in the channel.
+pub(super) fn zero_offsets(
+    list: &Parameters,
+    axes: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> ZeroOffsets {
     let offset = zero::OFFSET.place().row.key;
-    let entries = list
-        .settings()
-        .filter(|(_, setting)| setting.row.key == offset)
-        .map(|([i, j], _)| ((i, j as usize), list.get(zero::OFFSET.at(i).and(j))))
-        .collect();
+    let mut entries = BTreeMap::new();
+    for ([i, j], setting) in list.settings().filter(|(_, setting)| setting.row.key == offset) {
+        if j as usize >= axes {
+            diagnostics.extend(unused(setting, [i, j], axes));
+            continue;
+        }
+        entries.insert((i, j as usize), list.get(zero::OFFSET.at(i).and(j)));
+    }
     ZeroOffsets {
         entries,
         start_group: list.get(zero::DEFAULT_GROUP),

@@ -1,4 +1,4 @@
-; check --set Y.kenngr.achs_mode=0x45: exit 1
+; check --set Y.kenngr.achs_mode=0x41: exit 1
 ; error 20642 at 5:1
 G00 Y20
 G96 S100

@@ -1,4 +1,4 @@
-; check --set Y.kenngr.achs_mode=0x45: exit 1
+; check --set Y.kenngr.achs_mode=0x41: exit 1
 ; page 252090507 diagnosis 20642, wrong
 ; error 20642 at 6:5
 N10 G00 Y20

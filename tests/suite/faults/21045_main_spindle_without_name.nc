@@ -1,0 +1,4 @@
+; check -m two_spindles --set channel.main_spindle_ax_nr=5: exit 2
+; error 21045 at --set 1:1
+N10 S100 M3
+N20 M30
