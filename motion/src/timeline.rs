@@ -4,13 +4,17 @@
 //! an integer. Span and block borders fall inside cycles; the rest of the cycle is spent in the next span. The last
 //! cycle of a motion is its exact end.
 
+mod reason;
+
 use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::cap::{Cap, SpeedLimit};
-use crate::lookahead::{FLAT_MM_S2, ROUNDING, Span};
+use crate::lookahead::Span;
 use crate::profile::{Profile, State};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
+use reason::Low;
+pub(crate) use reason::is_at;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -89,6 +93,8 @@ pub(crate) struct Entry {
     pub(crate) feeds: SmallVec<[Cap; 1]>,
     /// Caps at the starts of the blocks, and what the tolerance has asked of them, once the entry is final.
     pub(crate) caps: SmallVec<[(Cap, Option<Asked>); 1]>,
+    /// Limits inside that the speed runs down to, in order.
+    lows: SmallVec<[Low; 1]>,
     /// The motion ends here, at its next tick.
     pub(crate) stops: bool,
     pub(crate) seen: Seen,
@@ -162,6 +168,7 @@ impl Entry {
             blocks,
             feeds: SmallVec::new(),
             caps: SmallVec::new(),
+            lows: SmallVec::new(),
             stops,
             seen: Seen::Nothing,
             cut_s: None,
@@ -191,6 +198,8 @@ impl Entry {
         for block in &mut second.blocks {
             block.1 -= s;
         }
+        first.lows.clear();
+        second.lows.clear();
         Some(parts)
     }
 
@@ -350,7 +359,7 @@ impl Walk<'_> {
     /// State at `k` cycles; exact at the end of a motion.
     #[inline]
     pub(crate) fn state(&self, k: u64, out: &mut PathState) {
-        let Entry { profile, blocks, feeds, .. } = self.entry;
+        let Entry { profile, blocks, .. } = self.entry;
         // before the start the path rests at its beginning
         let since = self.cycle.time_of(k.saturating_sub(self.entry.start.origin));
         let t = (since - self.start_s).max(0.0);
@@ -374,17 +383,7 @@ impl Walk<'_> {
         } else {
             path.position(s, &mut out.position);
             (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
-            let top = feeds.get(i).unwrap_or(&queued.velocity);
-            // what is driven evenly after a change of speed keeps the rounding of that change
-            out.limit = if state.a_mm_s2 > FLAT_MM_S2 {
-                self.entry.why_up
-            } else if state.a_mm_s2 < -FLAT_MM_S2 {
-                self.entry.why_down
-            } else if state.v_mm_s >= top.v_mm_s * (1.0 - ROUNDING) {
-                top.why
-            } else {
-                self.entry.why_down
-            };
+            out.limit = self.entry.reason(i, &state);
         }
         out.s = self.entry.s0 + state.s_mm;
         out.seq = queued.block.seq;

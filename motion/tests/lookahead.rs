@@ -4,6 +4,8 @@ use crate::common::{Job, axis, channel};
 use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
+use kontur_motion::cap::SpeedLimit;
+use kontur_motion::planner::Setpoint;
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
 
@@ -169,5 +171,32 @@ fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
             let alone: usize = points.windows(2).map(cycles).sum();
             assert!(cycles(&points) <= alone, "{seed} {kind:?}: {} {alone}", cycles(&points));
         }
+    }
+}
+
+/// A circle of chords, known as a whole: between the rise from its start and the fall to its end the speed is held down by
+/// what lies along it, and not by the stop at an end.
+#[test]
+fn what_holds_the_speed_inside_a_contour_is_named_there() {
+    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
+    let limits = AxisDynamics { feed, ..axis(1.0) };
+    let points: Vec<[f64; 2]> = (0..=300)
+        .map(|i| {
+            let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::TAU / 300.0);
+            [10.0 * cos, 10.0 * sin]
+        })
+        .collect();
+    let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+    for kind in [Hsc, Trapez] {
+        let dynamics = channel(vec![limits; 2]);
+        let out = Job { dynamics, window: 1000, ..Job::new(1.0, kind) }.drive(&points, &[200.0]);
+        let first_fall = out.iter().position(|p| p.a_mm_s2 < -1.0).unwrap();
+        let last_rise = out.iter().rposition(|p| p.a_mm_s2 > 1.0).unwrap();
+        assert!(first_fall + 50 < last_rise, "{kind:?}: {first_fall} {last_rise}");
+        let at_stop = |p: &&Setpoint| p.limit == SpeedLimit::Stop;
+        let inside = out[first_fall..=last_rise].iter().find(at_stop);
+        assert!(inside.is_none(), "{kind:?}: {inside:?}");
+        assert!(out[1..first_fall].iter().any(|p| at_stop(&p)));
+        assert!(out[last_rise..].iter().any(|p| at_stop(&p)));
     }
 }

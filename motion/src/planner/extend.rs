@@ -1,16 +1,14 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
 use super::Planner;
-use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
 use crate::deviation::{Change, What};
-use crate::plan::{Segment, Start, last_blocks};
+use crate::plan::{Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
-use crate::timeline::{Entry, Moment, Seen};
+use crate::timeline::{Entry, Moment, Seen, is_at};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
-use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -237,7 +235,7 @@ impl Planner {
             entry = now;
         }
         entry.stops |= self.plan.reserve.is_empty();
-        entry.caps = held_to(self.plan.pass(entry.blocks.len()));
+        entry.hold_to(self.plan.pass(entry.blocks.len()));
         self.append(entry, 0);
         if let Some(next) = self.plan.reserve.front() {
             // a dwell in between
@@ -256,11 +254,20 @@ impl Planner {
         }
         let mut segments = self.plan.pass(blocks).into_iter();
         for (entry, dwell) in entries.range_mut(..count).zip(dwells) {
-            entry.caps = held_to(segments.by_ref().take(entry.blocks.len()));
+            let own = segments.by_ref().take(entry.blocks.len());
+            entry.hold_to(own);
             self.enter(entry, dwell);
         }
         self.timeline.extend(entries.drain(..count));
         self.plan.reserve = entries;
+        // what ends at a limit rises from there because of it
+        if let Some(next) = self.plan.segments.front() {
+            let limit = next.cap.lower(next.queued.velocity);
+            let speed = &mut self.plan.start.speed;
+            if speed.v_mm_s > 0.0 && is_at(speed.v_mm_s, limit) {
+                speed.why = limit.why;
+            }
+        }
     }
 
     /// Puts an entry after the others on the timeline; what follows a stop starts after `dwell` cycles.
@@ -279,7 +286,7 @@ impl Planner {
         }
         let end = entry.profile.end();
         // a rise that is left on its way continues for the reason it began with
-        let why = if end.a_mm_s2 > 0.0 { entry.why_up } else { entry.why_down };
+        let why = if end.a_mm_s2 > 0.0 { entry.last_rise() } else { entry.why_down };
         let mut start = Start {
             moment: entry.end,
             s_mm: entry.s0 + entry.profile.length(),
@@ -292,13 +299,6 @@ impl Planner {
         }
         self.plan.start = start;
     }
-}
-
-/// What final segments were held to.
-pub(super) fn held_to(
-    segments: impl IntoIterator<Item = Segment>,
-) -> SmallVec<[(Cap, Option<Asked>); 1]> {
-    segments.into_iter().map(|s| (s.cap, s.asked)).collect()
 }
 
 /// How many entries end before block `limit` of the window or at it; `None` if the first one continues.

@@ -25,7 +25,6 @@
 //! adds to that is not kept beyond the next change.
 
 use super::Planner;
-use super::extend::held_to;
 use super::feedhold::feedhold_slope;
 use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
@@ -353,7 +352,7 @@ impl Planner {
             let stops = profile.end().v_mm_s <= 0.0;
             let Start { moment, s_mm, .. } = self.plan.start;
             let mut entry = Entry::along(moment, s_mm, profile, (why, why), &blocks, stops);
-            entry.caps = held_to(along);
+            entry.hold_to(along);
             self.append(entry, 0);
             rest = cut(rest, length);
         }

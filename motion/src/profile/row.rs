@@ -136,6 +136,12 @@ impl Profile {
         starts.chain(inside).fold(0.0, f64::max)
     }
 
+    /// True if the speed rises again after it has fallen.
+    pub(crate) fn rises_after_a_fall(&self) -> bool {
+        let mut accelerations = self.phases.iter().map(|(_, p)| p.a);
+        accelerations.any(|a| a < 0.0) && accelerations.any(|a| a > 0.0)
+    }
+
     /// State at time `t` in s since the start; before the start and after the end the state of that end.
     pub fn at(&self, t: f64) -> State {
         if t >= self.duration {

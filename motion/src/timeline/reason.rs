@@ -1,0 +1,70 @@
+//! What holds the speed of an entry down where it changes.
+//!
+//! A profile along many blocks falls to a limit inside and rises from it again. There the speed is held down by that limit and not
+//! by what comes at the ends of the profile.
+
+use super::Entry;
+use crate::cap::{Cap, SpeedLimit};
+use crate::lookahead::{FLAT_MM_S2, ROUNDING};
+use crate::plan::Segment;
+use crate::profile::State;
+use smallvec::SmallVec;
+
+/// Relative difference up to which the speed is at a limit: what a ride leaves between both.
+const TOUCHES: f64 = 1e-3;
+
+/// A limit that the speed runs down to, or along, inside an entry.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Low {
+    /// Path length in mm since the start of the span.
+    s_mm: f64,
+    why: SpeedLimit,
+}
+
+/// True if a speed in mm/s runs along a limit.
+pub(crate) fn is_at(v_mm_s: f64, limit: Cap) -> bool {
+    v_mm_s >= limit.v_mm_s * (1.0 - TOUCHES)
+}
+
+impl Entry {
+    /// What its blocks were held to, once it is final.
+    pub(crate) fn hold_to(&mut self, segments: impl IntoIterator<Item = Segment>) {
+        self.caps = segments.into_iter().map(|s| (s.cap, s.asked)).collect();
+        self.lows = if self.blocks.len() > 1 && self.profile.rises_after_a_fall() {
+            (1..self.blocks.len()).filter_map(|i| self.low_before(i)).collect()
+        } else {
+            SmallVec::new()
+        };
+    }
+
+    /// The limit at the start of a block if the speed is at it.
+    fn low_before(&self, i: usize) -> Option<Low> {
+        let feed = |i: usize| self.feeds.get(i).copied().unwrap_or(self.blocks[i].0.velocity);
+        let limit = self.caps.get(i)?.0.lower(feed(i - 1)).lower(feed(i));
+        let s_mm = self.blocks[i - 1].1;
+        let v = self.profile.at(self.profile.time_at(s_mm)).v_mm_s;
+        is_at(v, limit).then_some(Low { s_mm, why: limit.why })
+    }
+
+    /// What held the speed down from which it rises at the end.
+    pub(crate) fn last_rise(&self) -> SpeedLimit {
+        self.lows.last().map_or(self.why_up, |low| low.why)
+    }
+
+    /// What holds the speed down in a state inside block `i`.
+    #[inline]
+    pub(super) fn reason(&self, i: usize, state: &State) -> SpeedLimit {
+        let at = || self.lows.partition_point(|low| low.s_mm <= state.s_mm);
+        let top = self.feeds.get(i).unwrap_or(&self.blocks[i].0.velocity);
+        if state.a_mm_s2 > FLAT_MM_S2 {
+            at().checked_sub(1).map_or(self.why_up, |low| self.lows[low].why)
+        } else if state.a_mm_s2 < -FLAT_MM_S2 {
+            self.lows.get(at()).map_or(self.why_down, |low| low.why)
+        } else if state.v_mm_s >= top.v_mm_s * (1.0 - ROUNDING) {
+            // what is driven evenly after a change of speed keeps the rounding of that change
+            top.why
+        } else {
+            self.lows.get(at()).map_or(self.why_down, |low| low.why)
+        }
+    }
+}
