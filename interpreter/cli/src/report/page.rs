@@ -31,6 +31,8 @@ const SCRIPT: &str = concat!(
 
 /// Lines whose times the page knows, the most expensive ones.
 const MOST_LINES: usize = 5000;
+/// Pairs of axes of the contour, in the order of the page's buttons.
+const PLANES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
 /// What a page shows of a run in addition to its curves.
 #[derive(Debug)]
@@ -52,6 +54,7 @@ pub(super) fn draw(runs: &[Drawn], beside: &[Beside]) -> String {
     let chart = json!({
         "steps": steps(), "dashes": DASHES, "most_stretches": MOST_STRETCHES,
         "contour": views::contour(runs, &groups, "Contour", [scale(), scale()]),
+        "plane": PLANES.iter().position(|p| *p == views::plane(runs)),
         "actual": views::actual(),
         "views": views::over_time(runs, &groups),
     });
@@ -68,7 +71,10 @@ pub(super) fn draw(runs: &[Drawn], beside: &[Beside]) -> String {
 fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
     let Drawn { recording: r, summary: s, .. } = drawn;
     let points: Vec<Point> = r.points().copied().collect();
-    let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
+    let mut names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
+    // an only axis is drawn along a line
+    let drawn_axes = r.plane.len().max(if r.plane.is_empty() { 0 } else { 2 });
+    names.resize(drawn_axes, "");
     let mut out = Json::new();
     out.text("summary", &safe(&s.json()));
     let index = runs.iter().position(|r| std::ptr::eq(r, drawn)).unwrap_or_default();
@@ -92,9 +98,9 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
         [("ipo", (|p| p.ipo) as fn(&Point) -> [f64; 3]), ("set", |p| p.set), ("act", |p| p.act)]
     {
         let axis = |i: usize| join(points.iter().map(|p| number(of(p)[i])));
-        out.text(name, &join((0..r.plane.len()).map(axis)));
+        out.text(name, &join((0..drawn_axes).map(axis)));
     }
-    let planes = [[0, 1], [0, 2], [1, 2]].into_iter().filter(|p| p[1] < r.plane.len());
+    let planes = PLANES.into_iter().filter(|p| p[1] < drawn_axes);
     out.text(
         "programmed",
         &join(planes.map(|plane| {

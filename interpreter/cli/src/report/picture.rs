@@ -22,7 +22,7 @@ pub(super) fn draw(runs: &[Drawn]) -> String {
     let mut svg = Svg::new();
     let groups = views::groups(runs);
     head(&mut svg, runs);
-    let plane = plane(runs);
+    let plane = views::plane(runs);
     let visible = |p: &Point| p.error > VISIBLE_MM;
     let worst = worst(runs).filter(visible);
     let look = worst.or_else(|| farthest(&drawn(runs), &groups, plane).filter(visible));
@@ -83,32 +83,14 @@ fn head(svg: &mut Svg, runs: &[Drawn]) {
     svg.text([LEFT, 58.0], Font::FACTS, &facts.join("  ·  "));
 }
 
-/// The two linear axes that move most, in channel order.
-fn plane(runs: &[Drawn]) -> [usize; 2] {
-    let mut spans: Vec<(f64, usize)> =
-        (0..3).map(|i| (extent_of(runs, i).map_or(0.0, |e| e.1 - e.0), i)).collect();
-    spans.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let (a, b) = (spans[0].1, spans[1].1);
-    [a.min(b), a.max(b)]
-}
-
 fn axis_label(run: &Recording, i: usize) -> String {
     let name = run.plane.get(i).and_then(|&a| run.facts.axes.get(a)).map(|a| a.name.as_str());
-    format!("{} in mm", name.unwrap_or("-"))
-}
-
-fn extent_of(runs: &[Drawn], axis: usize) -> Option<(f64, f64)> {
-    let values =
-        runs.iter().flat_map(|r| r.recording.points()).flat_map(|p| [p.ipo[axis], p.set[axis]]);
-    values.filter(|v| v.is_finite()).fold(None, |range, v| {
-        let (low, high) = range.unwrap_or((v, v));
-        Some((f64::min(low, v), f64::max(high, v)))
-    })
+    name.map_or_else(String::new, |name| format!("{name} in mm"))
 }
 
 /// The range of an axis with some air around it.
 fn extent(runs: &[Drawn], axis: usize) -> (f64, f64) {
-    let (low, high) = extent_of(runs, axis).unwrap_or((0.0, 1.0));
+    let (low, high) = views::extent_of(runs, axis).unwrap_or((0.0, 1.0));
     let air = (0.06 * (high - low)).max(1e-3);
     (low - air, high + air)
 }

@@ -211,11 +211,37 @@ pub(super) fn points<'a>(
     }
 }
 
-/// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
+/// The two linear axes that move most, in channel order.
+pub(super) fn plane(runs: &[Drawn]) -> [usize; 2] {
+    let mut spans: Vec<(f64, usize)> =
+        (0..3).map(|i| (extent_of(runs, i).map_or(0.0, |e| e.1 - e.0), i)).collect();
+    spans.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let (a, b) = (spans[0].1, spans[1].1);
+    [a.min(b), a.max(b)]
+}
+
+/// The range of an axis over all runs.
+pub(super) fn extent_of(runs: &[Drawn], axis: usize) -> Option<(f64, f64)> {
+    let values =
+        runs.iter().flat_map(|r| r.recording.points()).flat_map(|p| [p.ipo[axis], p.set[axis]]);
+    values.filter(|v| v.is_finite()).fold(None, |range, v| {
+        let (low, high) = range.unwrap_or((v, v));
+        Some((f64::min(low, v), f64::max(high, v)))
+    })
+}
+
+/// A curve over time: smallest and largest value per pixel in the order of their times, or of each bucket where there are fewer.
 fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) -> Points {
     let per_px = (run.buckets.len() as f64 / pixels).max(1.0);
     let mut points: Points = Vec::new();
-    let (mut pixel, mut end) = (None, None);
+    // of buckets with several cycles nobody knows which value came first: the one next to what is before it
+    let put = |points: &mut Points, [least, greatest]: [[f64; 2]; 2]| {
+        let falls = least[0] == greatest[0]
+            && points.last().is_some_and(|p| (p[1] - greatest[1]).abs() < (p[1] - least[1]).abs());
+        let greatest_first = falls || greatest[0] < least[0];
+        points.extend(if greatest_first { [greatest, least] } else { [least, greatest] });
+    };
+    let (mut pixel, mut end, mut extremes) = (None, None, None::<[[f64; 2]; 2]>);
     for (i, bucket) in run.buckets.iter().enumerate() {
         if pass.is_some_and(|p| p != bucket.pass) {
             continue;
@@ -223,21 +249,28 @@ fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) 
         let (low, high) = bucket.range[curve];
         let t = run.seconds(bucket.k);
         let this = Some(libm::floor(i as f64 / per_px));
-        if this == pixel
-            && let [.., bottom, top] = points.as_mut_slice()
-        {
-            bottom[1] = bottom[1].min(low);
-            top[1] = top[1].max(high);
-        } else {
-            pixel = this;
-            points.extend([[t, low], [t, high]]);
+        match &mut extremes {
+            Some([least, greatest]) if this == pixel => {
+                if low < least[1] {
+                    *least = [t, low];
+                }
+                if high > greatest[1] {
+                    *greatest = [t, high];
+                }
+            }
+            _ => {
+                let before = extremes.replace([[t, low], [t, high]]);
+                before.into_iter().for_each(|e| put(&mut points, e));
+                pixel = this;
+            }
         }
         end = Some((bucket, low, high));
     }
+    extremes.into_iter().for_each(|e| put(&mut points, e));
     // to its last cycle
     if let Some((bucket, low, high)) = end.filter(|(bucket, ..)| bucket.last > bucket.k) {
         let t = run.seconds(bucket.last);
-        points.extend([[t, low], [t, high]]);
+        put(&mut points, [[t, low], [t, high]]);
     }
     points
 }

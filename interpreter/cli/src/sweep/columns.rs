@@ -32,7 +32,10 @@ pub(super) fn row(
     let mut row: Vec<Cell> =
         values(&args.vary, combination).iter().map(|text| value(text)).collect();
     row.extend(state(&outcome.summary));
-    let wanted = |name: &String| args.columns.is_empty() || args.columns.contains(name);
+    // what has an option of its own is wanted
+    let measured = |name: &String| args.amplitude.iter().any(|a| a.text == *name);
+    let wanted =
+        |name: &String| args.columns.is_empty() || args.columns.contains(name) || measured(name);
     for (name, cell) in results.into_iter().filter(|(name, _)| wanted(name)) {
         header.push(name);
         row.push(cell);

@@ -27,7 +27,7 @@ const HOW = "wheel or pinch zooms, drag pans, double-click shows all; arrow keys
 byId("how").textContent = HOW;
 if (most === 3) {
   const plane = (p, i) => [i, p.map(a => runs.find(r => r.plane.length > a).plane[a]).join("")];
-  choice(byId("planes"), [...PLANES.map(plane), [SPACE, "3D"]], 0, i => {
+  choice(byId("planes"), [...PLANES.map(plane), [SPACE, "3D"]], view.plane, i => {
     view.plane = i;
     view.turn = [...ISOMETRIC];
     byId("how").textContent = i === SPACE ? "drag turns, with Shift or two fingers it moves" : HOW;

@@ -18,7 +18,7 @@ const begin = Math.min(...runs.map(r => seconds(r, r.k[0] || 0)));
 // what is looked at: plane, turn of the view in space, stretch of time, the moment under the pointer, the line chosen
 const ISOMETRIC = [Math.PI / 4, Math.atan(Math.SQRT1_2)];
 const view = {
-  plane: 0, turn: [...ISOMETRIC], paint: "run", time: [begin, end], at: null, line: null, hidden: new Set(),
+  plane: CHART.plane || 0, turn: [...ISOMETRIC], paint: "run", time: [begin, end], at: null, line: null, hidden: new Set(),
 };
 const PLANES = [[0, 1], [0, 2], [1, 2]], SPACE = PLANES.length;
 

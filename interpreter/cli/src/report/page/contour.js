@@ -131,7 +131,7 @@ function drawContour(f) {
   const names = runs.reduce((most, r) => r.plane.length > most.length ? r.plane : most, []);
   if (view.plane < SPACE) {
     const low = toData(f, x0, y0 + h), high = toData(f, x0 + w, y0), [a, b] = PLANES[view.plane];
-    grid(c, box, [low[0], high[0]], [low[1], high[1]], `${names[a] || "-"} in mm`, `${names[b] || "-"} in mm`);
+    grid(c, box, [low[0], high[0]], [low[1], high[1]], ...[a, b].map(i => names[i] ? `${names[i]} in mm` : ""));
   } else {
     c.strokeStyle = paint("var(--frame)"); c.strokeRect(...box);
     drawDirections(f, c, box, names);

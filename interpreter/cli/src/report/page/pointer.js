@@ -96,6 +96,7 @@ function tip(x, y) {
     const last = (i + 1 < r.k.length ? r.k[i + 1] : r.last + 1) - 1, [from, to] = [r.k[i], last].map(k => seconds(r, k).toFixed(6));
     text.push(`t = ${from} s${last > r.k[i] ? ` to ${to} s, positions in their middle` : ""}   ${file}line ${r.line[i]}${r.block[i] === null ? "" : "   N" + r.block[i]}   held by ${r.limit[i]}`);
     r.plane.forEach((name, a) => {
+      if (!name) return;
       const [set, act] = [r.setCurves[a], r.actCurves[a]].map(c => c ? valueOf(c, i).toFixed(5) : "-");
       text.push(`${name}  set ${set}   act ${act} mm`);
     });
