@@ -7,6 +7,8 @@
 //!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
 //!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
 //!    look-ahead finds a plan after it;
+//!    look-ahead finds a plan after it. Where the speed is on its way to one that is allowed and the jerk is constant, the
+//!    look-ahead continues from the acceleration as it is, without a leg;
 //! 3. what lies after the leg goes back into the queue, the block in which it ends as its remainder.
 //!
 //! So every state that is output still has a stop ahead of it. Until its leg begins the path follows the old plan:
@@ -27,9 +29,10 @@
 use super::Planner;
 use super::feedhold::feedhold_slope;
 use crate::asked::Asked;
+use crate::block::SlopeKind::{Hsc, Trapez};
 use crate::cap::{Cap, SpeedLimit};
 use crate::deviation::What;
-use crate::lookahead::plan;
+use crate::lookahead::{FLAT_MM_S2, plan};
 use crate::plan::{Plan, Segment, Start};
 use crate::profile::{Profile, SlopeLimits};
 use crate::queue::Queued;
@@ -138,8 +141,15 @@ impl Planner {
             if exceeds && !gentlest && waited >= f64::from(self.kernels.length()) {
                 break;
             }
-            if let Some((leg, rest)) = self.leg_from(&spot, ahead, &old[over..], gentle) {
-                match self.install(&spot, kept, leg, rest) {
+            let rest = behind(ahead, spot.s);
+            if gentle >= 1.0 && self.may_go_on(&spot, &rest) {
+                let outcome = self.install(&spot, kept.clone(), Leg::new(), rest.clone());
+                if outcome == Outcome::Taken {
+                    return true;
+                }
+            }
+            if let Some(leg) = self.leg_from(&spot, &rest, &old[over..], gentle) {
+                match self.install(&Spot { a: 0.0, ..spot }, kept, leg, rest) {
                     Outcome::Taken => return true,
                     outcome => exceeds |= outcome == Outcome::Exceeds,
                 }
@@ -205,17 +215,28 @@ impl Planner {
         }
     }
 
-    /// The leg from a spot with everything after the spot; `None` if the old plan has to continue.
-    fn leg_from(
-        &self,
-        spot: &Spot,
-        ahead: &[(f64, Segment)],
-        old: &[Entry],
-        gentle: f64,
-    ) -> Option<(Leg, Vec<Segment>)> {
-        let rest = behind(ahead, spot.s);
-        let leg = if spot.v > 0.0 { self.leg(spot, &rest, old, gentle)? } else { Leg::new() };
-        Some((leg, rest))
+    /// True if the speed is on its way to one that is allowed, and a plan may start from the acceleration as it is: nothing has to
+    /// be settled first. What keeps a tolerance, and braking under G901, are planned as a whole.
+    fn may_go_on(&self, spot: &Spot, rest: &[Segment]) -> bool {
+        let Some(Segment { queued: first, .. }) = rest.first() else { return false };
+        let constant_jerk = |q: &Queued| matches!(q.block.slope.kind, Trapez | Hsc);
+        let whole = |q: &Queued| {
+            q.block.late_braking || self.kernels.any() && q.block.tolerance.ax_dev_mm.is_some()
+        };
+        let mut ahead = rest.iter().map(|s| &*s.queued);
+        let rises = spot.a > FLAT_MM_S2;
+        let falls = spot.a < -FLAT_MM_S2;
+        let settled = first.slope.settled(spot.v, spot.a);
+        self.active.hold.is_none()
+            && spot.v > 0.0
+            && (rises && settled <= first.velocity.v_mm_s
+                || falls && settled < first.velocity.v_mm_s)
+            && ahead.all(|q| constant_jerk(q) && !whole(q))
+    }
+
+    /// The leg from a spot; `None` if the old plan has to continue.
+    fn leg_from(&self, spot: &Spot, rest: &[Segment], old: &[Entry], gentle: f64) -> Option<Leg> {
+        if spot.v > 0.0 { self.leg(spot, rest, old, gentle) } else { Some(Leg::new()) }
     }
 
     /// Slope of a block while the speed changes, with a part of the acceleration.
@@ -317,11 +338,11 @@ impl Planner {
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts what is kept and a leg on the timeline and what lies after it into the plan. If the path would be too fast there
-    /// for the tolerance, nothing is changed but the timeline.
+    /// Puts what is kept and a leg on the timeline and what lies after it into the plan, which begins with the acceleration of the
+    /// spot where there is no leg. If the path would be too fast there for the tolerance, nothing is changed but the timeline.
     fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, rest: Vec<Segment>) -> Outcome {
         let speed = Cap::new(spot.v, spot.why);
-        let start = Start { moment: spot.moment, s_mm: spot.s, speed, a_mm_s2: 0.0 };
+        let start = Start { moment: spot.moment, s_mm: spot.s, speed, a_mm_s2: spot.a };
         let before = std::mem::replace(&mut self.plan, Plan::from_state(start));
         self.timeline.put(kept);
         let left = self.contour.part_at(spot.moment.cycles(self.cycle) - SLACK);
