@@ -27,6 +27,7 @@ mod apart;
 pub mod inputs;
 mod lists;
 mod run;
+mod stretch;
 #[cfg(test)]
 mod tests;
 
@@ -37,7 +38,7 @@ pub use crate::record::facts::{Apart, AxisFacts, Facts, FileNames};
 pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
 pub use apart::Work;
 pub use lists::MachineLists;
-pub use run::{Run, Sink};
+pub use run::{Reads, Run, Sink};
 
 use crate::diag::{Condition, Diagnostic};
 use crate::exec;

@@ -1,6 +1,7 @@
 //! What the simulation records of one cycle; traces, summaries and reports are made from these records only.
 //!
-//! Order of calls: a run fills one record per cycle and hands it to its sink; [`columns`] reads values out of it.
+//! Order of calls: a run hands its cycles to its sink, many at once as columns ([`Rows`]) or one after the other as records;
+//! [`columns`] reads values out of both.
 //!
 //! ```
 //! use kontur_interpreter::record::{CycleRecord, SpeedLimit};
@@ -12,6 +13,12 @@
 
 pub mod columns;
 pub(crate) mod facts;
+mod quantity;
+mod rows;
+
+pub use quantity::{Asked, Quantity};
+pub use rows::Rows;
+pub(crate) use rows::{AxisColumns, RowBuffer};
 
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::Path;

@@ -1,6 +1,6 @@
 //! The cycle loop: program steps into the planner, setpoints through the axes, records out.
 //!
-//! A [`Simulation`] is pulled one cycle at a time; where nothing can come between, its axes are some cycles ahead, see `batch`.
+//! A [`Simulation`] is pulled as many cycles at a time as nothing can come between, see `batch`, mostly one where something can.
 //! The planner asks for blocks only as far as its look-ahead reaches, so neither the program nor the trace is ever held as a whole.
 //! Where the program needs the path at rest (exact stop, dwell, a new kernel), the planner runs dry, the loop holds the position
 //! until the condition is met, and only then
@@ -32,10 +32,10 @@ pub use totals::{SettledStop, Stops, Totals};
 
 use crate::exec::{EndReason, Event, Executor, SourceRef, Step, Sync};
 use crate::machine::Machine;
-use crate::record::{CycleRecord, Motion};
+use crate::record::{CycleRecord, Motion, RowBuffer};
 use axes::Driver;
 use banding::Banding;
-use batch::{Batch, MOST, MOST_READ};
+use batch::{Batch, MOST};
 use chain::AxisChain;
 use independent::IndependentAxes;
 use inputs::Inputs;
@@ -134,8 +134,6 @@ pub(crate) struct Simulation {
     targets: Vec<f64>,
     /// Cycles that are computed in a row.
     batch: Batch,
-    /// Set positions of the path axes that are measured against the contour.
-    set: AxisVec,
     /// Set positions of the path axes in the previous cycle, before their filters.
     path_position: AxisVec,
     /// G33: the share of a cycle by which the axes lag behind the planner, so that they go with the mark of the spindle.
@@ -158,15 +156,6 @@ pub(crate) struct Simulation {
     messages: Messages,
     progress: Progress,
     totals: Totals,
-}
-
-/// Which records of cycles in a row are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Watched {
-    /// Each is read.
-    Each,
-    /// Only the last one is read.
-    Last,
 }
 
 impl Simulation {
@@ -205,6 +194,11 @@ impl Simulation {
         (!self.messages.is_empty()).then(|| std::mem::take(&mut self.messages))
     }
 
+    /// [`Self::take_messages`] has some.
+    fn has_messages(&self) -> bool {
+        self.executor.has_diagnostics() || !self.messages.is_empty()
+    }
+
     /// Number of path axes.
     pub(crate) fn path_axes(&self) -> usize {
         self.path_position.len()
@@ -221,57 +215,51 @@ impl Simulation {
         &self.record
     }
 
-    /// The same, to write what was measured.
-    pub(crate) fn record_mut(&mut self) -> &mut CycleRecord {
-        &mut self.record
-    }
-
-    /// Writes the record of the cycle computed last, which is not read any more, in the place of another one.
-    pub(crate) fn give_record(&mut self, to: &mut CycleRecord) {
-        if self.batch.is_pending() {
-            // the axes of the next cycle do not begin with those of this one: they have been computed
-            let given = std::mem::replace(&mut self.record.axes, std::mem::take(&mut to.axes));
-            *to = CycleRecord { axes: given, ..self.record };
-        } else {
-            to.clone_from(&self.record);
-        }
-    }
-
     /// The deviation from the contour is wanted.
     pub(crate) fn is_measured(&self) -> bool {
         self.planner.reports_changes()
     }
 
-    /// Computes the next cycle; false when the program has ended or was stopped and the axes are at rest.
-    pub(crate) fn next_cycle(&mut self) -> bool {
-        if self.batch.is_pending() {
-            self.take_computed();
-            return true;
-        }
-        self.begin_row(MOST_READ, Watched::Each)
-    }
-
-    /// Computes up to `most` cycles of which only the last record is read, and stops where the output is to be
-    /// measured; the number of them, 0 as with [`Self::next_cycle`].
-    pub(crate) fn next_cycles(&mut self, most: u64) -> u64 {
-        if self.batch.is_pending() || self.is_measured() {
-            return u64::from(self.next_cycle());
-        }
-        let most = usize::try_from(most).unwrap_or(MOST).min(MOST);
-        if !self.begin_row(most, Watched::Last) {
+    /// Computes the next cycles, `most` at the most; the number of them, 0 when the program has ended or was stopped and the
+    /// axes are at rest.
+    ///
+    /// Their rows and points are added to `rows` and `samples`, which have room for them. Where nobody reads the cycles (not
+    /// `read`) and nothing is measured they are left out.
+    pub(crate) fn next_cycles(
+        &mut self,
+        most: usize,
+        read: bool,
+        rows: &mut RowBuffer,
+        samples: &mut Samples,
+    ) -> usize {
+        let most = most.min(MOST);
+        if !self.begin_row(most, read, rows) {
             return 0;
         }
-        if self.batch.each_is_read() { 1 } else { 1 + self.take_all() }
+        if !read && !self.is_measured() {
+            return 1 + self.take_all();
+        }
+        self.show(rows, samples);
+        let mut count = 1;
+        while self.batch.is_pending() {
+            self.take_computed();
+            self.show(rows, samples);
+            count += 1;
+        }
+        count
     }
 
-    /// Computes the next cycle and the axes of up to `most` cycles, this one included.
-    fn begin_row(&mut self, most: usize, watched: Watched) -> bool {
+    /// Computes the next cycle and the axes of up to `most` cycles, this one included; see [`Self::next_cycles`].
+    fn begin_row(&mut self, most: usize, read: bool, rows: &mut RowBuffer) -> bool {
         loop {
             match &mut self.phase {
                 Phase::Done => return false,
                 Phase::Start => {
                     self.phase = Phase::Running;
                     self.take_inputs(0);
+                    for (axis, record) in self.record.axes.iter().enumerate() {
+                        rows.axis_mut(axis).fill(record, 1);
+                    }
                     return true;
                 }
                 Phase::Running => match self.planner.advance() {
@@ -330,7 +318,8 @@ impl Simulation {
         if self.is_out_of_time() {
             return false;
         }
-        self.through_the_axes(most.saturating_sub(1), watched);
+        let rows = (read || self.is_measured()).then_some(rows);
+        self.through_the_axes(most.saturating_sub(1), rows);
         self.watch_probe();
         self.watch_banding();
         true

@@ -28,7 +28,7 @@ mod text;
 
 use crate::diag::Diagnostic;
 use crate::job::{Facts, SettledStop, Totals};
-use crate::record::{AxisRecord, CycleRecord, Rest, SpeedLimit};
+use crate::record::{Asked, AxisRecord, CycleRecord, Quantity, Rest, Rows, SpeedLimit};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -165,7 +165,7 @@ pub struct Summary {
     pub messages_omitted: u64,
 }
 
-/// Collects a summary, record by record.
+/// Collects a summary, cycle by cycle.
 #[derive(Clone, Debug)]
 pub struct Collector {
     facts: Facts,
@@ -197,6 +197,19 @@ impl Collector {
         }
     }
 
+    /// What it reads of the axes.
+    pub fn asked() -> Asked {
+        Asked::of(&[
+            Quantity::Ipo,
+            Quantity::Vel,
+            Quantity::Acc,
+            Quantity::Jerk,
+            Quantity::Err,
+            Quantity::DevBothWays,
+            Quantity::Lag,
+        ])
+    }
+
     /// Adds a cycle.
     pub fn add(&mut self, record: &CycleRecord) {
         for (most, axis) in self.axes.iter_mut().zip(&record.axes) {
@@ -207,6 +220,31 @@ impl Collector {
             most.dev = most.dev.max(axis.dev_both_ways);
             most.lag = most.lag.max(axis.lag.abs());
         }
+        self.add_whole(record, |axis| record.axes.get(axis).map(|axis| axis.ipo));
+    }
+
+    /// Adds cycles with the columns of [`Self::asked`].
+    pub fn add_rows(&mut self, rows: &Rows<'_>) {
+        for (i, most) in self.axes.iter_mut().enumerate() {
+            let magnitude = |before: f64, quantity| {
+                let column = rows.column(i, quantity).iter();
+                column.fold(before, |most: f64, x| most.max(x.abs()))
+            };
+            most.vel = magnitude(most.vel, Quantity::Vel);
+            most.acc = magnitude(most.acc, Quantity::Acc);
+            most.jerk = magnitude(most.jerk, Quantity::Jerk);
+            most.err = magnitude(most.err, Quantity::Err);
+            most.lag = magnitude(most.lag, Quantity::Lag);
+            let both_ways = rows.column(i, Quantity::DevBothWays).iter();
+            most.dev = both_ways.fold(most.dev, |most: f64, x| most.max(*x));
+        }
+        for (i, cycle) in rows.cycles().iter().enumerate() {
+            self.add_whole(cycle, |axis| rows.column(axis, Quantity::Ipo).get(i).copied());
+        }
+    }
+
+    /// Adds what of a cycle is not of an axis; `ipo`: interpolated setpoints of the axes.
+    fn add_whole(&mut self, record: &CycleRecord, ipo: impl Fn(usize) -> Option<f64>) {
         if self.cycles == 0 || record.contour_err_mm > self.worst.0 {
             let place = (record.contour_err_mm, record.k, record.file, record.line, record.block);
             self.worst = place;
@@ -221,7 +259,7 @@ impl Collector {
                 self.rests[i] += cycles;
             }
         }
-        self.ripple.add(record, self.facts.cycle_us);
+        self.ripple.add(record, ipo, self.facts.cycle_us);
         self.last = Some((record.k, record.path.s_mm));
         self.cycles += 1;
     }

@@ -8,9 +8,10 @@ use crate::request::{OpenError, Opened};
 use crate::target::{create_all, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
-use kontur_interpreter::job::{Run, Sink, Totals, Work};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::job::{Reads, Run, Sink, Totals, Work};
+use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::Collector;
+use std::convert::Infallible;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread::{Builder, available_parallelism};
@@ -38,13 +39,18 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
     let takes = times.is_some() || !traces.is_empty();
-    let take = |record: &CycleRecord| {
+    let of_times = if times.is_some() { Asked::ALL } else { Asked::NONE };
+    let asked = traces.iter().fold(of_times, |asked, trace| asked.and(trace.asked()));
+    let take = |rows: &Rows<'_>| {
         if let Some(times) = &mut times {
-            times.add(record);
+            let Ok(()) = rows.each(|record| {
+                times.add(record);
+                Ok::<(), Infallible>(())
+            });
         }
-        traces.iter_mut().try_for_each(|t| go_on_without(t.write(record), alone))
+        traces.iter_mut().try_for_each(|t| go_on_without(t.write(rows), alone))
     };
-    let take = takes.then_some(take);
+    let take = takes.then_some((asked, take));
     let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), take);
     // a subroutine that it reached may be one of the outputs
     keep_apart(&reads.so_far(), &outputs)?;
@@ -117,7 +123,8 @@ impl Shown<'_> {
     pub(crate) const ALONE: Self = Self { label: "", errors_only: false };
 }
 
-/// Drives a run to its end: every record to `take` and to the summary, as far as there are any, every message to the console.
+/// Drives a run to its end: all cycles to the summary and to `take`, with the columns that it asks for, as far as there are
+/// any; every message to the console.
 ///
 /// # Errors
 /// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
@@ -126,7 +133,7 @@ pub(crate) fn drive(
     shown: Shown<'_>,
     console: &mut Console,
     summary: Option<&mut Collector>,
-    take: Option<impl FnMut(&CycleRecord) -> Result<(), Error>>,
+    take: Option<(Asked, impl FnMut(&Rows<'_>) -> Result<(), Error>)>,
 ) -> Result<(), Error> {
     let progress = console.progress();
     let _running = Running::start();
@@ -149,21 +156,27 @@ struct Watch<'a, F> {
     console: &'a mut Console,
     progress: Progress,
     summary: Option<&'a mut Collector>,
-    take: Option<F>,
+    /// With what it asks for.
+    take: Option<(Asked, F)>,
 }
 
-impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
+impl<F: FnMut(&Rows<'_>) -> Result<(), Error>> Sink for Watch<'_, F> {
     type Stop = Error;
 
-    fn reads(&self) -> bool {
-        self.summary.is_some() || self.take.is_some()
+    fn reads(&self) -> Reads {
+        let of_summary = self.summary.is_some().then(Collector::asked);
+        match (of_summary, &self.take) {
+            (None, None) => Reads::Nothing,
+            (asked, None) => Reads::Columns(asked.unwrap_or_default()),
+            (asked, Some((others, _))) => Reads::Columns(asked.unwrap_or_default().and(*others)),
+        }
     }
 
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Error> {
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Error> {
         if let Some(summary) = &mut self.summary {
-            summary.add(record);
+            summary.add_rows(rows);
         }
-        self.take.as_mut().map_or(Ok(()), |take| take(record))
+        self.take.as_mut().map_or(Ok(()), |(_, take)| take(rows))
     }
 
     fn pause(&mut self, run: &mut Run) -> Result<(), Error> {

@@ -14,8 +14,8 @@ use crate::target::Target;
 use background::Background;
 use batch::{Batch, Numbers};
 use kontur_interpreter::job::{Facts, Run};
-use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::{self, Column};
+use kontur_interpreter::record::{Asked, Rows};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +26,7 @@ pub(crate) struct Trace {
     way: Way,
     decimate: u64,
     shows_deviation: bool,
+    asked: Asked,
 }
 
 /// The route of the records to their file.
@@ -91,6 +92,7 @@ impl Trace {
     ) -> Result<Self, Error> {
         let columns = select(signals, facts)?;
         let shows_deviation = columns.iter().any(Column::shows_deviation);
+        let asked = columns::asked(&columns);
         let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
         if is("html") || is("svg") {
             let message = format!(
@@ -126,7 +128,7 @@ impl Trace {
             }
         };
         let way = Way::Thread(Background::start(writer, numbers).map_err(to_error)?);
-        Ok(Self { path: name, way, decimate: decimate.max(1), shows_deviation })
+        Ok(Self { path: name, way, decimate: decimate.max(1), shows_deviation, asked })
     }
 
     /// A column of it needs the deviation from the contour.
@@ -134,16 +136,23 @@ impl Trace {
         self.shows_deviation
     }
 
-    /// Adds a record, if it is one of every `decimate`.
+    /// What its columns need of the axes.
+    pub(crate) const fn asked(&self) -> Asked {
+        self.asked
+    }
+
+    /// Adds one of every `decimate` cycles.
     ///
     /// # Errors
-    /// [`Error::Io`], e.g. a full disk: of this record, or of some before.
-    pub(crate) fn write(&mut self, record: &CycleRecord) -> Result<(), Error> {
-        if !record.k.is_multiple_of(self.decimate) {
-            return Ok(());
-        }
+    /// [`Error::Io`], e.g. a full disk: of these cycles, or of some before.
+    pub(crate) fn write(&mut self, rows: &Rows<'_>) -> Result<(), Error> {
         let Way::Thread(thread) = &mut self.way else { return Ok(()) };
-        if thread.write(record) { Ok(()) } else { self.end() }
+        let shown = |k: u64| k.is_multiple_of(self.decimate);
+        let Some(first) = rows.cycles().iter().position(|cycle| shown(cycle.k)) else {
+            return Ok(());
+        };
+        let decimate = usize::try_from(self.decimate).unwrap_or(usize::MAX);
+        if thread.write(&rows.after(first), decimate) { Ok(()) } else { self.end() }
     }
 
     /// Ends the thread.

@@ -2,16 +2,14 @@
 //!
 //! While one stretch is measured the next one is computed, so a run is ahead of what its sink has seen by two at most.
 
-use crate::record::CycleRecord;
+use super::stretch::Stretch;
+use crate::record::Asked;
 use crate::sim::{Measuring, Messages, Samples, Simulation};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 /// Work for another thread, see [`Run::to_end_on_threads`](super::Run::to_end_on_threads).
 pub type Work = Box<dyn FnOnce() + Send>;
-
-/// Cycles of a stretch, at most.
-const TOGETHER: usize = 256;
 
 /// Stretches that are measured or wait for it.
 const AHEAD: usize = 2;
@@ -20,52 +18,21 @@ const AHEAD: usize = 2;
 pub(super) struct Apart {
     to_measure: SyncSender<Samples>,
     measured: Receiver<Samples>,
-    /// Computed stretches, the one first that is shown.
-    stretches: VecDeque<Stretch>,
+    /// What the sink reads.
+    asked: Option<Asked>,
+    /// Computed stretches, whose samples are on the other thread.
+    computed: VecDeque<Stretch>,
     /// Memory that is used again.
     free: Option<Stretch>,
-    samples: Samples,
-    /// Cycles of the first stretch that were taken.
-    taken: usize,
     over: bool,
     /// Raised after the last cycle.
     closing: Option<Messages>,
 }
 
-/// Consecutive cycles.
-#[derive(Default)]
-struct Stretch {
-    records: Vec<CycleRecord>,
-    count: usize,
-    /// Raised in the last one of them.
-    messages: Option<Messages>,
-}
-
-impl Stretch {
-    /// Computes cycles until one raises a message; false if there are no more.
-    fn compute(&mut self, simulation: &mut Simulation, samples: &mut Samples) -> bool {
-        self.count = 0;
-        samples.clear();
-        while self.count < TOGETHER && self.messages.is_none() {
-            if !simulation.next_cycle() {
-                return false;
-            }
-            self.messages = simulation.take_messages();
-            simulation.sample(samples);
-            match self.records.get_mut(self.count) {
-                Some(record) => simulation.give_record(record),
-                None => self.records.push(simulation.record().clone()),
-            }
-            self.count += 1;
-        }
-        true
-    }
-}
-
 impl Apart {
-    /// Has cycles measured on another thread from here on, if `start` can start one; `record`: the state now.
+    /// Has cycles measured on another thread from here on, if `start` can start one.
     pub(super) fn begin(
-        record: &CycleRecord,
+        asked: Option<Asked>,
         measuring: &mut Measuring,
         start: impl FnOnce(&'static str, Work) -> bool,
     ) -> Option<Self> {
@@ -83,68 +50,46 @@ impl Apart {
         };
         let started = start("deviation", Box::new(work))
             && hand_over.try_send(std::mem::take(measuring)).is_ok();
-        let first = Stretch { records: vec![record.clone()], count: 1, ..Stretch::default() };
         started.then(|| Self {
             to_measure,
             measured,
-            stretches: [first].into(),
+            asked,
+            computed: VecDeque::new(),
             free: None,
-            samples: Samples::default(),
-            taken: 1,
             over: false,
             closing: None,
         })
     }
 
-    /// The cycle taken last; before the first one the state at the beginning.
-    pub(super) fn record(&self) -> &CycleRecord {
-        &self.stretches[0].records[self.taken - 1]
-    }
-
-    /// Advances to the next cycle, with the messages up to it; false if there are no more.
-    pub(super) fn next_cycle(
-        &mut self,
-        simulation: &mut Simulation,
-        raised: &mut Messages,
-    ) -> bool {
-        if self.taken == self.stretches[0].count && !self.next_stretch(simulation, raised) {
-            return false;
-        }
-        let stretch = &mut self.stretches[0];
-        self.samples.fill(self.taken, &mut stretch.records[self.taken]);
-        if self.taken + 1 == stretch.count {
-            raised.absorb(stretch.messages.take());
-        }
-        simulation.exceeded(&self.samples, self.taken).into_iter().for_each(|d| raised.push(d));
-        self.taken += 1;
-        true
-    }
-
-    /// Computes ahead, and takes the next stretch that is measured.
-    fn next_stretch(&mut self, simulation: &mut Simulation, raised: &mut Messages) -> bool {
-        while !self.over && self.stretches.len() <= AHEAD {
+    /// Computes ahead, and takes the next stretch that is measured in the place of `current`. It has no cycle, but possibly
+    /// messages, when there are no more.
+    pub(super) fn next_stretch(&mut self, current: &mut Stretch, simulation: &mut Simulation) {
+        let mut samples = std::mem::take(&mut current.samples);
+        while !self.over && self.computed.len() < AHEAD {
             let mut stretch = self.free.take().unwrap_or_default();
-            let mut samples = std::mem::take(&mut self.samples);
-            if !stretch.compute(simulation, &mut samples) {
-                (self.over, self.closing) = (true, simulation.take_messages());
-            }
+            stretch.samples = std::mem::take(&mut samples);
+            self.over = !stretch.compute(simulation, Stretch::ROOM, self.asked);
             if stretch.count > 0 {
-                self.stretches.push_back(stretch);
                 // a thread that is gone is noticed below
-                let _ = self.to_measure.send(samples);
+                let _ = self.to_measure.send(std::mem::take(&mut stretch.samples));
+                self.computed.push_back(stretch);
+            } else {
+                self.closing = stretch.messages.take();
             }
         }
-        if self.stretches.len() == 1 {
-            raised.absorb(self.closing.take());
-            return false;
-        }
+        (current.count, current.taken) = (0, 0);
+        let Some(next) = self.computed.pop_front() else {
+            current.messages = self.closing.take();
+            return;
+        };
         let Ok(samples) = self.measured.recv() else {
             simulation.fail("the deviation from the contour is no longer measured");
-            raised.absorb(simulation.take_messages());
-            return false;
+            (self.over, current.messages) = (true, simulation.take_messages());
+            self.computed.clear();
+            return;
         };
-        (self.samples, self.taken) = (samples, 0);
-        self.free = self.stretches.pop_front();
-        true
+        self.free = Some(std::mem::replace(current, next));
+        current.samples = samples;
+        current.fill();
     }
 }

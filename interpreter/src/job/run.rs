@@ -1,31 +1,64 @@
 //! A running program, and the one loop over its cycles.
 
 use super::apart::{Apart, Work};
+use super::stretch::Stretch;
 use super::{Changes, Facts, Stop, Totals};
 use crate::diag::{Condition, Diagnostic};
-use crate::record::CycleRecord;
-use crate::sim::{Measuring, Messages, Samples, Simulation};
+use crate::record::{Asked, CycleRecord, Rows};
+use crate::sim::{Measuring, Messages, Simulation};
 use crate::source::Sources;
 use std::convert::Infallible;
 use std::fmt;
 use std::sync::Arc;
 
-/// Takes the cycles of a run, in order. A closure that takes a [`CycleRecord`] is one.
+/// What a [`Sink`] reads of the cycles of a run; what nobody reads is not written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reads {
+    /// Nothing: no cycle is handed to it.
+    Nothing,
+    /// Every cycle, one at a time.
+    Cycles,
+    /// Many cycles at once, with columns of these quantities.
+    Columns(Asked),
+}
+
+impl Reads {
+    const fn asked(self) -> Option<Asked> {
+        match self {
+            Self::Nothing => None,
+            Self::Cycles => Some(Asked::ALL),
+            Self::Columns(asked) => Some(asked),
+        }
+    }
+}
+
+/// Takes the cycles of a run, in order: one at a time or as columns. A closure that takes a [`CycleRecord`] is one.
 pub trait Sink {
     /// Why it takes no more.
     type Stop;
 
-    /// It looks at every cycle. Where it does not, cycles are not handed to it, and cost less: of many in a row the records are
-    /// not written.
-    fn reads(&self) -> bool {
-        true
+    /// What it reads, the same until the run ends.
+    fn reads(&self) -> Reads {
+        Reads::Cycles
     }
 
-    /// Takes a cycle.
+    /// Takes a cycle, if it reads [`Reads::Cycles`].
     ///
     /// # Errors
     /// Ends the loop; the cycle counts as taken.
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Self::Stop>;
+    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Self::Stop> {
+        let _ = record;
+        Ok(())
+    }
+
+    /// Takes cycles, if it reads [`Reads::Columns`].
+    ///
+    /// # Errors
+    /// Ends the loop; the cycles count as taken.
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Self::Stop> {
+        let _ = rows;
+        Ok(())
+    }
 
     /// Looks at the run between two stretches of at most [`Run::STRETCH`] cycles and at its end: the moment to take its
     /// messages, to look at a clock, or to stop it. Messages that are not taken wait.
@@ -52,9 +85,12 @@ pub struct Run {
     facts: Facts,
     simulation: Simulation,
     measuring: Measuring,
-    samples: Samples,
     /// While another thread measures.
     apart: Option<Apart>,
+    /// Computed cycles that the sink takes.
+    stretch: Stretch,
+    /// The cycle taken last.
+    shown: CycleRecord,
     sources: Arc<dyn Sources>,
     /// Messages of the lists and of the check; then those of the simulation.
     messages: Vec<Diagnostic>,
@@ -88,12 +124,14 @@ impl Run {
         refused: bool,
         stop: Stop,
     ) -> Self {
+        let shown = simulation.record().clone();
         Self {
             facts,
             simulation,
             measuring: Measuring::default(),
-            samples: Samples::default(),
             apart: None,
+            stretch: Stretch::default(),
+            shown,
             sources,
             messages,
             raised: Messages::default(),
@@ -124,6 +162,7 @@ impl Run {
     #[must_use]
     pub fn without_deviation(mut self) -> Self {
         self.simulation.leave_out_deviation();
+        self.shown.clone_from(self.simulation.record());
         self
     }
 
@@ -142,9 +181,9 @@ impl Run {
         &self.facts
     }
 
-    /// The cycle computed last; before the first one the state at time zero.
-    pub fn record(&self) -> &CycleRecord {
-        self.apart.as_ref().map_or_else(|| self.simulation.record(), Apart::record)
+    /// The cycle taken last; before the first one the state at time zero.
+    pub const fn record(&self) -> &CycleRecord {
+        &self.shown
     }
 
     /// True if there are no more cycles.
@@ -198,14 +237,11 @@ impl Run {
         sink: &mut S,
     ) -> Result<(), S::Stop> {
         if !self.over && self.simulation.is_measured() {
-            let record = self.simulation.record();
-            self.apart = Apart::begin(record, &mut self.measuring, start);
+            let asked = sink.reads().asked();
+            self.apart = Apart::begin(asked, &mut self.measuring, start);
         }
         let ended = self.to_end(sink);
-        if let Some(apart) = self.apart.take() {
-            self.over = true;
-            self.simulation.record_mut().clone_from(apart.record());
-        }
+        self.over |= self.apart.take().is_some();
         ended
     }
 
@@ -218,63 +254,77 @@ impl Run {
         self.over |= self.stop.is_set();
         let mut left = cycles;
         while left > 0 && !self.over {
-            let reads = sink.reads();
-            let count = if reads { u64::from(self.next_cycle()) } else { self.skip(left) };
-            if count == 0 {
+            let most = usize::try_from(left).unwrap_or(usize::MAX);
+            if self.stretch.is_over() && !self.next_stretch(most, sink.reads().asked()) {
                 self.over = true;
                 self.look_for_changes();
                 break;
             }
-            left -= count;
-            if reads {
-                sink.cycle(self.record())?;
-            }
+            let before = self.stretch.taken;
+            let taken = self.hand_over(most, sink);
+            left -= (self.stretch.taken - before) as u64;
+            self.hear();
+            taken?;
         }
         Ok(())
     }
 
-    /// Advances by up to `most` cycles that are not read; the number of them, 0 if there are no more.
-    fn skip(&mut self, most: u64) -> u64 {
-        // what is measured is measured cycle by cycle
-        if self.apart.is_some() || self.simulation.is_measured() {
-            return u64::from(self.next_cycle());
-        }
-        let count = self.simulation.next_cycles(most);
-        self.raised.absorb(self.simulation.take_messages());
-        if count > 0 {
-            self.measure();
-        }
-        self.facts.files.update(self.simulation.files());
-        count
-    }
-
-    /// Measures the cycle computed last, on this thread.
-    fn measure(&mut self) {
-        let Self { simulation, measuring, samples, raised, .. } = self;
-        if simulation.is_measured() {
-            samples.clear();
-            simulation.sample(samples);
-            measuring.measure(samples);
-            samples.fill(0, simulation.record_mut());
-            simulation.exceeded(samples, 0).into_iter().for_each(|d| raised.push(d));
-        }
-    }
-
-    /// Advances to the next cycle, with the messages up to it; false if there are no more.
-    fn next_cycle(&mut self) -> bool {
-        let Self { simulation, raised, .. } = self;
-        let computed = if let Some(apart) = &mut self.apart {
-            apart.next_cycle(simulation, raised)
+    /// Computes the next cycles, `most` at the most, and measures them; false if there are no more.
+    fn next_stretch(&mut self, most: usize, asked: Option<Asked>) -> bool {
+        let Self { simulation, stretch, .. } = self;
+        if let Some(apart) = &mut self.apart {
+            apart.next_stretch(stretch, simulation);
         } else {
-            let computed = simulation.next_cycle();
-            raised.absorb(simulation.take_messages());
-            if computed {
-                self.measure();
-            }
-            computed
-        };
+            stretch.compute(simulation, most, asked);
+            self.measuring.measure(&mut stretch.samples);
+            stretch.fill();
+        }
         self.facts.files.update(self.simulation.files());
-        computed
+        if self.stretch.count == 0 {
+            self.hear();
+        }
+        self.stretch.count > 0
+    }
+
+    /// Hands the next of the computed cycles, `most` at the most, to a sink.
+    fn hand_over<S: Sink>(&mut self, most: usize, sink: &mut S) -> Result<(), S::Stop> {
+        let Self { stretch: Stretch { rows, count, taken, last, .. }, shown, .. } = self;
+        let (first, end) = (*taken, (*count).min(taken.saturating_add(most)));
+        let reads = sink.reads();
+        if reads == Reads::Cycles {
+            for i in first..end {
+                rows.part(i..i + 1).read(0, shown);
+                *taken = i + 1;
+                sink.cycle(shown)?;
+            }
+            return Ok(());
+        }
+        *taken = end;
+        if end == *count {
+            shown.clone_from(last);
+        } else if let Some(before) = end.checked_sub(1).filter(|before| *before < rows.len()) {
+            rows.part(before..end).read(0, shown);
+        }
+        if matches!(reads, Reads::Columns(_)) { sink.rows(&rows.part(first..end)) } else { Ok(()) }
+    }
+
+    /// Takes the messages up to the cycle taken last.
+    fn hear(&mut self) {
+        let Self { simulation, stretch, raised, .. } = self;
+        let Stretch { samples, messages, taken, .. } = stretch;
+        let said = samples.said_at().unwrap_or(usize::MAX);
+        let exceeded = samples.first_exceeded().filter(|at| at < taken);
+        if let Some(at) = exceeded
+            && at < said
+        {
+            raised.extend(simulation.exceeded(samples));
+        }
+        if stretch.taken == stretch.count {
+            raised.absorb(messages.take());
+        }
+        if exceeded.is_some_and(|at| at >= said) {
+            raised.extend(simulation.exceeded(samples));
+        }
     }
 
     /// A program that was changed while it ran, also after what was read of it, is another one than the cycles show.

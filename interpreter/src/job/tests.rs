@@ -1,5 +1,5 @@
 use super::*;
-use crate::record::{CycleRecord, columns};
+use crate::record::{Asked, CycleRecord, Quantity, Rows, columns};
 use crate::source::MemorySources;
 use kontur_filters::vib_guard::VibGuardSettings;
 
@@ -126,8 +126,8 @@ fn cycles_that_nobody_reads_are_driven_alike() {
     }
     impl Sink for Pauses {
         type Stop = std::convert::Infallible;
-        fn reads(&self) -> bool {
-            self.reads
+        fn reads(&self) -> Reads {
+            if self.reads { Reads::Cycles } else { Reads::Nothing }
         }
         fn cycle(&mut self, _: &CycleRecord) -> Result<(), Self::Stop> {
             assert!(self.reads);
@@ -185,6 +185,80 @@ fn cycles_that_nobody_reads_are_driven_alike() {
         };
         for stretch in [1, 7, 300, Run::STRETCH] {
             assert!(drive(true, stretch) == drive(false, stretch), "{text} {stretch}");
+        }
+    }
+}
+
+/// Columns hold, bit by bit, what the records of their cycles hold, on one thread and on two, whichever of them are asked for and
+/// however the run is cut; what was not asked for is not a number in a record.
+#[test]
+fn columns_are_the_records_of_their_cycles() {
+    struct Columns(Asked, Vec<CycleRecord>, Vec<Vec<Vec<f64>>>);
+    impl Sink for Columns {
+        type Stop = std::convert::Infallible;
+        fn reads(&self) -> Reads {
+            Reads::Columns(self.0)
+        }
+        fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Self::Stop> {
+            let Self(asked, records, columns) = self;
+            let Ok(()) = rows.each(|record| {
+                records.push(record.clone());
+                Ok::<(), Self::Stop>(())
+            });
+            columns.resize(rows.axes(), vec![Vec::new(); Quantity::ALL.len()]);
+            for (axis, columns) in columns.iter_mut().enumerate() {
+                for (quantity, column) in Quantity::ALL.iter().zip(columns) {
+                    let values = rows.column(axis, *quantity);
+                    assert_eq!(values.len(), if asked.has(*quantity) { rows.len() } else { 0 });
+                    column.extend_from_slice(values);
+                }
+            }
+            Ok(())
+        }
+    }
+    let guard = "#VIB GUARD ON [MODE=2 FREQ=20]\n";
+    let text = format!(
+        "{guard}G135\nG01 X5 F3000 M3 S300\nY5\nX0 Y0\nG60 X3\n#VIB GUARD ON [AX_DEV=0.05]\nY5\nG04 0.2\nX0 Y0\nM30\n"
+    );
+    let lags = ["X.getriebe[0].slep_ueberw_typ=4", "X.getriebe[0].slep_max=30000"];
+    let start = || job(&text, &lags, Options::default()).start().unwrap();
+    let wanted = records(&mut start());
+    let both = [Quantity::Ipo, Quantity::Set];
+    let some = [Quantity::Err, Quantity::Lag, Quantity::Dev, Quantity::Jerk, Quantity::TorqueNm];
+    for asked in [Asked::ALL, Asked::of(&both), Asked::of(&both).and(Asked::of(&some))] {
+        for cut in [0, 1, 100, u64::MAX] {
+            let mut run = start();
+            let mut sink = Columns(asked, Vec::new(), Vec::new());
+            let thread = |name: &str, work: Work| {
+                std::thread::Builder::new().name(name.to_owned()).spawn(work).is_ok()
+            };
+            let Ok(()) = match cut {
+                0 => run.to_end_on_threads(thread, &mut sink),
+                u64::MAX => run.to_end(&mut sink),
+                _ => (0..3)
+                    .try_for_each(|_| run.advance(cut, &mut sink))
+                    .and_then(|()| run.to_end(&mut sink)),
+            };
+            let Columns(_, records, columns) = sink;
+            assert_eq!(records.len(), wanted.len());
+            for (i, (record, wanted)) in records.iter().zip(&wanted).enumerate() {
+                let whole = |r: &CycleRecord| {
+                    (r.k, r.file, r.line, r.block, format!("{:?}", r.path), r.contour_err_mm)
+                };
+                assert_eq!(whole(record), whole(wanted));
+                for (a, (axis, wanted)) in record.axes.iter().zip(&wanted.axes).enumerate() {
+                    for (q, quantity) in Quantity::ALL.iter().enumerate() {
+                        let [value, wanted] =
+                            [axis, wanted].map(|axis| quantity.of(axis).to_bits());
+                        if asked.has(*quantity) {
+                            assert_eq!(value, wanted, "{quantity:?} {a} cycle {i} cut {cut}");
+                            assert_eq!(columns[a][q][i].to_bits(), wanted);
+                        } else {
+                            assert!(f64::from_bits(value).is_nan());
+                        }
+                    }
+                }
+            }
         }
     }
 }

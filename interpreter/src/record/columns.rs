@@ -19,7 +19,8 @@
 //! ```
 
 use super::facts::{AxisFacts, Facts};
-use crate::record::{AxisRecord, CycleRecord};
+use super::{Asked, Quantity, Rows};
+use crate::record::CycleRecord;
 
 /// Groups in the order of the trace; `time` is always there.
 pub const GROUPS: [&str; 10] =
@@ -51,7 +52,7 @@ pub enum Content {
     /// A number of the record.
     Path(fn(&CycleRecord) -> f64),
     /// A number of one axis.
-    Axis(usize, fn(&AxisRecord) -> f64),
+    Axis(usize, Quantity),
 }
 
 impl Content {
@@ -60,8 +61,30 @@ impl Content {
     pub fn number(self, record: &CycleRecord) -> Option<f64> {
         match self {
             Self::Path(f) => Some(f(record)),
-            Self::Axis(i, f) => Some(record.axes.get(i).map_or(0.0, f)),
+            Self::Axis(i, quantity) => {
+                Some(record.axes.get(i).map_or(0.0, |axis| quantity.of(axis)))
+            }
             _ => None,
+        }
+    }
+
+    /// Appends the values of a numeric column in every `decimate`-th of the rows, from the first one on.
+    pub fn extend(self, values: &mut Vec<f64>, rows: &Rows<'_>, decimate: usize) {
+        match self {
+            Self::Path(f) => values.extend(rows.cycles().iter().step_by(decimate).map(f)),
+            Self::Axis(i, quantity) => match rows.column(i, quantity) {
+                column if decimate == 1 => values.extend_from_slice(column),
+                column => values.extend(column.iter().step_by(decimate)),
+            },
+            _ => {}
+        }
+    }
+
+    /// What it needs of the axes.
+    pub fn asked(self) -> Asked {
+        match self {
+            Self::Axis(_, quantity) => Asked::of(&[quantity]),
+            _ => Asked::NONE,
         }
     }
 
@@ -151,36 +174,36 @@ impl Unit {
     }
 }
 
-/// One quantity of an axis: group, word, unit, value.
-type Quantity = (&'static str, &'static str, Unit, fn(&AxisRecord) -> f64);
+/// A quantity of an axis as a column: group, word, unit.
+type Shown = (&'static str, &'static str, Unit, Quantity);
 
 /// Every quantity of an axis, in the order of the trace.
-const QUANTITIES: [Quantity; 25] = [
-    ("ipo", "ipo", Unit::Length, |a| a.ipo),
-    ("set", "set", Unit::Length, |a| a.set),
-    ("kin", "vel", Unit::Speed, |a| a.vel),
-    ("kin", "acc", Unit::Acceleration, |a| a.acc),
-    ("kin", "jerk", Unit::Jerk, |a| a.jerk),
-    ("err", "err", Unit::Length, |a| a.err),
-    ("err", "dev", Unit::Length, |a| a.dev),
-    ("ctrl", "ff", Unit::Speed, |a| a.ff),
-    ("ctrl", "cmd", Unit::Speed, |a| a.cmd),
-    ("ctrl", "vadd", Unit::Speed, |a| a.vadd),
-    ("ctrl", "vadd_limited", Unit::Flag, |a| a.vadd_limited),
-    ("drive", "cmd", Unit::Drive, |a| a.cmd_drive),
-    ("drive", "vff", Unit::Drive, |a| a.vff_drive),
-    ("drive", "vadd", Unit::Drive, |a| a.vadd_drive),
-    ("drive", "torque", Unit::Drive, |a| a.torque_drive),
-    ("drive", "torque", Unit::Torque, |a| a.torque_n_m),
-    ("axis", "ref", Unit::Length, |a| a.reference),
-    ("axis", "act", Unit::Length, |a| a.act),
-    ("axis", "load", Unit::Length, |a| a.load),
-    ("axis", "lag", Unit::Length, |a| a.lag),
-    ("axis", "add", Unit::Length, |a| a.add),
-    ("ctrl", "lag_limit", Unit::Length, |a| a.lag_limit),
-    ("axis", "settling", Unit::Time, |a| a.settling_s),
-    ("axis", "tcp", Unit::Length, |a| a.tcp),
-    ("axis", "tcp_acc", Unit::Acceleration, |a| a.tcp_acc),
+const QUANTITIES: [Shown; 25] = [
+    ("ipo", "ipo", Unit::Length, Quantity::Ipo),
+    ("set", "set", Unit::Length, Quantity::Set),
+    ("kin", "vel", Unit::Speed, Quantity::Vel),
+    ("kin", "acc", Unit::Acceleration, Quantity::Acc),
+    ("kin", "jerk", Unit::Jerk, Quantity::Jerk),
+    ("err", "err", Unit::Length, Quantity::Err),
+    ("err", "dev", Unit::Length, Quantity::Dev),
+    ("ctrl", "ff", Unit::Speed, Quantity::Ff),
+    ("ctrl", "cmd", Unit::Speed, Quantity::Cmd),
+    ("ctrl", "vadd", Unit::Speed, Quantity::Vadd),
+    ("ctrl", "vadd_limited", Unit::Flag, Quantity::VaddLimited),
+    ("drive", "cmd", Unit::Drive, Quantity::CmdDrive),
+    ("drive", "vff", Unit::Drive, Quantity::VffDrive),
+    ("drive", "vadd", Unit::Drive, Quantity::VaddDrive),
+    ("drive", "torque", Unit::Drive, Quantity::TorqueDrive),
+    ("drive", "torque", Unit::Torque, Quantity::TorqueNm),
+    ("axis", "ref", Unit::Length, Quantity::Reference),
+    ("axis", "act", Unit::Length, Quantity::Act),
+    ("axis", "load", Unit::Length, Quantity::Load),
+    ("axis", "lag", Unit::Length, Quantity::Lag),
+    ("axis", "add", Unit::Length, Quantity::Add),
+    ("ctrl", "lag_limit", Unit::Length, Quantity::LagLimit),
+    ("axis", "settling", Unit::Time, Quantity::Settling),
+    ("axis", "tcp", Unit::Length, Quantity::Tcp),
+    ("axis", "tcp_acc", Unit::Acceleration, Quantity::TcpAcc),
 ];
 
 /// Every column that a run of this machine can have, in the order of the trace.
@@ -235,9 +258,9 @@ fn quantities<'a>(
     QUANTITIES
         .iter()
         .filter(move |q| wanted(q.0) && (axis.apart.tool_point || !q.1.starts_with("tcp")))
-        .map(move |&(group, word, unit, value)| Column {
+        .map(move |&(group, word, unit, quantity)| Column {
             name: format!("{}_{word}{}", axis.name, unit.suffix(axis.unit())),
-            content: Content::Axis(index, value),
+            content: Content::Axis(index, quantity),
             decimals: unit.decimals(),
             group,
             repeats: match word {
@@ -247,6 +270,11 @@ fn quantities<'a>(
             },
             unit: unit.name(axis.unit()),
         })
+}
+
+/// What the columns need of the axes.
+pub fn asked(columns: &[Column]) -> Asked {
+    columns.iter().fold(Asked::NONE, |asked, column| asked.and(column.content.asked()))
 }
 
 /// The columns that `signals` asks for: groups, column names and [`DEFAULT_SIGNALS`], separated by commas, in the order of

@@ -1,10 +1,10 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
 use super::spindle::Spindle;
-use super::{Phase, Simulation, Watched};
+use super::{Phase, Simulation};
 use crate::exec::{ShapingSetup, SourceRef};
 use crate::machine::{Axis, Machine};
-use crate::record::{PathRecord, Rest};
+use crate::record::{PathRecord, Rest, RowBuffer};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
@@ -74,8 +74,8 @@ impl Simulation {
     }
 
     /// Hands the setpoint of the cycle through every axis and fills the record; with it up to `most` cycles after it, as far as
-    /// nothing but the path moves, see [`super::batch`].
-    pub(super) fn through_the_axes(&mut self, most: usize, watched: Watched) {
+    /// nothing but the path moves, see [`super::batch`]. What is asked for of their axes goes to `rows`.
+    pub(super) fn through_the_axes(&mut self, most: usize, rows: Option<&mut RowBuffer>) {
         let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
         self.enter_blocks(seq, self.record.path.s_mm, k);
         self.take_inputs(k);
@@ -126,7 +126,7 @@ impl Simulation {
                 self.stops_at[i] = self.current;
             }
         }
-        self.run_chains(most, watched);
+        self.run_chains(most, rows);
         self.end_cycle();
     }
 
@@ -153,19 +153,7 @@ impl Simulation {
         for (record, target) in self.record.axes.iter_mut().zip(&self.targets) {
             record.target = *target;
         }
-        // what is measured against the contour: the set position without the ways of independent axes; while one of them
-        // moves, it does not count
-        let alone = !self.independent.is_unused();
         let setpoint = self.planner.setpoint();
-        for (p, set) in self.set.iter_mut().enumerate() {
-            *set = if !alone {
-                self.record.axes[p].set
-            } else if self.independent.is_on_its_way(p, self.chains[p].settled()) {
-                setpoint.position[p]
-            } else {
-                self.record.axes[p].set - self.independent.done_mm(p)
-            };
-        }
         self.record.k = setpoint.k;
         let rest = match &self.phase {
             Phase::Waiting(wait) => Some(wait.rest()),
@@ -188,7 +176,7 @@ impl Simulation {
             rest,
         };
         if !self.planner.reports_changes() {
-            self.record.omit_deviation(self.set.len());
+            self.record.omit_deviation(self.path_position.len());
         }
         for unkept in self.planner.take_unkept() {
             self.unkept(&unkept);

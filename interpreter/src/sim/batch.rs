@@ -2,9 +2,9 @@
 //!
 //! Most cycles of a program follow from what is already planned: no event of a block, no input, no wait lies between them, and
 //! no axis asks what another one does. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its own column
-//! before the next one starts: its code and its state stay in the processor, and what is not read is not written. Then the
-//! cycles are taken one by one, in their order: path, blocks and records are in every cycle what they would have been alone. A
-//! single cycle is a step of the chain, which does what a row of one does.
+//! before the next one starts: its code and its state stay in the processor, and of what it gives only those columns are written
+//! that somebody reads. Then the cycles are taken one by one, in their order: path and blocks are in every cycle what they
+//! would have been alone. A single cycle is a step of the chain, which does what a row of one does.
 //!
 //! A fault ends the row with the cycle that raised it. Chains that were already beyond it are put back to where they were before
 //! the row, and run once more up to that cycle.
@@ -13,18 +13,18 @@
 //! at rest, independent axes, threads, probes, wear, spindles that position or go with the path, exact stops.
 
 use super::axes::Driver;
-use super::chain::{AxisChain, Mark, Records};
+use super::chain::{AxisChain, Mark};
 use super::spindle::Spindle;
-use super::{Phase, SettledStop, Simulation, Underway, Watched};
-use crate::record::AxisRecord;
+use super::{Phase, SettledStop, Simulation, Underway};
+use crate::record::{AxisColumns, AxisRecord, RowBuffer};
 use kontur_filters::control::fault::{Fault, Faults};
 use kontur_filters::ring::Ring;
 use kontur_motion::ahead::Ahead;
 
 /// Cycles of a row, at most: their columns stay in the first cache.
 pub(super) const MOST: usize = Ring::ROOM;
-/// The same where every record is read: records are large.
-pub(super) const MOST_READ: usize = 64;
+/// The same where columns are written: there are many of them.
+const MOST_READ: usize = 64;
 
 /// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
 const FEW: usize = 8;
@@ -45,9 +45,6 @@ pub(super) struct Batch {
     single_before: u64,
     /// So many cycles at least go alone when too few follow.
     patience: u64,
-    /// The axes in the computed ones, if each of them is read.
-    records: Vec<Vec<AxisRecord>>,
-    each: bool,
     /// Faults of the last one.
     pub(super) faults: Vec<(usize, Fault)>,
     /// The chains and their records before the row, and the spindles.
@@ -62,11 +59,6 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// The records of the cycles are read, each of them.
-    pub(super) const fn each_is_read(&self) -> bool {
-        self.each
-    }
-
     /// Cycles have been computed and not been taken.
     pub(super) const fn is_pending(&self) -> bool {
         self.taken < self.computed
@@ -80,12 +72,12 @@ impl Simulation {
     }
 
     /// Takes all of them, of which only the last one is looked at; the number of them.
-    pub(super) fn take_all(&mut self) -> u64 {
+    pub(super) fn take_all(&mut self) -> usize {
         let count = self.batch.computed - self.batch.taken;
         if let Some(last) = self.batch.computed.checked_sub(1) {
             self.take_up_to(last);
         }
-        count as u64
+        count
     }
 
     fn take_up_to(&mut self, last: usize) {
@@ -100,9 +92,6 @@ impl Simulation {
         let position = &self.planner.setpoint().position;
         for (now, x) in self.path_position.iter_mut().zip(position.iter()) {
             *now = x + 0.0;
-        }
-        if self.batch.each {
-            std::mem::swap(&mut self.batch.records[last], &mut self.record.axes);
         }
         self.end_cycle();
     }
@@ -153,17 +142,12 @@ impl Simulation {
             && self.chains.iter().zip(&self.drivers).all(runs)
     }
 
-    /// Runs every chain through this cycle and up to `most` after it.
-    pub(super) fn run_chains(&mut self, most: usize, watched: Watched) {
-        self.batch.each = watched == Watched::Each || self.is_measured();
-        let most = if self.batch.each { most.min(MOST_READ - 1) } else { most };
+    /// Runs every chain through this cycle and up to `most` after it; their columns go to `rows`, unless nobody reads them.
+    pub(super) fn run_chains(&mut self, most: usize, mut rows: Option<&mut RowBuffer>) {
+        let most = if rows.is_some() { most.min(MOST_READ - 1) } else { most };
         self.batch.tried = (2 * self.batch.tried).clamp(FEW, MOST);
         let later = self.count_ahead(most.min(self.batch.tried));
         let mut count = 1 + later;
-        let mut records = std::mem::take(&mut self.batch.records);
-        while self.batch.each && records.len() < count - 1 {
-            records.push(self.record.axes.clone());
-        }
         self.turn_spindles(count);
         if count > 1 {
             self.batch.marks.resize_with(self.chains.len(), || None);
@@ -175,7 +159,7 @@ impl Simulation {
                 self.chains[i].mark(&mut self.batch.marks[i]);
             }
             let settles = self.chains[i].settles();
-            let done = self.run_chain(i, count, &mut records);
+            let done = self.run_chain(i, count, rows.as_deref_mut());
             faulty |= self.chains[i].faults().is_some();
             if settles && self.chains[i].arrived() && self.chains[i].faults().is_none() {
                 self.settled(i);
@@ -187,7 +171,7 @@ impl Simulation {
                         self.chains[other].return_to(mark);
                     }
                     self.record.axes[other] = self.batch.records_before[other];
-                    self.run_chain(other, count, &mut records);
+                    self.run_chain(other, count, rows.as_deref_mut());
                 }
                 self.spindles.clone_from(&self.batch.spindles_before);
                 self.turn_spindles(count);
@@ -199,7 +183,6 @@ impl Simulation {
                 self.batch.faults.extend(found.map(|f| (i, *f)));
             }
         }
-        self.batch.records = records;
         (self.batch.computed, self.batch.taken) = (count - 1, 0);
     }
 
@@ -211,8 +194,9 @@ impl Simulation {
     }
 
     /// Runs one chain through this cycle and the computed ones after it, to `count` cycles; the number of them.
-    fn run_chain(&mut self, i: usize, count: usize, records: &mut [Vec<AxisRecord>]) -> usize {
-        let chain = &mut self.chains[i];
+    fn run_chain(&mut self, i: usize, count: usize, rows: Option<&mut RowBuffer>) -> usize {
+        let (chain, record) = (&mut self.chains[i], &mut self.record.axes[i]);
+        let mut columns = rows.map_or(AxisColumns::none(), |rows| rows.axis_mut(i));
         if count == 1 {
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,
@@ -220,7 +204,8 @@ impl Simulation {
                 (None, Driver::Spindle(s)) => self.batch.spindle_deg[s][0],
                 (None, Driver::Standing) => chain.set_mm(),
             };
-            chain.step(ipo, self.gains[i], self.jerk_limited, &mut self.record.axes[i]);
+            chain.step(ipo, self.gains[i], self.jerk_limited, record);
+            columns.fill(record, 1);
             return 1;
         }
         let ipo = &mut self.batch.ipo;
@@ -236,11 +221,8 @@ impl Simulation {
             // goes alone
             Driver::Standing => {}
         }
-        let first = &mut self.record.axes[i];
-        let later: &mut [Vec<AxisRecord>] =
-            if self.batch.each { &mut records[..count - 1] } else { &mut [] };
-        let mut records = Records { axis: i, first, later };
-        chain.run(ipo, self.gains[i], self.jerk_limited, &mut self.batch.set, &mut records)
+        let set = &mut self.batch.set;
+        chain.run(ipo, self.gains[i], self.jerk_limited, set, record, columns)
     }
 
     /// Turns the spindles through the cycles after this one, to `count` cycles.

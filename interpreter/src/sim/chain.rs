@@ -3,7 +3,7 @@
 
 mod cycle;
 
-pub(super) use cycle::{Mark, Records};
+pub(super) use cycle::Mark;
 
 use crate::machine::{AdditionalInterface, ChainSetup};
 use crate::record::AxisRecord;

@@ -1,11 +1,11 @@
-//! What leaves the simulation in addition to its records: points to be measured against the contour, and messages.
+//! What leaves the simulation: its cycles as rows, points of them to be measured against the contour, and messages.
 //!
 //! The simulation never looks at the deviation of its output, so it may be measured later, on another thread.
 
 use super::{Simulation, fault};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::SourceRef;
-use crate::record::CycleRecord;
+use crate::record::{CycleRecord, Quantity, RowBuffer};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::deviation::{Change, Meter};
 use kontur_motion::tolerance::Unkept;
@@ -26,6 +26,8 @@ pub(crate) struct Samples {
     changes: Vec<(usize, Change)>,
     /// The first excess of a run, and the number of its sample.
     exceeded: Option<(usize, Unkept)>,
+    /// The first sample in whose cycle messages were raised.
+    said_at: Option<usize>,
 }
 
 /// One cycle among them.
@@ -55,47 +57,106 @@ impl Samples {
         self.cycles.clear();
         self.values.clear();
         self.changes.clear();
-        self.exceeded = None;
+        (self.exceeded, self.said_at) = (None, None);
     }
 
-    /// Writes what was measured in sample `i` into the record of its cycle.
-    pub(crate) fn fill(&self, i: usize, record: &mut CycleRecord) {
-        let (n, sample) = (self.axes, &self.cycles[i]);
+    /// Writes what was measured into the rows of its cycles.
+    pub(crate) fn fill(&self, rows: &mut RowBuffer) {
+        let n = self.axes;
+        let measured = || self.cycles.iter().enumerate().filter(|s| s.1.wanted != Wanted::Nothing);
+        for (i, sample) in measured() {
+            rows.cycle_mut(i).contour_err_mm = sample.length_mm;
+        }
+        for (quantity, first) in [(Quantity::Dev, 0), (Quantity::DevBothWays, n)] {
+            if !rows.asked().has(quantity) {
+                continue;
+            }
+            for axis in 0..n {
+                for (i, _) in measured() {
+                    *rows.value_mut(axis, quantity, i) = self.values[2 * n * i + first + axis];
+                }
+            }
+        }
+    }
+
+    /// Writes what was measured in the last cycle into its record.
+    pub(crate) fn fill_last(&self, record: &mut CycleRecord) {
+        let Some((i, sample)) = self.cycles.iter().enumerate().next_back() else { return };
         if sample.wanted == Wanted::Nothing {
             return;
         }
+        let n = self.axes;
         record.contour_err_mm = sample.length_mm;
         let (dev, both_ways) = self.values[2 * n * i..2 * n * (i + 1)].split_at(n);
         for ((axis, dev), both_ways) in record.axes.iter_mut().zip(dev).zip(both_ways) {
             (axis.dev, axis.dev_both_ways) = (*dev, *both_ways);
         }
     }
+
+    /// The first cycle that exceeds a tolerance of its blocks, until [`Simulation::exceeded`] has taken it.
+    pub(crate) fn first_exceeded(&self) -> Option<usize> {
+        self.exceeded.map(|(at, _)| at)
+    }
+
+    /// The first cycle in which messages were raised.
+    pub(crate) const fn said_at(&self) -> Option<usize> {
+        self.said_at
+    }
 }
 
 impl Simulation {
-    /// Adds the cycle computed last.
-    pub(crate) fn sample(&mut self, into: &mut Samples) {
+    /// Completes the row of the cycle computed last, whose columns are written, and adds its points.
+    pub(super) fn show(&mut self, rows: &mut RowBuffer, into: &mut Samples) {
         let n = self.path_axes();
+        let asked = rows.asked();
+        if asked.has(Quantity::Target) {
+            for (axis, target) in self.targets.iter().enumerate() {
+                *rows.next(axis, Quantity::Target) = *target;
+            }
+        }
+        let is_measured = self.is_measured();
+        for quantity in [Quantity::Dev, Quantity::DevBothWays] {
+            if !is_measured && asked.has(quantity) {
+                (0..n).for_each(|axis| *rows.next(axis, quantity) = f64::NAN);
+            }
+        }
         into.axes = n;
         let number = into.cycles.len();
         into.changes.extend(self.planner.take_changes().map(|change| (number, change)));
-        into.values.extend_from_slice(&self.set);
-        into.values.extend_from_slice(&self.planner.setpoint().position[..n]);
-        let axes = &self.record.axes[..n];
-        let shaped = axes.iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
-        let wanted = match self.planner.reports_changes() {
+        // what is measured against the contour: the set position without the ways of independent axes; while one of them
+        // moves, it does not count
+        let alone = !self.independent.is_unused();
+        let position = &self.planner.setpoint().position[..n];
+        let mut shaped = false;
+        for (p, position) in position.iter().enumerate() {
+            let (set, ipo) = (*rows.next(p, Quantity::Set), *rows.next(p, Quantity::Ipo));
+            shaped |= set.to_bits() != ipo.to_bits();
+            into.values.push(if !alone {
+                set
+            } else if self.independent.is_on_its_way(p, self.chains[p].settled()) {
+                *position
+            } else {
+                set - self.independent.done_mm(p)
+            });
+        }
+        into.values.extend_from_slice(position);
+        let wanted = match is_measured {
             // nothing was output yet
             _ if self.record.k == 0 => Wanted::Nothing,
             false => Wanted::Nothing,
             true if shaped => Wanted::Shaped,
             true => Wanted::Unshaped,
         };
+        if self.has_messages() {
+            into.said_at.get_or_insert(number);
+        }
         into.cycles.push(Sample { k: self.record.k, at: self.current, wanted, length_mm: 0.0 });
+        rows.push(&self.record);
     }
 
-    /// What the deviation of a sample says, if it is the first that exceeds a tolerance.
-    pub(crate) fn exceeded(&mut self, samples: &Samples, i: usize) -> Option<Diagnostic> {
-        let (_, exceeded) = samples.exceeded.filter(|(at, _)| *at == i)?;
+    /// What the deviation of the first sample that exceeds a tolerance says, once.
+    pub(crate) fn exceeded(&mut self, samples: &mut Samples) -> Option<Diagnostic> {
+        let (i, exceeded) = samples.exceeded.take()?;
         let mut d = fault::exceeded(&exceeded);
         d.source = self.executor.locate(samples.cycles[i].at);
         Some(d)
@@ -173,6 +234,13 @@ impl Messages {
             self.unshown += 1;
         } else {
             self.own.push(message);
+        }
+    }
+
+    /// Adds one, if there is one.
+    pub(crate) fn extend(&mut self, message: Option<Diagnostic>) {
+        if let Some(message) = message {
+            self.push(message);
         }
     }
 

@@ -79,7 +79,6 @@ impl Simulation {
             pending: None,
             phase: Phase::Start,
             record: CycleRecord { axes: records, ..CycleRecord::default() },
-            set: start[..n].iter().copied().collect(),
             path_position: start[..n].iter().copied().collect(),
             thread_delay: 0.0,
             thread: None,

@@ -54,7 +54,7 @@ struct Extreme {
     turned: [f64; 2],
 }
 
-/// Collects the ripple, record by record.
+/// Collects the ripple, cycle by cycle.
 #[derive(Clone, Debug)]
 pub(super) struct Collector {
     /// Axes of the path, and whether they are rotary.
@@ -91,8 +91,14 @@ impl Collector {
         }
     }
 
-    pub(super) fn add(&mut self, record: &CycleRecord, cycle_us: u32) {
-        self.turn(record);
+    /// Adds a cycle; `ipo`: interpolated setpoints of the axes.
+    pub(super) fn add(
+        &mut self,
+        record: &CycleRecord,
+        ipo: impl Fn(usize) -> Option<f64>,
+        cycle_us: u32,
+    ) {
+        self.turn(ipo);
         let v = record.path.v_mm_s;
         if v <= 0.0 {
             self.rest(cycle_us);
@@ -122,8 +128,8 @@ impl Collector {
     }
 
     /// Adds up by how much the path turns: the linear axes, or the rotary ones where no other moves.
-    fn turn(&mut self, record: &CycleRecord) {
-        let here = self.axes.iter().filter_map(|(i, _)| record.axes.get(*i)).map(|axis| axis.ipo);
+    fn turn(&mut self, ipo: impl Fn(usize) -> Option<f64>) {
+        let here = self.axes.iter().filter_map(|(i, _)| ipo(*i));
         if self.position.is_empty() {
             self.position.extend(here);
             return;
@@ -242,7 +248,8 @@ mod tests {
                 .map(|ipo| AxisRecord { ipo, ..AxisRecord::default() })
                 .to_vec();
             let (k, line) = (k as u64, k as u32);
-            collector.add(&CycleRecord { k, line, path, axes, ..CycleRecord::default() }, 1000);
+            let record = CycleRecord { k, line, path, axes, ..CycleRecord::default() };
+            collector.add(&record, |axis| record.axes.get(axis).map(|axis| axis.ipo), 1000);
         }
         collector.finish(1000)
     }

@@ -80,6 +80,53 @@ impl Contour {
         around
     }
 
+    /// As [`Contour::nearest`], with what earlier points have shown; the length of the vector in mm.
+    pub(crate) fn nearest_in_sight(
+        &self,
+        point: &[f64],
+        moments: (f64, f64),
+        sight: &mut Sight,
+        out: &mut [f64],
+    ) -> Option<f64> {
+        let (among, _) = self.within_reach(moments, (0.0, 0.0), sight);
+        sight.look_from(point, self.number(among.start)..self.number(among.end));
+        if among.is_empty() {
+            out.fill(0.0);
+            return None;
+        }
+        // the block that was nearest leaves few of the others
+        let last = sight.nearest.and_then(|number| self.index(number));
+        let guess = last.filter(|i| among.contains(i)).unwrap_or(among.start.midpoint(among.end));
+        let mut best = (self.blocks[guess].vector_to(point, out), guess);
+        let mut least = best.0.sqrt();
+        let vector = &mut AxisVec::zeros(point.len())[..];
+        let way = sight.way();
+        for (i, clear) in among.zip(sight.clear()) {
+            if i == guess {
+                *clear = way + least;
+            } else if *clear <= way + least + ROUNDING_MM {
+                let passed = &self.blocks[i];
+                // a straight block is measured as fast as its ball
+                let ball = &passed.queued.ball;
+                let bound = if passed.is_bent() { ball.distance_from(point) } else { 0.0 };
+                if bound > least + ROUNDING_MM {
+                    *clear = way + bound;
+                    continue;
+                }
+                let square = passed.vector_to(point, vector);
+                let distance = square.sqrt();
+                *clear = way + distance;
+                // of equal ones the first
+                if (square, i) < best {
+                    (best, least) = ((square, i), distance);
+                    out.copy_from_slice(vector);
+                }
+            }
+        }
+        sight.nearest = Some(self.number(best.1));
+        Some(least)
+    }
+
     /// Blocks interpolated between two moments (cycles), and those interpolated up to `slack` cycles before and after.
     fn within_reach(
         &self,
@@ -295,7 +342,7 @@ mod tests {
             u in 0.0..1.0f64,
         ) {
             let (mut contour, paths) = contour(&turns);
-            let (mut sight, mut before) = (Sight::default(), [0.0; 2]);
+            let (mut sight, mut of_points, mut before) = (Sight::default(), Sight::default(), [0.0; 2]);
             for k in 0..3 * turns.len() as u32 {
                 let mut here = [0.0; 2];
                 let at = k.saturating_sub(late);
@@ -321,6 +368,10 @@ mod tests {
                     prop_assert_eq!((all.block, vectors[2]), (others.block, vectors[3]));
                     prop_assert!(all.distance <= found.distance);
                 }
+                let mut vectors = [[0.0; 2]; 2];
+                let seen = contour.nearest_in_sight(&here, (from, to), &mut of_points, &mut vectors[0]);
+                let alone = contour.nearest(&here, from, to, &mut vectors[1]).map(|n| n.distance);
+                prop_assert_eq!((seen, vectors[0]), (alone, vectors[1]));
                 before = here;
                 drop((around, other));
                 contour.forget_before(from - 4.0);

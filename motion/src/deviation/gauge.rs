@@ -86,10 +86,9 @@ impl Gauge {
             self.shortest = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
             self.let_go(contour, k, least_mm);
         } else {
-            let around = contour.around((set, set), within, (0.0, 0.0), &mut self.sight);
             let mut vector = AxisVec::zeros(set.len());
-            let nearest = around.nearest(set, &mut vector);
-            self.shortest = nearest.map(|nearest| (nearest.distance, vector));
+            let length = contour.nearest_in_sight(set, within, &mut self.sight, &mut vector);
+            self.shortest = length.map(|length| (length, vector));
         }
     }
 

@@ -7,10 +7,11 @@ use crate::trace::fixed::Cells;
 use crate::trace::select;
 use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
-use kontur_interpreter::job::Run;
+use kontur_interpreter::job::{self, Run, Sink};
 use kontur_interpreter::record::columns::Column;
-use kontur_interpreter::record::{CycleRecord, columns};
+use kontur_interpreter::record::{self, Asked, columns};
 use kontur_interpreter::source::text::Text;
+use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, Cursor, Read as _};
 use std::path::Path;
@@ -181,16 +182,37 @@ impl Table {
     }
 }
 
+/// Rows of a fresh run.
+struct Gathered {
+    numbers: Numbers,
+    asked: Asked,
+    batch: Batch,
+}
+
+impl Sink for Gathered {
+    type Stop = Infallible;
+
+    fn reads(&self) -> job::Reads {
+        job::Reads::Columns(self.asked)
+    }
+
+    fn rows(&mut self, rows: &record::Rows<'_>) -> Result<(), Infallible> {
+        self.batch.extend(&self.numbers, rows, 1);
+        Ok(())
+    }
+}
+
 impl Fresh {
     fn read(&mut self, row: &mut ByteRecord) -> Result<bool, csv::Error> {
         if self.batch.read_byte_record(row)? {
             return Ok(true);
         }
         let Self { run, columns, rows, .. } = self;
-        let (mut text, mut batch) = (Cells::default(), Batch::default());
-        let numbers = Numbers::of(columns);
-        let Ok(()) = run.advance(BATCH, &mut |r: &CycleRecord| batch.push(&numbers, r));
-        rows.push_rows(&mut text, &batch);
+        let (numbers, asked) = (Numbers::of(columns), columns::asked(columns));
+        let mut gathered = Gathered { numbers, asked, batch: Batch::default() };
+        let Ok(()) = run.advance(BATCH, &mut gathered);
+        let mut text = Cells::default();
+        rows.push_rows(&mut text, &gathered.batch);
         self.batch = reader(text.into_bytes());
         self.batch.read_byte_record(row)
     }

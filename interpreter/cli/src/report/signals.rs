@@ -14,8 +14,8 @@ use crate::target::{create_all, keep_apart};
 use crate::trace::select;
 use crate::{Error, Exit};
 use kontur_interpreter::job::Facts;
-use kontur_interpreter::record::CycleRecord;
-use kontur_interpreter::record::columns::Column;
+use kontur_interpreter::record::columns::{Column, asked};
+use kontur_interpreter::record::{CycleRecord, Rows};
 use kontur_interpreter::summary::Collector;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -77,7 +77,8 @@ pub(super) fn report(
         let values: usize = runs.iter().map(Recorded::values).sum();
         let most =
             most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
-        let take = |record: &CycleRecord| {
+        let asked = asked(&recorded.columns);
+        let mut take = |record: &CycleRecord| {
             let t_s = record.k as f64 * recorded.cycle_s;
             if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
                 return Ok(());
@@ -94,7 +95,8 @@ pub(super) fn report(
             }
             Ok(())
         };
-        drive(&mut run, Shown::ALONE, console, Some(&mut summary), Some(take))?;
+        let take = Some((asked, |rows: &Rows<'_>| rows.each(&mut take)));
+        drive(&mut run, Shown::ALONE, console, Some(&mut summary), take)?;
         // including the subroutines that the run reached
         keep_apart(&reads.so_far(), &[output.to_owned()])?;
         aborted |= run.totals().aborted;

@@ -5,7 +5,7 @@
 
 use super::Writer;
 use super::batch::{Batch, Numbers};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::Rows;
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
@@ -59,14 +59,19 @@ impl Background {
         Ok(Self { numbers, batch: Batch::default(), sent: now(), sender, spare, thread })
     }
 
-    /// Takes a record; false if the thread has ended because of an error, which [`Self::end`] returns.
-    pub(super) fn write(&mut self, record: &CycleRecord) -> bool {
-        self.batch.push(&self.numbers, record);
-        let late = || self.sent.elapsed() >= PERIOD;
-        if self.batch.len() == ROWS || self.batch.len().is_multiple_of(LOOK_EVERY) && late() {
-            return self.send();
-        }
-        true
+    /// Takes every `decimate`-th of some cycles, from the first one on; false if the thread has ended because of an error, which
+    /// [`Self::end`] returns.
+    pub(super) fn write(&mut self, rows: &Rows<'_>, decimate: usize) -> bool {
+        let before = self.batch.len();
+        self.batch.extend(&self.numbers, rows, decimate);
+        self.look(before)
+    }
+
+    /// Hands the batch over, which has had `before` rows, if it is full or has waited for long.
+    fn look(&mut self, before: usize) -> bool {
+        let now = self.batch.len();
+        let looks = now / LOOK_EVERY > before / LOOK_EVERY;
+        if now >= ROWS || looks && self.sent.elapsed() >= PERIOD { self.send() } else { true }
     }
 
     fn send(&mut self) -> bool {
@@ -130,7 +135,15 @@ mod tests {
     use crate::target::Target;
     use crate::trace::csv::{self, CsvWriter, Rows};
     use kontur_interpreter::job::Facts;
-    use kontur_interpreter::record::columns;
+    use kontur_interpreter::record::{CycleRecord, columns};
+
+    impl Background {
+        fn push(&mut self, k: u64) -> bool {
+            let before = self.batch.len();
+            self.batch.push(&self.numbers, &CycleRecord { k, ..CycleRecord::default() });
+            self.look(before)
+        }
+    }
 
     fn start(path: &std::path::Path) -> Background {
         let facts = Facts { cycle_us: 1000, ..Facts::default() };
@@ -147,7 +160,7 @@ mod tests {
         let path = folder.path().join("a.csv");
         let mut background = start(&path);
         for k in 0..5000 {
-            assert!(background.write(&CycleRecord { k, ..CycleRecord::default() }));
+            assert!(background.push(k));
         }
         let (writer, written) = background.end().unwrap();
         written.unwrap();
@@ -165,7 +178,7 @@ mod tests {
         std::fs::write(folder.path().join("a.csv"), "old").unwrap();
         let mut background = start(&folder.path().join("a.csv"));
         for k in 0..100_000 {
-            background.write(&CycleRecord { k, ..CycleRecord::default() });
+            background.push(k);
         }
         drop(background);
         let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
@@ -179,7 +192,7 @@ mod tests {
     fn an_error_comes_back() {
         let mut background = start("/dev/full".as_ref());
         let mut k = 0;
-        while background.write(&CycleRecord { k, ..CycleRecord::default() }) {
+        while background.push(k) {
             k += 1;
         }
         let (_, written) = background.end().unwrap();

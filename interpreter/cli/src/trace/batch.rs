@@ -1,7 +1,7 @@
 //! Rows on their way to a file: of each record only what the trace shows, so that little is handed from thread to thread.
 
 use kontur_interpreter::record::columns::{Column, Content};
-use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use kontur_interpreter::record::{CycleRecord, Rows, SpeedLimit};
 
 /// What of a cycle is in no numeric column; see [`CycleRecord`].
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,14 @@ pub(crate) struct Head {
     pub(crate) limit: SpeedLimit,
 }
 
-/// Where the numeric columns of a trace find their values, and nothing else of them: this is read for every row.
+impl Head {
+    const fn of(record: &CycleRecord) -> Self {
+        let CycleRecord { k, block, file, line, .. } = *record;
+        Self { k, block, file, line, limit: record.path.limit }
+    }
+}
+
+/// Where the numeric columns of a trace find their values.
 #[derive(Clone, Debug)]
 pub(crate) struct Numbers(Vec<Content>);
 
@@ -28,20 +35,18 @@ impl Numbers {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Batch {
     heads: Vec<Head>,
-    /// Row by row.
-    numbers: Vec<f64>,
+    /// Column by column.
+    numbers: Vec<Vec<f64>>,
 }
 
 impl Batch {
-    /// Adds the row of a record; the numbers are the same for every row.
-    pub(crate) fn push(&mut self, Numbers(contents): &Numbers, record: &CycleRecord) {
-        let CycleRecord { k, block, file, line, .. } = *record;
-        self.heads.push(Head { k, block, file, line, limit: record.path.limit });
-        // room for all of them at once: this is done for every value of a trace
-        let end = self.numbers.len();
-        self.numbers.resize(end + contents.len(), 0.0);
-        for (value, content) in self.numbers[end..].iter_mut().zip(contents) {
-            *value = content.number(record).unwrap_or_default();
+    /// Adds every `decimate`-th of some cycles, from the first one on; the numbers are the same for every row.
+    pub(crate) fn extend(&mut self, Numbers(contents): &Numbers, rows: &Rows<'_>, decimate: usize) {
+        let cycles = rows.cycles().iter().step_by(decimate);
+        self.heads.extend(cycles.map(Head::of));
+        self.numbers.resize_with(contents.len(), Vec::new);
+        for (column, content) in self.numbers.iter_mut().zip(contents) {
+            content.extend(column, rows, decimate);
         }
     }
 
@@ -53,61 +58,86 @@ impl Batch {
     /// No rows, keeping the memory.
     pub(crate) fn clear(&mut self) {
         self.heads.clear();
-        self.numbers.clear();
+        self.numbers.iter_mut().for_each(Vec::clear);
     }
 
-    /// Every row: its head and the values of its numeric columns.
-    pub(crate) fn rows(&self) -> impl Iterator<Item = (&Head, &[f64])> {
-        self.stretches(1).map(|(heads, numbers)| (&heads[0], numbers))
+    /// What of each row is in no numeric column.
+    pub(crate) fn heads(&self) -> &[Head] {
+        &self.heads
     }
 
-    /// So many rows at a time, and what is left at the end: heads, and values row by row.
-    pub(crate) fn stretches(&self, rows: usize) -> impl Iterator<Item = (&[Head], &[f64])> {
-        let width = self.numbers.len().checked_div(self.len()).unwrap_or_default();
-        self.heads.chunks(rows).enumerate().map(move |(i, heads)| {
-            let first = i * rows * width;
-            (heads, &self.numbers[first..first + heads.len() * width])
-        })
+    /// Numeric columns.
+    pub(crate) fn numbers(&self) -> &[Vec<f64>] {
+        &self.numbers
+    }
+}
+
+#[cfg(test)]
+impl Batch {
+    /// Adds the row of a record.
+    pub(crate) fn push(&mut self, Numbers(contents): &Numbers, record: &CycleRecord) {
+        self.heads.push(Head::of(record));
+        self.numbers.resize_with(contents.len(), Vec::new);
+        for (column, content) in self.numbers.iter_mut().zip(contents) {
+            column.extend(content.number(record));
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::job::{AxisFacts, Facts};
-    use kontur_interpreter::record::columns;
-    use kontur_interpreter::record::{AxisRecord, PathRecord};
+    use kontur_interpreter::job::{Job, MachineLists, Reads, Run, Sink};
+    use kontur_interpreter::record::{Asked, columns};
+    use kontur_interpreter::source::MemorySources;
+    use std::convert::Infallible;
 
-    /// The values of each row are those that the columns find in its record, also where the last stretch is short and where no
-    /// column is a number.
+    struct Gathered(Batch, Numbers, Asked, usize);
+
+    impl Sink for Gathered {
+        type Stop = Infallible;
+
+        fn reads(&self) -> Reads {
+            Reads::Columns(self.2)
+        }
+
+        fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Infallible> {
+            let Self(batch, numbers, _, decimate) = self;
+            let first = rows.cycles().iter().position(|c| c.k.is_multiple_of(*decimate as u64));
+            if let Some(first) = first {
+                batch.extend(numbers, &rows.after(first), *decimate);
+            }
+            Ok(())
+        }
+    }
+
+    /// The values of each row are those that the columns find in the record of its cycle, where the axes run in a row as where
+    /// they go cycle by cycle, for all columns and for some, for each cycle and for some.
     #[test]
     fn rows_hold_what_columns_show() {
-        let axes = vec![AxisFacts { name: "X".to_owned(), ..AxisFacts::default() }];
-        let facts = Facts { cycle_us: 1000, axes, ..Facts::default() };
-        let record = |k: u64| CycleRecord {
-            k,
-            block: k.is_multiple_of(2).then_some(10 * k),
-            path: PathRecord { s_mm: 0.5 * k as f64, ..PathRecord::default() },
-            axes: vec![AxisRecord { set: -(k as f64), ..AxisRecord::default() }],
-            ..CycleRecord::default()
+        let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nN10 G01 X5 F3000 M3 S100\nG60 Y3\nG04 0.1\nX0 Y0\nM30\n";
+        let start = || -> Run {
+            let (machine, _) = MachineLists::default().load().unwrap();
+            let sources = MemorySources::new().with("a.nc", text);
+            Job::new(machine, sources, "a.nc").start().unwrap()
         };
-        for (signals, width) in [("s_mm,v_limit,set", 2), ("line", 0)] {
-            let columns = columns::select(signals, &facts).unwrap();
-            let mut batch = Batch::default();
-            let shown = Numbers::of(&columns);
-            (0..10).for_each(|k| batch.push(&shown, &record(k)));
-            let mut seen = Vec::new();
-            for (heads, numbers) in batch.stretches(4) {
-                assert_eq!(numbers.len(), width * heads.len());
-                seen.extend(heads.iter().map(|head| (head.k, head.block)));
+        let mut records: Vec<CycleRecord> = Vec::new();
+        let Ok(()) = start().to_end(&mut |r: &CycleRecord| records.push(r.clone()));
+        let facts = start().facts().clone();
+        let groups = columns::GROUPS.join(",");
+        for signals in [groups.as_str(), columns::DEFAULT_SIGNALS, "kin", "X_cmd_mm_s", "line"] {
+            for decimate in [1, 7] {
+                let columns = columns::select(signals, &facts).unwrap();
+                let numbers = Numbers::of(&columns);
+                let asked = columns::asked(&columns);
+                let mut gathered = Gathered(Batch::default(), numbers.clone(), asked, decimate);
+                let Ok(()) = start().to_end(&mut gathered);
+                let batch = gathered.0;
+                let mut wanted = Batch::default();
+                records.iter().step_by(decimate).for_each(|record| wanted.push(&numbers, record));
+                assert_eq!(format!("{batch:?}"), format!("{wanted:?}"), "{signals} {decimate}");
+                assert_eq!(batch.len(), records.len().div_ceil(decimate));
             }
-            assert!(seen.into_iter().eq((0..10).map(|k| (k, record(k).block))));
-            for ((head, numbers), k) in batch.rows().zip(0..) {
-                assert_eq!(head.k, k);
-                assert_eq!(numbers, &[0.5 * k as f64, -(k as f64)][..width]);
-            }
-            batch.clear();
-            assert_eq!((batch.len(), batch.rows().count()), (0, 0));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
 use super::batch::{Batch, Head};
-use super::fixed::{Cells, NumberRow};
+use super::fixed::{Cells, NumberTable};
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 pub(crate) struct Rows {
     names: Vec<String>,
     stretches: Vec<Stretch>,
-    numbers: NumberRow,
+    numbers: NumberTable,
     cycle_us: u64,
     files: FileNames,
 }
@@ -45,7 +45,7 @@ impl Rows {
         Self {
             names: columns.iter().map(|column| column.name.clone()).collect(),
             stretches,
-            numbers: NumberRow::new(decimals),
+            numbers: NumberTable::new(&decimals),
             cycle_us: u64::from(facts.cycle_us),
             files: facts.files.clone(),
         }
@@ -62,11 +62,22 @@ impl Rows {
 
     /// Appends the line of each row.
     pub(crate) fn push_rows(&mut self, out: &mut Cells, batch: &Batch) {
-        batch.rows().for_each(|(head, numbers)| self.push_row(out, head, numbers));
+        for first in (0..batch.len()).step_by(NumberTable::ROWS) {
+            for (row, head) in self.take(batch, first).iter().enumerate() {
+                self.push_row(out, row, head);
+            }
+        }
     }
 
-    fn push_row(&mut self, out: &mut Cells, head: &Head, values: &[f64]) {
-        self.numbers.take(values);
+    /// Takes the numbers of some rows together, from row `first` of a batch on; returns what else these rows hold.
+    fn take<'a>(&mut self, batch: &'a Batch, first: usize) -> &'a [Head] {
+        let rows = first..batch.len().min(first + NumberTable::ROWS);
+        self.numbers.take(batch.numbers(), rows.clone());
+        &batch.heads()[rows]
+    }
+
+    /// Appends the line of one of the rows that were taken together.
+    fn push_row(&self, out: &mut Cells, row: usize, head: &Head) {
         let mut from = 0;
         for &Stretch { content, numbers_to } in &self.stretches {
             match content {
@@ -85,7 +96,7 @@ impl Rows {
                 Content::Axis(..) | Content::Path(_) => {}
             }
             out.push_comma();
-            self.numbers.push(out, from..numbers_to, values);
+            self.numbers.push(out, row, from..numbers_to);
             from = numbers_to;
         }
         out.end_line();
@@ -190,15 +201,18 @@ impl CsvWriter {
     /// # Errors
     /// The system's, e.g. a full disk; what is in the file then ends with a whole line.
     pub(crate) fn write(&mut self, batch: &Batch) -> io::Result<()> {
-        batch.rows().try_for_each(|(head, numbers)| self.write_row(head, numbers))
-    }
-
-    fn write_row(&mut self, head: &Head, numbers: &[f64]) -> io::Result<()> {
-        self.rows.push_row(&mut self.buffer, head, numbers);
-        self.waiting += 1;
-        let late =
-            self.waiting.is_multiple_of(Self::LOOK_EVERY) && self.flushed.elapsed() >= Self::PERIOD;
-        if self.buffer.len() >= Self::PIECE || late { self.flush() } else { Ok(()) }
+        for first in (0..batch.len()).step_by(NumberTable::ROWS) {
+            for (row, head) in self.rows.take(batch, first).iter().enumerate() {
+                self.rows.push_row(&mut self.buffer, row, head);
+                self.waiting += 1;
+                let late = self.waiting.is_multiple_of(Self::LOOK_EVERY)
+                    && self.flushed.elapsed() >= Self::PERIOD;
+                if self.buffer.len() >= Self::PIECE || late {
+                    self.flush()?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Hands every line to the system; a header without a row stays where it is.

@@ -4,12 +4,14 @@
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
 //! rounding error matters only when the product lands on a tie, and then a fused multiply-add gives its sign.
 //!
-//! The numbers of a row are rounded and divided at their decimal points together ([`NumberRow`]), several in one instruction;
+//! The numbers of a column are rounded and divided at their decimal points together ([`NumberTable`]), several in one instruction;
 //! ties and what is too large are left to [`Cells::push_fixed`]. Then each number is written where it belongs, in words of a fixed
 //! length whose last bytes the next number overwrites. Digits that are put together elsewhere first can only be copied once all of
 //! them have been stored, and the processor waits for that.
 
-use std::ops::Range;
+mod table;
+
+pub(crate) use table::NumberTable;
 
 /// Three decimal digits of 0..=999 as bytes, the first one lowest.
 static TRIPLES: [u32; 1000] = {
@@ -36,90 +38,6 @@ const ZERO: [u8; 16] = *b"0.00000000000000";
 /// Products below this have room for a tie bit: `2^52`.
 const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 
-/// `1.5 * 2^52`: added to a number below `2^51` it leaves its whole part, rounded, in the lowest bits.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
-
-/// Sign of a number in the word of its whole part.
-const SIGN: u64 = 1 << 63;
-
-/// In the place of a whole part where [`NumberRow::take`] does not round.
-const UNROUNDED: u64 = u64::MAX;
-
-/// The numbers of one row of a table after another, each column with its own number of decimals.
-#[derive(Clone, Debug)]
-pub(crate) struct NumberRow {
-    decimals: Vec<u8>,
-    /// Of every column `10^decimals`, its inverse, and what is left of `10^7`.
-    powers: Vec<f64>,
-    inverses: Vec<f64>,
-    fills: Vec<f64>,
-    /// Of every number its sign and what is before its point, and what is after it times `10^7`.
-    wholes: Vec<u64>,
-    parts: Vec<u64>,
-}
-
-impl NumberRow {
-    /// For columns with so many decimals.
-    pub(crate) fn new(decimals: Vec<u8>) -> Self {
-        // more decimals than are rounded here: not a number, which is not rounded
-        let power = |d: &u8| POWERS.get(usize::from(*d)).map_or(f64::NAN, |power| *power as f64);
-        let powers: Vec<f64> = decimals.iter().map(power).collect();
-        let (wholes, parts) = (vec![0; decimals.len()], vec![0; decimals.len()]);
-        let inverses = powers.iter().map(|power| 1.0 / power).collect();
-        let fills = powers.iter().map(|power| POWERS[MOST_DECIMALS] as f64 / power).collect();
-        Self { decimals, powers, inverses, fills, wholes, parts }
-    }
-
-    /// Takes the numbers of a row. One that lies on a tie, is too large or not finite is marked.
-    pub(crate) fn take(&mut self, values: &[f64]) {
-        let Self { powers, inverses, fills, wholes, parts, .. } = self;
-        let columns = powers.iter().zip(inverses).zip(fills);
-        let found = wholes.iter_mut().zip(parts);
-        for ((value, ((power, inverse), fill)), (whole, part)) in
-            values.iter().zip(columns).zip(found)
-        {
-            // no branches, so that several of them are done at once
-            let product = value * *power;
-            let rounded = (product + ROUNDER) - ROUNDER;
-            // not a number fails both
-            let known = (product - rounded).abs() < 0.5 && product.abs() < 0.5 * EXACT_BELOW;
-            let magnitude = rounded.abs();
-            // one too large where more than half is left; products of whole numbers below 2^53 are exact
-            let about = (magnitude * *inverse + ROUNDER) - ROUNDER;
-            let left = magnitude - about * *power;
-            let (before, after) =
-                if left < 0.0 { (about - 1.0, left + *power) } else { (about, left) };
-            let sign = rounded.to_bits() & SIGN;
-            *whole = if known {
-                ((before + ROUNDER).to_bits() - ROUNDER.to_bits()) | sign
-            } else {
-                UNROUNDED
-            };
-            *part = u64::from((after * *fill + ROUNDER).to_bits() as u32);
-        }
-    }
-
-    /// Appends some of the numbers taken, each with a comma; `values`: those of the whole row.
-    #[inline]
-    pub(crate) fn push(&self, out: &mut Cells, columns: Range<usize>, values: &[f64]) {
-        let found = self.wholes[columns.clone()].iter().zip(&self.parts[columns.clone()]);
-        let shown = self.decimals[columns.clone()].iter().zip(&values[columns]);
-        for ((whole, part), (decimals, value)) in found.zip(shown) {
-            if *whole == UNROUNDED {
-                out.push_fixed(*value, *decimals);
-                out.push_comma();
-            } else {
-                let number = Divided {
-                    negative: *whole & SIGN != 0,
-                    whole: *whole & !SIGN,
-                    part: *part as u32,
-                };
-                out.push_cell(|cell| number.put(cell, *decimals) + 1);
-            }
-        }
-    }
-}
-
 /// A number in the decimal system.
 #[derive(Clone, Copy, Debug)]
 struct Divided {
@@ -136,7 +54,7 @@ impl Divided {
         let after_point = if decimals > 0 { 1 + usize::from(decimals) } else { 0 };
         let length = if self.whole == 0 && self.part == 0 {
             // an axis at rest, and a column that is not in use
-            cell[..ZERO.len()].copy_from_slice(&ZERO);
+            store(cell, 0, ZERO);
             1 + after_point
         } else {
             cell[0] = b'-';
@@ -227,6 +145,26 @@ impl Cells {
         }
     }
 
+    /// Appends what `put` writes into a cell for each item; ends with the first item for which it writes nothing, and returns that.
+    #[inline]
+    fn push_cells<'a, T>(
+        &mut self,
+        items: &mut std::slice::Iter<'a, T>,
+        put: impl Fn(&T, &mut Cell) -> Option<usize>,
+    ) -> Option<&'a T> {
+        let room = items.len() * size_of::<Cell>();
+        if self.bytes.len() - self.end < room {
+            self.grow(room);
+        }
+        let Self { bytes, end } = self;
+        items.find(|item| {
+            let cell = bytes.get_mut(*end..).and_then(<[u8]>::first_chunk_mut);
+            let length = cell.and_then(|cell| put(item, cell));
+            *end += length.unwrap_or_default();
+            length.is_none()
+        })
+    }
+
     /// Appends `value` with `decimals` digits after the point, rounded half away from zero.
     ///
     /// Zero has no sign. A value that is not finite leaves nothing: an empty cell reads as "not a number" everywhere and
@@ -281,7 +219,15 @@ fn put_part(cell: &mut Cell, at: usize, part: u32) {
     let begin = u32::from(b'.') | (u32::from(b'0') + first) << 8;
     let middle = u64::from(TRIPLES[(rest / 1000) as usize]) << 16;
     let end = u64::from(TRIPLES[(rest % 1000) as usize]) << 40;
-    cell[at..][..8].copy_from_slice(&(u64::from(begin) | middle | end).to_le_bytes());
+    store(cell, at, (u64::from(begin) | middle | end).to_le_bytes());
+}
+
+/// Writes a word; nothing beyond the end of the cell, where no number reaches.
+#[inline]
+fn store<const N: usize>(cell: &mut Cell, at: usize, word: [u8; N]) {
+    if let Some(place) = cell.get_mut(at..).and_then(<[u8]>::first_chunk_mut) {
+        *place = word;
+    }
 }
 
 /// Writes the digits of `n`, and returns where they end.
@@ -295,7 +241,7 @@ fn put_whole(cell: &mut Cell, at: usize, n: u64) -> usize {
 fn put_short(cell: &mut Cell, at: usize, n: u64) -> usize {
     let length = 1 + usize::from(n >= 10) + usize::from(n >= 100);
     let digits = TRIPLES[n as usize] >> (8 * (3 - length));
-    cell[at..][..4].copy_from_slice(&digits.to_le_bytes());
+    store(cell, at, digits.to_le_bytes());
     at + length
 }
 
@@ -303,7 +249,7 @@ fn put_short(cell: &mut Cell, at: usize, n: u64) -> usize {
 fn put_long(cell: &mut Cell, at: usize, n: u64) -> usize {
     let (before, last) = (n / 1000, n % 1000);
     let at = if before < 1000 { put_short(cell, at, before) } else { put_long(cell, at, before) };
-    cell[at..][..4].copy_from_slice(&TRIPLES[last as usize].to_le_bytes());
+    store(cell, at, TRIPLES[last as usize].to_le_bytes());
     at + 3
 }
 
@@ -331,13 +277,13 @@ mod tests {
     use super::*;
     use kontur_kit::Random;
 
-    /// Alone, and as a number of a row.
+    /// Alone, and as a number of a table.
     fn fixed(value: f64, decimals: u8) -> String {
         let (mut out, mut row) = (Cells::default(), Cells::default());
         out.push_fixed(value, decimals);
-        let mut numbers = NumberRow::new(vec![2, decimals]);
-        numbers.take(&[0.5, value]);
-        numbers.push(&mut row, 1..2, &[0.5, value]);
+        let mut numbers = NumberTable::new(&[2, decimals]);
+        numbers.take(&[vec![0.5, 0.7], vec![0.5, value]], 0..2);
+        numbers.push(&mut row, 1, 1..2);
         let text = String::from_utf8(out.as_bytes().to_vec()).unwrap();
         assert_eq!(row.as_bytes(), format!("{text},").as_bytes());
         text

@@ -27,6 +27,7 @@ use kontur_interpreter::record::SpeedLimit;
 use kontur_interpreter::record::columns::{Column, Content};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -36,9 +37,6 @@ const ROWS_PER_GROUP: usize = 65_536;
 
 /// Bytes that are handed to the system at once.
 const PIECE: usize = 1 << 20;
-
-/// Rows whose values are taken together: so many that they are in the nearest memory of the processor for every column.
-const TOGETHER: usize = 16;
 
 /// The largest buffer that is kept when it is free, see [`keep_free_memory`]: more than that of any page.
 const KEPT: usize = 16 << 20;
@@ -155,20 +153,22 @@ impl ParquetWriter {
     /// # Errors
     /// The system's, e.g. a full disk.
     pub(crate) fn write(&mut self, batch: &Batch) -> io::Result<()> {
-        for (heads, numbers) in batch.stretches(TOGETHER) {
-            self.gather(heads, numbers);
-            if self.rows >= ROWS_PER_GROUP {
+        let mut first = 0;
+        while first < batch.len() {
+            let rows = first..batch.len().min(first + ROWS_PER_GROUP - self.rows);
+            first = rows.end;
+            self.gather(&batch.heads()[rows.clone()], batch.numbers(), rows);
+            if self.rows == ROWS_PER_GROUP {
                 self.write_group().map_err(|e| self.kept(e))?;
             }
         }
         Ok(())
     }
 
-    /// Takes the values of rows, column by column: the kind of a column is determined once for all of them.
-    fn gather(&mut self, heads: &[Head], numbers: &[f64]) {
+    /// Takes the values of some rows, column by column.
+    fn gather(&mut self, heads: &[Head], numbers: &[Vec<f64>], rows: Range<usize>) {
         let Self { cycle_us, files, limits, .. } = self;
-        let width = numbers.len() / heads.len();
-        let mut nth = 0..width;
+        let mut numbers = numbers.iter();
         for (column, values) in &mut self.columns {
             match (values, column.content) {
                 (Values::Number(v), Content::Time) => {
@@ -176,8 +176,9 @@ impl ParquetWriter {
                     v.extend(heads.iter().map(time));
                 }
                 (Values::Number(v), _) => {
-                    let first = nth.next().unwrap_or_default();
-                    v.extend(numbers.chunks_exact(width).map(|row| row[first]));
+                    if let Some(column) = numbers.next() {
+                        v.extend_from_slice(&column[rows.clone()]);
+                    }
                 }
                 (Values::Integer(v), _) => v.extend(heads.iter().map(|h| i64::from(h.line))),
                 (Values::Optional(v, present), _) => {

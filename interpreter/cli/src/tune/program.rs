@@ -19,7 +19,7 @@ use kontur_filters::analysis::tuning::Choice;
 use kontur_interpreter::diag::Location;
 use kontur_interpreter::job::{ForcedGuard, GuardCommands};
 use kontur_interpreter::machine::Machine;
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::{Collector, State, Summary};
 use std::path::Path;
 
@@ -62,7 +62,7 @@ pub(super) fn answer(
         let Opened { mut run, reads } = opened.map_err(|e| refused(e, console))?;
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let mut summary = Collector::new(run.facts());
-        let take = None::<fn(&CycleRecord) -> Result<(), Error>>;
+        let take = None::<(Asked, fn(&Rows<'_>) -> Result<(), Error>)>;
         drive(&mut run, shown, console, Some(&mut summary), take)?;
         // including the subroutines that the run reached
         keep_apart(&reads.so_far(), args.output.as_slice())?;

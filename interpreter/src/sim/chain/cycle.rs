@@ -2,42 +2,12 @@
 
 use super::AxisChain;
 use crate::machine::AdditionalInterface;
-use crate::record::AxisRecord;
+use crate::record::{Asked, AxisColumns, AxisRecord, Quantity};
 use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::ring::Ring;
 use kontur_filters::shaping;
 use kontur_filters::stage::Stage;
-
-/// Where the records of one axis go, for cycles in a row.
-pub(crate) struct Records<'a> {
-    /// Number of the axis.
-    pub(crate) axis: usize,
-    /// That of the first cycle; where no one reads each of them, that of the last one.
-    pub(crate) first: &'a mut AxisRecord,
-    /// Those of the cycles after it, or none.
-    pub(crate) later: &'a mut [Vec<AxisRecord>],
-}
-
-impl Records<'_> {
-    fn are_all_read(&self) -> bool {
-        !self.later.is_empty()
-    }
-
-    fn of(&mut self, i: usize) -> &mut AxisRecord {
-        match i.checked_sub(1).and_then(|i| self.later.get_mut(i)) {
-            Some(axes) => &mut axes[self.axis],
-            None => self.first,
-        }
-    }
-
-    /// The first ones are that of the cycle before them.
-    fn repeat(&mut self, count: usize) {
-        for axes in self.later.iter_mut().take(count.saturating_sub(1)) {
-            axes[self.axis] = *self.first;
-        }
-    }
-}
 
 /// Where a chain is before a row of cycles that may have to be taken back.
 #[derive(Debug)]
@@ -89,20 +59,25 @@ impl AxisChain {
     /// Cycles in a row with these interpolated setpoints, at most [`Ring::ROOM`]. The number up to the first one in which the
     /// monitors have raised something, see [`Self::faults`]: if it is not the last one, the row has to be
     /// [taken back](Self::return_to).
+    ///
+    /// What is asked for of each cycle is written to the columns, and the record of the last one in the place of that of the
+    /// cycle before.
     pub(crate) fn run(
         &mut self,
         ipo: &[f64],
         gain: f64,
         jerk_limited: bool,
         set: &mut Vec<f64>,
-        records: &mut Records<'_>,
+        record: &mut AxisRecord,
+        mut columns: AxisColumns<'_>,
     ) -> usize {
         let mut rested = 0;
         self.faulty = false;
         if self.rests_under(ipo[0], gain, jerk_limited) {
             rested = ipo.iter().take_while(|x| x.to_bits() == ipo[0].to_bits()).count();
             self.shaping.rest(rested);
-            records.repeat(rested);
+            columns.fill(record, rested);
+            columns.skip(rested);
         }
         let ipo = &ipo[rested..];
         self.moved = ipo.len();
@@ -113,21 +88,65 @@ impl AxisChain {
         self.shaping.run(set);
         let additional_mm = self.additional_mm();
         self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
-        let shown_from = if records.are_all_read() { 0 } else { last };
+        self.show(ipo, set, additional_mm, &mut columns);
         let Self { control, ipo: past, delay, cycle_s, .. } = self;
         let mut derived = Derived::new(set, [self.set, self.vel, self.acc], *cycle_s);
+        let mut shown = ShownControl::of(&mut columns, ipo.len());
+        let shown_from = if shown.is_some() { 0 } else { last };
         let mut faulty = false;
         let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
+            if let Some(shown) = &mut shown {
+                shown.put(i, &out);
+            }
+            if i < last && !out.faulty {
+                return;
+            }
             let [vel, acc, jerk] = derived.at(i);
             faulty |= out.faulty;
             let err = set[i] - aligned(past, *delay, (last - i) as u32);
-            *records.of(rested + i) =
-                recorded([ipo[i], set[i], vel, acc, jerk, err], additional_mm, &out);
+            *record = recorded([ipo[i], set[i], vel, acc, jerk, err], additional_mm, &out);
         });
         let [vel, acc, _] = derived.at(last);
         (self.set, self.vel, self.acc) = (set[last], vel, acc);
         self.faulty = faulty;
         rested + count
+    }
+
+    /// Writes the columns of what lies before the control, where they are asked for.
+    fn show(&self, ipo: &[f64], set: &[f64], additional_mm: f64, columns: &mut AxisColumns<'_>) {
+        let n = ipo.len();
+        for (quantity, values) in [(Quantity::Ipo, ipo), (Quantity::Set, set)] {
+            if let Some(column) = columns.of(quantity) {
+                column[..n].copy_from_slice(values);
+            }
+        }
+        for (quantity, x) in
+            [(Quantity::Add, additional_mm), (Quantity::Dev, 0.0), (Quantity::DevBothWays, 0.0)]
+        {
+            if let Some(column) = columns.of(quantity) {
+                column[..n].fill(x);
+            }
+        }
+        let derivatives = [Quantity::Vel, Quantity::Acc, Quantity::Jerk];
+        if let Some([vel, acc, jerk]) = columns.together(derivatives, n) {
+            differences(set, self.set, self.cycle_s, vel);
+            differences(vel, self.vel, self.cycle_s, acc);
+            differences(acc, self.acc, self.cycle_s, jerk);
+        }
+        if let Some(column) = columns.of(Quantity::Err) {
+            let (whole, part) = self.delay;
+            let newer = set.iter().zip(self.ipo.recent(n, whole));
+            if part > 0.0 {
+                let both = newer.zip(self.ipo.recent(n, whole + 1));
+                for (err, ((set, newer), older)) in column.iter_mut().zip(both) {
+                    *err = set - (newer + part * (older - newer));
+                }
+            } else {
+                for (err, (set, newer)) in column.iter_mut().zip(newer) {
+                    *err = set - newer;
+                }
+            }
+        }
     }
 
     /// One cycle: what a row of one does, without what rows cost.
@@ -177,6 +196,86 @@ impl AxisChain {
         };
         let inputs = AxisInputs { additional_mm: additional_mm + self.wear_mm, ..self.inputs };
         self.control.rests_under(self.set, gain, jerk_limited, &inputs)
+    }
+}
+
+/// What the control shows: values that are computed together are written together.
+struct ShownControl<'a> {
+    positions: bool,
+    control: bool,
+    drive: bool,
+    columns: [&'a mut [f64]; 17],
+}
+
+impl<'a> ShownControl<'a> {
+    const POSITIONS: [Quantity; 5] =
+        [Quantity::Reference, Quantity::Act, Quantity::Load, Quantity::Lag, Quantity::Settling];
+    const CONTROL: [Quantity; 7] = [
+        Quantity::Ff,
+        Quantity::Cmd,
+        Quantity::Vadd,
+        Quantity::VaddLimited,
+        Quantity::LagLimit,
+        Quantity::Tcp,
+        Quantity::TcpAcc,
+    ];
+    const DRIVE: [Quantity; 5] = [
+        Quantity::CmdDrive,
+        Quantity::VffDrive,
+        Quantity::VaddDrive,
+        Quantity::TorqueDrive,
+        Quantity::TorqueNm,
+    ];
+
+    /// The columns of so many cycles; none if nobody reads them.
+    fn of(columns: &'a mut AxisColumns<'_>, rows: usize) -> Option<Self> {
+        let [positions, control, drive] = [
+            columns.has_any(Asked::of(&Self::POSITIONS)),
+            columns.has_any(Asked::of(&Self::CONTROL)),
+            columns.has_any(Asked::of(&Self::DRIVE)),
+        ];
+        let mut all = Self::POSITIONS.into_iter().chain(Self::CONTROL).chain(Self::DRIVE);
+        let all = std::array::from_fn(|_| all.next().unwrap_or(Quantity::TorqueNm));
+        let columns = columns.together(all, rows)?;
+        Some(Self { positions, control, drive, columns })
+    }
+
+    #[inline] // the output is large: used where it is made
+    fn put(&mut self, i: usize, out: &ControlOutput) {
+        let [reference, act, load, lag, settling, control @ .., c, f, a, t, n] = &mut self.columns;
+        if self.positions {
+            reference[i] = out.reference_mm;
+            act[i] = out.act_mm;
+            load[i] = out.load_mm;
+            lag[i] = out.lag_mm;
+            settling[i] = out.settling_s;
+        }
+        if self.control {
+            let [ff, cmd, vadd, vadd_limited, lag_limit, tcp, tcp_acc] = control;
+            ff[i] = out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s;
+            cmd[i] = out.command_mm_s;
+            vadd[i] = out.additive_speed_mm_s;
+            vadd_limited[i] = f64::from(u8::from(out.additive_speed_limited));
+            lag_limit[i] = out.lag_limit_mm.unwrap_or(0.0);
+            tcp[i] = out.tcp_mm;
+            tcp_acc[i] = out.tcp_acc_mm_s2;
+        }
+        if self.drive {
+            c[i] = out.drive.command;
+            f[i] = out.drive.feedforward;
+            a[i] = out.drive.additive_speed;
+            t[i] = out.drive.torque;
+            n[i] = out.drive.torque_n_m;
+        }
+    }
+}
+
+/// Differences of values from one cycle to the next, per second; `before`: the value in the cycle before the first.
+fn differences(of: &[f64], before: f64, cycle_s: f64, out: &mut [f64]) {
+    let [first, others @ ..] = out else { return };
+    *first = (of[0] - before) / cycle_s;
+    for (out, pair) in others.iter_mut().zip(of.windows(2)) {
+        *out = (pair[1] - pair[0]) / cycle_s;
     }
 }
 

@@ -1,0 +1,216 @@
+//! Consecutive cycles as columns: what a run computes, and what its sink reads.
+//!
+//! What belongs to a cycle as a whole lies row by row, what belongs to an axis column by column, and only in the columns that are
+//! asked for: an axis writes a column from one end to the other, and who reads it finds it as a slice. A single cycle is a view
+//! of its row ([`Rows::read`]).
+
+use super::quantity::{Asked, Quantity};
+use super::{AxisRecord, CycleRecord};
+use std::ops::Range;
+
+/// Room for consecutive cycles.
+#[derive(Debug, Default)]
+pub(crate) struct RowBuffer {
+    asked: Asked,
+    /// Number of axes.
+    axes: usize,
+    /// What is not of an axis; without axes.
+    cycles: Vec<CycleRecord>,
+    /// Axis by axis, quantity by quantity, row by row.
+    values: Vec<f64>,
+}
+
+/// Values between the beginnings of two columns. Not a power of two: columns that are written together would share few
+/// places of the nearest memory of the processor.
+const STRIDE: usize = RowBuffer::ROOM + 8;
+
+impl RowBuffer {
+    /// Most cycles.
+    pub(crate) const ROOM: usize = 256;
+
+    /// No cycles, and columns of these quantities for the next ones; interpolated setpoint and set position have them always.
+    pub(crate) fn clear(&mut self, axes: usize, asked: Asked) {
+        self.cycles.clear();
+        (self.axes, self.asked) = (axes, asked.and(Asked::of(&[Quantity::Ipo, Quantity::Set])));
+        let values = axes * Quantity::COUNT * STRIDE;
+        if self.values.len() != values {
+            self.values = vec![0.0; values];
+        }
+    }
+
+    /// Number of cycles that are complete.
+    pub(crate) fn len(&self) -> usize {
+        self.cycles.len()
+    }
+
+    /// The columns of an axis from the next cycle on.
+    pub(crate) fn axis_mut(&mut self, axis: usize) -> AxisColumns<'_> {
+        let values = &mut self.values[axis * Quantity::COUNT * STRIDE..];
+        let values = &mut values[..Quantity::COUNT * STRIDE];
+        AxisColumns { asked: self.asked, values, from: self.cycles.len() }
+    }
+
+    /// Value of an axis in the next cycle.
+    pub(crate) fn next(&mut self, axis: usize, quantity: Quantity) -> &mut f64 {
+        let row = self.cycles.len();
+        &mut self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row]
+    }
+
+    /// Completes the next cycle: what of a record is not of its axes.
+    pub(crate) fn push(&mut self, record: &CycleRecord) {
+        self.cycles.push(CycleRecord { axes: Vec::new(), ..*record });
+    }
+
+    /// A cycle, to write what was measured.
+    pub(crate) fn cycle_mut(&mut self, row: usize) -> &mut CycleRecord {
+        &mut self.cycles[row]
+    }
+
+    /// Value of an axis in a cycle, to write what was measured.
+    pub(crate) fn value_mut(&mut self, axis: usize, quantity: Quantity, row: usize) -> &mut f64 {
+        &mut self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row]
+    }
+
+    /// The quantities that have columns.
+    pub(crate) const fn asked(&self) -> Asked {
+        self.asked
+    }
+
+    /// Some of the cycles.
+    pub(crate) fn part(&self, rows: Range<usize>) -> Rows<'_> {
+        Rows { buffer: self, rows }
+    }
+}
+
+/// The columns of one axis from the next cycle on.
+pub(crate) struct AxisColumns<'a> {
+    asked: Asked,
+    values: &'a mut [f64],
+    from: usize,
+}
+
+impl AxisColumns<'_> {
+    /// No column.
+    pub(crate) const fn none() -> AxisColumns<'static> {
+        AxisColumns { asked: Asked::NONE, values: &mut [], from: 0 }
+    }
+
+    /// Somebody reads one of these.
+    pub(crate) const fn has_any(&self, quantities: Asked) -> bool {
+        self.asked.has_any(quantities)
+    }
+
+    /// A column, if it is asked for.
+    pub(crate) fn of(&mut self, quantity: Quantity) -> Option<&mut [f64]> {
+        if !self.asked.has(quantity) {
+            return None;
+        }
+        Some(&mut self.values[quantity as usize * STRIDE + self.from..])
+    }
+
+    /// Columns of several quantities in their order, if one of them is asked for.
+    pub(crate) fn together<const N: usize>(
+        &mut self,
+        quantities: [Quantity; N],
+        rows: usize,
+    ) -> Option<[&mut [f64]; N]> {
+        if !self.has_any(Asked::of(&quantities)) {
+            return None;
+        }
+        let from = self.from;
+        let places = quantities.map(|quantity| {
+            let first = quantity as usize * STRIDE + from;
+            first..first + rows
+        });
+        self.values.get_disjoint_mut(places).ok()
+    }
+
+    /// Columns begin so many cycles later.
+    pub(crate) fn skip(&mut self, rows: usize) {
+        self.from += rows;
+    }
+
+    /// The next cycles are those of a record.
+    pub(crate) fn fill(&mut self, record: &AxisRecord, rows: usize) {
+        for quantity in self.asked.each() {
+            let first = quantity as usize * STRIDE + self.from;
+            self.values[first..first + rows].fill(quantity.of(record));
+        }
+    }
+}
+
+/// Consecutive cycles of a run.
+#[derive(Clone, Debug)]
+pub struct Rows<'a> {
+    buffer: &'a RowBuffer,
+    rows: Range<usize>,
+}
+
+impl<'a> Rows<'a> {
+    /// What of each cycle is not of an axis: records without axes.
+    pub fn cycles(&self) -> &'a [CycleRecord] {
+        &self.buffer.cycles[self.rows.clone()]
+    }
+
+    /// Number of cycles.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// No cycle.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Those from number `first` on.
+    #[must_use]
+    pub fn after(&self, first: usize) -> Self {
+        let start = self.rows.end.min(self.rows.start + first);
+        Self { buffer: self.buffer, rows: start..self.rows.end }
+    }
+
+    /// Number of axes.
+    pub const fn axes(&self) -> usize {
+        self.buffer.axes
+    }
+
+    /// A quantity of an axis, cycle by cycle; empty if there is no such axis, or if it was not asked for.
+    pub fn column(&self, axis: usize, quantity: Quantity) -> &'a [f64] {
+        let RowBuffer { asked, axes, values, .. } = self.buffer;
+        if axis >= *axes || !asked.has(quantity) {
+            return &[];
+        }
+        &values[(axis * Quantity::COUNT + quantity as usize) * STRIDE..][self.rows.clone()]
+    }
+
+    /// Reads a single cycle; what was not asked for is not a number (NaN).
+    pub fn read(&self, i: usize, record: &mut CycleRecord) {
+        let row = self.rows.start + i;
+        let mut axes = std::mem::take(&mut record.axes);
+        axes.resize(self.buffer.axes, AxisRecord::default());
+        let all = self.buffer.asked == Asked::ALL;
+        for (axis, values) in
+            axes.iter_mut().zip(self.buffer.values.chunks(Quantity::COUNT * STRIDE))
+        {
+            for quantity in Quantity::ALL {
+                let known = all || self.buffer.asked.has(*quantity);
+                let value =
+                    if known { values[*quantity as usize * STRIDE + row] } else { f64::NAN };
+                *quantity.of_mut(axis) = value;
+            }
+        }
+        *record = CycleRecord { axes, ..self.buffer.cycles[row] };
+    }
+
+    /// Reads one cycle after the other.
+    ///
+    /// # Errors
+    /// The first one of `take`.
+    pub fn each<E>(&self, mut take: impl FnMut(&CycleRecord) -> Result<(), E>) -> Result<(), E> {
+        let mut record = CycleRecord::default();
+        (0..self.rows.len()).try_for_each(|i| {
+            self.read(i, &mut record);
+            take(&record)
+        })
+    }
+}
