@@ -1,9 +1,0 @@
-; check: exit 1
-; error K-0115 at 6:1
-V.G.WZ[1].R=10 G26
-D1 G41 G01 X10 F1000
-X20
-Y1
-X30
-G40 Y50
-M30
