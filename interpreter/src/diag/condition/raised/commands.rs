@@ -17,6 +17,7 @@ macro_rules! commands {
     IdentKeyTwice = Vendor 21089: Error ProgramAbort 3 1, "key of #IDENT twice", cause "#IDENT WR [AX=X AX=Y ..]", hint "leave one of the two out";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
     CouplingFactorInvalid = Vendor 21111: Warning None 1 1, "coupling factor is neither 1 nor -1", cause "#SET AX LINK [1, [Y=X, 1, 2]]", hint "the control couples with the factor 1: write [Y=X, 1, 1] or, mirrored, [Y=X, -1, 1]";
+    MostOverride = Vendor 21128: Warning None 1 2, "largest override of the channel outside its range, limited", hint "write 0 to 2000 (0.1 %)", parameter "P-CHAN-00056";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
     CommandRead = Vendor 21158: Error ProgramAbort 3 1, "#COMMAND reads a procedure of a drive", cause "#COMMAND RD [..]", hint "procedures are only written: #COMMAND WR";
     TimerNumber = Vendor 21167: Error ProgramAbort 3 1, "number of a timer outside 0 to 127", hint "timers have the numbers 0 to 127";
