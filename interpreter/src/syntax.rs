@@ -23,6 +23,7 @@
 
 pub mod ast;
 mod build;
+mod everyday;
 mod expr;
 mod foreign;
 pub(crate) mod macros;
@@ -229,27 +230,59 @@ impl Parser {
             Mode::Inactive => Rule::inactive,
         };
         let mut builder = Builder::new(text, &masked.text, problems);
-        match Grammar::parse(rule, &masked.text) {
+        let parsed = Grammar::parse(rule, &masked.text);
+        // few blocks that parse need another look
+        let code = match &parsed {
+            Ok(_) if memchr::memchr2(b':', b'l', masked.text.as_bytes()).is_none() => String::new(),
+            _ => scan::without_texts(&masked.text),
+        };
+        if parsed.is_err()
+            && let Some(problem) = foreign::recognise(&code)
+        {
+            // nothing is reported about the rest of the block
+            builder.report_only(problem);
+            return Block::default();
+        }
+        let context = problem::Context::of(&masked.text);
+        let words = mode == Mode::Block && context == problem::Context::Words;
+        let typed = match &parsed {
+            _ if !words => None,
+            Ok(_) => everyday::hidden(&code),
+            Err(error) => {
+                let brace = masked.invalid.first().copied();
+                let brace = brace.filter(|span| text[span.start as usize..].starts_with('{'));
+                everyday::recognise(&code, problem::place_of(error), brace)
+            }
+        };
+        if let Some(typed) = typed {
+            let rest = typed.rest(&masked.text);
+            builder.report_only(typed.problem);
+            let rest = Grammar::parse(Rule::tolerant, &rest);
+            return rest.map_or_else(|_| Block::default(), |pairs| builder.block(pairs));
+        }
+        match parsed {
             Ok(pairs) => builder.block(pairs),
             Err(error) => {
-                if let Some(problem) = foreign::recognise(&masked.text) {
-                    // nothing is reported about the rest of the block
-                    builder.report_only(problem);
-                    return Block::default();
-                }
-                let context = problem::Context::of(&masked.text);
                 let mut found = problem::from_error(&error, &masked.text, context, 0);
                 if mode == Mode::Declaration && found.condition == Condition::Syntax {
                     found.condition = Condition::DeclarationCharacter;
+                    let first = masked.text.trim_ascii_start().as_bytes().first();
+                    if !matches!(first, Some(b'V' | b'v' | b'P' | b'p' | b'@')) {
+                        found = found.hint("is #ENDVAR missing before it?");
+                    }
                 }
                 // what follows a function without its bracket is not a word
                 let lost = found.condition == Condition::FunctionBracket;
+                let jump = found.condition == Condition::GotoTarget;
+                let end = jump.then_some(found.span.start as usize);
                 builder.report_error(found);
                 let rule = match (context, mode) {
                     (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
                     _ => Rule::head_only,
                 };
-                match Grammar::parse(rule, &masked.text) {
+                // nor is what was written in place of a label
+                let read = &masked.text[..end.unwrap_or(masked.text.len())];
+                match Grammar::parse(rule, read) {
                     Ok(pairs) => builder.block(pairs),
                     Err(_) => Block::default(),
                 }

@@ -277,9 +277,13 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
     })
 }
 
+/// A number, TRUE and FALSE as in the language, or a text.
 fn external((name, value): &(String, String)) -> (String, External) {
-    let value = match value.trim().parse::<f64>() {
+    let written = value.trim();
+    let value = match written.parse::<f64>() {
         Ok(x) if x.is_finite() => Value::Number(x),
+        _ if written.eq_ignore_ascii_case("TRUE") => Value::Number(1.0),
+        _ if written.eq_ignore_ascii_case("FALSE") => Value::Number(0.0),
         _ => Value::Text(value.as_str().into()),
     };
     (name.clone(), External { value, access: Access::ReadWrite })

@@ -36,9 +36,10 @@ mod wear;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
-use crate::diag::Condition;
+use crate::diag::{Condition, condition};
 use crate::suggest;
 use crate::syntax::ast::{Command, Ident, Span};
+pub(super) use messages::addition;
 pub(crate) use row::Row;
 use row::{Act, Call};
 pub(super) use slope::{slope_of_number, slope_type};
@@ -294,10 +295,36 @@ fn unknown(command: &Command) -> Box<Fault> {
         None => command.span,
     };
     let fault = Fault::new(Condition::CommandUnknown, format!("unknown command #{name}"), span);
-    match suggest::nearest(&name, ROWS.iter().map(|row| row.name)) {
+    let near = suggest::nearest(&name, ROWS.iter().map(|row| row.name)).map(str::to_owned);
+    match near.or_else(|| without_blanks(&name)).or_else(|| begun(&name)) {
         Some(near) => fault.hint(format!("did you mean `#{near}`?")),
         None => fault,
     }
+}
+
+/// `FLUSH WAIT` for `FLUSHWAIT` and `FLUSH_WAIT`.
+fn without_blanks(name: &str) -> Option<String> {
+    let joined = |text: &str| text.replace([' ', '_'], "").to_ascii_uppercase();
+    let written = joined(name);
+    let rows = ROWS.iter().map(|row| row.name).filter(|row| row.len() > 3);
+    let row = rows.filter(|row| written.starts_with(&joined(row))).max_by_key(|row| row.len())?;
+    let rest = &written[joined(row).len()..];
+    Some(if rest.is_empty() { row.to_owned() } else { format!("{row} {rest}") })
+}
+
+/// `CONTOUR MODE` for `CONTOUR ON`: a command that begins with the same word.
+fn begun(name: &str) -> Option<String> {
+    let first = name.split(' ').next()?.to_ascii_uppercase();
+    let mut rows = ROWS
+        .iter()
+        .map(|row| row.name)
+        .filter(|row| row.strip_prefix(first.as_str()).is_some_and(|rest| rest.starts_with(' ')));
+    rows.next().filter(|_| !first.is_empty()).map(str::to_owned)
+}
+
+/// True for a command of the manual.
+pub(super) fn is_known(command: &Command) -> bool {
+    find(command).is_some()
 }
 
 /// A word of the program after a command, `X5` of `#TRAFO OFF X5`: no command has a word of a letter and a number, or a value after
@@ -324,7 +351,17 @@ impl Decoder {
             return Err(Fault::new(Condition::WordsBehindCommand, text, span));
         }
         match row.act {
-            Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)),
+            Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)).map_err(|fault| {
+                // what is expected says more than where to look it up
+                let general = condition::row(Condition::TokenUnknown.id()).hint;
+                let unhinted = fault.diagnostic.id == Condition::TokenUnknown.id()
+                    && fault.diagnostic.hint.as_deref() == general;
+                if unhinted && !row.form.is_empty() {
+                    fault.hint(format!("write {}", row.form))
+                } else {
+                    fault
+                }
+            }),
             Act::OffOnly if command.on == Some(false) => Ok(()),
             Act::OffOnly | Act::Unsupported => Err(refused::refused(self, &call)),
             Act::Ignored(text) => {

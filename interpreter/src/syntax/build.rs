@@ -4,8 +4,8 @@ mod commands;
 mod words;
 
 use super::ast::{
-    Block, BlockNumber, Body, Expr, Ident, Jump, JumpKind, Label, LabelKind, Place, ProgramHead,
-    Span, Word,
+    Assign, Block, BlockNumber, Body, Expr, Ident, Jump, JumpKind, Label, LabelKind, Place,
+    PlaceKind, ProgramHead, Span, Word, WordKind,
 };
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
@@ -47,9 +47,10 @@ impl<'a> Builder<'a> {
         self.report(problem);
     }
 
-    /// Reports a problem instead of all others of the block.
+    /// Reports a problem instead of all others that the grammar has with the block.
     pub(super) fn report_only(&mut self, problem: Problem) {
         self.problems.clear();
+        self.reported = u32::MAX;
         self.problems.push(problem);
     }
 
@@ -96,6 +97,7 @@ impl<'a> Builder<'a> {
                     });
                     junk.push((span, after_word));
                 }
+                Rule::lost => words.extend(self.lost(pair, span)),
                 Rule::EOI | Rule::comma | Rule::rest => {}
                 _ => words.push(self.word(pair, span)),
             }
@@ -119,6 +121,15 @@ impl<'a> Builder<'a> {
         let end = self.masked.trim_ascii_end().len();
         block.span = Span::new(start.min(end), end);
         block
+    }
+
+    /// A parameter whose value could not be read counts as 0, so that no block that reads it is reported as well: the block is
+    /// faulty, and only a check continues after it.
+    fn lost(&mut self, pair: Pair<'_, Rule>, span: Span) -> Option<Word> {
+        let target = pair.into_inner().next().map(|place| self.place(place))?;
+        let PlaceKind::Parameter { subscripts, .. } = &target.kind else { return None };
+        let assign = || Assign { target: target.clone(), operator: None, value: Self::zero() };
+        subscripts.is_empty().then(|| Word { kind: WordKind::Assign(Box::new(assign())), span })
     }
 
     /// True if a piece of junk, not seen by the last error, looks like the beginning of a word.

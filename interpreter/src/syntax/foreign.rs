@@ -16,7 +16,29 @@ struct Found {
     meaning: &'static str,
 }
 
-/// The message for a block of another control. `masked` is the block without comments and texts; it did not parse.
+impl Found {
+    /// What is written instead here, where a few words say it.
+    fn hint(&self, word: &str) -> Option<&'static str> {
+        let upper = word.to_ascii_uppercase();
+        Some(match upper.as_str() {
+            "STOPRE" => "#FLUSH WAIT stops the decoding here",
+            "MSG" => "#MSG [\"text\"] is a message here",
+            "ROT" | "AROT" => "#ROTATION and #CS turn the coordinates here",
+            "TRANS" | "ATRANS" => "G54 to G59, G92 and #CS shift the coordinates here",
+            "SUPA" => "G53 takes the zero offsets back here",
+            "TRAORI" => "#TRAFO ON is the transformation here",
+            "GOTOF" | "GOTOB" => "$GOTO N20 and $GOTO [NAME] jump here",
+            "CYCLE800" => "#CS ON [x,y,z,a,b,c] turns the plane here",
+            "=IC" | "=AC" => "coordinates are X10: incremental after G91, absolute after G90",
+            "=DC" | "=ACP" | "=ACN" => "modulo axes are C+90 and C-90 here",
+            _ if self.meaning == CALL => "L file and LL NAME call subroutines here",
+            _ if self.meaning == ARITHMETIC => "parameters are P1 and V.P.NAME here",
+            _ => return None,
+        })
+    }
+}
+
+/// The message for a block of another control, which did not parse; blanks for its comments and texts.
 pub(super) fn recognise(masked: &str) -> Option<Problem> {
     if masked.starts_with("t_s,") {
         let span = Span::new(0, masked.trim_ascii_end().len());
@@ -28,6 +50,8 @@ pub(super) fn recognise(masked: &str) -> Option<Problem> {
     let found = klartext(masked)
         .or_else(|| o_word(masked))
         .or_else(|| sinumerik(masked))
+        .or_else(|| arithmetic_parameter(masked))
+        .or_else(|| subprogram(masked))
         .or_else(|| numbered_parameter(masked))
         .or_else(|| decimal_g(masked))?;
     let word = masked.get(found.at..found.at + found.length)?;
@@ -36,15 +60,22 @@ pub(super) fn recognise(masked: &str) -> Option<Problem> {
         found.meaning, found.control
     );
     let span = Span::new(found.at, found.at + found.length);
-    Some(Problem::new(Condition::ForeignProgram, span, text))
+    let problem = Problem::new(Condition::ForeignProgram, span, text);
+    Some(match found.hint(word) {
+        Some(hint) => problem.hint(hint),
+        None => problem,
+    })
 }
 
 const LINUXCNC: &str = "LinuxCNC";
 const MACRO_B: &str = "a control with macro B (Fanuc) or LinuxCNC";
 const HEIDENHAIN: &str = "a Heidenhain control";
 const SINUMERIK: &str = "a Sinumerik control";
+const FANUC: &str = "a Fanuc control";
+const CALL: &str = "a call of a subprogram";
+const ARITHMETIC: &str = "an arithmetic parameter";
 
-/// Two words with which Klartext blocks begin, after a number without letter.
+/// The words with which Klartext blocks begin, after a number without letter.
 fn klartext(masked: &str) -> Option<Found> {
     const STATEMENTS: [(&str, &str); 9] = [
         ("BEGIN", "PGM"),
@@ -57,10 +88,19 @@ fn klartext(masked: &str) -> Option<Found> {
         ("CALL", "LBL"),
         ("CALL", "PGM"),
     ];
+    const SINGLE: [&str; 12] =
+        ["L", "CC", "C", "CR", "CT", "LP", "CP", "RND", "CHF", "LBL", "APPR", "DEP"];
     let numbered = masked.trim_ascii_start();
     let rest = numbered.trim_start_matches(|c: char| c.is_ascii_digit()).trim_ascii_start();
     let mut words = rest.split_ascii_whitespace();
-    let (first, second) = (words.next()?, words.next()?);
+    let first = words.next()?;
+    let is_numbered = rest.len() < numbered.len();
+    if is_numbered && SINGLE.iter().any(|word| word.eq_ignore_ascii_case(first)) {
+        let at = masked.len() - rest.len();
+        let (control, meaning) = (HEIDENHAIN, "a statement in Klartext");
+        return Some(Found { at, length: first.len(), control, meaning });
+    }
+    let second = words.next()?;
     STATEMENTS
         .iter()
         .find(|(a, b)| a.eq_ignore_ascii_case(first) && b.eq_ignore_ascii_case(second))?;
@@ -140,16 +180,121 @@ fn decimal_g(masked: &str) -> Option<Found> {
     })
 }
 
-/// Keywords of the Sinumerik language at the beginning of a block.
+/// Words of the Sinumerik language, which are words of their own outside brackets, and its dimensions `X=IC(10)`.
 fn sinumerik(masked: &str) -> Option<Found> {
-    const WORDS: [&str; 12] = [
-        "PROC", "ENDPROC", "DEF", "EXTERN", "GOTOF", "GOTOB", "MCALL", "TRAORI", "TRANS", "ATRANS",
-        "CYCLE800", "SUPA",
+    const WORDS: [&str; 31] = [
+        "PROC",
+        "ENDPROC",
+        "DEF",
+        "EXTERN",
+        "GOTOF",
+        "GOTOB",
+        "MCALL",
+        "TRAORI",
+        "TRAFOOF",
+        "TRANS",
+        "ATRANS",
+        "ROT",
+        "AROT",
+        "ROTS",
+        "MIRROR",
+        "AMIRROR",
+        "SUPA",
+        "STOPRE",
+        "MSG",
+        "SETMS",
+        "WAITP",
+        "WAITM",
+        "WORKPIECE",
+        "COMPCAD",
+        "COMPCURV",
+        "COMPON",
+        "COMPOF",
+        "FFWON",
+        "FFWOF",
+        "BRISK",
+        "CYCLE800",
     ];
-    let (at, rest) = content(masked);
-    let length = rest.bytes().take_while(u8::is_ascii_alphanumeric).count();
-    WORDS.iter().find(|w| w.eq_ignore_ascii_case(&rest[..length]))?;
-    Some(Found { at, length, control: SINUMERIK, meaning: "a keyword" })
+    const DIMENSIONS: [&str; 5] = ["IC", "AC", "DC", "ACP", "ACN"];
+    outside_brackets(masked).find_map(|(at, word)| {
+        let is = |known: &&str| known.eq_ignore_ascii_case(word);
+        let before = masked[..at].chars().next_back();
+        match before {
+            Some('=') if DIMENSIONS.iter().any(is) => Some(Found {
+                at: at - 1,
+                length: word.len() + 1,
+                control: SINUMERIK,
+                meaning: "a coordinate with its dimension",
+            }),
+            None | Some(' ' | '\t') if WORDS.iter().any(is) => {
+                Some(Found { at, length: word.len(), control: SINUMERIK, meaning: "a keyword" })
+            }
+            _ => None,
+        }
+    })
+}
+
+/// `R5` as a value: R1 alone is one here, the radius.
+fn arithmetic_parameter(masked: &str) -> Option<Found> {
+    words(masked).find_map(|(at, word)| {
+        let index = word.strip_prefix(['R', 'r'])?;
+        let calculates = masked[..at].trim_ascii_end().ends_with(['=', '+', '-', '*', '/', '[']);
+        let is_one = !index.is_empty() && index.bytes().all(|b| b.is_ascii_digit());
+        (calculates && is_one && index != "1").then_some(Found {
+            at,
+            length: word.len(),
+            control: SINUMERIK,
+            meaning: ARITHMETIC,
+        })
+    })
+}
+
+/// `M98 P1000`.
+fn subprogram(masked: &str) -> Option<Found> {
+    let mut last = (0, "");
+    words(masked).find_map(|(at, word)| {
+        let (before, m) = std::mem::replace(&mut last, (at, word));
+        let program = word.strip_prefix(['P', 'p'])?;
+        let is_number = program.starts_with(|c: char| c.is_ascii_digit());
+        (m.eq_ignore_ascii_case("M98") && is_number).then_some(Found {
+            at: before,
+            length: at + word.len() - before,
+            control: FANUC,
+            meaning: CALL,
+        })
+    })
+}
+
+/// Runs of letters, digits and points, with their places.
+pub(super) fn words(masked: &str) -> impl Iterator<Item = (usize, &str)> {
+    runs(masked).map(|(at, word, _)| (at, word))
+}
+
+/// Those outside brackets.
+fn outside_brackets(masked: &str) -> impl Iterator<Item = (usize, &str)> {
+    runs(masked).filter(|(_, _, depth)| *depth == 0).map(|(at, word, _)| (at, word))
+}
+
+fn runs(masked: &str) -> impl Iterator<Item = (usize, &str, usize)> {
+    let is_part = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.');
+    let bytes = masked.as_bytes();
+    let (mut i, mut depth) = (0, 0_usize);
+    std::iter::from_fn(move || {
+        while i < bytes.len() {
+            match bytes[i] {
+                b'[' => depth += 1,
+                b']' => depth = depth.saturating_sub(1),
+                byte if is_part(byte) => {
+                    let start = i;
+                    i += bytes[i..].iter().take_while(|b| is_part(**b)).count();
+                    return Some((start, &masked[start..i], depth));
+                }
+                _ => {}
+            }
+            i += 1;
+        }
+        None
+    })
 }
 
 /// Where the block continues after its number.
@@ -199,6 +344,15 @@ mod tests {
             ("12 TOOL CALL 3 Z S2000", "`TOOL CALL`", "Heidenhain"),
             ("N10 PROC BORE(REAL DEPTH)", "`PROC`", "Sinumerik"),
             ("DEF REAL DEPTH", "`DEF`", "Sinumerik"),
+            ("N5 STOPRE", "`STOPRE`", "Sinumerik"),
+            ("G0 G90 SUPA Z0 D0", "`SUPA`", "Sinumerik"),
+            ("ROT RPL=45", "`ROT`", "Sinumerik"),
+            ("G1 X=IC    ", "`=IC`", "Sinumerik"),
+            ("R1=R2+5", "`R2`", "Sinumerik"),
+            ("X=R5", "`R5`", "Sinumerik"),
+            ("N10 M98 P1000 L2", "`M98 P1000`", "Fanuc"),
+            ("12 L X+10 Y+5 R0 FMAX M3", "`L`", "Heidenhain"),
+            ("13 CC X+0 Y+0", "`CC`", "Heidenhain"),
         ] {
             let text = said(block).unwrap_or_default();
             assert!(text.contains(word) && text.contains(control), "{block}: {text}");
@@ -219,6 +373,11 @@ mod tests {
             "DEFAULT 5",
             "TRANSX 1",
             "é#é",
+            "P3=RP2",
+            "P2=R1 ]",
+            "V.P.ROT 5",
+            "[ROT",
+            "M98 X",
         ] {
             assert_eq!(said(block), None, "{block}");
         }

@@ -37,7 +37,8 @@ impl Expanded {
 ///
 /// # Errors
 /// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep, K-MACRO-BRACKET if the text of a macro holds one half of
-/// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions), K-MACRO-CONTROL if it holds
+/// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions) or an open remark before further
+/// words, 20644 if it holds a command and the block holds more, K-MACRO-CONTROL if it holds
 /// `$` (source: 208426123, restrictions). An expansion that is too long is cut and gets 20301 from the parser.
 pub(crate) fn expand<'m>(
     raw: &RawBlock<'_>,
@@ -57,6 +58,10 @@ pub(crate) fn expand<'m>(
     };
     let mut at = 0;
     for (range, text) in uses {
+        if let Some(wrong) = misfit(raw.text, &range, text) {
+            let location = raw.locate(file, Span::new(range.start, range.end));
+            return Err(Box::new(wrong.at(location)));
+        }
         let is_number = numbers(&raw.text[..range.start]);
         let before = &raw.text[at..range.start];
         let before = if is_number { before.trim_ascii_end() } else { before };
@@ -100,6 +105,39 @@ pub(crate) fn expand<'m>(
         out.text.truncate(end);
     }
     Ok(Some(out))
+}
+
+/// What of a block its macro, between others, would hide or not go with.
+///
+/// Source: TF5200 diagnosis 252099211 (20644). Assumption: a remark that begins in a macro would hide the rest of the block.
+fn misfit(block: &str, used: &Range<usize>, text: &str) -> Option<Diagnostic> {
+    let is_word = |text: &str| {
+        let code = regions::regions(text).find(|(region, range)| {
+            !matches!(region, regions::Region::Comment { .. })
+                && !text[range.clone()].trim_ascii().is_empty()
+        });
+        code.is_some()
+    };
+    let (before, behind) = (&block[..used.start], &block[used.end..]);
+    if regions::ends_in_comment(text) && is_word(behind) {
+        let shown: String = text.chars().take(40).collect();
+        let text =
+            format!("the macro text `{shown}` begins a remark that hides the words after it");
+        let hint = "write the macro at the end of the block, or the remark in ( )";
+        return Some(Diagnostic::new(Condition::MacroBracket, text).hint(hint));
+    }
+    let command = text.trim_ascii_start().strip_prefix('#')?.trim_ascii_start();
+    let name = command.bytes().take_while(u8::is_ascii_alphanumeric).count();
+    let among_words =
+        super::HASH_WORDS.iter().any(|word| word.eq_ignore_ascii_case(&command[..name]));
+    let number = before.trim_ascii().trim_start_matches(['N', 'n', '/']);
+    let is_first = number.bytes().all(|b| b.is_ascii_digit());
+    (name > 0 && !among_words && (!is_first || is_word(behind))).then(|| {
+        let shown: String = text.chars().take(40).collect();
+        let text =
+            format!("the macro text `{shown}` is a command that has to be alone in its block");
+        Diagnostic::new(Condition::MacroCommand, text)
+    })
 }
 
 /// Why a macro cannot replace its name.

@@ -7,7 +7,7 @@ use self::around::{
     ends_in_negative_radius, ends_in_place, in_cycle_call, in_cycle_list, in_values, is_label,
     last_word, token,
 };
-use self::expected::{BRACKET, COMMA, END, EQUALS, LEVEL, OPERATOR, VALUE, expected};
+use self::expected::{BRACKET, COMMA, END, EQUALS, LEVEL, OPERATOR, VALUE, WORD, expected};
 use super::ast::{Function, Span};
 use super::{Rule, scan};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
@@ -125,6 +125,13 @@ fn starts_with(text: &str, keyword: &str) -> bool {
         && !text[keyword.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
 }
 
+/// Where the grammar gave up.
+pub(super) fn place_of(error: &Error<Rule>) -> usize {
+    match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    }
+}
+
 /// The problem that the grammar met with in `masked`, of which `offset` bytes were left out at the beginning.
 pub(super) fn from_error(
     error: &Error<Rule>,
@@ -132,10 +139,7 @@ pub(super) fn from_error(
     context: Context,
     offset: usize,
 ) -> Problem {
-    let at = offset
-        + match error.location {
-            InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
-        };
+    let at = offset + place_of(error);
     let mut at = at + masked[at..].bytes().take_while(|b| matches!(b, b' ' | b'\t')).count();
     if at == masked.len() {
         at = masked.trim_ascii_end().len().max(offset);
@@ -242,7 +246,9 @@ fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
     let upper = word.to_ascii_uppercase();
     let operator = matches!(upper.as_str(), "AND" | "OR" | "XOR" | "MOD");
     let name = length > 1 && !operator && word.bytes().all(|b| b.is_ascii_alphabetic());
-    if expected != [BRACKET] && !(expected == [VALUE] && name) {
+    // G1, G[..], GP1
+    let bare_g = upper == "G" && expected == [WORD];
+    if expected != [BRACKET] && !(expected == [VALUE] && name) && !bare_g {
         return None;
     }
     let text = match upper.as_bytes() {
@@ -405,6 +411,11 @@ const STATEMENTS: [&str; 19] = [
     "CONTINUE",
     "GOTO",
 ];
+
+/// The control statement with this name in upper case.
+pub(super) fn statement(word: &str) -> Option<&'static str> {
+    STATEMENTS.into_iter().find(|statement| *statement == word)
+}
 
 /// Those after which a value follows.
 const WITH_VALUE: [&str; 9] =

@@ -70,6 +70,15 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
     Masked { text, invalid, too_deep }
 }
 
+/// The masked text with blanks for its strings: all of it is ASCII.
+pub(super) fn without_texts(masked: &str) -> String {
+    let mut out = masked.as_bytes().to_vec();
+    for range in regions::strings(masked) {
+        out[range].fill(b' ');
+    }
+    String::from_utf8(out).unwrap_or_default()
+}
+
 /// Characters of the dialect outside comments and strings.
 fn is_valid(byte: u8) -> bool {
     byte == b'\t' || matches!(byte, b' '..=b'~') && !matches!(byte, b'{' | b'}' | b'`')

@@ -1,5 +1,4 @@
 ; check: exit 1
-; error 20916 at 4:13
-; error 20200 at 4:12
+; error 20916 at 3:13
 P1 = SIZEOF[NAME]
 M30

@@ -163,6 +163,9 @@ impl Decoder {
     }
 
     fn unknown_name(&self, name: &str, span: Span) -> Box<Fault> {
+        if let Some(fault) = super::dialect::sinumerik(name, span) {
+            return fault;
+        }
         match name.as_bytes().first() {
             Some(b'R' | b'r') if name[1..].bytes().all(|b| b.is_ascii_digit()) => {
                 let text = format!("the radius has the index 1 only, not {}", &name[1..]);
@@ -177,7 +180,18 @@ impl Decoder {
                 let text = format!("the channel has no spindle {name}");
                 Fault::new(Condition::SpindleUnknown, text, span)
             }
-            _ => self.unknown_axis(name, span),
+            _ => {
+                let fault = self.unknown_axis(name, span);
+                match name.as_bytes() {
+                    [axis, b'O'] if self.names.of_letter(*axis).is_some() => {
+                        fault.hint("is the letter O written for the figure 0?")
+                    }
+                    [axis, b'L'] if self.names.of_letter(*axis).is_some() => {
+                        fault.hint("is the letter l written for the figure 1?")
+                    }
+                    _ => fault,
+                }
+            }
         }
     }
 

@@ -67,6 +67,8 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
     pub(in crate::exec) call: Option<(&'b Call, Span)>,
     pub(in crate::exec) goto: Option<&'b Jump>,
+    /// `#ADD`, the last word.
+    pub(in crate::exec) addition: Option<(&'b HashWord, Span)>,
     /// Where the last assignment ends.
     pub(in crate::exec) assigned_to: Option<u32>,
     /// Where M17 or M29 leads, if they say so.

@@ -31,7 +31,9 @@ pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
         64 => "contouring is G261 with #CONTOUR MODE here",
         15 | 16 => "polar coordinates of other controls do not exist here",
         50 => "#SCALE scales here",
-        65..=67 => "subroutines are called by L, LL and L CYCLE here",
+        _ if is_call(number) => "subroutines are called by L, LL and L CYCLE here",
+        500 => "G53 takes the zero offsets back here",
+        505..=599 => "zero offsets are G54 to G59 and G159=number here",
         73 | 76 => "drilling cycles are L CYCLE calls here",
         _ => return None,
     })
@@ -61,6 +63,27 @@ pub(in crate::exec) fn printer(word: &str, meaning: &str, span: Span) -> Box<Fau
         "`{word}` {meaning}: this is a program for a 3D printer (Marlin, Klipper), not for ISG and TwinCAT"
     );
     Fault::new(Condition::ForeignProgram, text, span)
+}
+
+/// K-0120 for a name with a value that only Sinumerik programs have: `CYCLE81(..)`, `CR=5`.
+pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
+    let (meaning, hint) = match name.to_ascii_uppercase().as_str() {
+        "CYCLE" | "HOLES" | "POCKET" | "SLOT" | "LONGHOLE" => {
+            ("a cycle", "cycles are files here: L CYCLE [NAME=\"file\" @P1=..]")
+        }
+        "CR" => ("the radius of an arc", "write R: G02 X10 R5"),
+        "RPL" => ("an angle of rotation", "#ROTATION [ANGLE=..] turns the plane here"),
+        _ => return None,
+    };
+    let text = format!(
+        "`{name}` is {meaning}: this is a program for a Sinumerik control, not for ISG and TwinCAT"
+    );
+    Some(Fault::new(Condition::ForeignProgram, text, span).hint(hint))
+}
+
+/// True for calls of subroutines of other controls, whose words are values for them.
+pub(in crate::exec) fn is_call(number: u32) -> bool {
+    (65..=67).contains(&number)
 }
 
 /// Meaning here of a G function that other dialects know with another one.

@@ -12,6 +12,7 @@ use super::groups::{Act, Group};
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane};
 use super::modes::weight_ratio;
 use crate::diag::{Condition, ValueKind};
+use crate::exec::commands::addition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::machine::{Axis, SpindleMoment};
@@ -113,6 +114,10 @@ impl Decoder {
             self.report.keep(outcome);
         }
         let after = self.functions_after(&words);
+        if let Some((hash, at)) = words.addition {
+            let outcome = addition(self, hash, at);
+            self.report.keep(outcome);
+        }
         self.technology_wait(SpindleMoment::AfterMotion);
         after
     }
@@ -218,6 +223,9 @@ impl Decoder {
     pub(in crate::exec) fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
         let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
         if !(0.0..=most).contains(&value) {
+            // a check continues, and blocks without F have no fault of their own
+            let word = FeedWord { value: 1.0, inch: self.modal.inch };
+            self.modal.feeds[self.modal.feed_type as usize].get_or_insert(word);
             let text = format!("F{value} is outside 0 to {most}");
             return Err(Fault::new(Condition::Range, text, span));
         }

@@ -9,6 +9,7 @@ use super::modal::Selection;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
 use crate::exec::values::{every_axis, system};
 use crate::suggest;
 use crate::syntax::ast::{
@@ -21,7 +22,11 @@ impl Decoder {
         for word in words {
             if let Err(fault) = self.collect_word(word, block) {
                 self.report.note(fault);
-                if block.call.is_some() {
+                let foreign_call = match word.kind {
+                    WordKind::G { number, .. } => super::dialect::is_call(number),
+                    _ => false,
+                };
+                if block.call.is_some() || block.addition.is_some() || foreign_call {
                     break;
                 }
             }
@@ -52,6 +57,10 @@ impl Decoder {
         if block.call.is_some() && !matches!(word.kind, WordKind::Call(_)) {
             let text = "nothing may follow a subroutine or cycle call in its block";
             return Err(Fault::new(Condition::BehindCall, text, span));
+        }
+        if block.addition.is_some() {
+            let text = "a word after #ADD, which is the last one of its block";
+            return Err(Fault::new(Condition::BehindAddition, text, span));
         }
         match &word.kind {
             WordKind::Address { name, sign, value } => {
@@ -123,7 +132,17 @@ impl Decoder {
                         return Err(Fault::new(Condition::ToolRadiusWrittenTwice, text, span));
                     }
                 }
-                self.assign(assign)
+                let outcome = self.assign(assign);
+                // a check continues, and what reads the parameter has no fault of its own
+                if outcome.is_err()
+                    && let PlaceKind::Parameter { indirections: 0, subscripts, .. } =
+                        &assign.target.kind
+                    && subscripts.is_empty()
+                    && self.read(&assign.target).is_err()
+                {
+                    let _ = self.write(&assign.target, Value::Number(0.0), span);
+                }
+                outcome
             }
             WordKind::MacroDefinition(definition) => {
                 let name = definition.name.trim_ascii();
@@ -147,7 +166,18 @@ impl Decoder {
                     ),
                 })
             }
+            WordKind::Hash(hash) if hash.name.split(' ').next() == Some("ADD") => {
+                block.addition = Some((hash, span));
+                Ok(())
+            }
             WordKind::Hash(hash) => {
+                let angles = ["ANG", "CANG", "FRC"];
+                if angles.contains(&&*hash.name)
+                    && block.hashes.iter().any(|(other, _, _)| other.name == hash.name)
+                {
+                    let text = format!("#{} twice in one block", hash.name);
+                    return Err(Fault::new(Condition::Syntax, text, span));
+                }
                 let value = match &hash.value {
                     Some(expr) => Some(self.number(expr)?),
                     None => None,
@@ -227,6 +257,10 @@ impl Decoder {
             Some(expr) => Some(self.number(expr)?),
             None => None,
         };
+        if let (Some(fraction), "M") = (value.filter(|x| x.fract() != 0.0), letter) {
+            let text = format!("M{number:02}={fraction}: the value of an M function is an integer");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
         if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
             let text = format!("M{number:02} takes no value, not {value}");
             return Err(Fault::new(Condition::Syntax, text, span));
@@ -325,7 +359,13 @@ impl Decoder {
                 return Err(Fault::new(Condition::ValueMissing, text, span));
             }
             (Some(GValue::Scalar(expr)), ValueRule::Required | ValueRule::Optional) => {
-                Some(self.number(expr)?)
+                let value = self.number(expr);
+                Some(value.map_err(|fault| match row.act {
+                    Act::Dwell if fault.diagnostic.id == Condition::ParameterUnknown.id() => {
+                        fault.hint("the time is in seconds and has no address here: G04 0.5")
+                    }
+                    _ => fault,
+                })?)
             }
             (Some(GValue::Scalar(expr)), ValueRule::Never) => {
                 let text = format!("G{number:02} takes no value");

@@ -5,6 +5,7 @@ use super::range::Range;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
 use crate::exec::values::number::as_number;
 use crate::suggest;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
@@ -78,8 +79,17 @@ pub(crate) enum KeyKind {
     MaybeNumber,
     /// An identifier or text.
     Word,
+    /// A number or a text.
+    Scalar,
     /// Nothing.
     Flag,
+}
+
+impl KeyKind {
+    /// A number may follow.
+    fn takes_number(self) -> bool {
+        matches!(self, Self::Number | Self::MaybeNumber | Self::Scalar)
+    }
 }
 
 /// A key that a command knows.
@@ -140,6 +150,9 @@ pub(in crate::exec) struct MaybeNumber;
 /// A word or text, and its place.
 #[derive(Debug)]
 pub(in crate::exec) struct Word;
+/// A number or a text, and its place.
+#[derive(Debug)]
+pub(in crate::exec) struct Scalar;
 /// The place of a key without value.
 #[derive(Debug)]
 pub(in crate::exec) struct Flag;
@@ -176,6 +189,19 @@ impl Argument for Word {
         match found.get(name)? {
             (Written::Word(word), span) => Some((word.clone(), *span)),
             (Written::Number(_) | Written::Nothing, _) => None,
+        }
+    }
+}
+
+impl Argument for Scalar {
+    type Value = (Value, Span);
+    const KIND: KeyKind = KeyKind::Scalar;
+
+    fn take(found: &Found, name: &str) -> Option<(Value, Span)> {
+        match found.get(name)? {
+            (Written::Number(x), span) => Some((Value::Number(*x), *span)),
+            (Written::Word(text), span) => Some((Value::Text(text.clone()), *span)),
+            (Written::Nothing, _) => None,
         }
     }
 }
@@ -287,23 +313,22 @@ fn read(
             if let Some(key) = keys.iter().find(|k| ident.is(k.name)) {
                 return match key.kind {
                     KeyKind::Flag | KeyKind::MaybeNumber => Ok(Some((key.name, Written::Nothing))),
-                    KeyKind::Number | KeyKind::Word => Err(incomplete(title, key, item.span)),
+                    KeyKind::Number | KeyKind::Word | KeyKind::Scalar => {
+                        Err(incomplete(title, key, item.span))
+                    }
                 };
             }
             // `ID455`: a key and its number written together
             if let Some((name, number)) = ident.split_number() {
                 let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
-                if let Some(key) =
-                    key.filter(|k| matches!(k.kind, KeyKind::Number | KeyKind::MaybeNumber))
-                {
+                if let Some(key) = key.filter(|k| k.kind.takes_number()) {
                     return Ok(Some((key.name, Written::Number(number))));
                 }
             }
             // `IDP100`: a key and a parameter written together
             if let Some((name, place)) = ident.split_parameter() {
                 let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
-                let takes = |k: &&Key| matches!(k.kind, KeyKind::Number | KeyKind::MaybeNumber);
-                if let Some(key) = key.filter(takes) {
+                if let Some(key) = key.filter(|k| k.kind.takes_number()) {
                     let number = as_number(&decoder.read(&place)?, item.span)?;
                     return Ok(Some((key.name, Written::Number(number))));
                 }
@@ -318,6 +343,10 @@ fn read(
                 (KeyKind::Number | KeyKind::MaybeNumber, ItemValue::Expr(e)) => {
                     Written::Number(decoder.number(e)?)
                 }
+                (KeyKind::Scalar, ItemValue::Expr(e)) => match decoder.value(e)? {
+                    Value::Number(x) => Written::Number(x),
+                    Value::Text(text) => Written::Word(text),
+                },
                 (KeyKind::Word, ItemValue::Name(word)) => Written::Word(word.text.clone()),
                 (KeyKind::Word, ItemValue::Expr(e)) => Written::Word(text(decoder, e)?),
                 _ => return Err(incomplete(title, key, item.span)),
@@ -333,8 +362,8 @@ fn read(
 
 fn text(decoder: &Decoder, expr: &Expr) -> Outcome<Box<str>> {
     Ok(match decoder.value(expr)? {
-        crate::exec::options::Value::Text(text) => text,
-        crate::exec::options::Value::Number(x) => x.to_string().into(),
+        Value::Text(text) => text,
+        Value::Number(x) => x.to_string().into(),
     })
 }
 
@@ -360,6 +389,7 @@ fn incomplete(title: &str, key: &Key, span: Span) -> Box<Fault> {
         KeyKind::Number => "needs a number",
         KeyKind::MaybeNumber => "takes a number or nothing",
         KeyKind::Word => "needs a word",
+        KeyKind::Scalar => "needs a number or a text",
         KeyKind::Flag => "takes no value",
     };
     Fault::new(Condition::TokenUnknown, format!("{title}: {} {what}", key.name), span)

@@ -1,4 +1,4 @@
-//! `#MSG` and `#ERROR`.
+//! `#MSG`, `#ADD` and `#ERROR`.
 //!
 //! Source: TF5200 programming manual; 21232 for an unknown format.
 
@@ -11,7 +11,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::step::Event;
 use crate::machine::DiagnosisMessages;
-use crate::syntax::ast::{Expr, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Expr, Group, HashWord, ItemKind, ItemValue, Span};
 
 /// Receivers of a message.
 const RECEIVERS: &[&str] = &["ISG_DIAG_BED", "HMI", "PLC", "DIAG", "EVENT_LOGGER"];
@@ -40,37 +40,64 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
         save |= word.is("SAVE");
     }
-    let Some(group) = call.command.groups.last() else {
-        return Err(Fault::new(Condition::TokenUnknown, "#MSG needs [\"text\"]", call.span()));
-    };
+    let text = text_of(decoder, "#MSG", call.command.groups.last(), call.span())?;
+    send(decoder, receiver, save, text, call.span())
+}
+
+/// `#ADD [receiver] ["text", values]` at the end of a block: the message of `#MSG SYN` after what the block does.
+///
+/// Source: TF5200 programming manual 207177099, tccncprogramming 15556955787.
+pub(in crate::exec) fn addition(decoder: &mut Decoder, hash: &HashWord, span: Span) -> Outcome<()> {
+    let mut receiver = RECEIVERS[0].to_owned();
+    for word in hash.name.split(' ').skip(1) {
+        if !RECEIVERS.contains(&word) {
+            let text = format!("#ADD: unexpected `{word}`");
+            return Err(Fault::new(Condition::TokenUnknown, text, span)
+                .hint("a receiver or nothing comes before the bracket, no mode: it acts as SYN"));
+        }
+        word.clone_into(&mut receiver);
+    }
+    let text = text_of(decoder, "#ADD", hash.bracket.as_ref(), span)?;
+    send(decoder, receiver, false, text, span)
+}
+
+/// The text in a bracket with its values.
+fn text_of(decoder: &Decoder, title: &str, group: Option<&Group>, span: Span) -> Outcome<String> {
+    let wrong =
+        |text: &str, span| Fault::new(Condition::TokenUnknown, format!("{title}{text}"), span);
+    let Some(group) = group else { return Err(wrong(" needs [\"text\"]", span)) };
     let mut items = Vec::new();
     for item in &group.items {
         match &item.kind {
             ItemKind::Value(ItemValue::Expr(expr)) => items.push(expr),
             ItemKind::Missing => {
-                let text = "#MSG: a value is expected after the comma";
+                let text = format!("{title}: a value is expected after the comma");
                 return Err(Fault::new(Condition::MessageValue, text, item.span));
             }
-            _ => {
-                return Err(Fault::new(
-                    Condition::TokenUnknown,
-                    "#MSG: a text or value is expected",
-                    item.span,
-                ));
-            }
+            _ => return Err(wrong(": a text or value is expected", item.span)),
         }
     }
     let Some((format, values)) = items.split_first() else {
-        return Err(Fault::new(Condition::TokenUnknown, "#MSG needs a text", group.span));
+        return Err(wrong(" needs a text", group.span));
     };
     let Value::Text(format_text) = decoder.value(format)? else {
-        return Err(Fault::new(Condition::TokenUnknown, "#MSG: the text comes first", format.span));
+        return Err(wrong(": the text comes first", format.span));
     };
-    let text = formatted(decoder, &format_text, format.span, values)?;
+    formatted(decoder, &format_text, format.span, values)
+}
+
+/// Hands a message out, unless the channel list discards it.
+fn send(
+    decoder: &mut Decoder,
+    receiver: String,
+    save: bool,
+    text: String,
+    span: Span,
+) -> Outcome<()> {
     if receiver.eq_ignore_ascii_case(RECEIVERS[0]) && !save {
         let discarded = |condition| {
             let hint = "the channel list discards messages to ISG_DIAG_BED; name another receiver";
-            Fault::new(condition, format!("message discarded: {text}"), call.span()).hint(hint)
+            Fault::new(condition, format!("message discarded: {text}"), span).hint(hint)
         };
         match decoder.machine.channel.diagnosis_messages {
             DiagnosisMessages::Standard => {}
@@ -93,8 +120,6 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Replaces `%d`, `%f`, `%s` by the values in turn, as `printf` does (207145355).
 fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Outcome<String> {
     let mut text = String::new();
-    // a value is expected after a comma; an empty list looks the same with and without one
-    let missing = if values.is_empty() { Condition::MessageValue } else { Condition::MessageCount };
     let mut values = values.iter();
     let mut chars = format.chars();
     while let Some(c) = chars.next() {
@@ -121,7 +146,7 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         };
         let Some(expr) = values.next() else {
             let message = format!("no value for %{letter}");
-            return Err(Fault::new(missing, message, at));
+            return Err(Fault::new(Condition::MessageCount, message, at));
         };
         text.push_str(&form.of(&decoder.value(expr)?, letter));
     }
@@ -195,11 +220,11 @@ arguments! {
         id: Number "ID" in between(1.0, 1000.0).whole(), "", "number of the message";
         rc: Number "RC", "", "0 warning, 2 error (the program aborts), 7 fatal; default 2";
         mid: Number "MID" in between(0.0, 65535.0).whole(), "", "which of several messages with this ID";
-        pv1: Number "PV1", "", "a value";
-        pv2: Number "PV2", "", "a value";
-        pv3: Number "PV3", "", "a value";
-        pv4: Number "PV4", "", "a value";
-        pv5: Number "PV5", "", "a value";
+        pv1: Scalar "PV1", "", "a value, or a text of up to 23 characters";
+        pv2: Scalar "PV2", "", "a value, or a text of up to 23 characters";
+        pv3: Scalar "PV3", "", "a value, or a text of up to 23 characters";
+        pv4: Scalar "PV4", "", "a value, or a text of up to 23 characters";
+        pv5: Scalar "PV5", "", "a value, or a text of up to 23 characters";
         piv1: Number "PIV1", "", "a whole number";
         piv2: Number "PIV2", "", "a whole number";
         piv3: Number "PIV3", "", "a whole number";
@@ -219,6 +244,9 @@ pub(super) const ERROR: Row = Row::run("ERROR", error)
     .meaning("user message with an ID from 1 to 1000")
     .keys(ErrorArguments::KEYS)
     .example("#ERROR [ID=455 RC=2]");
+
+/// Longest text as a value (207457163).
+const TEXT_MAX: usize = 23;
 
 /// Meaning of a value for which none is written.
 const CURRENT: u32 = 2;
@@ -268,11 +296,21 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let meanings = [keys.pm1, keys.pm2, keys.pm3, keys.pm4, keys.pm5];
     let values = [keys.pv1, keys.pv2, keys.pv3, keys.pv4, keys.pv5];
     let integers = [keys.piv1, keys.piv2, keys.piv3, keys.piv4, keys.piv5];
-    for (value, meaning) in values.into_iter().zip(meanings).chain(integers.map(|x| (x, None))) {
+    let integers = integers.map(|x| (x.map(|(x, span)| (Value::Number(x), span)), None));
+    for (value, meaning) in values.into_iter().zip(meanings).chain(integers) {
         let meaning = meaning.map_or(CURRENT, |(meaning, _)| meaning as u32);
-        if let (Some((x, _)), Some(kind)) = (value, kind_of(meaning)) {
-            diagnostic = diagnostic.value(kind, x, "-");
+        let Some((value, span)) = value else { continue };
+        if let Value::Text(text) = &value
+            && text.chars().count() > TEXT_MAX
+        {
+            let text = format!("a text of {} characters, at most {TEXT_MAX}", text.chars().count());
+            return Err(Fault::new(Condition::Range, text, span));
         }
+        diagnostic = match (kind_of(meaning), value) {
+            (None, _) => diagnostic,
+            (Some(kind), Value::Number(x)) => diagnostic.value(kind, x, "-"),
+            (Some(kind), Value::Text(text)) => diagnostic.value(kind, text.to_string(), "-"),
+        };
     }
     let fault = Fault::of(diagnostic, call.span());
     if severity == Severity::Error {

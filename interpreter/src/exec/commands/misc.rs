@@ -16,7 +16,7 @@ use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
 /// Row of `#FLUSH`.
 pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
     .bare()
-    .form("#FLUSH [CONTINUE|WAIT]")
+    .form("#FLUSH, #FLUSH CONTINUE, #FLUSH WAIT")
     .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known, and the corner is not contoured")
     .example("#FLUSH WAIT");
 
@@ -314,12 +314,17 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         };
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
+        // a blank text is the default of the lists: no program (P-CHAN-00118)
+        let file = Some(file).filter(|file| !file.trim_ascii().is_empty());
         match number {
             Some(n) if crate::exec::block::groups::is_cycle_call(n) => {
-                decoder.calls.cycle_files.insert(n, file);
+                match file {
+                    Some(file) => decoder.calls.cycle_files.insert(n, file),
+                    None => decoder.calls.cycle_files.remove(&n),
+                };
             }
-            _ if key.is("M6") || key.is("M06") => decoder.calls.tool_change_file = Some(file),
-            _ if key.is("D") => decoder.calls.tool_data_file = Some(file),
+            _ if key.is("M6") || key.is("M06") => decoder.calls.tool_change_file = file,
+            _ if key.is("D") => decoder.calls.tool_data_file = file,
             // messages go to the log, whatever the name of their file
             _ if key.is("MSG") => {}
             _ => {

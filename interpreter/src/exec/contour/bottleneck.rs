@@ -239,7 +239,7 @@ impl Side {
     }
 
     /// Distance of a point from the element.
-    fn distance(&self, p: Point) -> f64 {
+    pub(super) fn distance(&self, p: Point) -> f64 {
         let share = self.share_of(p);
         match self {
             Self::Line { .. } if (0.0..=1.0).contains(&share) => norm(sub(p, self.foot(p))),
@@ -250,6 +250,11 @@ impl Side {
                 norm(sub(p, self.start_point())).min(norm(sub(p, self.end_point())))
             }
         }
+    }
+
+    /// Half of its length.
+    pub(super) fn reach(&self) -> f64 {
+        self.middle().1
     }
 
     /// The middle of the way along the element, and half of its length.

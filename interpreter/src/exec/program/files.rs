@@ -2,6 +2,7 @@
 
 use super::actual::needs_actual;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
+use super::state::Numbers;
 use super::unusable::{FileError, is_foreign};
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::options::SkipLevels;
@@ -17,6 +18,9 @@ use std::sync::Arc;
 
 /// Blocks of all files that are kept parsed; those beyond are parsed again on every pass.
 const CACHED_MAX: usize = 50_000;
+
+/// Numbers of several blocks that are remembered for one program.
+const TWICE_MAX: usize = 10_000;
 
 /// A parsed block.
 #[derive(Debug)]
@@ -266,23 +270,26 @@ impl Files {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub(super) fn numbers(&mut self, file: usize, section: usize) -> io::Result<Option<Labels>> {
+    pub(super) fn numbers(&mut self, file: usize, section: usize) -> io::Result<Option<Numbers>> {
         let ProgramFile { reader, index, .. } = &mut self.open[file];
         let Section { start, end, .. } = index.sections[section];
         reader.seek(start);
-        let mut numbers = Labels::default();
+        let (mut numbers, mut twice) = (Labels::default(), BTreeMap::new());
         while reader.position().offset < end && numbers.bytes() <= STRUCTURE_MAX {
             let Some(raw) = reader.next_block()? else { break };
             let Some(number) = super::index::number_of(raw.text).map(LabelKind::Number) else {
                 continue;
             };
-            if let Some(place) = index.block(raw.position)
-                && numbers.get(section, &number).is_none()
-            {
+            let Some(place) = index.block(raw.position) else { continue };
+            if numbers.get(section, &number).is_none() {
                 numbers.insert(section, number, place);
+            } else if let LabelKind::Number(number) = number
+                && twice.len() < TWICE_MAX
+            {
+                twice.entry(number).or_insert(raw.position.line);
             }
         }
-        Ok(Some(numbers).filter(|numbers| numbers.bytes() <= STRUCTURE_MAX))
+        Ok(Some(Numbers { first: numbers, twice }).filter(|n| n.first.bytes() <= STRUCTURE_MAX))
     }
 
     /// Place of the block that follows the one at a position.

@@ -241,6 +241,9 @@ impl Executor {
         if index.entry(id).end.is_none() {
             return Err(self.unclosed(id, span));
         }
+        if let Some(first) = index.entry(id).next.map(|clause| index.entry(clause).position) {
+            self.before_clauses(file, first, span);
+        }
         let mut default = None;
         let mut at = index.entry(id).next;
         while let Some(clause) = at {
@@ -274,6 +277,26 @@ impl Executor {
             None => self.leave_structure(id),
         }
         Ok(())
+    }
+
+    /// Blocks between `$SWITCH` and its first clause belong to none.
+    fn before_clauses(&mut self, file: usize, first: Position, span: Span) {
+        let mut at = self.levels.last().map_or(first, |level| level.at);
+        let switch = self.position.offset;
+        while at.offset < first.offset {
+            let Some((parsed, behind)) = self.fetch(file, at) else { return };
+            if parsed.block.body != Body::Empty {
+                let text = format!(
+                    "the block in line {} between $SWITCH and its first clause never runs",
+                    at.line
+                );
+                let fault = Fault::new(Condition::Odd, text, span).warning();
+                let hint = "write it before $SWITCH or after a $CASE";
+                self.decoder.report.note_once(&format!("$SWITCH {switch}"), fault.hint(hint));
+                return;
+            }
+            at = behind;
+        }
     }
 }
 

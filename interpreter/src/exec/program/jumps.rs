@@ -191,7 +191,7 @@ impl Executor {
         let program = self.program_of(level);
         if let LabelKind::Number(number) = label {
             self.learn_numbers(file, section, span)?;
-            if let Some(place) = self.numbered(file, section, *number) {
+            if let Some(place) = self.numbered(file, section, *number, span) {
                 return Ok(place);
             }
             let text = format!("{program} has neither a label nor a block N{number}");

@@ -35,6 +35,7 @@ impl Executor {
             frames: Vec::new(),
             cycle: saved,
             declarations: false,
+            optional: None,
             cut: false,
             again: None,
             begin: Position::START,
@@ -141,8 +142,22 @@ impl Executor {
         self.end(EndReason::Finished);
     }
 
+    /// 21719: `#OPTIONAL EXECUTION ON` has no end on its level (255789707).
+    fn optional_at_end(&mut self) {
+        let Some(level) = self.levels.last_mut() else { return };
+        let Some((at, span)) = level.optional.take() else { return };
+        let text = "#OPTIONAL EXECUTION ON without OFF before the end of its program";
+        let diagnostic = Diagnostic::new(Condition::OptionalOpen, text);
+        let location = self.place(at, span);
+        self.report(match location {
+            Some(location) => diagnostic.at(location),
+            None => diagnostic,
+        });
+    }
+
     /// 20375: control blocks that were entered have no end.
     fn open_blocks(&mut self) {
+        self.optional_at_end();
         let Some(level) = self.levels.last() else { return };
         let open: Vec<_> = level
             .frames

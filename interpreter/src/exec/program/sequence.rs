@@ -54,8 +54,8 @@ impl Executor {
             return Err(Fault::new(Condition::TokenUnknown, text, group.span));
         };
         self.learn_numbers(file, section, group.span)?;
-        let place = |number: u64, span: Span| {
-            self.numbered(file, section, number).ok_or_else(|| {
+        let mut place = |number: u64, span: Span| {
+            self.numbered(file, section, number, span).ok_or_else(|| {
                 let text = format!("the program has no block N{number}");
                 Fault::new(Condition::Label, text, span)
             })
@@ -168,9 +168,26 @@ impl Executor {
         Ok(())
     }
 
-    /// The first block of a number, once the numbers of its program are learnt.
-    pub(super) fn numbered(&self, file: usize, section: usize, number: u64) -> Option<LabelPlace> {
+    /// The first block of a number, once the numbers of its program are learnt; several have to be looked at.
+    ///
+    /// Source: TF5200 programming manual 205952267 (the numbers have to be unambiguous).
+    pub(super) fn numbered(
+        &mut self,
+        file: usize,
+        section: usize,
+        number: u64,
+        span: Span,
+    ) -> Option<LabelPlace> {
         let numbers = self.sequences.known.get(&(file, section))?;
-        numbers.get(section, &LabelKind::Number(number))
+        let place = numbers.first.get(section, &LabelKind::Number(number))?;
+        if let Some(second) = numbers.twice.get(&number) {
+            let line = place.position.line;
+            let text =
+                format!("N{number} is the number of lines {line} and {second}: line {line} counts");
+            let fault = Fault::new(Condition::Odd, text, span).warning();
+            let hint = "number the blocks of the program without repetition";
+            self.decoder.report.note_once(&format!("N{number} twice"), fault.hint(hint));
+        }
+        Some(place)
     }
 }

@@ -27,6 +27,8 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec) cycle: Option<Box<BeforeCycle>>,
     /// Between `#VAR` and `#ENDVAR`.
     pub(in crate::exec) declarations: bool,
+    /// Between `#OPTIONAL EXECUTION ON` and `OFF`: where it began.
+    pub(in crate::exec) optional: Option<(Position, Span)>,
     /// A control block without its end took the rest of the text.
     pub(in crate::exec) cut: bool,
     /// First and last block that jumps back lead through again, by their offsets.
@@ -176,5 +178,14 @@ pub(in crate::exec) struct ModalCycle {
 /// Block numbers of the programs that sequences or returns asked for, by file and section.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Sequences {
-    pub(super) known: BTreeMap<(usize, usize), Labels>,
+    pub(super) known: BTreeMap<(usize, usize), Numbers>,
+}
+
+/// Block numbers of a program.
+#[derive(Debug, Default)]
+pub(super) struct Numbers {
+    /// The first block of each.
+    pub(super) first: Labels,
+    /// Line of a second block with the same number.
+    pub(super) twice: BTreeMap<u64, u32>,
 }

@@ -10,6 +10,7 @@ use super::files::Look;
 use super::index::{Index, Keyword, Section};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::groups::is_cycle_call;
+use crate::exec::commands::is_known;
 use crate::source::Position;
 use crate::syntax::ast::{Block, Body, CallKind, CodeNumber, WordKind};
 
@@ -87,6 +88,17 @@ impl Executor {
             // the file was read before: what cannot be read now has been reported
             let Ok(Some((block, next))) = parsed else { return };
             self.calls_more |= self.may_open(&block);
+            if let (Body::Command(command), Look::Block) = (&block.body, look)
+                && !is_known(command)
+                && !["VAR", "ENDVAR", "IF", "ELSE", "ENDIF"].iter().any(|name| command.is(name))
+                && !command.is("COMMENT BEGIN")
+                && !command.is("COMMENT END")
+            {
+                let text = format!("unknown command #{}", command.name());
+                let place = self.files.locate(file, at, command.span, &self.decoder.calls.macros);
+                let diagnostic = Diagnostic::new(Condition::CommandUnknown, text);
+                found.extend(place.map(|place| (diagnostic.at(place), false)));
+            }
             if let Body::Command(command) = &block.body {
                 declarations = (declarations || command.is("VAR")) && !command.is("ENDVAR");
             }

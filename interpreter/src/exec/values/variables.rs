@@ -321,7 +321,14 @@ impl Decoder {
                 span,
             )),
             Some(external) => {
-                external.value = value;
+                external.value = match (&external.value, &value) {
+                    (Value::Number(_), Value::Text(_)) => Value::Number(as_number(&value, span)?),
+                    (Value::Text(_), Value::Number(_)) => {
+                        let text = format!("V.E.{name} holds a text");
+                        return Err(Fault::new(Condition::TextExpected, text, span));
+                    }
+                    _ => value,
+                };
                 Ok(())
             }
             None => {

@@ -118,7 +118,7 @@ parameters! {
     chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: 1, a measuring run without a signal of the probe is an error")
         .default(0.0).source("TF5200 channel parameters"), as MISSING_SIGNAL_IS_ERROR: Switch;
     chan("P-CHAN-00056", "max_vb_override", Raw::Uns16, "largest override of --input; limits where the list gives it")
-        .range(Bound::At(0.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").source("TF5200 channel parameters"), as MOST_OVERRIDE: Number;
+        .range(Bound::At(0.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").above(Condition::MostOverride, Correction::Limit).source("TF5200 channel parameters"), as MOST_OVERRIDE: Number;
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
         .range(Bound::Beyond(0.0), Bound::None).default(20000.0).unit("0.0001mm", "0.0001mm").below(Condition::CentreShiftZero, Correction::Default).source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")

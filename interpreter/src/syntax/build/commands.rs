@@ -59,7 +59,13 @@ impl Builder<'_> {
             None
         };
         let commas = pair.clone().into_inner().filter(|p| p.as_rule() == Rule::comma).count();
-        let group = self.group(pair);
+        let mut group = self.group(pair);
+        let inside =
+            self.masked[..group.span.end() as usize].trim_end_matches(']').trim_ascii_end();
+        if of(&["MSG"]) && inside.ends_with(',') {
+            let span = Span { start: group.span.end() - 1, len: 0 };
+            group.items.push(Item { kind: ItemKind::Missing, span });
+        }
         // `[X 1 0]` reads like a key with its value: 21251, when it is carried out
         let keyed = matches!(group.items.first(), Some(Item { kind: ItemKind::Pair { .. }, .. }));
         let exchange = matches!(needs, Some((Condition::ExchangeNumber, _)));
@@ -225,7 +231,17 @@ impl Builder<'_> {
         let remark = remark.trim_ascii_start();
         let key = remark.bytes().take_while(|b| b.is_ascii_alphanumeric() || *b == b'_').count();
         let is_key = remark.starts_with(|c: char| c.is_ascii_alphabetic());
-        if is_key && remark[key..].trim_ascii_start().starts_with('=') {
+        let keys = remark.split(')').next().unwrap_or_default();
+        let has_value = |word: &str| {
+            let name = word.split('=').next().unwrap_or_default();
+            word.contains('=')
+                && !name.is_empty()
+                && name.bytes().all(|b| b.is_ascii_uppercase() || b == b'_')
+        };
+        // `(MODE=2)`, `(DEV PATH_DEV=0.1)`
+        let behind_flag = remark[..key].bytes().all(|b| b.is_ascii_uppercase())
+            && keys.split_ascii_whitespace().nth(1).is_some_and(has_value);
+        if is_key && (remark[key..].trim_ascii_start().starts_with('=') || behind_flag) {
             let start = end + behind.len() - behind.trim_ascii_start().len();
             let text = "a remark that reads like keys: it has no effect";
             let problem = Problem::new(Condition::Odd, Span::new(start, start + 1), text)

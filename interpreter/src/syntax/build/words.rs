@@ -56,6 +56,10 @@ impl Builder<'_> {
                 }
                 Rule::code_number => code = self.code_number(part),
                 Rule::index => computed = Some(self.index(part)),
+                Rule::parameter | Rule::variable => {
+                    let place = Place { kind: self.place_kind(part), span };
+                    computed = Some(Expr { kind: place.into(), span });
+                }
                 Rule::marked_name
                 | Rule::bracket_name
                 | Rule::equals_name

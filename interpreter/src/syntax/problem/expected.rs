@@ -6,7 +6,7 @@ pub(super) const VALUE: &str = "a value";
 pub(super) const EQUALS: &str = "`=`";
 pub(super) const BRACKET: &str = "`[`";
 pub(super) const LEVEL: &str = "MAIN or JUMPS";
-const WORD: &str = "a word";
+pub(super) const WORD: &str = "a word";
 pub(super) const COMMA: &str = "`,`";
 pub(super) const OPERATOR: &str = "an operator";
 pub(super) const END: &str = "the end of the block";

@@ -18,12 +18,13 @@ macro_rules! commands {
     IdentKeyTwice = Vendor 21089: Error ProgramAbort 3 1, "key of #IDENT twice", cause "#IDENT WR [AX=X AX=Y ..]", hint "leave one of the two out";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
     CouplingFactorInvalid = Vendor 21111: Warning None 1 1, "coupling factor is neither 1 nor -1", cause "#SET AX LINK [1, [Y=X, 1, 2]]", hint "the control couples with the factor 1: write [Y=X, 1, 1] or, mirrored, [Y=X, -1, 1]";
+    MostOverride = Vendor 21128: Warning None 1 2, "largest override of the channel outside its range, limited", hint "write 0 to 2000 (0.1 %)", parameter "P-CHAN-00056";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
     CommandRead = Vendor 21158: Error ProgramAbort 3 1, "#COMMAND reads a procedure of a drive", cause "#COMMAND RD [..]", hint "procedures are only written: #COMMAND WR";
     TimerNumber = Vendor 21167: Error ProgramAbort 3 1, "number of a timer outside 0 to 127", hint "timers have the numbers 0 to 127";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after words of its block", cause "N10 X100 [NAME] Y200", hint "a label comes first in its block: N10 [NAME] X100 Y200";
     ArrayWithoutIndex = Vendor 21216: Error ProgramAbort 3 1, "index of an array is missing", cause "P1 = V.P.TAB", hint "write V.P.TAB[0]";
-    TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";
+    TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "keys are written in the bracket of the command: #SLOPE [TYPE=TRAPEZ]";
     MessageFormat = Vendor 21232: Error ProgramAbort 3 1, "unknown format in #MSG", cause "only %s %S %d %D %f %F", hint "formats are %s, %d and %f";
     SystemsTooMany = Vendor 21234: Error ProgramAbort 3 1, "more coordinate systems than can be stored", cause "a sixth #CS DEF", hint "define a number again that is no longer needed";
     ConversionTwice = Vendor 21235: Error ProgramAbort 3 1, "key of #WCS TO MCS or #MCS TO WCS twice", cause "#WCS TO MCS [X=1 X=2]", hint "leave one of the two out";
@@ -89,6 +90,7 @@ macro_rules! commands {
     OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
     OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write the closing statement before the end of the program";
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
+    BehindAddition = Vendor 21509: Error ProgramAbort 3 1, "NC command after #ADD", cause "Z33 #ADD[\"text\"] X11", hint "write #ADD at the end of the block";
     DirectWithCompensation = Vendor 21525: Error ProgramAbort 3 1, "#PTP with active tool radius compensation", hint "switch the compensation off with G40 first";
     TimerTwice = Vendor 21537: Error ProgramAbort 3 1, "word twice in #TIMER", cause "#TIMER START STOP, #TIMER START [ID=1 ID=2]", hint "one of START, STOP, READ and CLEAR, and one ID";
     ThreadOffsetTwice = Vendor 21540: Error ProgramAbort 3 1, "offset angle of a thread twice in one block", hint "leave one of the two out";
@@ -111,8 +113,11 @@ macro_rules! commands {
     PositiveLimitAboveList = Vendor 21650: Warning None 1 1, "positive software limit above that of the axis list, limited", cause "G99 with P-CHAN-00498 = 1", hint "P-AXIS-00178 is the highest limit", parameter "P-CHAN-00498";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE twice, or keys that do not go together", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
     InsertionsOff = Vendor 21718: Error ProgramAbort 3 1, "chamfer or rounding although the channel list switches them off", cause "disable_chamfers_roundings 1", hint "set P-CHAN-00273 to 0", parameter "P-CHAN-00273";
+    OptionalOpen = Vendor 21719: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION ON has no OFF before the end of its program", hint "write #OPTIONAL EXECUTION OFF before the end";
+    OptionalNotOpen = Vendor 21720: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION OFF without ON on its level", hint "ON and OFF belong to the same program";
     SpindleCommandsExclude = Vendor 21736: Error ProgramAbort 3 1, "words of a spindle bracket that exclude each other", cause "S[G136=80 G130=60]", hint "write feedforward and G130 in separate brackets";
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
+    ArcPoints = Vendor 21751: Error ProgramAbort 3 1, "three points of G303 that define no arc", cause "points on a line, or the same point twice", hint "I, J, K lie between start and target, off the line between them";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
     NoArray = Vendor 21768: Error ProgramAbort 3 1, "index of a variable that is not an array", cause "V.P.A[1] after V.P.A = 5", hint "declare it between #VAR and #ENDVAR: V.P.A[size]";
     AxisPositionOfSlave = Vendor 21784: Error ProgramAbort 3 1, "V.A.ACS.ABS of a slave axis", cause "read while its coupling is active", hint "read it after #DISABLE AX LINK, or that of the master";

@@ -5,7 +5,7 @@ macro_rules! own {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
-    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "kontur explain shows how words and commands are written";
+    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "words are an address and a value: G01 X10.5 F1000; remarks begin with ;";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
     TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, M02 or M17, then more blocks", hint "move the word that ends the program to its end, or delete what comes after it";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "nesting of calls, or the structure of a program, beyond the limit", hint "does a subroutine call itself? A parameter can hold a part of a long expression";
@@ -89,7 +89,6 @@ macro_rules! own {
     ThreadSpeed = Kontur 122 "K-THREAD-SPEED": Error ProgramAbort 3 1, "thread faster than the axes (no vendor ID known)", cause "pitch times spindle speed above P-AXIS-00212", hint "lower the spindle speed";
     SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a turning spindle (no vendor ID known)", cause "M03 before G63, or before or in the block of G331", hint "stop the spindle with M05, or position it with M19, in an earlier block";
     ThreadPitch = Kontur 124 "K-THREAD-PITCH": Error ProgramAbort 3 1, "thread without a pitch (no vendor ID known)", cause "G33 Z-50 without K", hint "I, J, K are the pitches of X, Y, Z in mm/rev; G33 has no sign";
-    ArcPoints = Kontur 126 "K-ARC-POINTS": Error ProgramAbort 3 1, "three points of G303 that define no arc (no vendor ID known)", cause "points on a line, or the same point twice", hint "I, J, K lie between start and target, off the line between them";
     ContourLineMissed = Kontur 127 "K-CONTOUR-LINE": Error ProgramAbort 3 1, "end of a contour line that cannot be reached at its angle (no vendor ID known)", cause "#ANG=90 X20, or the other direction", hint "the angle counts from the first main axis of the plane, counter-clockwise";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop rests or oscillates outside the window, and no remaining input can move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed outside the limits of the spindle or its tool, limited", cause "S word or REV above P-AXIS-00212, or outside P-TOOL-00013 to P-TOOL-00014", hint "the limits are getriebe[0].dynamik.vb_max of the spindle, wz[i].vb_min and wz[i].vb_max of the tool", parameter "P-AXIS-00212";

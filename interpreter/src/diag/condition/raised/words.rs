@@ -146,7 +146,7 @@ macro_rules! words {
     JogFeedContinuous = Vendor 20491: Error ProgramAbort 3 1, "negative feed of continuous jogging", cause "#JOG CONT [AX=X FEED1=-1]", hint "feeds are positive";
     ManualLimit = Vendor 20493: Error ProgramAbort 3 1, "positive value of the negative limit of manual mode", cause "#MANUAL LIMITS [AX=X NEGATIVE=5 POSITIVE=5]", hint "write NEGATIVE=-5";
     PositionRequests = Vendor 20500: Error ProgramAbort 3 1, "too many values in #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", hint "write the rest into a second command";
-    CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' describes the commands that exist";
+    CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "the manual has no command of this name";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
     ExchangeName = Vendor 20524: Error ProgramAbort 3 1, "axis exchange: axis name wrong", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters";
     ExchangeWhileTapping = Vendor 20535: Error ProgramAbort 3 1, "axis exchange during tapping", cause "G63 Z10 F1000 S100, then #SET AX [X,1,0]", hint "write G01 or G00 before it";
@@ -172,6 +172,7 @@ macro_rules! words {
     TappingWithSpeedLimit = Vendor 20637: Error ProgramAbort 3 1, "tapping and G196 in one block", hint "write G196 in another block";
     PositioningWithCuttingSpeed = Vendor 20642: Error ProgramAbort 3 1, "M19 with constant cutting speed", cause "M19 under G96", hint "write G97 before it";
     PositioningWithMaximum = Vendor 20643: Error ProgramAbort 3 1, "M19 in a block with G196", cause "G196 S2000 M19", hint "write M19 in a separate block";
+    MacroCommand = Vendor 20644: Error ProgramAbort 3 1, "macro with a command that has to be alone, beside other words", cause "\"M\" G01 X10 with \"M\"=\"#FLUSH WAIT\"", hint "write the macro in a separate block";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
     FunctionInSystem = Vendor 20663: Error ProgramAbort 3 1, "G function that is not allowed in a coordinate system", cause "#CS ON, then G98 X-500", hint "write it before #CS ON or after #CS OFF";
     LengthWithCompensation = Vendor 20671: Error ProgramAbort 3 1, "tool length compensation selected while tool radius compensation is active", cause "#TLC ON between G41 or G42 and G40", hint "write #TLC ON before G41 or after G40";

@@ -239,6 +239,12 @@ impl Decoder {
             let text = "G74 while a coupling group is switched on";
             return Err(Fault::new(Condition::HomingWithCouplings, text, g.span));
         }
+        // page 208164107
+        if let Some(m) = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19 | 40..=45)) {
+            let text = format!("M{:02} in the block of G74", m.number);
+            return Err(Fault::new(Condition::SpindleCommandsExclude, text, m.span)
+                .hint("write the function of the spindle in a separate block"));
+        }
         let named = |axis: usize| words.axes.iter().any(|(other, _, _)| *other == axis);
         for axis in 0..self.machine.axes.len() {
             if words.axes.is_empty() || named(axis) {

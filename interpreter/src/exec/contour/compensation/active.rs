@@ -95,7 +95,14 @@ impl Active {
             let at =
                 exact.or((turn.abs() < ALL_BUT_SMOOTH).then_some(before)).ok_or_else(|| {
                     if !arcs {
-                        return too_tight(&motion);
+                        let sides = [&last.side, &side];
+                        let short =
+                            sides.into_iter().min_by(|a, b| a.reach().total_cmp(&b.reach()));
+                        let condition = match short {
+                            Some(Side::Arc { .. }) => Condition::ArcRunsBack,
+                            _ => Condition::LineRunsBack,
+                        };
+                        return too_tight(condition, &motion);
                     }
                     let text = "the tool is too large for the corner between two arcs";
                     Fault::new(Condition::ToolBetweenArcs, text, motion.span)

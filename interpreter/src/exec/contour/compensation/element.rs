@@ -59,7 +59,7 @@ impl Element {
             Side::Line { .. } => {
                 let along = dot(sub(end, start), side.tangent(false));
                 if along < 0.0 && !approach {
-                    return Err(too_tight(&motion));
+                    return Err(too_tight(Condition::LineRunsBack, &motion));
                 }
                 line(&motion, plane, start, end)
             }
@@ -77,7 +77,7 @@ impl Element {
                 }
                 let sweep_rad = trimmed(&side, start, end);
                 if sweep_rad * side_sweep(&side) <= 0.0 {
-                    return Err(too_tight(&motion));
+                    return Err(too_tight(Condition::ArcRunsBack, &motion));
                 }
                 if let Some(Compensated { engagement_radius_mm: Some(least), .. }) =
                     motion.compensation

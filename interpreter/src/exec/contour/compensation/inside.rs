@@ -2,7 +2,7 @@
 //!
 //! Where the tool enters is known when the contour is: its blocks wait until G40.
 //!
-//! Source: TF5200 programming manual, selecting inside corner of TRC, restrictions of inside corner selection; 90127.
+//! Source: TF5200 programming manual, selecting inside corner of TRC, restrictions of inside corner selection; 90123 (261891211), 90127.
 
 use super::active::{Active, Watched};
 use super::corner::{above, inner_corner};
@@ -151,10 +151,10 @@ fn corner(approach: &Motion, distance: f64, items: &[Item]) -> Fallible<Point> {
         if let Item::Motion(motion) = item
             && let Some(side) = moving_side(motion, approach.plane)?
         {
-            sides.push(side);
+            sides.push((side, motion));
         }
     }
-    let (Some(first), Some(last), true) = (sides.first(), sides.last(), sides.len() > 1) else {
+    let [(first, _), between @ .., (last, _)] = &sides[..] else {
         return Err(refused("a contour of G238 has at least two blocks"));
     };
     if !matches!(first, Side::Line { .. }) {
@@ -172,5 +172,20 @@ fn corner(approach: &Motion, distance: f64, items: &[Item]) -> Fallible<Point> {
     if turn * distance <= 0.0 {
         return Err(refused("the contour of G238 does not begin at an inside corner"));
     }
-    inner_corner(last, first, corner, distance).ok_or_else(|| too_tight(approach))
+    let at = inner_corner(last, first, corner, distance)
+        .ok_or_else(|| too_tight(Condition::Compensation, approach))?;
+    // 261891211: to every element of the contour the tool keeps its radius
+    let apart = |side: &Side| side.distance(at);
+    match between.iter().find(|(side, _)| apart(side) < distance.abs() - CLOSED_MM) {
+        Some((side, motion)) => {
+            let text = format!(
+                "the tool of radius {} mm is {:.4} mm away from a block of the contour where it enters it",
+                distance.abs(),
+                apart(side)
+            );
+            Err(Fault::new(Condition::InsideCornerTooNear, text, motion.span)
+                .in_block(motion.source))
+        }
+        None => Ok(at),
+    }
 }

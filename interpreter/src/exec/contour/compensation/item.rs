@@ -31,7 +31,11 @@ pub(super) fn vanished(events: Vec<Event>, out: &mut Vec<Item>) {
 
 pub(super) type Fallible<T> = Result<T, Box<Fault>>;
 
-pub(super) fn too_tight(motion: &Motion) -> Box<Fault> {
+/// The contour is too tight for the radius of the tool: K-0115, or the vendor's number for the tool that would run back along a
+/// line (90019) or once round an arc (90038).
+///
+/// Source: TF5200 diagnosis 261669259, 261704075.
+pub(super) fn too_tight(condition: Condition, motion: &Motion) -> Box<Fault> {
     let text = "the contour is too tight for the radius of the tool";
-    Fault::new(Condition::Compensation, text, motion.span).in_block(motion.source)
+    Fault::new(condition, text, motion.span).in_block(motion.source)
 }

@@ -10,6 +10,7 @@ use super::active::{Active, Watched, at_contour};
 use super::corner::{above, inner_corner, straight, straight_before};
 use super::element::{Element, emit_between};
 use super::item::{Fallible, Item, too_tight};
+use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
 use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::arc::Point;
@@ -84,7 +85,7 @@ impl Active {
         let inside = turn.abs() >= 1e-9 && turn * distance > 0.0;
         let to = if inside {
             inner_corner(&self.last.side, &side, corner, distance)
-                .ok_or_else(|| too_tight(&motion))?
+                .ok_or_else(|| too_tight(Condition::Compensation, &motion))?
         } else {
             above(corner, u, distance)
         };

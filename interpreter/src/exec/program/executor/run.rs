@@ -348,9 +348,27 @@ impl Executor {
             }
             return;
         }
+        if command.is("OPTIONAL EXECUTION") {
+            self.optional_execution(command);
+        }
         self.decoder.report.location = self.here(command.span);
         let outcome = self.decoder.execute_command(command);
         self.decoder.report.keep(outcome);
+    }
+
+    /// `#OPTIONAL EXECUTION ON` and `OFF` belong to one level; 21720 (255794059).
+    fn optional_execution(&mut self, command: &Command) {
+        let (on, here) = (command.on, (self.position, command.span));
+        let Some(level) = self.levels.last_mut() else { return };
+        match on {
+            Some(true) => level.optional = Some(here),
+            Some(false) if level.optional.take().is_none() => {
+                let text = "#OPTIONAL EXECUTION OFF without ON on its level";
+                let fault = Fault::new(Condition::OptionalNotOpen, text, command.span);
+                self.decoder.report.note(fault);
+            }
+            _ => {}
+        }
     }
 
     /// `#IF`: the branch that is not taken is not looked at.
@@ -423,7 +441,11 @@ impl Executor {
         for fault in faults {
             failed |= fault.is_error();
             let diagnostic = self.placed(fault);
+            let foreign = diagnostic.id == Condition::ForeignProgram.id();
             self.report(diagnostic);
+            if foreign {
+                break;
+            }
         }
         if self.decoder.checking {
             let enough = self.found.is_enough(self.budget.blocks());

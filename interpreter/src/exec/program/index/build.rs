@@ -93,6 +93,8 @@ impl Builder<'_> {
         match first {
             Some(b'$') => self.control(raw, &head),
             Some(b'#') => self.command(raw, &head),
+            // without `$` it is an error of its block alone, not of what belongs to it
+            Some(_) if Keyword::of_control(&word(head.rest)).is_some() => self.control(raw, &head),
             Some(_) if self.has_main => self.end_seen |= ends_program(raw.text),
             _ => {}
         }
@@ -335,7 +337,7 @@ impl Builder<'_> {
     }
 
     fn control(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
-        let name = word(head.rest[1..].trim_start());
+        let name = word(head.rest.trim_start_matches('$').trim_start());
         let found = Keyword::of_control(&name).or_else(|| Keyword::meant_by(&name));
         let Some(mut keyword) = found else { return };
         if keyword == Keyword::If && contains_goto(head.rest) {

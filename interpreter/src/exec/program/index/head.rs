@@ -134,7 +134,7 @@ pub(super) fn ends_program(text: &str) -> bool {
 pub(super) const SAYING: [u8; 3] = [b'M', b'm', b'\\'];
 
 /// True for most lines of a long program, inside a section, if nothing of [`SAYING`] is in them: a block number or none,
-/// then a word.
+/// then a word of one letter: several may be a control statement without its `$`.
 pub(super) fn says_nothing(line: &[u8]) -> bool {
     let mut rest = line;
     if let [b'N' | b'n', behind @ ..] = line {
@@ -143,6 +143,7 @@ pub(super) fn says_nothing(line: &[u8]) -> bool {
         rest = if digits > 0 { &behind[digits + blanks..] } else { &[] };
     }
     rest.first().is_some_and(u8::is_ascii_alphabetic)
+        && !rest.get(1).is_some_and(u8::is_ascii_alphabetic)
 }
 
 /// Name after a program head: the first word.
@@ -171,8 +172,9 @@ pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
     }
 }
 
-/// True if `$GOTO` follows the condition.
+/// True if `$GOTO` follows the condition; `$` may be missing in both.
 pub(super) fn contains_goto(rest: &str) -> bool {
-    let code = rest.split([';', '(']).next().unwrap_or("");
-    code.to_ascii_uppercase().contains("$GOTO")
+    let code = rest.split([';', '(']).next().unwrap_or("").to_ascii_uppercase();
+    let mut words = code.split_ascii_whitespace();
+    code.contains("$GOTO") || !code.starts_with('$') && words.any(|word| word == "GOTO")
 }

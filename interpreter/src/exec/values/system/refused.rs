@@ -74,8 +74,11 @@ pub(super) fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Faul
     let names: Vec<String> =
         ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
     let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
-    match suggest::nearest(&name, names.iter().map(String::as_str)) {
+    // a name that is not written to its end, or one without its axis
+    let begun = || names.iter().filter(|known| known.starts_with(&name.to_ascii_uppercase()));
+    let near = suggest::nearest(&name, names.iter().map(String::as_str));
+    match near.or_else(|| begun().min_by_key(|known| known.len()).map(String::as_str)) {
         Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
-        None => fault,
+        None => fault.hint("variables of a program are V.P.NAME and V.L.NAME, declared by #VAR"),
     }
 }

@@ -53,7 +53,9 @@ impl Decoder {
                 let index = target.parse().unwrap_or(0);
                 let table = self.values.variables.parameters_mut();
                 // a parameter created by a write may become an array
-                let known = table.get(&index).is_some_and(|v| v.sizes == variable.sizes);
+                let known = table
+                    .get(&index)
+                    .is_some_and(|v| !v.sizes.is_empty() || v.sizes == variable.sizes);
                 if !known {
                     self.values.variables.insert_parameter(index, variable);
                 }

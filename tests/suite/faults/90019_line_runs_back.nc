@@ -1,5 +1,5 @@
 ; check: exit 1
-; error K-0115 at 6:1
+; error 90019 at 6:1
 V.G.WZ[1].R=10 G26
 D1 G41 G01 X10 F1000
 X20

@@ -1,0 +1,9 @@
+; check: exit 1
+; error 90038 at 6:1
+V.G.WZ[1].R=10 G26
+D1 G41 G01 X10 F1000
+X60
+G03 X61 Y1 I-19 J20
+G01 X30 Y20
+G40 Y50
+M30

@@ -1,0 +1,10 @@
+; check: exit 1
+; error K-0115 at 4:1
+V.G.WZ[1].R=2 D1 G00 X5 Y5
+G238 G42 G01 X0 Y0 F1000
+X20
+Y20
+X0
+Y0
+G40 X5 Y5
+M30
