@@ -121,7 +121,7 @@ fn unused(setting: &Setting, [i, j]: Indices, axes: usize) -> Option<Diagnostic>
     let text = format!("{key}: the channel has only {axes} axes, no effect");
     let hint = "the second index counts the axes of the channel list from 0";
     let mut about = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
-    about.source = setting.at.clone();
+    about.source.clone_from(&setting.at);
     Some(about)
 }
 

@@ -11,6 +11,7 @@ use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
 use super::scan;
 use super::{PROBLEMS_MAX, Rule};
+use crate::diag::Condition;
 use pest::Parser as _;
 use pest::iterators::{Pair, Pairs};
 
@@ -159,7 +160,8 @@ impl<'a> Builder<'a> {
         let level = digits.parse().ok().filter(|level| (1..=10).contains(level));
         if level.is_none() {
             let span = self.span(pair);
-            self.report(Problem::syntax(span, format!("skip level {digits}, expected 1 to 10")));
+            let text = format!("skip level {digits}, expected 1 to 10");
+            self.report(Problem::new(Condition::SkipLevelRange, span, text));
         }
         level
     }

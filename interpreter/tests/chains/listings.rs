@@ -101,7 +101,7 @@ fn corrections_name_axis_parameter_and_place() {
         ("110465", "P-AXIS-00326", format!("{torque} X.antr.torque_scale_denom=0")),
         ("110473", "P-AXIS-00338", s("X.vorsteuer.jerk_fact_denom=0")),
         ("110579", "P-AXIS-00512", s("X.getriebe[0].gear_fact_denom=0")),
-        ("110624", "P-AXIS-00223", s("X.vorsteuer.vorsteuerung=3 X.vorsteuer.feedforward_without_delay=1")),
+        ("110624", "P-AXIS-00223", s("X.vorsteuer.vorsteuerung=3 *.vorsteuer.feedforward_without_delay=1 S.vorsteuer.feedforward_without_delay=1")),
         ("80044", "P-AXIS-00051", s("X.antr.simu.daempfung_z=10 kontur.axis[1].plant.model=SIMU")),
         ("110040", "P-AXIS-00194", s("X.antr.simu.totzeit=6")),
         ("50663", "P-AXIS-00357", format!("{filter} X.filter[0].type=11")),

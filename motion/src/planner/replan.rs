@@ -226,11 +226,11 @@ impl Planner {
         let mut ahead = rest.iter().map(|s| &*s.queued);
         let rises = spot.a > FLAT_MM_S2;
         let falls = spot.a < -FLAT_MM_S2;
-        let settled = first.slope.settled(spot.v, spot.a);
+        let (settled, most) = (first.slope.settled(spot.v, spot.a), first.velocity.v_mm_s);
         self.active.hold.is_none()
             && spot.v > 0.0
-            && (rises && settled <= first.velocity.v_mm_s
-                || falls && settled < first.velocity.v_mm_s)
+            && spot.v <= most
+            && (rises && settled <= most || falls && settled < most)
             && ahead.all(|q| constant_jerk(q) && !whole(q))
     }
 
@@ -388,6 +388,10 @@ impl Planner {
             return Outcome::Exceeds;
         }
         let Some(way_out) = self.way_out() else { return Outcome::NoWay };
+        if way_out.is_empty() && !at_rest {
+            // a barred block: no speed leads on
+            return Outcome::NoWay;
+        }
         self.plan.reserve = way_out.into();
         if at_rest {
             // it is not known later

@@ -17,6 +17,8 @@ const LEFT: f64 = 76.0;
 const RIGHT: f64 = 1172.0;
 /// Set points that are compared with the first pass.
 const MOST_COMPARED: usize = 2000;
+/// Distance in mm up to which nobody is told that points of a long contour are left out.
+const COARSE_MM: f64 = 0.01;
 /// Draws one or several runs.
 pub(super) fn draw(runs: &[Drawn]) -> String {
     let mut svg = Svg::new();
@@ -79,6 +81,10 @@ fn head(svg: &mut Svg, runs: &[Drawn]) {
         if let Some(e) = s.max_contour_error.as_ref().filter(|e| e.mm > VISIBLE_MM) {
             facts.push(format!("contour error at most {:.4} mm, line {}", e.mm, e.line));
         }
+    }
+    let within_mm = runs.iter().map(|r| r.recording.within_mm()).fold(0.0, f64::max);
+    if within_mm > COARSE_MM {
+        facts.push(format!("contour drawn to within {within_mm:.2} mm"));
     }
     svg.text([LEFT, 58.0], Font::FACTS, &facts.join("  ·  "));
 }

@@ -236,7 +236,7 @@ fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) 
     let mut points: Points = Vec::new();
     // of buckets with several cycles nobody knows which value came first: the one next to what is before it
     let put = |points: &mut Points, [least, greatest]: [[f64; 2]; 2]| {
-        let falls = least[0] == greatest[0]
+        let falls = least[0].to_bits() == greatest[0].to_bits()
             && points.last().is_some_and(|p| (p[1] - greatest[1]).abs() < (p[1] - least[1]).abs());
         let greatest_first = falls || greatest[0] < least[0];
         points.extend(if greatest_first { [greatest, least] } else { [least, greatest] });
@@ -260,13 +260,17 @@ fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) 
             }
             _ => {
                 let before = extremes.replace([[t, low], [t, high]]);
-                before.into_iter().for_each(|e| put(&mut points, e));
+                if let Some(before) = before {
+                    put(&mut points, before);
+                }
                 pixel = this;
             }
         }
         end = Some((bucket, low, high));
     }
-    extremes.into_iter().for_each(|e| put(&mut points, e));
+    if let Some(last) = extremes {
+        put(&mut points, last);
+    }
     // to its last cycle
     if let Some((bucket, low, high)) = end.filter(|(bucket, ..)| bucket.last > bucket.k) {
         let t = run.seconds(bucket.last);

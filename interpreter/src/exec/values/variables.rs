@@ -384,6 +384,16 @@ impl Decoder {
                 if gone.is_none() && class == Class::Cycle {
                     return self.absent_cycle_variable(&name, span);
                 }
+                if gone.is_none() && class == Class::Shared {
+                    // on the control they outlive programs, so a program may tidy up after another one
+                    let text = format!(
+                        "V.S.{name} does not exist: a run begins without what earlier programs left"
+                    );
+                    let hint = "on the control a missing variable is 20932";
+                    let fault = Fault::new(Condition::Ignored, text, span).hint(hint);
+                    self.report.note_once("deleted shared variable", fault);
+                    return Ok(());
+                }
                 if gone.is_none() {
                     let what = "does not exist";
                     let unknown = self.values.variables.unknown(class, &name, what, span);

@@ -73,7 +73,7 @@ for (const { summary: s } of runs) for (const m of s.messages.slice(0, 50)) {
 }
 const widest = Math.max(...runs.map(r => r.width)), within = Math.max(...runs.map(r => r.within));
 if (within > VISIBLE) byId("legend").append(make("div",
-  `Points of the contour are left out where they lie within ${(within * 1000).toPrecision(2)} µm of the lines that are drawn; --window draws a part of the run with all of them.`, "note"));
+  `Points of the contour are left out where they lie within ${within < 0.1 ? `${+(within * 1000).toPrecision(2)} µm` : `${+within.toPrecision(2)} mm`} of the lines that are drawn; --window draws a part of the run with all of them.`, "note"));
 if (widest > 1) byId("legend").append(make("div",
   `Over time least and greatest value of ${widest} cycles each; under the pointer their middle. --window draws a part of the run cycle by cycle.`, "note"));
 

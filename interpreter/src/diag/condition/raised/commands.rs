@@ -111,6 +111,7 @@ macro_rules! commands {
     NegativeLimitBelowList = Vendor 21648: Warning None 1 1, "negative software limit below that of the axis list, limited", cause "G98 with P-CHAN-00498 = 1", hint "P-AXIS-00177 is the lowest limit", parameter "P-CHAN-00498";
     NegativeLimitTooHigh = Vendor 21649: Error ProgramAbort 3 1, "negative software limit not below the positive one", cause "G98 X600 with the positive limit 500", hint "raise the positive limit first, with G99";
     PositiveLimitAboveList = Vendor 21650: Warning None 1 1, "positive software limit above that of the axis list, limited", cause "G99 with P-CHAN-00498 = 1", hint "P-AXIS-00178 is the highest limit", parameter "P-CHAN-00498";
+    SkipLevelRange = Vendor 21655: Error ProgramAbort 3 1, "level of a skipped block outside 1 to 10", cause "/11 X1", hint "levels are 1 to 10, / alone is level 1";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE twice, or keys that do not go together", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
     InsertionsOff = Vendor 21718: Error ProgramAbort 3 1, "chamfer or rounding although the channel list switches them off", cause "disable_chamfers_roundings 1", hint "set P-CHAN-00273 to 0", parameter "P-CHAN-00273";
     OptionalOpen = Vendor 21719: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION ON has no OFF before the end of its program", hint "write #OPTIONAL EXECUTION OFF before the end";

@@ -56,7 +56,7 @@ macro_rules! own {
     ListEnd = Kontur 72 "K-LIST-END": Note None 1 2, "end mark in a list, the rest is not read", cause "a line with END or Ende only";
     Setting = Kontur 73 "K-SETTING": Error JobAbort 3 0, "setting names no axis, parameter or value", cause "--set TARGET.key=value", hint "write AXIS.key=value, channel.key=value or kontur.key=value";
     ListCount = Kontur 74 "K-LIST-COUNT": Warning None 1 2, "more entries than the list's own count, ignored", cause "zahl_mds, achs_anzahl, spdl_anzahl", hint "raise the count, or remove the entries", parameter "P-STUP-00014";
-    ListNoEffect = Kontur 75 "K-LIST-NOEFFECT": Warning None 1 2, "list value without effect", cause "kontur does not simulate what the value switches on, or the program overrides it: the text says which", hint "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
+    ListNoEffect = Kontur 75 "K-LIST-NOEFFECT": Warning None 1 2, "list value without effect", cause "kontur does not simulate what the value switches on, or the program overrides it: the text says which", hint "it may stay in the list: nothing depends on it here";
     InputFile = Kontur 76 "K-INPUT": Error JobAbort 3 0, "file of real-time inputs wrong or not readable", cause "--input FILE: CSV with the columns t_s and signals, times rising";
     InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message says what is off in the machine";
     ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed";
