@@ -189,7 +189,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "HZ..HZ", requires = "signals", value_parser = span)]
     pub spectrum: Option<(f64, f64)>,
 
-    /// Part of the run in s that is drawn, e.g. `0.7..1.9`; every cycle of it is drawn, even in a long run
+    /// Part of the run in s that is drawn, e.g. `0.7..1.9`, without the cycle at its end; every cycle of it is drawn, even in a long run
     #[arg(long, value_name = "S..S", value_parser = span)]
     pub window: Option<(f64, f64)>,
 

@@ -27,7 +27,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"), as COMMAND_GAIN_NUM: Number;
     axis("P-AXIS-00151", "getriebe[i].pos_einschw_zeit", Raw::Uns32, "old time limit, 0 off; older manual gives ms")
         .range(Bound::At(0.0), Bound::At(4294967.0)).default(1000000.0).unit("us", "us"), as SETTLING_TIME_OLD: Number;
-    axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the dropped type 3")
+    axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the dropped type 3; no effect")
         .range(Bound::At(0.0), Bound::At(1024.0)).default(512.0);
     axis("P-AXIS-00167", "getriebe[i].slep_dyn", Raw::Sgn16, "filter constant or slope factor; 1024 = off")
         .range(Bound::At(0.0), Bound::At(1024.0)).default(1000.0), as LAG_DYNAMICS: Number;

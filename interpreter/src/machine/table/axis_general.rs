@@ -9,7 +9,7 @@ const AXIS_TYPES: &[(&str, u32)] =
     &[("ACHSTYP_TRANSLATOR", 1), ("ACHSTYP_ROTATOR", 2), ("ACHSTYP_SPINDEL", 4)];
 
 parameters! {
-    axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, no homing needed")
+    axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, no homing needed; no effect here, every axis counts as homed")
         .default(0.0).drives("Simulation, SERCOS, CANopen");
     axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, face turning axis 0x40, longitudinal turning axis 0x80, gantry master 0x10000, gantry slave 0x20000")
         .default(1.0), as MODE: Whole;

@@ -63,13 +63,13 @@ parameters! {
     chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given: the main axes")
         .default(0.0), as FEED_AXIS: Switch;
     chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance after the corner; read and ignored");
-    chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
+    chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt); no effect here, a check reports up to 20")
         .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0);
-    chan("P-CHAN-00020", "syn_chk.errors_per_block", Raw::Uns16, "errors per line before going to the next (old key syn_chk.fehler_pro_zeile)")
+    chan("P-CHAN-00020", "syn_chk.errors_per_block", Raw::Uns16, "errors per line before going to the next (old key syn_chk.fehler_pro_zeile); no effect here")
         .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0);
     chan("P-CHAN-00023", "grp_anzahl", Raw::Uns16, "number of axis groups, always 1")
         .range(Bound::At(0.0), Bound::At(1.0)).default(1.0);
-    chan("P-CHAN-00028", "syn_chk.interaktiv", Raw::Uns16, "0 automatic, 1 step by step; newer key name not seen")
+    chan("P-CHAN-00028", "syn_chk.interaktiv", Raw::Uns16, "0 automatic, 1 step by step; newer key name not seen; no effect here")
         .range(Bound::At(0.0), Bound::At(1.0));
     chan("P-CHAN-00035", "gruppe[i].achse[j].log_achs_nr", Raw::Uns16, "logical axis number: ties the name to the axis list with the same kopf.achs_nr; 0 not allowed, no number twice")
         .range(Bound::At(0.0), Bound::At(65535.0)), as AXIS_NUMBER: Whole;
@@ -129,7 +129,7 @@ parameters! {
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
     chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what a real-time override multiplies: 0 the velocity that feed, axes and curves allow, 1 the programmed feed, 2 as 0, but as 1 under a velocity of #VECTOR LIMIT; speeds at corners of the path remain as they are; #OVERRIDE multiplies the programmed feed")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as OVERRIDE_MODE: Whole;
-    chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start")
+    chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start; no effect here, a run begins without any")
         .default(0.0), as KEEP_P_PARAMETERS: Switch;
     chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default), as SLOPE: Whole;
@@ -224,7 +224,7 @@ parameters! {
     chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored");
     chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored");
     chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored");
-    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound");
+    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound; no effect here, S[CALLAX] is refused");
     chan("P-CHAN-00026", "h_prozess_zeit[i]", Raw::Uns32, "duration of H function i, counted with --techno-times")
         .default(0.0).unit("us", "us"), as H_DURATION: Optional;
     chan("P-CHAN-00040", "m_prozess_zeit[i]", Raw::Uns32, "duration of M function i, counted with --techno-times")
