@@ -6,7 +6,6 @@
 //!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits
 //!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
 //!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
-//!    look-ahead finds a plan after it;
 //!    look-ahead finds a plan after it. Where the speed is on its way to one that is allowed and the jerk is constant, the
 //!    look-ahead continues from the acceleration as it is, without a leg;
 //! 3. what lies after the leg goes back into the queue, the block in which it ends as its remainder.

@@ -30,7 +30,7 @@ impl<'a, F: FnMut(&Violation, &Record)> Harvest<'a, F> {
             *self.worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
         }
         self.bucket = Some(match self.bucket.take() {
-            Some((since, b)) if v.cycle < since + self.half => {
+            Some((since, b)) if v.cycle.abs_diff(since) < self.half => {
                 (since, if v.excess() > b.excess() { v } else { b })
             }
             Some((_, b)) => {
