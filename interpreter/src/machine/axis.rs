@@ -1,7 +1,7 @@
 //! One axis of the machine: its parameters, and the planner's values derived from them.
 
 use super::key::Key;
-use super::kind::{AxisKind, logical_number};
+use super::kind::{AxisKind, logical_number, mode};
 use super::parameters::Kind;
 use super::parameters::{Parameters, Setting};
 use super::plausible;
@@ -62,10 +62,15 @@ impl Axis {
 
     /// The axis counts modulo 360 degrees (P-AXIS-00015, bit 0x4).
     pub fn is_modulo(&self) -> bool {
-        self.kind != AxisKind::Linear && self.mode_bits() & 0x4 != 0
+        self.kind != AxisKind::Linear && self.mode_bits() & mode::MODULO != 0
     }
 
-    /// Mode of the axis in bits (P-AXIS-00015).
+    /// Its words may be diameters (P-AXIS-00015, bit 0x40).
+    pub(crate) fn is_face_turning(&self) -> bool {
+        self.mode_bits() & mode::FACE_TURNING != 0
+    }
+
+    /// Mode of the axis in bits (P-AXIS-00015), see [`mode`].
     pub(crate) fn mode_bits(&self) -> u32 {
         self.get(axis_general::MODE)
     }

@@ -2,7 +2,7 @@
 //!
 //! Only what a list states is judged; the vendor's defaults are not.
 
-use super::kind::AxisKind;
+use super::kind::{AxisKind, mode};
 use super::table::param::{Number, Param, Place};
 use super::table::{axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
 use super::{Axis, Machine, issues};
@@ -23,25 +23,24 @@ pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
         settling_time(axis, diagnostics);
         window(axis, diagnostics);
         gantry(axis, machine, diagnostics);
-        mode(axis, diagnostics);
+        unused_mode(axis, diagnostics);
     }
 }
 
 /// Bits of the axis mode that change nothing here.
 ///
 /// Source: P-AXIS-00015 (TF5200 axis parameters, 117192331): 0x4 counts modulo for rotary axes and spindles, 0x400 for linear axes.
-fn mode(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
-    const LINEAR: u32 = 0x1;
-    const MODULO: u32 = 0x4;
-    const TURNING: u32 = 0x40 | 0x80;
-    const GANTRY: u32 = 0x1_0000 | 0x2_0000;
-    let modulo = if axis.kind() == AxisKind::Linear { 0 } else { MODULO };
-    let without = axis.get(axis_general::MODE) & !(LINEAR | modulo | TURNING | GANTRY);
+fn unused_mode(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
+    let modulo = if axis.kind() == AxisKind::Linear { 0 } else { mode::MODULO };
+    let turning = mode::FACE_TURNING | mode::LONGITUDINAL_TURNING;
+    let gantry = mode::GANTRY_MASTER | mode::GANTRY_SLAVE;
+    let without = axis.mode_bits() & !(mode::LINEAR | modulo | turning | gantry);
     if listed(axis, axis_general::MODE) && without != 0 {
         let what = format!("axis mode with the bits {without:#x}");
         let effect = "they are not simulated";
         let place = axis_general::MODE;
-        diagnostics.push(issues::about(axis, Condition::ListNoEffect, place, &what, effect));
+        let about = issues::about(axis, Condition::ListNoEffect, place, &what, effect);
+        diagnostics.push(about.hint("the trace may differ from that of the control"));
     }
 }
 

@@ -5,7 +5,7 @@
 
 pub(super) mod channel;
 
-use super::kind::{AxisKind, kind_of};
+use super::kind::{AxisKind, kind_of, mode as bits};
 use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place};
@@ -238,8 +238,8 @@ fn check_together(
         (parameters.get(axis_general::MODE), kind_of(parameters) == AxisKind::Linear);
     let wrong = if parameters.set_by(axis_general::MODE).is_none() {
         None
-    } else if kind_of(parameters) == AxisKind::Spindle && mode & 0x4 == 0 {
-        Some((Condition::SpindleMode, "is not that of a spindle", mode & !0x3 | 0x4))
+    } else if kind_of(parameters) == AxisKind::Spindle && mode & bits::MODULO == 0 {
+        Some((Condition::SpindleMode, "is not that of a spindle", mode & !0x3 | bits::MODULO))
     } else if mode < 0x40 && [0x1, 0x2, 0x4].iter().all(|bit| mode & bit == 0) {
         Some((Condition::AxisMode, "is unknown", if is_linear { 0x1 } else { 0x4 }))
     } else {

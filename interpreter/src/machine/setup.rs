@@ -72,7 +72,9 @@ impl Machine {
                 longest.name()
             );
             let what = "feedforward without delay";
-            diagnostics.push(issues::about(axis, Condition::ListNoEffect, param, what, &effect));
+            let about = issues::about(axis, Condition::ListNoEffect, param, what, &effect);
+            let hint = "set it for every axis and spindle with feedforward (P-AXIS-00223)";
+            diagnostics.push(about.hint(hint));
         }
     }
 

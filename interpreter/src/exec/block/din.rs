@@ -273,8 +273,9 @@ impl Decoder {
             Act::Feedforward(on) if self.motion.feedforward.on != on => {
                 if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
                     let text = "G135 without effect: no axis of the channel has feedforward (P-AXIS-00223)";
-                    self.report
-                        .note_once("G135", Fault::new(Condition::ListNoEffect, text, g.span));
+                    let fault = Fault::new(Condition::ListNoEffect, text, g.span)
+                        .hint("vorsteuer.vorsteuerung VEL in the axis list allows it");
+                    self.report.note_once("G135", fault);
                 }
                 self.motion.feedforward.on = on;
                 self.feedforward_event();

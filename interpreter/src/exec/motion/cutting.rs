@@ -26,9 +26,6 @@ const STEP: f64 = 1.01;
 /// Most pieces of one motion: a range of speeds of 1 to 20,000.
 const PIECES_MAX: usize = 1000;
 
-/// Bit of the mode of an axis: face turning axis. Source: P-AXIS-00015.
-const FACE_TURNING: u32 = 0x40;
-
 impl Decoder {
     /// G96, G97 and G196 with the S word of their block.
     pub(in crate::exec) fn cutting_words(&mut self, words: &Words<'_>) -> Outcome<()> {
@@ -133,7 +130,7 @@ impl Decoder {
     fn marked_face_axis(&self) -> Option<usize> {
         let [a, b, _] = self.modal.plane.main_axes();
         let axes = [a, b].into_iter().filter_map(|m| self.geometry.coordinates.main_axis(m));
-        let mut marked = axes.filter(|i| self.machine.axes[*i].mode_bits() & FACE_TURNING != 0);
+        let mut marked = axes.filter(|i| self.machine.axes[*i].is_face_turning());
         match (marked.next(), marked.next()) {
             (Some(axis), None) => Some(axis),
             _ => None,

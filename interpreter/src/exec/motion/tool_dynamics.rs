@@ -36,7 +36,8 @@ impl Decoder {
             |s: &Spindle| s.index.is_some_and(|i| self.machine.spindles[i].number() == number);
         let Some(index) = self.motion.spindles.iter().position(of_number) else {
             let text = format!("D{data}: no spindle has the logical number {number}");
-            let fault = Fault::new(Condition::ListNoEffect, text, span);
+            let hint = "P-TOOL-00012 of the tool is kopf.achs_nr of a spindle";
+            let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
             self.report.note_once("P-TOOL-00012", fault.with(|d| d.parameter("P-TOOL-00012")));
             return Ok(());
         };

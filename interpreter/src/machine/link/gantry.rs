@@ -3,7 +3,7 @@
 //! Source: TF5200 gantry operation, master axis (285690635) and slave axis (285697291); diagnosis 253230731, 260115595,
 //! 260298379, 263000971.
 
-use super::super::kind::logical_number;
+use super::super::kind::{logical_number, mode};
 use super::super::parameters::Parameters;
 use super::super::settled::Settled;
 use super::super::table::axis_general::{GANTRY_MASTER, KIND, MODE};
@@ -11,11 +11,6 @@ use super::super::table::param::Place;
 use super::super::value::Value;
 use super::{Names, error};
 use crate::diag::{Condition, Diagnostic, Severity};
-
-/// Bits of the axis mode (P-AXIS-00015).
-const MODULO: u32 = 0x4;
-const MASTER: u32 = 0x1_0000;
-const SLAVE: u32 = 0x2_0000;
 
 /// 21020 and 110342 for axes of the channel that have a master, K-0031 for slaves without one, and the warnings about what
 /// both sides of a coupling have to agree in.
@@ -27,12 +22,12 @@ pub(super) fn check(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diag
     let at = |list: &Parameters, place: Place| list.set_by(place).and_then(|s| s.at.clone());
     for named in &names.named {
         let Some(axis) = list(named.number) else { continue };
-        let (mode, master) = (axis.get(MODE), axis.get(GANTRY_MASTER));
+        let (bits, master) = (axis.get(MODE), axis.get(GANTRY_MASTER));
         let name = &named.name;
-        let (condition, message) = if master != 0 && mode & MASTER != 0 {
+        let (condition, message) = if master != 0 && bits & mode::GANTRY_MASTER != 0 {
             let text = format!("{name} is a gantry master and has the master {master} itself");
             (Condition::GantryMasterOfMaster, text)
-        } else if master != 0 || mode & SLAVE != 0 {
+        } else if master != 0 || bits & mode::GANTRY_SLAVE != 0 {
             let text = format!("{name} is a gantry slave and an axis of the channel");
             (Condition::GantrySlaveInChannel, text)
         } else {
@@ -57,7 +52,7 @@ pub(super) fn check(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diag
             let diagnostic = error(condition, message, at).severity(Severity::Warning);
             diagnostics.push(diagnostic.axis(*number, name.as_str()));
         };
-        if master.get(MODE) & MASTER == 0 {
+        if master.get(MODE) & mode::GANTRY_MASTER == 0 {
             let message = format!("{} has the gantry slave {name}", known.name);
             about(Condition::GantryMasterUnmarked, message, at(master, MODE.place()));
         }
@@ -69,7 +64,7 @@ pub(super) fn check(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diag
 }
 
 fn is_modulo(axis: &Parameters) -> bool {
-    axis.get(MODE) & MODULO != 0
+    axis.get(MODE) & mode::MODULO != 0
 }
 
 /// Kind and mode of the master are those of the slave.
