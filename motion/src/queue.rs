@@ -28,6 +28,24 @@ use std::sync::Arc;
 /// Part of their time that two stretches of a block have to gain to be planned apart.
 const WORTH: f64 = 0.1;
 
+/// A stretch of a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// Distance of its end in mm from the present start of the block.
+    pub(crate) end: f64,
+    /// Largest `|q''|` of an axis in 1/mm.
+    pub(crate) bend: f64,
+    /// Speed in mm/s that is left to it.
+    pub(crate) speed: f64,
+}
+
+impl Stretch {
+    /// This one with the next one.
+    fn and(&self, next: &Self) -> Self {
+        Self { end: next.end, bend: self.bend.max(next.bend), speed: self.speed.min(next.speed) }
+    }
+}
+
 /// A block with its own limits, computed once when it enters the queue.
 #[derive(Clone, Debug)]
 pub struct Queued {
@@ -172,22 +190,27 @@ impl Queued {
         inside.map(|(_, bend)| bend).fold(0.0, f64::max)
     }
 
-    /// The block in parts of similar bend, where the speed that a bend allows makes that worth it; one part otherwise.
-    pub(crate) fn parts(self: &Arc<Self>, speed: impl Fn(f64) -> f64) -> Vec<Arc<Self>> {
+    /// The block in parts with a speed of their own, where that is worth it; one part otherwise. `stretches` are those of
+    /// [`Self::bends`], or parts of them, with the speed that each is left.
+    pub(crate) fn parts(
+        self: &Arc<Self>,
+        stretches: impl IntoIterator<Item = Stretch>,
+    ) -> Vec<Arc<Self>> {
         // neighbours stay together as long as their common speed costs little; each with the time of its stretches at their own
         // speeds, so that a bend that grows step by step does not become one group
-        let mut groups: Vec<(f64, f64, f64)> = Vec::new();
+        let mut groups: Vec<(f64, Stretch)> = Vec::new();
         let mut least_s: Vec<f64> = Vec::new();
         let mut from = 0.0;
-        for (end, bend) in self.bends() {
-            let mut group = (from, end, bend);
-            let mut apart = (end - from) / speed(bend);
-            while let (Some(&(start, _, before)), Some(&least)) = (groups.last(), least_s.last()) {
-                let bend = before.max(group.2);
-                if (group.1 - start) / speed(bend) > (1.0 + WORTH) * (least + apart) {
+        for stretch in stretches {
+            let end = stretch.end;
+            let mut apart = (end - from) / stretch.speed;
+            let mut group = (from, stretch);
+            while let (Some(&(start, before)), Some(&least)) = (groups.last(), least_s.last()) {
+                let both = before.and(&group.1);
+                if (both.end - start) / both.speed > (1.0 + WORTH) * (least + apart) {
                     break;
                 }
-                group = (start, group.1, bend);
+                group = (start, both);
                 apart += least;
                 groups.pop();
                 least_s.pop();
@@ -197,10 +220,10 @@ impl Queued {
             from = end;
         }
         let last = groups.len().saturating_sub(1);
-        let part = |(i, (from, to, bend)): (usize, (f64, f64, f64))| {
+        let part = |(i, (from, stretch)): (usize, (f64, Stretch))| {
             let rest = self.remainder(from);
-            let part = if i < last { rest.up_to(to - from) } else { Self::clone(&rest) };
-            Arc::new(Self { bend, ..part })
+            let part = if i < last { rest.up_to(stretch.end - from) } else { Self::clone(&rest) };
+            Arc::new(Self { bend: stretch.bend, ..part })
         };
         if last == 0 {
             return vec![Arc::clone(self)];
