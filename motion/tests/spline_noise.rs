@@ -76,6 +76,31 @@ fn a_rounded_circle_runs_as_an_exact_one() {
     }
 }
 
+/// Circles of a few millimetres in chords of 0.01 and 0.02 mm, rounded to three decimals: with half a micron to smooth, the spline
+/// took twice as long as with all decimals, longer than the polygon itself.
+#[test]
+fn small_circles_in_tiny_chords() {
+    let job = machine(2);
+    for radius in [0.5, 0.7, 1.0, 2.0] {
+        for chord in [0.01, 0.02] {
+            for path_dev_mm in [0.003, 0.01, 0.05] {
+                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                let cycles = |points: &[Vec<f64>]| {
+                    let blocks = splined(&job, settings, points, 200.0);
+                    judged(&job.run(&points[0], blocks.into_iter())).cycles as f64
+                };
+                let exact = circle(radius, chord);
+                let (want, here) = (cycles(&exact), cycles(&rounded(&exact, 3)));
+                let most = if path_dev_mm < 0.01 { 1.25 } else { 1.05 };
+                assert!(
+                    here <= most * want,
+                    "r {radius} chord {chord} {path_dev_mm}: {here} {want}"
+                );
+            }
+        }
+    }
+}
+
 /// A surface row with two rotary axes beside it: rounding of all five costs no time.
 #[test]
 fn rounded_rotary_axes_cost_no_time() {

@@ -28,7 +28,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Share of the tolerance that noise may take.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.3;
 /// Noise that a point is freed from at most in mm (deg): rounding of a ten-thousandth of an inch in three axes is 2.2 um.
 const MOST: f64 = 3e-3;
 /// Noise in mm (deg) below which points are smooth: far below any rounding, above that of numbers.

@@ -185,7 +185,7 @@ fn rounding_goes() {
                 let own = chord * chord * chord / (r * r);
                 assert!(left <= 1.1 * own + 0.02 * before, "{chord} {r}: {left} of {before}");
                 let way = largest_way(&points[from..to], &out[from..to]);
-                assert!(way <= 1.2 * grain, "{chord} {r} {decimals}: {way}");
+                assert!(way <= 1.6 * grain, "{chord} {r} {decimals}: {way}");
                 let beside = |p: &Points| {
                     let square = |p: &Vec<f64>| {
                         let off = libm::hypot(p[0], p[1]) - r;
