@@ -3,7 +3,6 @@
 //! The kernels are zero-vibration input shapers. The vendor does not publish the impulses, only which modes are
 //! symmetric and how far the frequency may be off for a residual vibration of 5 % at damping 0.1. The four shapers
 //! below are the family that fits that table.
-//! family that fits that table.
 //!
 //! Source: TF5250 Vibration Guard (modes, ranges, sensitivity table), P-AXIS-00568, 00571, 00589.
 //! Assumption: the impulses, identified from the sensitivity table.

@@ -60,8 +60,8 @@ impl Cascade {
 
 /// Band-pass of order 1..=3 (2 to 6 poles): Butterworth low-pass of that order, transformed. Gain 1 and phase 0 at the
 /// centre.
+///
 /// Assumption: Butterworth; the manual does not name the prototype here.
-/// Assumption: Butterworth; the manual names no prototype in this place.
 pub(super) fn band_pass(order: u32, frequency_hz: f64, quality: f64, cycle_s: f64) -> Cascade {
     let w = libm::tan(PI * frequency_hz * cycle_s);
     let width = w / quality;

@@ -120,7 +120,6 @@ impl ExactStopMonitor {
     /// which the set position got there. An axis that has not moved since its last stop and need not move has no new
     /// stop. One that still settles at this target keeps its time, since a dwell after an exact stop is not another
     /// stop.
-    /// settles at this target keeps its time, since a dwell after an exact stop is not another stop.
     pub fn expect(&mut self, target_mm: f64) {
         if (target_mm - self.last_mm).abs() > self.config.reached_mm {
             self.state = State::Approaching { target_mm };
