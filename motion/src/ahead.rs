@@ -1,11 +1,12 @@
-//! Setpoints of cycles that are final, read before they are output.
+//! Setpoints of cycles that are final, read ahead of their output.
 //!
-//! What follows the planner does with one axis after the other what it would do cycle by cycle: it reads the setpoints of many
-//! cycles at once, as columns, and takes one cycle after the other when everything of it is computed. Reading changes nothing, so
-//! what was read and not taken is as if it had never been read.
+//! The stages after the planner can then process one axis after the other over many cycles: they read the setpoints of
+//! these cycles as columns, and take each cycle once everything for it is computed. Reading changes nothing; what was
+//! read and not taken has no effect.
 //!
 //! Order of calls: [`Planner::look_ahead`](crate::planner::Planner::look_ahead), then
-//! [`Planner::take`](crate::planner::Planner::take) for the first cycles of what was read, in their order, with nothing in between.
+//! [`Planner::take`](crate::planner::Planner::take) for the first cycles that were read, in their order, without other
+//! calls in between.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -41,12 +42,12 @@ pub struct Ahead {
     rows: Vec<Row>,
     /// Positions, axis after axis.
     positions: Vec<f64>,
-    /// Length of the column of an axis.
+    /// Length of the column of one axis.
     most: usize,
     state: PathState,
 }
 
-/// What holds for all axes in a cycle, see [`PathState`].
+/// The values of a cycle that are common to all axes, see [`PathState`].
 #[derive(Clone, Copy, Debug)]
 struct Row {
     s: f64,
@@ -55,7 +56,7 @@ struct Row {
     j: f64,
     limit: SpeedLimit,
     seq: u64,
-    /// Number of the entry of the timeline in which it lies.
+    /// Index of the timeline entry that contains the cycle.
     entry: usize,
 }
 
@@ -65,7 +66,7 @@ impl Ahead {
         self.rows.len()
     }
 
-    /// No cycle.
+    /// Whether there are no cycles.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -85,7 +86,7 @@ impl Ahead {
         self.rows[i].s
     }
 
-    /// Reads up to `most` cycles from `k` on, as far as the timeline reaches, up to block `before`.
+    /// Reads up to `most` cycles from `k` on, as far as the timeline extends, but only up to block `before`.
     pub(crate) fn read(
         &mut self,
         (timeline, cycle): (&Timeline, CycleTime),
@@ -105,7 +106,7 @@ impl Ahead {
             && let Some(found) = timeline.find(&mut entry, k, cycle)
         {
             let walk = found.walk(cycle);
-            // where it stops, the next entry may begin later than in the next cycle
+            // after a stop the next entry may begin more than one cycle later
             loop {
                 walk.state(k, &mut self.state);
                 if self.state.seq >= before {
@@ -134,7 +135,7 @@ impl Ahead {
         (out.s, out.v, out.a, out.j, out.limit, out.seq) = (s, v, a, j, limit, seq);
     }
 
-    /// Number of entries of the timeline that are over in cycle `last`, but not in the one before `first`.
+    /// Number of timeline entries that are complete in cycle `last`, but were not in the one before `first`.
     pub(crate) fn entries(&self, first: usize, last: usize) -> usize {
         let before = first.checked_sub(1).map_or(0, |before| self.rows[before].entry);
         self.rows[last].entry - before

@@ -1,44 +1,46 @@
-//! Smoothing spline of third differences: how noisy a row of points is, and where the points lie without the noise.
+//! Smoothing spline of third differences: the noise of a row of points, and the points without it.
 //!
-//! The displacements `d` of the points `p` make `sum w |d|^2 + sum l^6 |p''' + d'''|^2` smallest, the third derivatives
-//! being divided differences over the distances along the polygon (Whittaker and Henderson's graduation; Reinsch 1967 for
-//! the spline of it). Of a wave of the length `2 pi / k` the points keep `1 / (1 + (k l)^6)` where all `w = 1`: what is
-//! shorter than `2 pi l` goes, and a circle of radius `r` loses no more than `l^6 / r^5`. A third difference is the jerk that
-//! the path asks for at constant speed.
+//! The displacements `d` of the points `p` minimise `sum w |d|^2 + sum l^6 |p''' + d'''|^2`, where the third
+//! derivatives are divided differences over the distances along the polygon (Whittaker and Henderson's graduation;
+//! Reinsch 1967 for the corresponding spline). For all `w = 1` a wave of length `2 pi / k` keeps `1 / (1 + (k l)^6)` of
+//! its amplitude: waves shorter than `2 pi l` vanish, and a circle of radius `r` shrinks by at most `l^6 / r^5`. A
+//! third difference is the jerk of the path at constant speed.
 //!
-//! No point moves farther than its room: the weights of those that would grow until they do not (multipliers of the bounds).
+//! Every displacement stays within its limit: the weights of points that would exceed it are increased until they do
+//! not (multipliers of the bounds).
 
 use std::iter::zip;
 
 /// The length `l`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
-    /// At most so many average distances of neighbours.
+    /// Upper bound as a multiple of the average distance between neighbours.
     points: f64,
-    /// At most so much in the unit of the distances.
+    /// Upper bound in the unit of the distances.
     whole: f64,
 }
 
-/// For points on a path in mm: rounding hurts at chords below this length, and what it bends there is shorter.
+/// For points on a path in mm: rounding matters for chords below this length, and the bends it causes are shorter.
 pub(super) const PATH: Reach = Reach { points: 20.0, whole: 0.4 };
 /// For distances over the number of the point.
 pub(super) const STEPS: Reach = Reach { points: 8.0, whole: f64::INFINITY };
-/// Rounds of weights, and the part of its room that they bring a point to; an excess after the last one is cut off. As many for
-/// every row in which a point needs a weight, so that no point depends on how difficult distant ones are.
+/// Rounds of weights, and the share of its limit to which they bring a point; an excess after the last round is cut
+/// off. The number is the same for every row in which a point needs a weight, so that no point depends on how difficult
+/// distant ones are.
 const ROUNDS: usize = 12;
 const AIM: f64 = 0.9;
-/// Points in a difference that shows noise, and points on either side for which the largest one of them counts: rounded
-/// coordinates that hardly change keep their value for many points, and their noise is in the steps between.
+/// Number of points in a difference that measures noise, and of points on either side for which the largest one counts:
+/// rounded coordinates that hardly change keep their value for many points, and their noise is in the steps between.
 const STENCIL: usize = 9;
 const SPREAD: usize = 64;
 
 /// Rows of a symmetric matrix: the diagonal, and the three elements before it.
 type Bands = Vec<[f64; 4]>;
 
-/// Size of what is not smooth around every point, in the unit of the coordinates.
+/// Magnitude of the roughness around every point, in the unit of the coordinates.
 ///
-/// It is the eighth divided difference, divided by the root of the sum of the squares of its factors: of independent errors
-/// it is their standard deviation, of a circle with steps of `t` rad it is `r t^8 / 113`.
+/// It is the eighth divided difference, divided by the root of the sum of the squares of its factors. For independent
+/// errors it is their standard deviation, for a circle with steps of `t` rad it is `r t^8 / 113`.
 pub(super) fn roughness(knots: &[f64], axes: &[Vec<f64>]) -> Vec<f64> {
     let count = knots.len();
     let mut own = vec![0.0; count];
@@ -71,16 +73,17 @@ fn third(knots: &[f64], first: usize, reach: Reach) -> [f64; 4] {
     })
 }
 
-/// The same of coordinates. Difference by difference, so that it is exactly 0 where they are all equal.
+/// The third derivative of coordinates, difference by difference, so that it is exactly 0 where they are all equal.
 fn third_of(knots: &[f64], factors: &[f64; 4], p: &[f64]) -> f64 {
     let slope = |i: usize| (p[i + 1] - p[i]) / (knots[i + 1] - knots[i]);
     let bend = |i: usize| (slope(i + 1) - slope(i)) / (knots[i + 2] - knots[i]);
     let whole = (bend(1) - bend(0)) / (knots[3] - knots[0]);
-    // the last factor is that of the whole without its division
+    // the last factor contains `whole` as a divisor
     factors[3] * (knots[3] - knots[0]) * (knots[3] - knots[1]) * (knots[3] - knots[2]) * whole
 }
 
-/// Displacements of the points along every axis. `room` is what a point may move at most; one without stays.
+/// Displacements of the points along every axis. `room` is the largest permitted displacement of a point; with 0 it
+/// stays.
 pub(super) fn displacements(
     knots: &[f64],
     axes: &[Vec<f64>],
@@ -133,7 +136,7 @@ pub(super) fn size(displacements: &[Vec<f64>], i: usize) -> f64 {
     displacements.iter().map(|d| d[i] * d[i]).sum::<f64>().sqrt()
 }
 
-/// What the third derivatives of the programmed points pull at each of them.
+/// The pull of the third derivatives of the programmed points on each of them.
 fn pull(knots: &[f64], thirds: &[[f64; 4]], p: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; p.len()];
     for (j, factors) in thirds.iter().enumerate() {
@@ -158,8 +161,8 @@ fn penalty(thirds: &[[f64; 4]], count: usize) -> Bands {
     out
 }
 
-/// The matrix with the weights, as factors `L D L^T`: `D` in the place of the diagonal. Points without room keep to
-/// themselves.
+/// The matrix with the weights, as factors `L D L^T` with `D` in place of the diagonal. Points with `room` 0 are
+/// decoupled.
 fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
     let mut out = penalty.clone();
     for i in 0..out.len() {
@@ -174,7 +177,7 @@ fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
                 row[back] = 0.0;
                 continue;
             }
-            // row[far] still holds the product with the diagonal
+            // row[far] still contains the product with the diagonal
             let before = &out[i - back];
             let known: f64 =
                 (back + 1..4.min(i + 1)).map(|far| row[far] * before[far - back]).sum();
@@ -190,7 +193,7 @@ fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
     out
 }
 
-/// The solution for a right side, in its place.
+/// Solves for a right-hand side, in place.
 fn solve(factors: &Bands, x: &mut [f64]) {
     let count = x.len();
     for i in 0..count {
