@@ -277,7 +277,7 @@ impl<'a> Window<'a> {
         s
     }
 
-    /// A stretch as a window of its own, between the speeds at its ends.
+    /// A stretch as a separate window, between the speeds at its ends.
     fn part(&self, s: &Stretch<'_>, v_start: Cap, end: Cap) -> Self {
         let blocks = s.first..s.end;
         Self {

@@ -174,7 +174,7 @@ impl Path {
     }
 
     /// Vector to `point` from the point of the path nearest to it, and the square of its length.
-    #[inline] // straight blocks, most of all, where they are looked at
+    #[inline] // mostly for straight blocks, at the call site
     pub(crate) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         match self {
             Self::Line(p) => p.vector_to(point, out),

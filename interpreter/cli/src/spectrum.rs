@@ -30,7 +30,7 @@ impl AmplitudeSpectrum {
         padded.resize(length, 0.0);
         let transform = RealFftPlanner::new().plan_fft_forward(length);
         let mut values = transform.make_output_vec();
-        // both buffers have the lengths that the plan asks for
+        // both buffers have the lengths required by the plan
         let done = transform.process(&mut padded, &mut values);
         debug_assert!(done.is_ok());
         let scale = 2.0 / (0.5 * n as f64);

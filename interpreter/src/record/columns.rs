@@ -10,7 +10,7 @@
 //! let (machine, _) = MachineLists::default().load().unwrap();
 //! let sources = MemorySources::new().with("part.nc", "N10 G01 X10 F1000\nN20 M30\n");
 //! let mut run = Job::new(machine, sources, "part.nc").start().unwrap();
-//! // the run knows its axes, and with them its columns
+//! // the columns follow from the axes of the run
 //! let column = columns::select("X_set_mm", run.facts()).unwrap().pop().unwrap();
 //! assert_eq!((column.name.as_str(), column.unit.as_str()), ("X_set_mm", "mm"));
 //! let mut x_mm = Vec::new();

@@ -21,7 +21,7 @@ impl Splining {
     pub(super) fn is_worth(&self, corner: usize, kernel_active: bool) -> bool {
         let (from, to) = (&self.run[corner - 1], &self.run[corner]);
         let (a, b) = (&from.block, &to.block);
-        // only the planner knows the speed of a sharp corner under AX_DEV; an end speed is programmed explicitly
+        // the speed of a sharp corner under AX_DEV is only known in the planner; an end speed is programmed explicitly
         let monitored = [a, b].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
         if monitored || a.end_velocity_mm_s.is_some() {
             return true;
