@@ -25,8 +25,26 @@ use kontur_filters::time::CycleTime;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
-/// Share of the time that two sections of a block have to save to be planned separately.
+/// Share of the time that two stretches of a block have to save to be planned separately.
 const WORTH: f64 = 0.1;
+
+/// A stretch of a block with its curvature and speed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// Distance of its end in mm from the present start of the block.
+    pub(crate) end: f64,
+    /// Largest `|q''|` of an axis in 1/mm.
+    pub(crate) bend: f64,
+    /// Permitted speed in mm/s.
+    pub(crate) speed: f64,
+}
+
+impl Stretch {
+    /// Both stretches as one.
+    fn and(&self, next: &Self) -> Self {
+        Self { end: next.end, bend: self.bend.max(next.bend), speed: self.speed.min(next.speed) }
+    }
+}
 
 /// A block with its own limits, computed once when it enters the queue.
 #[derive(Clone, Debug)]
@@ -145,7 +163,7 @@ impl Queued {
         if before.brakes_late_into(self) { self.speeds.highest() } else { self.speeds.fastest() }
     }
 
-    /// Sections of different curvature, by the distance of their ends from the present start; a single one unless the
+    /// Stretches of different curvature, by the distance of their ends from the present start; a single one unless the
     /// block is a curve.
     pub(crate) fn bends(&self) -> SmallVec<[(f64, f64); 1]> {
         let Path::Curve(curve) = &self.block.path else {
@@ -174,23 +192,27 @@ impl Queued {
         inside.map(|(_, bend)| bend).fold(0.0, f64::max)
     }
 
-    /// The block in parts of similar curvature if the speeds that they permit make that worthwhile; otherwise in one
-    /// part.
-    pub(crate) fn parts(self: &Arc<Self>, speed: impl Fn(f64) -> f64) -> Vec<Arc<Self>> {
+    /// The block in parts with separate speeds if that is worthwhile; otherwise in one part. `stretches` are those of
+    /// [`Self::bends`], or parts of them, each with its permitted speed.
+    pub(crate) fn parts(
+        self: &Arc<Self>,
+        stretches: impl IntoIterator<Item = Stretch>,
+    ) -> Vec<Arc<Self>> {
         // neighbours stay together as long as their common speed costs little; each group keeps the time of its
-        // sections at their separate speeds, so that a gradually increasing curvature does not end up in one group
-        let mut groups: Vec<(f64, f64, f64)> = Vec::new();
+        // stretches at their separate speeds, so that a gradually increasing curvature does not end up in one group
+        let mut groups: Vec<(f64, Stretch)> = Vec::new();
         let mut least_s: Vec<f64> = Vec::new();
         let mut from = 0.0;
-        for (end, bend) in self.bends() {
-            let mut group = (from, end, bend);
-            let mut apart = (end - from) / speed(bend);
-            while let (Some(&(start, _, before)), Some(&least)) = (groups.last(), least_s.last()) {
-                let bend = before.max(group.2);
-                if (group.1 - start) / speed(bend) > (1.0 + WORTH) * (least + apart) {
+        for stretch in stretches {
+            let end = stretch.end;
+            let mut apart = (end - from) / stretch.speed;
+            let mut group = (from, stretch);
+            while let (Some(&(start, before)), Some(&least)) = (groups.last(), least_s.last()) {
+                let both = before.and(&group.1);
+                if (both.end - start) / both.speed > (1.0 + WORTH) * (least + apart) {
                     break;
                 }
-                group = (start, group.1, bend);
+                group = (start, both);
                 apart += least;
                 groups.pop();
                 least_s.pop();
@@ -200,10 +222,10 @@ impl Queued {
             from = end;
         }
         let last = groups.len().saturating_sub(1);
-        let part = |(i, (from, to, bend)): (usize, (f64, f64, f64))| {
+        let part = |(i, (from, stretch)): (usize, (f64, Stretch))| {
             let rest = self.remainder(from);
-            let part = if i < last { rest.up_to(to - from) } else { Self::clone(&rest) };
-            Arc::new(Self { bend, ..part })
+            let part = if i < last { rest.up_to(stretch.end - from) } else { Self::clone(&rest) };
+            Arc::new(Self { bend: stretch.bend, ..part })
         };
         if last == 0 {
             return vec![Arc::clone(self)];

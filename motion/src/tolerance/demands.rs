@@ -3,7 +3,6 @@
 use super::kernels::Kernels;
 use crate::asked::Asked;
 use crate::queue::Queued;
-use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -185,12 +184,7 @@ fn even_on_a_line(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
     let Some(tolerance) = queued.block.tolerance.ax_dev_mm.filter(|_| straight) else {
         return f64::INFINITY;
     };
-    let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
-    let u = &queued.ends.tangent_in;
-    let norm: f64 = u.iter().map(|c| c * c).sum();
-    let along: f64 = u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
-    let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
-    let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
+    let speed = kernels.speed_along(&queued.ends.tangent_in, tolerance, cycle);
     let is_long = speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length;
     if is_long { speed } else { f64::INFINITY }
 }

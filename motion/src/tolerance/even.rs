@@ -42,18 +42,23 @@ impl Evenly<'_> {
         self.contour.aside(&x, middle - reach, middle + reach)
     }
 
-    /// Largest component in mm by which the set points around path length `at` miss a point there.
+    /// Largest component in mm by which the set path around path length `at` misses a point there.
     pub(super) fn misses(&self, point: &[f64], at: f64, speed: f64) -> f64 {
         let reach = self.reach(speed);
-        let mut x = AxisVec::zeros(self.kernels.axes.len());
+        let axes = self.kernels.axes.len();
+        let mut places = [AxisVec::zeros(axes), AxisVec::zeros(axes)];
         let mut best = (f64::INFINITY, 0.0);
         for i in -PLACES..=PLACES {
             let s = at + 0.5 * reach * f64::from(i) / f64::from(PLACES);
-            self.set_point(s, speed, &mut x);
-            let aside = || x.iter().zip(point).map(|(a, b)| (a - b).abs());
-            let d2: f64 = aside().map(|c| c * c).sum();
+            places.swap(0, 1);
+            self.set_point(s, speed, &mut places[1]);
+            if i == -PLACES {
+                continue;
+            }
+            let vector = to_the_line(point, &places[0], &places[1]);
+            let d2: f64 = vector.iter().map(|c| c * c).sum();
             if d2 < best.0 {
-                best = (d2, aside().fold(0.0, f64::max));
+                best = (d2, vector.iter().fold(0.0, |most, c| c.abs().max(most)));
             }
         }
         best.1
@@ -85,6 +90,17 @@ impl Evenly<'_> {
             out[i] = sum[i];
         }
     }
+}
+
+/// Shortest vector from a point to the line between two others.
+fn to_the_line(point: &[f64], a: &[f64], b: &[f64]) -> AxisVec {
+    let (mut along, mut length2) = (0.0, 0.0);
+    for ((p, a), b) in point.iter().zip(a).zip(b) {
+        along += (p - a) * (b - a);
+        length2 += (b - a) * (b - a);
+    }
+    let u = if length2 > 0.0 { (along / length2).clamp(0.0, 1.0) } else { 0.0 };
+    point.iter().zip(a).zip(b).map(|((p, a), b)| a + u * (b - a) - p).collect()
 }
 
 /// What an even run is held to.

@@ -1,6 +1,7 @@
 //! The filter kernels of the axes, as the tolerance looks at them.
 
 use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
 use std::sync::Arc;
 
 /// Taps of a kernel in the search for an even speed.
@@ -59,6 +60,16 @@ impl Kernels {
     /// The kernel of an axis.
     pub(super) fn get(&self, i: usize) -> Option<&Kernel> {
         self.axes.get(i).and_then(|k| k.as_deref())
+    }
+
+    /// Speed in mm/s of an even run in a direction whose set points leave the line by a tolerance in mm: each axis lags by its own
+    /// delay, and what lies across the line counts. Infinite where the delays do not differ.
+    pub(super) fn speed_along(&self, u: &[f64], tolerance_mm: f64, cycle: CycleTime) -> f64 {
+        let delay = |i: usize| self.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
+        let norm: f64 = u.iter().map(|c| c * c).sum();
+        let along: f64 = u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
+        let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
+        tolerance_mm / u.iter().enumerate().map(aside).fold(0.0, f64::max)
     }
 
     /// Filters rows of the positions of all axes and the path length, which takes the longest kernel; `row` is the one of

@@ -4,8 +4,9 @@ use super::Trial;
 use super::demands::{Demands, hurry};
 use super::findings::Findings;
 use super::view::View;
+use crate::axis::AxisVec;
 use crate::overshoot::gentle;
-use crate::queue::Queued;
+use crate::queue::{Queued, Stretch};
 use kontur_filters::kernel::{Kernel, Tap};
 use std::sync::Arc;
 
@@ -22,12 +23,18 @@ const GROWTH: f64 = 1.0 / 256.0;
 /// Part of an excess from which on it counts as left.
 const WITHOUT_EFFECT: f64 = 0.9;
 
+/// Change of direction in rad over which the delays of the axes are looked at once.
+const TURN: f64 = 0.1;
+
+/// Places of a stretch at most at which they are looked at.
+const MOST_TURNS: f64 = 128.0;
+
 /// Part of the speed that is left when everything in reach counts as a cause: few rounds remain.
 const HASTE: f64 = 0.85;
 
 impl View<'_> {
-    /// Blocks that are to blame and bend more in one place than in another, in parts: the speed that the tolerance
-    /// leaves to the sharpest bend is not for the whole of them.
+    /// Blocks that are to blame and bend more in one place than in another, or pull axes of different delays apart more, in
+    /// parts: the speed that the tolerance leaves to the worst place is not for the whole of them.
     pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
         let Self { trial, marks, .. } = self;
         let blamed = marks.iter().filter_map(|mark| {
@@ -35,10 +42,7 @@ impl View<'_> {
             Some((b, &mark.queued, findings.block[b]?.1))
         });
         blamed
-            .map(|(b, queued, tolerance)| {
-                let fastest = queued.velocity.v_mm_s;
-                (b, queued.parts(|bend| on_a_bend(trial, bend, tolerance).min(fastest)))
-            })
+            .map(|(b, queued, tolerance)| (b, queued.parts(stretches(trial, queued, tolerance))))
             .filter(|(_, parts)| parts.len() > 1)
             .collect()
     }
@@ -157,6 +161,38 @@ impl View<'_> {
             .fold(a, f64::min);
         gentlest / a
     }
+}
+
+/// Stretches of a block with the speed that the tolerance leaves to each: those of its bends, and where the delays of the axes
+/// differ, those of its directions.
+fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch> {
+    let fastest = queued.velocity.v_mm_s;
+    let mut out = Vec::new();
+    let mut from = 0.0;
+    for (end, bend) in queued.bends() {
+        let speed = on_a_bend(trial, bend, tolerance).min(fastest);
+        let turns = if trial.kernels.unequal { bend * (end - from) / TURN } else { 0.0 };
+        let parts = turns.ceil().clamp(1.0, MOST_TURNS);
+        for i in 1..=parts as u32 {
+            let until = from + (end - from) * f64::from(i) / parts;
+            out.push(Stretch { end: until, bend, speed });
+        }
+        from = end;
+    }
+    if trial.kernels.unequal {
+        let mut tangent = AxisVec::zeros(queued.ends.tangent_in.len());
+        let mut at = |s: f64| {
+            queued.block.path.tangent(queued.offset + s, &mut tangent);
+            trial.kernels.speed_along(&tangent, tolerance, trial.cycle)
+        };
+        let mut before = at(0.0);
+        for stretch in &mut out {
+            let after = at(stretch.end);
+            stretch.speed = stretch.speed.min(before).min(after);
+            before = after;
+        }
+    }
+    out
 }
 
 /// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived from a parabola).
