@@ -1,6 +1,6 @@
 //! The summary of a run, accumulated from its records.
 //!
-//! Order of calls: a started run, [`Collector::add`] for each record, [`Collector::message`] for each message, then
+//! Order of calls: a started run, [`Collector::add`] for each record, [`Collector::message`] for each message,
 //! [`Collector::finish`].
 //!
 //! ```

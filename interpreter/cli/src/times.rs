@@ -62,7 +62,7 @@ impl Reached {
     }
 }
 
-/// Collects the times, record by record. It takes about 100 bytes per line with motion or waits.
+/// Collects the times, record by record. It takes about 100 bytes for each line that moves or waits.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
     facts: Facts,

@@ -11,10 +11,10 @@ use std::convert::Infallible;
 use std::fmt;
 use std::sync::Arc;
 
-/// What a [`Sink`] reads of the cycles of a run; values that nobody reads are not written.
+/// What a [`Sink`] reads of the cycles of a run; what nobody reads is not written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reads {
-    /// Nothing: no cycles are passed.
+    /// Nothing: no cycle is handed to it.
     Nothing,
     /// Every cycle, one at a time.
     Cycles,
@@ -32,18 +32,17 @@ impl Reads {
     }
 }
 
-/// Receives the cycles of a run, in order, one at a time or as columns. A closure that takes a [`CycleRecord`] is a
-/// sink.
+/// Takes the cycles of a run, in order: one at a time or as columns. A closure that takes a [`CycleRecord`] is one.
 pub trait Sink {
     /// The reason why it stops the run.
     type Stop;
 
-    /// What it reads; must not change until the run ends.
+    /// What it reads, the same until the run ends.
     fn reads(&self) -> Reads {
         Reads::Cycles
     }
 
-    /// Receives a cycle, if it reads [`Reads::Cycles`].
+    /// Takes a cycle, if it reads [`Reads::Cycles`].
     ///
     /// # Errors
     /// Ends the loop; the cycle counts as taken.
@@ -52,7 +51,7 @@ pub trait Sink {
         Ok(())
     }
 
-    /// Receives cycles, if it reads [`Reads::Columns`].
+    /// Takes cycles, if it reads [`Reads::Columns`].
     ///
     /// # Errors
     /// Ends the loop; the cycles count as taken.

@@ -154,7 +154,7 @@ pub struct Channel {
     pub g_groups: BTreeMap<u32, u32>,
     /// Durations of M functions in s (P-CHAN-00040).
     pub m_durations_s: BTreeMap<u32, f64>,
-    /// When the path waits for M functions, if the list states it (P-CHAN-00041).
+    /// When the path waits for M functions, where the list says so (P-CHAN-00041).
     pub m_waits: BTreeMap<u32, Acknowledged>,
     /// When the path waits for H functions, if the list states it (P-CHAN-00027).
     pub h_waits: BTreeMap<u32, Acknowledged>,

@@ -324,7 +324,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         let problem = if *number == 0 {
             Some(format!("{name}: logical axis number 0 is not allowed"))
         } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
-            // the manual does not number the case of two spindles
+            // the manual has no number for two spindles
             condition = match (first.spindle, named.spindle) {
                 (false, false) => Condition::PathAxisNumberTwice,
                 (true, true) => Condition::ListLink,

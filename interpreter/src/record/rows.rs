@@ -163,7 +163,7 @@ impl<'a> Rows<'a> {
         self.rows.is_empty()
     }
 
-    /// The cycles from number `first` on.
+    /// Those from number `first` on.
     #[must_use]
     pub fn after(&self, first: usize) -> Self {
         let start = self.rows.end.min(self.rows.start + first);

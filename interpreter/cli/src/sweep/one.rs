@@ -24,7 +24,7 @@ struct Collected<'a> {
 struct Wanted<'a> {
     amplitude: &'a Amplitude,
     column: Column,
-    /// Values at the selected times, with room for those of the next cycles.
+    /// Values at some times, and room for those of the next cycles.
     samples: Vec<f64>,
     next: Vec<f64>,
 }
