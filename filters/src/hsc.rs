@@ -81,9 +81,9 @@ impl HscConfig {
 
 /// Weights w, 1 (2K + 1 times), w, normalised, for a period of `2K + 1 + r` cycles with `0 <= r < 2`.
 ///
-/// The response at the frequency is zero for `w = -D / (2 cos((K + 1) theta))`, `D = sin((2K + 1) theta/2) /
-/// sin(theta/2)`, `theta = 2 pi / period`. Both angles are close to pi. With pi subtracted the weight is `sin(r
-/// theta/2) / (2 sin(theta/2) cos((1 - r) theta/2))`: without cancellation and never negative.
+/// The response at the frequency is zero for `w = -D / (2 cos((K + 1) theta))`,
+/// `D = sin((2K + 1) theta/2) / sin(theta/2)`, `theta = 2 pi / period`. Both angles are close to pi. With pi subtracted
+/// the weight is `sin(r theta/2) / (2 sin(theta/2) cos((1 - r) theta/2))`: without cancellation and never negative.
 fn no_vibration(period_cycles: f64) -> Option<Kernel> {
     let pairs = (0.5 * (period_cycles - 1.0)).floor().max(1.0);
     let rest = (period_cycles - 1.0 - 2.0 * pairs).max(0.0);

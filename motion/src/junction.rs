@@ -1,7 +1,7 @@
 //! Speed limits at the transition from one block to the next. Each limit is a separate function; all work axis by axis.
 //!
-//! At a kink the axis velocity jumps by `v |du_i|`. Sampled with the cycle `T` this is an acceleration of `v |du_i| /
-//! T` for one cycle, which is weighted by P-AXIS-00013 (source: TF5200 axis parameters; formula derived).
+//! At a kink the axis velocity jumps by `v |du_i|`. Sampled with the cycle `T` this is an acceleration of
+//! `v |du_i| / T` for one cycle, which is weighted by P-AXIS-00013 (source: TF5200 axis parameters; formula derived).
 //!
 //! Called for every pair of neighbouring blocks when they enter the planner; [`crate::lookahead`] uses the result as a
 //! cap.

@@ -1,8 +1,8 @@
 //! The limits of one block: path velocity and path slope, derived from the axes that move in it.
 //!
-//! On a path with one profile `s(t)` every axis follows `q_i(s)`: its velocity is `v |q_i'|`, its acceleration `|a q_i'
-//! + v^2 q_i''|`. Each limit below is a separate function of the block alone; for transitions between blocks see
-//! [`crate::junction`].
+//! On a path with one profile `s(t)` every axis follows `q_i(s)`: its velocity is `v |q_i'|`, its acceleration
+//! `|a q_i' + v^2 q_i''|`. Each limit below is a separate function of the block alone; for transitions between blocks
+//! see [`crate::junction`].
 //!
 //! Called once per block, when it enters the queue ([`crate::queue::Queued::new`]).
 //!

@@ -67,8 +67,8 @@ mod tests {
     }
 
     /// Weights -1/4, 3/2, -1/4: one cycle after an abrupt stop only the oldest weight still sees the path, one cycle
-    /// before its end, so the set point is `v T / 4` beyond the end; with braking over more than a cycle it is `a T^2 /
-    /// 8`.
+    /// before its end, so the set point is `v T / 4` beyond the end; with braking over more than a cycle it is
+    /// `a T^2 / 8`.
     #[test]
     fn closed_forms_of_three_weights() {
         let k = kernel(&[-0.25, 1.5, -0.25]);

@@ -3,8 +3,8 @@
 //! Position, tangent and curvature at both ends are those of the blocks; at the interim point the position and the
 //! first three derivatives with respect to the parameter agree. These are ten conditions for ten coefficients, so the
 //! curve is unique once the parameter speeds at the ends are chosen: the corner distances. Between two lines with equal
-//! corner distance `d` it is the curve `P = C - d alpha u1 + d beta u2` with `alpha = 1 - x + x^3/4 - x^4/16` and `beta
-//! = x^3/4 - x^4/16`, and its interim point is `3/8 d sin(theta/2)` away from the corner.
+//! corner distance `d` it is the curve `P = C - d alpha u1 + d beta u2` with `alpha = 1 - x + x^3/4 - x^4/16` and
+//! `beta = x^3/4 - x^4/16`, and its interim point is `3/8 d sin(theta/2)` away from the corner.
 //!
 //! Source: TF5200, polynomial contouring (two polynomials of fourth order, tangent and curvature continuous).
 //! Assumption: C3 at the interim point; the documents do not give the coefficients.

@@ -4,8 +4,8 @@
 //! while speeding up, with the acceleration that the rise to this speed leaves. Over both sides this is not always
 //! optimal. Where the path can change its acceleration faster before the kink than after it, or has less to lose there,
 //! a slower approach pays off that passes the kink at the same speed with an acceleration `a`. The minimum of the speed
-//! is then before the kink: with the jerk `j` of that block it is `a^2 / 2j` below the speed `v` at the kink and `v t -
-//! j t^3 / 3` away from it, `t = a / j`.
+//! is then before the kink: with the jerk `j` of that block it is `a^2 / 2j` below the speed `v` at the kink and
+//! `v t - j t^3 / 3` away from it, `t = a / j`.
 //!
 //! To first order in `a` one side loses the time `a rho / j`, and the other gains the same expression with its `rho`
 //! and `j`; `rho = 1 - v / peak` of the hill on that side. This decides on which side the minimum should be. Its

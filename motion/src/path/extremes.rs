@@ -1,7 +1,7 @@
 //! Largest derivatives with respect to path length on a polynomial piece, with proven bounds.
 //!
-//! With `N = |P'|^2` over the measured axes every derivative of an axis with respect to path length is a quotient `F /
-//! N^e`: `q' = p' / N^(1/2)`, and from one to the next `F_next = F' N - e F N'` with `e_next = e + 3/2`. Up to a
+//! With `N = |P'|^2` over the measured axes every derivative of an axis with respect to path length is a quotient
+//! `F / N^e`: `q' = p' / N^(1/2)`, and from one to the next `F_next = F' N - e F N'` with `e_next = e + 3/2`. Up to a
 //! positive factor, the same `F_next` is the derivative of the quotient with respect to the parameter. The extremes of
 //! `q'`, `q''` and `q'''` are therefore at the ends of the piece and at the zeros of polynomials. Their Bernstein
 //! coefficients bound the number of zeros (Descartes' rule of signs: none without a change of sign, exactly one with a

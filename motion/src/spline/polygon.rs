@@ -228,11 +228,12 @@ fn between(p: &AxisVec, q: &AxisVec, ratio: f64) -> AxisVec {
 
 /// Reach at the middle one of five control points given by position and knot.
 ///
-/// With `g h k l` between the knots, the Bezier points before and after the corner are at the distances `h k / (g + h +
-/// k)` and `h k / (h + k + l)` from it (on legs as long as `h` and `k`), and the spline divides their connection as `h
-/// : k`. Its distance from the first edge is therefore `beta sin(theta)`, from the second one `alpha sin(theta)`, where
-/// `alpha = h k^2 / ((h + k) (g + h + k))` and `beta = h^2 k / ((h + k) (h + k + l))`, and its distance from the corner
-/// is at most the larger of the two times the change of direction. With equal edges that is a sixth of an edge.
+/// With `g h k l` between the knots, the Bezier points before and after the corner are at the distances
+/// `h k / (g + h + k)` and `h k / (h + k + l)` from it (on legs as long as `h` and `k`), and the spline divides their
+/// connection as `h : k`. Its distance from the first edge is therefore `beta sin(theta)`, from the second one
+/// `alpha sin(theta)`, where `alpha = h k^2 / ((h + k) (g + h + k))` and `beta = h^2 k / ((h + k) (h + k + l))`, and
+/// its distance from the corner is at most the larger of the two times the change of direction. With equal edges that
+/// is a sixth of an edge.
 fn reach([a, b, c, d, e]: [(f64, f64); 5]) -> f64 {
     let (h, k) = (c.1 - b.1, d.1 - c.1);
     let alpha = (c.0 - b.0) * k * k / (d.1 - a.1);

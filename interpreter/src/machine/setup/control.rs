@@ -322,8 +322,8 @@ fn encoder(axis: &Axis) -> Encoder {
     if listed || axis.get(kontur::LOAD_ENCODER) { Encoder::Direct } else { Encoder::Motor }
 }
 
-/// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, otherwise `R =
-/// incr_per_rev i / f` if P-AXIS-00362 or P-AXIS-00363 is not 1, otherwise P-AXIS-00234/00233.
+/// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, otherwise
+/// `R = incr_per_rev i / f` if P-AXIS-00362 or P-AXIS-00363 is not 1, otherwise P-AXIS-00234/00233.
 ///
 /// Assumption: an axis without measuring system parameters in its list reads without steps, so that a trace only shows
 /// effects that the list configures.
