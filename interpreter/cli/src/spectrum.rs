@@ -8,7 +8,7 @@ pub(crate) const MOST_SAMPLES: usize = 1 << 18;
 const PADDING: usize = 8;
 
 /// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 over the whole recording has the height
-/// 1. The mean of the windowed recording is removed first.
+/// 1; the mean of the windowed recording is removed first.
 #[derive(Clone, Debug)]
 pub(crate) struct AmplitudeSpectrum {
     step_hz: f64,

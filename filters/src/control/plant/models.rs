@@ -172,8 +172,8 @@ fn rigid(a: DMatrix<f64>, b: DMatrix<f64>) -> Continuous {
     }
 }
 
-/// Rows of the drive: torque `tau` (as acceleration of the whole mass) and integrator `z`, driven by the speed error `u
-/// - v_motor`, where `v_motor` is a row over the state.
+/// Rows of the drive: torque `tau` (as acceleration of the whole mass) and integrator `z`, driven by the speed error
+/// `u - v_motor`, where `v_motor` is a row over the state.
 fn drive_rows(
     a: &mut DMatrix<f64>,
     b: &mut DMatrix<f64>,
