@@ -16,7 +16,7 @@ use crate::lookahead::{Draft, plan_again};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
-use crate::tolerance::Demands;
+use crate::tolerance::{Demands, Kernels};
 use kontur_filters::time::CycleTime;
 use short::lower_caps;
 use smallvec::SmallVec;
@@ -194,7 +194,12 @@ impl Plan {
     }
 
     /// Replaces segments, given by their index, by parts of them.
-    pub(crate) fn divide(&mut self, blocks: Vec<(usize, Vec<Arc<Queued>>)>) {
+    pub(crate) fn divide(
+        &mut self,
+        blocks: Vec<(usize, Vec<Arc<Queued>>)>,
+        kernels: &Kernels,
+        cycle: CycleTime,
+    ) {
         for (b, parts) in blocks.into_iter().rev() {
             let mut first = 0;
             for entry in &mut self.reserve {
@@ -209,7 +214,7 @@ impl Plan {
                 self.segments.insert(b + 1, Segment { queued: Arc::clone(part), cap, asked: None });
             }
             self.segments[b].queued = Arc::clone(&parts[0]);
-            self.demands.insert(b + 1, parts.len() - 1, self.demands.feed[b]);
+            self.demands.divide(b, &parts, kernels, cycle);
         }
     }
 }

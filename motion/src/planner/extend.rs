@@ -62,7 +62,7 @@ impl Planner {
                 }
                 Searched::Kept(entries) => entries,
                 Searched::Divided(parts) => {
-                    self.plan.divide(parts);
+                    self.plan.divide(parts, &self.kernels, self.cycle);
                     return Ok(());
                 }
                 Searched::Infeasible(e) => return self.fall_back().ok_or(e),
@@ -182,7 +182,7 @@ impl Planner {
             let ends = (self.plan.start.moment, SpeedLimit::Stop);
             match self.search(&window, &forced, ends, Some(Vec::new()), &mut 0, f64::INFINITY) {
                 Searched::Kept(entries) => return Some(entries),
-                Searched::Divided(parts) => self.plan.divide(parts),
+                Searched::Divided(parts) => self.plan.divide(parts, &self.kernels, self.cycle),
                 Searched::GivenUp(..) | Searched::Infeasible(_) | Searched::TooLate => return None,
             }
         }

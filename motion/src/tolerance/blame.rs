@@ -29,6 +29,8 @@ const DOUBLINGS: u32 = 4;
 const LITTLE_MORE: f64 = 1.05;
 /// Least part of the speed planned that one round leaves of it.
 const LEAST_OF_ROUND: f64 = 0.5;
+/// Part of the speed planned from which on an even speed is not below it.
+const ALMOST: f64 = 0.995;
 /// Largest reduction of an even speed in one round.
 const MOST: f64 = 0.25;
 /// Least part of the speed planned that an even speed can be.
@@ -184,7 +186,37 @@ impl View<'_> {
                 shared.marks.extend((first..last).filter(|m| !is_left(m)));
             }
         }
+        if trial.kernels.unequal {
+            self.turn_to_the_faster(&mut shared, (first, last), even, v, record, demands);
+        }
         self.share(&shared, even, v, record, demands, findings);
+    }
+
+    /// Where the delays differ, a straight block has a part in the deviation, too, the larger the faster it is: those that are
+    /// faster than the even speed are to blame before those that are not.
+    fn turn_to_the_faster(
+        &self,
+        shared: &mut Shared,
+        (first, last): (usize, usize),
+        even: f64,
+        v: &Violation,
+        record: &Record,
+        demands: &Demands,
+    ) {
+        let faster = |m: &usize| self.present(*m, v, record, demands) > even / ALMOST;
+        if !shared.marks.is_empty() && !shared.marks.iter().any(faster) {
+            let faster: Vec<usize> = (first..last).filter(faster).collect();
+            if !faster.is_empty() {
+                *shared = Shared { marks: faster, kinks: Vec::new() };
+            }
+        }
+    }
+
+    /// Highest speed in mm/s on the block of a mark while the filters hold a violation; 0 where it is final.
+    fn present(&self, m: usize, v: &Violation, record: &Record, demands: &Demands) -> f64 {
+        let mark = &self.marks[m];
+        let asked = mark.block.map_or(0.0, |b| demands.feed[b]);
+        self.fastest(v, record, mark.s_mm, mark.s_mm + mark.queued.length).min(asked)
     }
 
     /// Asks for one speed on a stretch: the even one, or less if that is not below what is planned.
@@ -214,7 +246,7 @@ impl View<'_> {
         let speed = if present <= 0.0 {
             // the path rests while the filters swing: no speed is the cause
             f64::INFINITY
-        } else if even < 0.995 * present {
+        } else if even < ALMOST * present {
             // a plan that is far too fast says little about who is to blame in a slower one
             even.max(LEAST_OF_ROUND * present)
         } else {

@@ -2,6 +2,7 @@
 
 use super::kernels::Kernels;
 use crate::asked::Asked;
+use crate::axis::AxisVec;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::borrow::Cow;
@@ -10,6 +11,12 @@ use std::sync::Arc;
 
 /// Times that a place is made slower without effect after which the steps grow.
 pub(super) const PATIENCE: u32 = 8;
+
+/// Change of direction in rad over which the delays of the axes are looked at once.
+const TURN: f64 = 0.1;
+
+/// Parts of a stretch at most in which they are looked at.
+const MOST_TURNS: f64 = 128.0;
 
 /// What the monitor asks of the blocks ahead, one entry per boundary or block of the window; it stays with them when the
 /// window moves on.
@@ -92,7 +99,7 @@ impl Demands {
         let known = self.feed.len();
         self.insert(known, window.len().saturating_sub(known), f64::INFINITY);
         for (queued, feed) in window.iter().zip(&mut self.feed).skip(known) {
-            *feed = even_on_a_line(queued, kernels, cycle);
+            *feed = even_on(queued, kernels, cycle);
         }
     }
 
@@ -106,7 +113,7 @@ impl Demands {
         cycle: CycleTime,
     ) {
         for b in blocks.clone() {
-            self.feed[b] = even_on_a_line(&window[b], kernels, cycle);
+            self.feed[b] = even_on(&window[b], kernels, cycle);
             (self.acceleration[b], self.slower[b]) = (1.0, (0, 0.0));
         }
         for b in boundaries(&blocks, window) {
@@ -138,6 +145,20 @@ impl Demands {
         fill(&mut self.acceleration, at, count, 1.0);
         fill(&mut self.slower, at, count, (0, 0.0));
         self.foreseen = self.foreseen.min(at);
+    }
+
+    /// Makes room for the parts of a block in its place.
+    pub(crate) fn divide(
+        &mut self,
+        block: usize,
+        parts: &[Arc<Queued>],
+        kernels: &Kernels,
+        cycle: CycleTime,
+    ) {
+        self.insert(block + 1, parts.len() - 1, self.feed[block]);
+        for (feed, part) in self.feed[block..].iter_mut().zip(parts) {
+            *feed = feed.min(even_on(part, kernels, cycle));
+        }
     }
 
     /// Forgets the first blocks, which are final. The boundary after them has only what is asked of it from now on.
@@ -177,16 +198,26 @@ fn boundaries(blocks: &Range<usize>, window: &[Arc<Queued>]) -> impl Iterator<It
     inside.filter(|b| window[b - 1].block.seq != window[*b].block.seq)
 }
 
-/// Speed in mm/s that filters with different delays leave to a line long enough to be run through evenly; infinite for any other
-/// block.
-fn even_on_a_line(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
-    let straight = kernels.unequal && queued.block.path.is_straight();
-    let Some(tolerance) = queued.block.tolerance.ax_dev_mm.filter(|_| straight) else {
-        return f64::INFINITY;
+/// Speed in mm/s that filters with different delays leave to a block long enough to be run through evenly, where it leaves most;
+/// infinite for any other block.
+fn even_on(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
+    let tolerance = queued.block.tolerance.ax_dev_mm.filter(|_| kernels.unequal);
+    let Some(tolerance) = tolerance else { return f64::INFINITY };
+    let mut tangent = AxisVec::zeros(queued.ends.tangent_in.len());
+    let mut speed_at = |s: f64| {
+        queued.block.path.tangent(queued.offset + s, &mut tangent);
+        kernels.speed_along(&tangent, tolerance, cycle)
     };
-    let speed = kernels.speed_along(&queued.ends.tangent_in, tolerance, cycle);
+    let parts = turns(queued.bend, queued.length);
+    let places = (0..=parts).map(|i| queued.length * f64::from(i) / f64::from(parts));
+    let speed = places.map(&mut speed_at).fold(0.0, f64::max);
     let is_long = speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length;
     if is_long { speed } else { f64::INFINITY }
+}
+
+/// Number of parts of a stretch over each of which its direction hardly changes.
+pub(super) fn turns(bend: f64, length: f64) -> u32 {
+    (bend * length / TURN).ceil().clamp(1.0, MOST_TURNS) as u32
 }
 
 /// How many steps to take at once where so many have been without effect.

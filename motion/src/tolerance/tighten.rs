@@ -1,7 +1,7 @@
 //! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
 
 use super::Trial;
-use super::demands::{Demands, hurry};
+use super::demands::{Demands, hurry, turns};
 use super::findings::Findings;
 use super::view::View;
 use crate::axis::AxisVec;
@@ -22,12 +22,6 @@ const GROWTH: f64 = 1.0 / 256.0;
 
 /// Part of an excess from which on it counts as left.
 const WITHOUT_EFFECT: f64 = 0.9;
-
-/// Change of direction in rad over which the delays of the axes are looked at once.
-const TURN: f64 = 0.1;
-
-/// Places of a stretch at most at which they are looked at.
-const MOST_TURNS: f64 = 128.0;
 
 /// Part of the speed that is left when everything in reach counts as a cause: few rounds remain.
 const HASTE: f64 = 0.85;
@@ -171,10 +165,9 @@ fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch>
     let mut from = 0.0;
     for (end, bend) in queued.bends() {
         let speed = on_a_bend(trial, bend, tolerance).min(fastest);
-        let turns = if trial.kernels.unequal { bend * (end - from) / TURN } else { 0.0 };
-        let parts = turns.ceil().clamp(1.0, MOST_TURNS);
-        for i in 1..=parts as u32 {
-            let until = from + (end - from) * f64::from(i) / parts;
+        let parts = if trial.kernels.unequal { turns(bend, end - from) } else { 1 };
+        for i in 1..=parts {
+            let until = from + (end - from) * f64::from(i) / f64::from(parts);
             out.push(Stretch { end: until, bend, speed });
         }
         from = end;
