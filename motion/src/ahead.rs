@@ -1,12 +1,11 @@
 //! Setpoints of cycles that are final, read ahead of their output.
 //!
-//! The stages after the planner can then process one axis after the other over many cycles: they read the setpoints of
-//! these cycles as columns, and take each cycle once everything for it is computed. Reading changes nothing; what was
-//! read and not taken has no effect.
+//! What follows the planner does with one axis after the other what it would do cycle by cycle: it reads the setpoints of many
+//! cycles at once, as columns, and takes one cycle after the other when everything of it is computed. Reading changes nothing, so
+//! what was read and not taken is as if it had never been read.
 //!
 //! Order of calls: [`Planner::look_ahead`](crate::planner::Planner::look_ahead), then
-//! [`Planner::take`](crate::planner::Planner::take) for the first cycles that were read, in their order, without other
-//! calls in between.
+//! [`Planner::take`](crate::planner::Planner::take) for the first cycles of what was read, in their order, with nothing in between.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -47,7 +46,7 @@ pub struct Ahead {
     state: PathState,
 }
 
-/// The values of a cycle that are common to all axes, see [`PathState`].
+/// What holds for all axes in a cycle, see [`PathState`].
 #[derive(Clone, Copy, Debug)]
 struct Row {
     s: f64,
@@ -56,7 +55,7 @@ struct Row {
     j: f64,
     limit: SpeedLimit,
     seq: u64,
-    /// Index of the timeline entry that contains the cycle.
+    /// Number of the entry of the timeline in which it lies.
     entry: usize,
 }
 
@@ -135,7 +134,7 @@ impl Ahead {
         (out.s, out.v, out.a, out.j, out.limit, out.seq) = (s, v, a, j, limit, seq);
     }
 
-    /// Number of timeline entries that are complete in cycle `last`, but were not in the one before `first`.
+    /// Number of entries of the timeline that are over in cycle `last`, but not in the one before `first`.
     pub(crate) fn entries(&self, first: usize, last: usize) -> usize {
         let before = first.checked_sub(1).map_or(0, |before| self.rows[before].entry);
         self.rows[last].entry - before

@@ -307,8 +307,8 @@ impl Planner {
         out.read((&self.timeline, self.cycle), axes, k, most, before);
     }
 
-    /// Produces the setpoints `first` to `last` of those that were read, see [`crate::ahead`]; values of a single cycle
-    /// are those of the last one.
+    /// Produces setpoints `first` to `last` of those that were read, see [`crate::ahead`]: what only one cycle shows is that of the
+    /// last one.
     pub fn take(&mut self, ahead: &Ahead, first: usize, last: usize) {
         let passed = ahead.entries(first, last);
         self.timeline.drop_first(passed);

@@ -24,8 +24,8 @@ impl Machine {
     /// Loads a machine from its start-up list and applies overrides. Returns the machine with all warnings.
     ///
     /// # Errors
-    /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 inconsistent
-    /// numbers, K-0070 a refused value, K-0073 an override without a matching parameter, 110472, 110597, 120178.
+    /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 numbers that do
+    /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110472, 110597, 120178.
     pub fn load(
         files: &dyn ListFiles,
         start_up: &str,

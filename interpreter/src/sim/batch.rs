@@ -1,10 +1,10 @@
 //! Cycles in a row: where nothing but the path moves, the axes are computed one after the other over many cycles.
 //!
-//! Most cycles of a program follow from the existing plan: without a block event, an input or a wait between them, and
-//! without one axis depending on another. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its
-//! column before the next one starts. Its code and state stay in the cache, and only those result columns are written
-//! that somebody reads. The cycles are then taken one by one, in order: path and blocks are in every cycle as if it had
-//! been computed alone. A single cycle is a step of the chain, which gives the same result as a row of one.
+//! Most cycles of a program follow from what is already planned: no event of a block, no input, no wait lies between them, and
+//! no axis asks what another one does. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its own column
+//! before the next one starts: its code and its state stay in the processor, and of what it gives only those columns are written
+//! that somebody reads. Then the cycles are taken one by one, in their order: path and blocks are in every cycle what they
+//! would have been alone. A single cycle is a step of the chain, which does what a row of one does.
 //!
 //! A fault ends the row with the cycle that raised it. Chains that are already beyond that cycle are restored to their
 //! state before the row and run again up to it.
@@ -38,10 +38,10 @@ const MOST_PATIENCE: u64 = 32;
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     ahead: Ahead,
-    /// Number of cycles that have been computed, and number of those that were taken.
+    /// How many of them have been computed, and taken.
     computed: usize,
     taken: usize,
-    /// Number of cycles to try: few after a fault, because those after the next fault are computed in vain.
+    /// How many are tried: after a fault few, because what lies after the next one is computed in vain.
     tried: usize,
     /// Cycle before which cycles are computed singly, because too few follow in a row.
     single_before: u64,
@@ -68,12 +68,12 @@ impl Batch {
 }
 
 impl Simulation {
-    /// Takes the next computed cycle.
+    /// Takes the next of the cycles that have been computed.
     pub(super) fn take_computed(&mut self) {
         self.take_up_to(self.batch.taken);
     }
 
-    /// Takes all computed cycles, of which only the last one is read; returns their number.
+    /// Takes all of them, of which only the last one is looked at; the number of them.
     pub(super) fn take_all(&mut self) -> usize {
         let count = self.batch.computed - self.batch.taken;
         if let Some(last) = self.batch.computed.checked_sub(1) {

@@ -106,7 +106,7 @@ impl Samples {
 }
 
 impl Simulation {
-    /// Completes the row of the last computed cycle, whose columns are already written, and adds its points.
+    /// Completes the row of the cycle computed last, whose columns are written, and adds its points.
     pub(super) fn show(&mut self, rows: &mut RowBuffer, into: &mut Samples) {
         let n = self.path_axes();
         let asked = rows.asked();

@@ -6,10 +6,9 @@
 //! stored for the columns by which readers select rows (time, line, block, words), but not for other numbers: finding
 //! them costs more than splitting their bytes.
 //!
-//! A Parquet file is readable only once its footer is written. Each group of rows is therefore written to a separate
-//! file in the folder `.NAME.*.parts` next to the target, and at the end these files are combined without decoding
-//! them. After a kill or with a full disk there remains a folder of complete Parquet files, which readers treat as one
-//! table.
+//! A Parquet file is readable only once its footer is written. So each group of rows goes to a separate file in the folder
+//! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
+//! leaves is a folder of whole Parquet files, which readers take as one table.
 
 use super::batch::{Batch, Head};
 use crate::target::{Target, folder_of};
