@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 axis filters; P-AXIS-00319, 00140, 00153, 00204.
 //!
-//! The order of calls: the entries of the list, [`Cascade::design`], then the [`shaping`](crate::shaping) chain of the axis
+//! Order of calls: the entries of the list, [`Cascade::design`], then the [`shaping`](crate::shaping) chain of the axis
 //! from its filters.
 //!
 //! ```
@@ -93,9 +93,9 @@ impl ListedPrototype {
 /// One entry `filter[i]` of an axis list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterEntry {
-    /// Whether a standard filter is on, default off; no meaning for HSC (P-AXIS-00319).
+    /// Whether a standard filter is on, default off; ignored for HSC (P-AXIS-00319).
     pub enable: bool,
-    /// Type; by default low-pass, resp. mean with the prototype HSC (P-AXIS-00204).
+    /// Type; by default low-pass, or mean with the prototype HSC (P-AXIS-00204).
     pub listed_type: Option<ListedType>,
     /// Prototype (P-AXIS-00153).
     pub prototype: ListedPrototype,
@@ -131,9 +131,9 @@ impl Default for FilterEntry {
 /// The result of the entries of an axis.
 #[derive(Clone, Debug)]
 pub struct Cascade {
-    /// The standard filters that are on, in their order.
+    /// The standard filters that are on, in list order.
     pub filters: Vec<AxisFilter>,
-    /// The HSC filter that `#FILTER ON [HSC]` makes effective.
+    /// The HSC filter that `#FILTER ON [HSC]` switches on.
     pub hsc: Option<HscConfig>,
     /// The issues, each with the index of its entry.
     pub issues: Vec<(usize, FilterIssue)>,
@@ -197,10 +197,10 @@ fn permitted(
 }
 
 impl FilterEntry {
-    /// The filter of the additional interface of an axis, `None` if it is off.
+    /// The filter of the additional interface of an axis, `None` if it is off, and its issues.
     ///
-    /// For PT1 and PT2 the order is a switch only: the default 2 is not a mistake in a list that names a type only.
-    /// Source: P-AXIS-00735 to P-AXIS-00742.
+    /// For PT1 and PT2 the order is only a switch: the default 2 is not a mistake in a list that sets nothing but the
+    /// type. Source: P-AXIS-00735 to P-AXIS-00742.
     pub fn additional(&self, cycle: CycleTime) -> (Option<AxisFilter>, Vec<FilterIssue>) {
         if !self.enable {
             return (None, Vec::new());

@@ -1,15 +1,15 @@
 //! Everything downstream of the set position of one axis: feedforward, position controller, drive and mechanics,
 //! Improved Position Control and the monitors of the position controller.
 //!
-//! One call of [`AxisControl::step`] per interpolation cycle; every part is configuration (`…Config`, in mm and s)
-//! apart from its state. The parts know no axis name and no parameter list: a list reader converts vendor integers
-//! into the configuration structs, the cycle loop adds axis and block to a [`Fault`].
+//! One call of [`AxisControl::step`] per interpolation cycle. The configuration of each part (`…Config`, in mm and s)
+//! is separate from its state. Axis names and parameter lists do not occur here: a list reader converts vendor integers
+//! into the configuration structs, and the cycle loop adds axis and block to a [`Fault`].
 //!
-//! What this room does not do: filter set positions (the shaping room), stop other axes after a fault (the cycle
-//! loop), correct list values that are zero where they may not be (the list reader).
+//! Done elsewhere: filtering of set positions (module `shaping`), stopping other axes after a fault (the cycle loop),
+//! correcting list values that must not be zero (the list reader).
 //!
-//! Order of calls: configurations are checked, the axis is made from them and started at its position, then stepped once
-//! per cycle.
+//! Order of calls: check the configuration, make the axis from it, start it at its position, then step it once per
+//! cycle.
 //!
 //! ```
 //! use kontur_filters::control::{AxisControl, AxisControlConfig};
@@ -40,5 +40,5 @@ pub use ipc::{IpcConfig, IpcMode};
 pub use plant::{Plant, PlantConfig, PlantModel};
 pub use position::{PositionConfig, PositionLoop};
 
-/// Largest set position in mm: far beyond any machine, and small enough for every difference to stay finite.
+/// Largest set position in mm: far beyond any machine, and small enough for all differences to stay finite.
 const RANGE_MM: f64 = 1e9;

@@ -1,8 +1,8 @@
-//! FIR filters of an axis: symmetric kernels from a type and an order.
+//! FIR filters of an axis: symmetric kernels given by a type and an order.
 //!
-//! A kernel of order N has N + 1 taps and delays by N/2 cycles; only the pure delay delays by its whole order. The
-//! vendor calls the filters acausal because interpolation runs ahead of the output; here they run causally and the
-//! delay is known, so that curves can be aligned.
+//! A kernel of order N has N + 1 taps and delays by N/2 cycles; only the pure delay delays by its full order. The
+//! vendor calls the filters acausal because interpolation is ahead of the output; here they are causal and their delay
+//! is known, so that curves can be aligned.
 //!
 //! Source: TF5200 FIR filter (FCT-C37); P-AXIS-00573, 00585 to 00587, 00590, 00591, 00593.
 //!
@@ -32,16 +32,16 @@ pub(crate) const MAX_DELAY_ORDER: u32 = 100;
 pub enum FirKind {
     /// Type 1: equal taps.
     MovingAverage,
-    /// Type 2: a bell of the standard deviation `quality * N / 5` over N + 1 taps.
+    /// Type 2: a Gaussian bell with the standard deviation `quality * N / 5` over N + 1 taps.
     ///
-    /// Assumption: the standard deviation; the vendor says only that the quality widens the bell, not the kernel.
+    /// Assumption: the standard deviation; the vendor only says that the quality widens the bell, not the kernel.
     Gauss,
-    /// Type 3: sine cardinal of the cut-off frequency under a Blackman window.
+    /// Type 3: the cardinal sine of the cut-off frequency under a Blackman window.
     ///
     /// Assumption: the Blackman window. The cut-off is the -6 dB point; kernels shorter than `1 / (fcut T)` do not
     /// reach it and act as a bell.
     WindowedSinc,
-    /// Type 4: delay by N cycles, to keep an axis in step with filtered ones.
+    /// Type 4: delay by N cycles, which keeps an axis synchronous with filtered ones.
     TimeDelay,
 }
 
@@ -54,7 +54,7 @@ pub struct FirConfig {
     pub order: u32,
     /// Time in us that gives the order, from one cycle on; 0 for none (P-AXIS-00591, `ORDER_TIME`).
     pub order_time_us: u32,
-    /// Share of the signal that is led through the filter, 0 to 1, default 1 (P-AXIS-00590, SHARE).
+    /// Share of the signal that passes through the filter, 0 to 1, default 1 (P-AXIS-00590, SHARE).
     pub share_ratio: f64,
     /// Cut-off frequency of type 3 in Hz, at least 1, default 30 (P-AXIS-00585, FCUT).
     pub fcut_hz: f64,
@@ -63,12 +63,12 @@ pub struct FirConfig {
 }
 
 impl FirConfig {
-    /// A configuration of the kind with the vendor's defaults: no order yet.
+    /// A configuration of this kind with the vendor's defaults: no order yet.
     pub const fn new(kind: FirKind) -> Self {
         Self { kind, order: 0, order_time_us: 0, share_ratio: 1.0, fcut_hz: 30.0, quality: 1.0 }
     }
 
-    /// Takes over what an NC command programs: an order replaces both values of the list, otherwise a time does.
+    /// Applies the order of an NC command: an order replaces both values of the list, otherwise a time does.
     ///
     /// Assumption: ORDER wins over `ORDER_TIME` in one command.
     pub const fn program_order(&mut self, order: Option<u32>, order_time_us: Option<u32>) {
@@ -79,9 +79,9 @@ impl FirConfig {
         }
     }
 
-    /// The kernel of the configuration and what there is to say about it.
+    /// The kernel of the configuration, and the issues found.
     ///
-    /// No kernel with 50910, 50989 or a value out of range; 50911 continues with the highest order.
+    /// `None` with 50910, 50989 or a value out of range; 50911 continues with the highest order.
     pub fn design(&self, cycle: CycleTime) -> (Option<Kernel>, Vec<FilterIssue>) {
         let mut issues = Vec::new();
         let max_order = if self.kind == FirKind::TimeDelay { MAX_DELAY_ORDER } else { MAX_ORDER };
@@ -104,7 +104,7 @@ impl FirConfig {
     }
 }
 
-/// The order itself or, if it is 0, the time in cycles, rounded.
+/// The order itself or, if it is 0, the time in whole cycles.
 pub(crate) fn order(
     order: u32,
     time_us: u32,
@@ -156,13 +156,13 @@ fn windowed_sinc(order: u32, fcut_per_cycle: f64) -> Option<Kernel> {
     weighted(order, |offset| {
         let angle = 2.0 * PI * fcut_per_cycle * offset;
         let sinc = if offset.abs() > 0.0 { libm::sin(angle) / angle } else { 1.0 };
-        // Blackman about its centre; its zeros lie one tap outside the kernel on either side.
+        // Blackman window about its centre; its zeros lie one tap outside the kernel on either side.
         let turn = 2.0 * PI * offset / width;
         sinc * (0.42 + 0.5 * libm::cos(turn) + 0.08 * libm::cos(2.0 * turn))
     })
 }
 
-/// N + 1 taps with the weights of a function of the distance from the centre in cycles.
+/// N + 1 taps whose weights are a function of the distance from the centre in cycles.
 fn weighted(order: u32, weight: impl Fn(f64) -> f64) -> Option<Kernel> {
     let centre = 0.5 * f64::from(order);
     Kernel::from_taps(
@@ -170,14 +170,14 @@ fn weighted(order: u32, weight: impl Fn(f64) -> f64) -> Option<Kernel> {
     )
 }
 
-/// Leads only a share through the kernel, the rest past it with the same delay.
+/// Passes only a share through the kernel, the rest around it with the same delay.
 ///
-/// Assumption: the delay of the bypass; without it the two parts would tear the signal apart.
+/// Assumption: the bypass is delayed; without that the two parts would no longer belong to the same time.
 pub(crate) fn with_share(kernel: Kernel, share_ratio: f64) -> Option<Kernel> {
     if share_ratio >= 1.0 {
         return Some(kernel);
     }
-    // All kernels here are symmetric, so the middle between the outer taps is the mean delay.
+    // All kernels here are symmetric, so the midpoint between the outer taps is the mean delay.
     let ends = kernel.taps().first()?.delay + kernel.length();
     let bypass = |delay| Tap { delay, weight: 0.5 * (1.0 - share_ratio) };
     let filtered = kernel

@@ -33,10 +33,11 @@ use std::f64::consts::PI;
 pub enum HscKind {
     /// Type 8: equal taps, N + 1 of them.
     Mean,
-    /// Type 12: equal taps over exactly one period of the first natural frequency, with fractional outer taps, so that
-    /// the frequency is blocked completely and its multiples nearly.
+    /// Type 12: equal taps over exactly one period of the first natural frequency, with fractional outer taps, which
+    /// block that frequency completely and its multiples almost completely.
     ///
-    /// Assumption: this kernel; the vendor publishes no shape. It is the shortest positive symmetric one that does it.
+    /// Assumption: this kernel; the vendor does not publish the shape. It is the shortest positive symmetric one with
+    /// that property.
     NoVib,
 }
 
@@ -45,20 +46,21 @@ pub enum HscKind {
 pub struct HscConfig {
     /// Shape.
     pub kind: HscKind,
-    /// Order, up to 200; 0 takes it from the time constant (P-AXIS-00140). Of `NoVib` any order only switches on.
+    /// Order, up to 200; 0 takes it from the time constant (P-AXIS-00140). For `NoVib` any order above 0 only switches
+    /// it on.
     pub order: u32,
     /// Time in us that gives the order, from one cycle on, default 10 000 (P-AXIS-00357).
     pub time_constant_us: u32,
     /// First natural frequency of `NoVib` in Hz, from 1/200 to a third of the sampling frequency (P-AXIS-00067).
     pub f_hz: f64,
-    /// Share of the signal that is led through the filter, 0 to 1 (P-AXIS-00164).
+    /// Share of the signal that passes through the filter, 0 to 1 (P-AXIS-00164).
     pub share_ratio: f64,
 }
 
 impl HscConfig {
-    /// The kernel of the configuration and what there is to say about it.
+    /// The kernel of the configuration, and the issues found.
     ///
-    /// No kernel with 50910, 50989 or a value out of range; 50911 continues with the highest order.
+    /// `None` with 50910, 50989 or a value out of range; 50911 continues with the highest order.
     pub fn design(&self, cycle: CycleTime) -> (Option<Kernel>, Vec<FilterIssue>) {
         let mut issues = Vec::new();
         let max_order = if self.kind == HscKind::NoVib { u32::MAX } else { MAX_ORDER };
@@ -79,9 +81,9 @@ impl HscConfig {
 
 /// Weights w, 1 (2K + 1 times), w, normalised, for a period of `2K + 1 + r` cycles with `0 <= r < 2`.
 ///
-/// The response at the frequency is zero for `w = -D / (2 cos((K + 1) theta))`, `D = sin((2K + 1) theta/2) / sin(theta/2)`,
-/// `theta = 2 pi / period`. Both angles lie near pi; reduced by it the weight reads
-/// `sin(r theta/2) / (2 sin(theta/2) cos((1 - r) theta/2))`: free of cancellation and never negative.
+/// The response at the frequency is zero for `w = -D / (2 cos((K + 1) theta))`,
+/// `D = sin((2K + 1) theta/2) / sin(theta/2)`, `theta = 2 pi / period`. Both angles are close to pi. With pi subtracted
+/// the weight is `sin(r theta/2) / (2 sin(theta/2) cos((1 - r) theta/2))`: without cancellation and never negative.
 fn no_vibration(period_cycles: f64) -> Option<Kernel> {
     let pairs = (0.5 * (period_cycles - 1.0)).floor().max(1.0);
     let rest = (period_cycles - 1.0 - 2.0 * pairs).max(0.0);

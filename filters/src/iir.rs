@@ -1,12 +1,12 @@
 //! Standard axis filters (IIR): design from the parameters of an axis list, and execution.
 //!
-//! Up to three of them act in series on the absolute set position of an axis. An axis at rest comes out bit for bit as
-//! it went in, because every section is a state-variable filter whose state holds the position itself.
+//! Up to three of them act in series on the absolute set position of an axis. At rest the output equals the input bit
+//! for bit, because every section is a state-variable filter with the position itself as its state.
 //!
 //! Source: TF5200 axis filters; P-AXIS-00067, 00080, 00140, 00153, 00164, 00204, 00357.
 //!
-//! Order of calls: [`AxisFilter::design`] with its issues, then a state per axis, settled at its position and stepped
-//! once per cycle.
+//! Order of calls: [`AxisFilter::design`], which returns the filter and its issues, then one filter per axis, settled
+//! at its position and stepped once per cycle.
 //!
 //! ```
 //! use kontur_filters::iir::prototype::Prototype;
@@ -48,9 +48,9 @@ pub enum FilterKind {
     BandStop,
     /// Type 5: changes the phase only.
     AllPass,
-    /// Type 6: first-order lag of a time constant.
+    /// Type 6: first-order lag with a time constant.
     Pt1,
-    /// Type 10: two equal first-order lags of a time constant.
+    /// Type 10: two equal first-order lags with a time constant.
     Pt2,
     /// Type 11: delay by a time below 6 cycles.
     TimeDelay,
@@ -69,7 +69,7 @@ impl FilterKind {
         Self::TimeDelay,
     ];
 
-    /// Highest order of the range, resp. the only effective one. Source: P-AXIS-00140.
+    /// Highest order of the range, or the only effective one. Source: P-AXIS-00140.
     pub(crate) const fn max_order(self) -> u32 {
         match self {
             Self::LowPass | Self::HighPass | Self::AllPass => 6,
@@ -80,7 +80,7 @@ impl FilterKind {
         }
     }
 
-    /// Whether the filter's output does not follow the constant part of its input.
+    /// Whether the output does not follow the constant part of the input.
     pub const fn removes_constant_part(self) -> bool {
         matches!(self, Self::HighPass | Self::BandPass)
     }
@@ -94,17 +94,18 @@ pub struct FilterConfig {
     /// Prototype, default critical damping (P-AXIS-00153); not for PT1, PT2, time delay.
     pub prototype: Prototype,
     /// Order of the prototype, default 0 = off (P-AXIS-00140). For PT1, PT2 and time delay any order above 0 switches
-    /// on; other orders than 1 resp. 2 of PT1 and PT2 are reported.
+    /// the filter on; orders other than 1 for PT1 and 2 for PT2 are reported.
     pub order: u32,
     /// Characteristic frequency in Hz, default 30 (P-AXIS-00067): -3 dB point of low-pass and high-pass, centre of
-    /// band-pass and band-stop, for the all-pass where the group delay has fallen to 0.707; below half the sampling
-    /// frequency. Not for PT1, PT2, time delay.
+    /// band-pass and band-stop; for the all-pass the frequency at which the group delay has fallen to 0.707. Below half
+    /// the sampling frequency. Not used by PT1, PT2, time delay.
     pub f_hz: f64,
     /// Quality `f0 / bandwidth` of band-pass and band-stop, 1 to 10, default 1 (P-AXIS-00080).
     pub q: f64,
-    /// Share of the signal that is led through the filter, 0 to 1, default 1 (P-AXIS-00164).
+    /// Share of the signal that passes through the filter, 0 to 1, default 1 (P-AXIS-00164).
     pub share_ratio: f64,
-    /// Time constant in us, default 10 000 (P-AXIS-00357): PT1 and PT2 at least a cycle, time delay below 6 cycles.
+    /// Time constant in us, default 10 000 (P-AXIS-00357): at least one cycle for PT1 and PT2, below 6 cycles for the
+    /// time delay.
     pub time_constant_us: u32,
 }
 
@@ -124,11 +125,11 @@ impl Default for FilterConfig {
 
 /// Lowest characteristic frequency as a share of the sampling frequency: 0.01 Hz at 1 ms.
 ///
-/// Assumption: the vendor corrects lower values (110361) to a lowest frequency that no document states; down to this
-/// one the sections were checked against 40 digits.
+/// Assumption: the vendor corrects lower values (110361) to a lowest frequency that no document states. Down to this
+/// one the sections were checked against arithmetic with 40 digits.
 pub(crate) const LOWEST_FREQUENCY_RATIO: f64 = 1e-5;
 
-/// A standard filter at work: its design and its state.
+/// A standard filter of one axis: its design and its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisFilter {
     network: Network,
@@ -143,7 +144,7 @@ enum Network {
     Delay(Thiran, ThiranState),
 }
 
-/// `q` of `y = x + q (F(x) - x)`, the ends apart so that they are bit exact.
+/// `q` of `y = x + q (F(x) - x)`; the ends 0 and 1 are separate variants, which makes them exact to the bit.
 ///
 /// Assumption: the formula; the vendor says "share of the signal that passes the filter".
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,10 +175,10 @@ impl Share {
 }
 
 impl AxisFilter {
-    /// The filter of a configuration, at rest at 0, and what there is to say about it.
+    /// The filter of a configuration, at rest at 0, and the issues found.
     ///
-    /// No filter with order 0 (off, no issue), or if one of the issues says so: 50663, a frequency at or above half the
-    /// sampling frequency, a quality or share out of range.
+    /// `None` with order 0 (off, no issue), or if one of the issues requires it: 50663, a frequency at or above half
+    /// the sampling frequency, a quality or share out of range.
     pub fn design(config: &FilterConfig, cycle: CycleTime) -> (Option<Self>, Vec<FilterIssue>) {
         if config.order == 0 {
             return (None, Vec::new());
@@ -194,7 +195,7 @@ impl AxisFilter {
         (Some(filter), issues)
     }
 
-    /// Frequency response at one frequency; of a high-pass or band-pass that of the deviation it acts on.
+    /// Frequency response at one frequency; for a high-pass or band-pass that of the deviation it acts on.
     pub fn response(&self, at: Angle) -> Response {
         let filtered = match &self.network {
             Network::Sections(sections) => sections
@@ -214,19 +215,19 @@ impl AxisFilter {
         self.start.is_none()
     }
 
-    /// At rest on `x` in the place of another filter: one that acts on the deviation from the position at switch-on keeps that
-    /// position, so that it still holds back what has been held back.
+    /// Settles at `x` in place of another filter. One that acts on the deviation from the position at switch-on keeps
+    /// that position, so that it continues to block what it has blocked.
     pub(crate) fn settle_as(&mut self, before: &Self, x: f64) {
         self.settle_from(x, before.start.unwrap_or(x));
     }
 
-    /// At rest on `x`, switched on at `start`.
+    /// Settles at `x`, switched on at `start`.
     fn settle_from(&mut self, x: f64, start: f64) {
         self.start = self.start.map(|_| start);
         let input = self.start.map_or(x, |start| x - start);
         match &mut self.network {
             Network::Sections(sections) => {
-                // of a constant deviation nothing is left after the first section
+                // a constant deviation does not get past the first section
                 let later = if self.start.is_some() { 0.0 } else { x };
                 for (i, (_, state)) in sections.iter_mut().enumerate() {
                     *state = SectionState::at_rest(if i == 0 { input } else { later });
@@ -236,7 +237,7 @@ impl AxisFilter {
         }
     }
 
-    /// The output that a constant input `x` leads to in the end: `x`, except for a high-pass or band-pass.
+    /// The output that a constant input `x` finally leads to: `x`, except for a high-pass or band-pass.
     pub(crate) fn final_value(&self, x: f64) -> f64 {
         self.start.map_or(x, |start| self.share.mix(x, start))
     }
@@ -258,7 +259,7 @@ impl Stage for AxisFilter {
         self.settle_from(x, x);
     }
 
-    /// Delay of slow signals; 0 for a high-pass or band-pass, which let none through.
+    /// Delay for slow signals; 0 for a high-pass or band-pass, which pass none.
     fn delay_cycles(&self) -> f64 {
         if self.start.is_some() {
             return 0.0;
@@ -268,11 +269,11 @@ impl Stage for AxisFilter {
 }
 
 impl Network {
-    /// The network of a configuration that has passed the checks.
+    /// The network of a checked configuration.
     fn of(config: &FilterConfig, cycle: CycleTime) -> Self {
         let period_s = cycle.seconds();
         let tau_s = f64::from(config.time_constant_us) / 1e6;
-        // Prewarped at the characteristic frequency, that of the lags being 1/(2 pi tau).
+        // Prewarped at the characteristic frequency, which is 1/(2 pi tau) for the lags.
         let g = match config.kind {
             FilterKind::Pt1 | FilterKind::Pt2 => libm::tan(0.5 * period_s / tau_s),
             _ => libm::tan(PI * config.f_hz * period_s),

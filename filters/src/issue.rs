@@ -1,7 +1,8 @@
 //! What can be wrong with the settings of a filter: quantity, value and limit.
 //!
-//! A filter knows neither its axis nor its place in a list, nor how a control numbers the condition; who configured it
-//! adds all three. The numbers in the texts below are those of the vendor's documents.
+//! An issue names neither the axis nor its place in a list, nor the number that a control gives the condition; the
+//! caller that configured the filter adds all three. The numbers in the texts below are those of the vendor's
+//! documents.
 //!
 //! Order of calls: a design returns the filter and its issues; each issue has an [`Effect`] and a text.
 //!
@@ -20,7 +21,7 @@
 /// The effect of a condition on the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// The filter runs as configured; something is worth knowing.
+    /// The filter runs as configured; the issue is informative.
     Note,
     /// The filter runs with a corrected value.
     Corrected,
@@ -62,7 +63,7 @@ pub enum FilterIssue {
         /// Largest permitted value in us.
         max_us: u32,
     },
-    /// 50910: the time that is to give the order is shorter than a cycle. Source: P-AXIS-00591, 00357.
+    /// 50910: the time that gives the order is shorter than a cycle. Source: P-AXIS-00591, 00357.
     #[error(
         "time that gives the filter order {order_time_us} us, at least the cycle of {cycle_us} us"
     )]
@@ -75,7 +76,7 @@ pub enum FilterIssue {
     /// 50911: the order is above its range; the highest one is used.
     #[error("filter order {order}, at most {used}")]
     OrderTooHigh {
-        /// The order asked for.
+        /// The configured order.
         order: u32,
         /// The highest order.
         used: u32,
@@ -83,7 +84,7 @@ pub enum FilterIssue {
     /// A PT2 has the order 2. Source: P-AXIS-00140.
     #[error("filter order {order}, the type has {used}")]
     OrderCorrected {
-        /// The order asked for.
+        /// The configured order.
         order: u32,
         /// The order used.
         used: u32,
@@ -94,7 +95,7 @@ pub enum FilterIssue {
     /// 110361: the characteristic frequency is below the lowest one, which is used. Source: P-AXIS-00067.
     #[error("filter frequency {f_hz} Hz, at least {used_hz} Hz")]
     FrequencyTooLow {
-        /// The frequency asked for in Hz.
+        /// The configured frequency in Hz.
         f_hz: f64,
         /// The frequency used in Hz.
         used_hz: f64,
@@ -114,7 +115,7 @@ pub enum FilterIssue {
     Quality {
         /// The quality.
         quality: f64,
-        /// The range it belongs to, in words.
+        /// The permitted range in words.
         range: &'static str,
     },
     /// A share outside 0 to 1. Source: P-AXIS-00164, 00590.

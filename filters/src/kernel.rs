@@ -1,9 +1,9 @@
 //! Finite impulse responses on the cycle grid, and the filter that applies one.
 //!
-//! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels and differ in nothing
-//! else. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.
+//! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels that differ in their
+//! taps only. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.
 //!
-//! The order of calls: a kernel once, a filter for each axis at rest at its position, then a step for each cycle.
+//! Order of calls: a kernel once, a filter for each axis, settled at its position, then one step per cycle.
 //!
 //! ```
 //! use kontur_filters::kernel::{Kernel, KernelFilter, Tap};
@@ -31,7 +31,7 @@ pub struct Tap {
     pub weight: f64,
 }
 
-/// A finite impulse response with the sum 1: taps on the cycle grid, sorted by delay, no two with the same delay.
+/// A finite impulse response with the sum 1: taps on the cycle grid, sorted by delay, each delay at most once.
 ///
 /// Because the sum is 1, an axis at rest stays where it is, and a long ramp comes out as the same ramp
 /// [`delay_cycles`](Self::delay_cycles) later.
@@ -51,10 +51,11 @@ impl Kernel {
         Self { taps: vec![Tap { delay: cycles, weight: 1.0 }] }
     }
 
-    /// A kernel of the given taps in any order: equal delays are added, zero weights dropped, the sum normalised to 1.
+    /// A kernel of the given taps in any order: taps of equal delay are added, zero weights dropped, the sum is
+    /// normalised to 1.
     ///
-    /// `None` if a weight is not finite or the weights do not sum to a positive number: such taps have no normalised
-    /// form.
+    /// `None` if a weight is not finite or the weights do not sum to a positive number, since such taps cannot be
+    /// normalised.
     pub fn from_taps(taps: impl IntoIterator<Item = Tap>) -> Option<Self> {
         let mut taps: Vec<Tap> = taps.into_iter().collect();
         taps.sort_by_key(|tap| tap.delay);
@@ -67,7 +68,7 @@ impl Kernel {
         });
         taps.retain(|tap| tap.weight != 0.0);
         // Division by the compensated sum rounds each tap once, so the exact sum of the result is within half an ulp
-        // per unit weight; a correction of single taps would only spoil the symmetry of a symmetric kernel.
+        // per unit weight. Correcting single taps would only spoil the symmetry of a symmetric kernel.
         let sum = compensated_sum(taps.iter().map(|tap| tap.weight));
         if !(sum.is_finite() && sum > 0.0) {
             return None;
@@ -84,30 +85,30 @@ impl Kernel {
         &self.taps
     }
 
-    /// Largest delay in cycles: as many cycles of constant input flush the kernel.
+    /// Largest delay in cycles: the number of cycles of constant input that flush the kernel.
     #[inline]
     pub fn length(&self) -> u32 {
         self.taps.last().map_or(0, |tap| tap.delay)
     }
 
-    /// Mean delay `tbar = sum h_k t_k` in cycles: by this a slow signal comes late.
+    /// Mean delay `tbar = sum h_k t_k` in cycles, the delay of slow signals.
     pub fn delay_cycles(&self) -> f64 {
         compensated_sum(self.taps.iter().map(|tap| tap.weight * f64::from(tap.delay)))
     }
 
     /// First one-sided moment `M1 = sum h_k max(0, tbar - t_k)` in cycles, half the mean absolute deviation.
     ///
-    /// A velocity jump `dv` of the axis pulls the delay-aligned output aside by `|dv| M1 T` if no tap is negative.
+    /// A velocity jump `dv` of the axis shifts the delay-aligned output by `|dv| M1 T` if no tap is negative.
     pub fn m1_cycles(&self) -> f64 {
         self.central_moment(|s| (-s).max(0.0))
     }
 
-    /// `sum h_k max(0, t_k - tbar)^2` in cycles squared: weighs an acceleration before a corner.
+    /// `sum h_k max(0, t_k - tbar)^2` in cycles squared: the weight of an acceleration before a corner.
     pub fn m2_before_cycles2(&self) -> f64 {
         self.central_moment(|s| s.max(0.0) * s.max(0.0))
     }
 
-    /// `sum h_k max(0, tbar - t_k)^2` in cycles squared: weighs an acceleration after a corner.
+    /// `sum h_k max(0, tbar - t_k)^2` in cycles squared: the weight of an acceleration after a corner.
     pub fn m2_after_cycles2(&self) -> f64 {
         self.central_moment(|s| (-s).max(0.0) * (-s).max(0.0))
     }
@@ -118,7 +119,7 @@ impl Kernel {
         self.central_moment(|s| s * s)
     }
 
-    /// The kernel of both run one after the other.
+    /// The kernel of both in series.
     #[must_use]
     pub(crate) fn convolve(&self, other: &Self) -> Self {
         let products = self.taps.iter().flat_map(|a| {
@@ -127,7 +128,7 @@ impl Kernel {
                 weight: a.weight * b.weight,
             })
         });
-        // Two sums of 1 multiply to 1, so there is always a normalised form.
+        // Sums of 1 multiply to 1, so the product can always be normalised.
         Self::from_taps(products).unwrap_or_else(Self::identity)
     }
 
@@ -145,8 +146,8 @@ impl Kernel {
         self.length() == 0
     }
 
-    /// Whether a weight is below zero: then the step response overshoots and [`m1_cycles`](Self::m1_cycles) is no
-    /// bound of the corner error.
+    /// Whether a weight is negative: the step response then overshoots, and [`m1_cycles`](Self::m1_cycles) does not
+    /// bound the corner error.
     pub fn has_negative_taps(&self) -> bool {
         self.taps.iter().any(|tap| tap.weight < 0.0)
     }
@@ -158,7 +159,7 @@ impl Kernel {
     }
 }
 
-/// Sum with Neumaier's running compensation: exact to one rounding for the sums met here.
+/// Sum with Neumaier's running compensation, which leaves a single rounding for the sums that occur here.
 fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut lost) = (0.0_f64, 0.0);
     for value in values {
@@ -169,7 +170,7 @@ fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
     sum + lost
 }
 
-/// A kernel was to be changed while its output would have jumped.
+/// A change of the kernel was requested while it would have made the output jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the kernel cannot be changed before the axis has been at rest for {needed_cycles} cycles; so far it has for {rest_cycles}"
@@ -177,15 +178,15 @@ fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
 pub struct SwitchWhileMoving {
     /// Equal inputs in a row so far.
     pub rest_cycles: u32,
-    /// Equal inputs in a row that make the change free of a jump.
+    /// Equal inputs in a row after which the change causes no jump.
     pub needed_cycles: u32,
 }
 
 /// A kernel and the raw input history of one axis.
 ///
-/// Evaluates `y = x + sum h_k (x[n-k] - x)` with the newest input `x`: at rest all differences are zero, so the output
-/// is the input bit for bit, whatever the weights round to. The history is kept from the first cycle on, also while
-/// the kernel is the identity.
+/// Evaluates `y = x + sum h_k (x[n-k] - x)` with the newest input `x`. At rest all differences are zero, so the output
+/// equals the input bit for bit, however the weights are rounded. The history is recorded from the first cycle on, also
+/// while the kernel is the identity.
 #[derive(Clone, Debug)]
 pub struct KernelFilter {
     kernel: Arc<Kernel>,
@@ -195,32 +196,33 @@ pub struct KernelFilter {
 }
 
 impl KernelFilter {
-    /// Runs `kernel`, at rest at `x` from the start.
+    /// A filter that runs `kernel`, settled at `x`.
     pub fn new(kernel: Arc<Kernel>, x: f64) -> Self {
         let history = Ring::new(kernel.length(), x);
         Self { kernel, history, rest_cycles: u32::MAX }
     }
 
-    /// Whether all inputs that the kernel sees are equal bit for bit: the output is the input and stays it.
+    /// Whether all inputs in reach of the kernel are equal bit for bit: the output then equals the input, and stays
+    /// equal.
     #[inline]
     pub fn settled(&self) -> bool {
         self.settled_for(&self.kernel)
     }
 
-    /// Whether everything that is kept is equal: another cycle of the same input only counts.
+    /// Whether the whole history is equal: another cycle of the same input only increases the count.
     #[inline]
     pub fn rests(&self) -> bool {
         self.rest_cycles as usize > self.history.len()
     }
 
-    /// So many cycles with the input of the last one, while the filter [rests](Self::rests).
+    /// Processes a number of cycles with the input of the last one, while the filter [rests](Self::rests).
     #[inline]
     pub fn rest(&mut self, cycles: usize) {
         let cycles = u32::try_from(cycles).unwrap_or(u32::MAX);
         self.rest_cycles = self.rest_cycles.saturating_add(cycles);
     }
 
-    /// Whether `kernel` would see equal inputs only.
+    /// Whether all inputs in reach of `kernel` are equal.
     #[inline]
     pub(crate) fn settled_for(&self, kernel: &Kernel) -> bool {
         self.rest_cycles > kernel.length()
@@ -230,9 +232,9 @@ impl KernelFilter {
     ///
     /// # Errors
     ///
-    /// [`SwitchWhileMoving`] unless the present and the new kernel are both [settled](Self::settled_for): with kernels
-    /// of the sum 1 both then give the position at rest; otherwise the output would jump by the difference of what
-    /// the two remember.
+    /// [`SwitchWhileMoving`] unless the present and the new kernel are both [settled](Self::settled_for). Both then
+    /// output the position at rest, since their sums are 1; otherwise the output would jump by the difference between
+    /// the two.
     pub fn set_kernel(&mut self, kernel: Arc<Kernel>) -> Result<(), SwitchWhileMoving> {
         if !(self.settled() && self.settled_for(&kernel)) {
             let longest = self.kernel.length().max(kernel.length());
@@ -246,7 +248,7 @@ impl KernelFilter {
         Ok(())
     }
 
-    /// Tap after tap over all cycles: the sum of each of them is the same as if it were alone.
+    /// Adds tap by tap over all cycles; each cycle gets the same sum as if it were computed alone.
     #[inline]
     fn run_in_room(&mut self, values: &mut [f64]) {
         let (before, cycles) = (self.history.newest(), values.len());
@@ -255,7 +257,7 @@ impl KernelFilter {
         match self.kernel.taps() {
             [Tap { delay, .. }] => values.copy_from_slice(self.history.recent(cycles, *delay)),
             taps => {
-                // no pull at all is -0: the first one is kept with its sign
+                // an empty sum is -0, which keeps the sign of the first term
                 values.fill(-0.0);
                 for Tap { delay, weight } in taps {
                     let past = self.history.recent(cycles, *delay);
@@ -280,18 +282,18 @@ impl KernelFilter {
         self.rest_cycles = rest_cycles;
     }
 
-    /// Equal inputs in a row so far: with it a row is [taken back](Self::take_back).
+    /// Equal inputs in a row so far, needed to [take back](Self::take_back) a row of cycles.
     pub(crate) const fn rest_cycles(&self) -> u32 {
         self.rest_cycles
     }
 
-    /// As if the last row, of so many cycles, had not been run; before it the inputs had rested for `rest_cycles`.
+    /// Undoes the last row, of `cycles` cycles; before it the inputs had been equal for `rest_cycles`.
     pub(crate) fn take_back(&mut self, cycles: usize, rest_cycles: u32) {
         self.history.take_back(cycles);
         self.rest_cycles = rest_cycles;
     }
 
-    /// The kernel that runs.
+    /// The kernel in use.
     pub fn kernel(&self) -> &Arc<Kernel> {
         &self.kernel
     }
@@ -314,7 +316,7 @@ impl Stage for KernelFilter {
     }
 
     fn run(&mut self, values: &mut [f64]) {
-        // a row of one costs ten times a step
+        // a row of one cycle costs ten times as much as a step
         if let [x] = values {
             *x = self.step(*x);
             return;

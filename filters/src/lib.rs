@@ -3,10 +3,10 @@
 //! Units: `_mm _mm_s _mm_s2 _mm_s3` (degrees for rotary axes), `_s _us`, `_hz`, `_kg _n_m`, `_ratio` (1.0 = 100 %),
 //! `_cycles`. Inside the crate everything is `f64` in mm (deg) and s; vendor integers never enter it.
 //!
-//! The crate knows no NC text, no axis names, no files and no clock. Nothing in it allocates or panics per cycle.
+//! The crate has no notion of NC text, axis names, files or wall-clock time. It neither allocates nor panics per cycle.
 //!
-//! The order of calls: settings become a kernel or a filter, these the [`shaping`] chain of an axis, which its
-//! [`control`] loop follows; both are stepped once per cycle, or run through many cycles in a row.
+//! Order of calls: settings become a kernel or a filter, these the [`shaping`] chain of an axis, and the [`control`]
+//! loop follows its output. Both are stepped once per cycle, or run through many cycles in a row.
 //!
 //! ```
 //! use kontur_filters::control::{AxisControl, AxisControlConfig};

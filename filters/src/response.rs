@@ -2,8 +2,8 @@
 //!
 //! Nothing here runs in a cycle; tests, plots and the choice of parameters use it.
 //!
-//! Order of calls: a frequency becomes an [`Angle`] on the unit circle, at which kernels and filters are asked for their
-//! response.
+//! Order of calls: convert a frequency to an [`Angle`] on the unit circle, then evaluate the response of kernels and
+//! filters at it.
 //!
 //! ```
 //! use kontur_filters::kernel::Kernel;
@@ -38,7 +38,7 @@ impl Angle {
 
 /// Frequency response of a linear stage at one frequency, with its slope along the frequency.
 ///
-/// Responses of stages in series multiply, of stages in parallel add.
+/// Responses of stages in series multiply, of stages in parallel they add.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// Complex gain: output over input for `exp(j w t)`.
@@ -48,7 +48,7 @@ pub struct Response {
 }
 
 impl Response {
-    /// The response of a wire.
+    /// The response of a stage that passes its input unchanged.
     pub const ONE: Self = Self::constant(1.0);
 
     /// The response of a frequency-independent gain.
@@ -160,14 +160,14 @@ pub struct Impulse {
     pub amplitude: f64,
 }
 
-/// The first `cycles` outputs after the input of a stage at rest at 0 has jumped to 1. The stage is left moving.
+/// The first `cycles` outputs after the input of a stage at rest at 0 has jumped to 1. The stage is left in motion.
 pub fn step_response(stage: &mut impl Stage, cycles: usize) -> Vec<f64> {
     stage.settle(0.0);
     (0..cycles).map(|_| stage.step(1.0)).collect()
 }
 
 /// Amplitude of a vibration of `freq_hz` (undamped natural frequency) and `damping` after the last of the `impulses`,
-/// as a share of what a single impulse of the same sum at the time of the last one leaves behind.
+/// as a share of what a single impulse of the same sum at the time of the last one leaves.
 ///
 /// `V = exp(-z w tn) sqrt(C^2 + S^2)` with `C, S = sum A_i exp(z w t_i) cos, sin(w sqrt(1 - z^2) t_i)`.
 pub fn residual_vibration_ratio(impulses: &[Impulse], freq_hz: f64, damping: f64) -> f64 {
@@ -184,11 +184,11 @@ pub fn residual_vibration_ratio(impulses: &[Impulse], freq_hz: f64, damping: f64
     libm::hypot(cosine, sine)
 }
 
-/// The real frequencies around a set frequency between which a shaper keeps the residual vibration within a limit.
+/// The real frequencies around a set frequency between which a shaper keeps the residual vibration below a limit.
 ///
 /// The vendor's table of permitted deviations normalises the set frequency by the real one
 /// ([`set_over_real`](Self::set_over_real)), its worked example the real frequency by the set one
-/// ([`real_over_set`](Self::real_over_set)); the two differ by several percent, so both are at hand.
+/// ([`real_over_set`](Self::real_over_set)). The two differ by several percent, so both are available.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensitivityBand {
     /// The frequency the shaper is set to in Hz.
@@ -200,11 +200,11 @@ pub struct SensitivityBand {
 }
 
 impl SensitivityBand {
-    /// The band of `impulses` set to `set_hz` for vibrations of `damping`, found outward from `set_hz`; `None` if the
-    /// residual is above `limit_ratio` at `set_hz` itself.
+    /// The band of `impulses` set to `set_hz` for vibrations of `damping`, searched outward from `set_hz`; `None` if
+    /// the residual exceeds `limit_ratio` at `set_hz` itself.
     ///
-    /// The search ends at a tenth and at ten times the set frequency; a residual that stays within the limit up to
-    /// there gives that end.
+    /// The search ends at a tenth and at ten times the set frequency; if the residual is within the limit up to there,
+    /// that end is returned.
     pub fn of(impulses: &[Impulse], set_hz: f64, damping: f64, limit_ratio: f64) -> Option<Self> {
         let within =
             |ratio: f64| residual_vibration_ratio(impulses, ratio * set_hz, damping) <= limit_ratio;
@@ -226,7 +226,8 @@ impl SensitivityBand {
     }
 }
 
-/// The last ratio for which `within` holds going from 1 towards `end`: steps, then bisection of the step that leaves.
+/// The last ratio on the way from 1 to `end` for which `within` holds: in steps, then bisecting the step that leaves
+/// the range.
 fn edge(within: &impl Fn(f64) -> bool, step: f64, end: f64) -> f64 {
     let steps = ((end - 1.0) / step).round();
     let mut inside = 1.0;

@@ -1,4 +1,4 @@
-//! The values of the last cycles, by age: contiguous in memory, so that many cycles are read as a slice.
+//! The values of the last cycles by age, contiguous in memory, so that many cycles can be read as one slice.
 //!
 //! ```
 //! use kontur_filters::ring::Ring;
@@ -13,19 +13,19 @@
 /// The newest inputs, at least one.
 #[derive(Clone, Debug)]
 pub struct Ring {
-    /// Those that are kept, and room for those to come.
+    /// The values that are kept, and room for new ones.
     values: Vec<f64>,
     /// Number of values up to the newest one.
     end: usize,
-    /// Number of values that can be asked for.
+    /// Number of values that can be read.
     kept: usize,
 }
 
 impl Ring {
-    /// Most cycles that are taken at once.
+    /// Most cycles that can be taken at once.
     pub const ROOM: usize = 256;
 
-    /// Room for delays up to `length`, filled with `x`.
+    /// A ring with room for delays up to `length`, filled with `x`.
     pub fn new(length: u32, x: f64) -> Self {
         let kept = length as usize + 1;
         Self { values: vec![x; kept + Self::ROOM], end: kept, kept }
@@ -63,37 +63,37 @@ impl Ring {
         self.end += values.len();
     }
 
-    /// As if the last so many values, all of them taken at once, had not been taken: what was kept before them is still there.
+    /// Undoes the last `cycles` values, all taken at once; the values before them are still stored.
     #[inline]
     pub fn take_back(&mut self, cycles: usize) {
         debug_assert!(self.end >= self.kept + cycles, "more than were taken at once");
         self.end -= cycles;
     }
 
-    /// The value of this cycle.
+    /// The value of the present cycle.
     #[inline]
     pub fn newest(&self) -> f64 {
         self.values[self.end - 1]
     }
 
-    /// The value `delay` cycles ago, up to the length there is room for.
+    /// The value `delay` cycles ago, up to the capacity.
     #[inline]
     pub fn past(&self, delay: u32) -> f64 {
         self.values[self.end - 1 - delay as usize]
     }
 
-    /// Of the last `cycles`, taken at once, the values `delay` cycles before them.
+    /// For each of the last `cycles` values, taken at once, the value `delay` cycles earlier.
     #[inline]
     pub fn recent(&self, cycles: usize, delay: u32) -> &[f64] {
         &self.values[self.end - cycles - delay as usize..][..cycles]
     }
 
-    /// As if `x` had always been the value.
+    /// Fills the history as if `x` had always been the value.
     pub fn fill(&mut self, x: f64) {
         self.values.fill(x);
     }
 
-    /// Makes room for delays up to `length`; what is older than the history so far counts as its oldest value.
+    /// Makes room for delays up to `length`; values older than the history so far are taken to equal its oldest one.
     pub(crate) fn grow(&mut self, length: u32) {
         let kept = length as usize + 1;
         if kept <= self.kept {
@@ -110,7 +110,7 @@ impl Ring {
 mod tests {
     use super::*;
 
-    /// Against a list of all values, through many moves to the front.
+    /// Against a list of all values, over many moves to the front.
     #[test]
     fn what_is_taken_back_was_never_there() {
         let mut ring = Ring::new(5, 0.0);

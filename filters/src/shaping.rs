@@ -1,12 +1,12 @@
 //! The shaping chain of one axis: a kernel (FIR, HSC or Vibration Guard), then up to three standard filters.
 //!
-//! The kernels share one slot because they exclude each other on an axis. The kernel comes first, on the raw set
-//! position; all stages are linear, so the order changes rounding and start-up only.
+//! The kernels share one slot because they exclude each other on an axis. The kernel acts first, on the raw set
+//! position; as all stages are linear, the order only affects rounding and start-up.
 //!
 //! Assumption: the order; the vendor does not state it.
 //!
-//! Order of calls: kernel and filters are designed, the chain is made of them, settled at the position of the axis and
-//! stepped once per cycle.
+//! Order of calls: design kernel and filters, make the chain, settle it at the position of the axis and step it once
+//! per cycle.
 //!
 //! ```
 //! use kontur_filters::kernel::Kernel;
@@ -45,7 +45,7 @@ pub struct Shaping {
     newest: (f64, f64),
 }
 
-/// Where a chain is before a row of cycles that may have to be taken back. What it remembers stays where it is.
+/// State of a chain before a row of cycles that may have to be undone. The histories stay in place.
 #[derive(Clone, Debug, Default)]
 pub struct Mark {
     rest_cycles: u32,
@@ -53,19 +53,19 @@ pub struct Mark {
     newest: (f64, f64),
 }
 
-/// What a standard filter was before the filters of its chain were changed.
+/// Origin of a standard filter when the filters of a chain change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The filter of this number, as it is.
+    /// The filter with this index, unchanged.
     Same(usize),
-    /// The filter of this number, otherwise designed.
+    /// The filter with this index, with a different design.
     Changed(usize),
-    /// None.
+    /// A new filter.
     New,
 }
 
 impl Shaping {
-    /// The chain of the standard `filters` without a kernel, at rest at `x`.
+    /// The chain of the standard `filters` without a kernel, settled at `x`.
     pub fn new(filters: Vec<AxisFilter>, x: f64) -> Self {
         let kernel = KernelFilter::new(Arc::new(Kernel::identity()), x);
         let mut shaping = Self { kernel, filters, newest: (x, x) };
@@ -82,15 +82,16 @@ impl Shaping {
         self.kernel.set_kernel(kernel.unwrap_or_else(|| Arc::new(Kernel::identity())))
     }
 
-    /// Whether the kernel in the slot can be replaced by `kernel` (`None`: removed) without a jump: the axis has been at rest
-    /// for as long as either of them remembers.
+    /// Whether the kernel in the slot can be replaced by `kernel` (`None`: removed) without a jump: the axis has rested
+    /// for the length of both.
     pub fn ready_for(&self, kernel: Option<&Kernel>) -> bool {
         self.kernel.settled() && kernel.is_none_or(|kernel| self.kernel.settled_for(kernel))
     }
 
-    /// Other standard filters from now on, with the origin of each. The same ones continue; the others begin at rest on the
-    /// output, which is as close to the input as a wait for [`settled`](Self::settled) has left it, and run into the input from
-    /// there. Where a high-pass or band-pass lets no rest through they begin on what arrives at each of them.
+    /// Replaces the standard filters, with the origin of each. Unchanged filters continue. The others begin at rest at
+    /// the output, which is as close to the input as a wait for [`settled`](Self::settled) has left it, and settle on
+    /// the input from there. If a high-pass or band-pass blocks constants, the filters begin at what reaches each of
+    /// them.
     pub fn change_filters(&mut self, filters: Vec<AxisFilter>, origins: &[Origin]) {
         let before = std::mem::replace(&mut self.filters, filters);
         let (mut x, y) = self.newest;
@@ -109,56 +110,57 @@ impl Shaping {
         self.newest.1 = x;
     }
 
-    /// The kernel in the slot, the identity if it is empty.
+    /// The kernel in the slot, the identity if the slot is empty.
     pub fn kernel(&self) -> &Arc<Kernel> {
         self.kernel.kernel()
     }
 
     /// Whether the axis has arrived: the kernel is flushed and the output is closer than `window_mm` (P-AXIS-00351) to
-    /// the value it tends to, the input.
+    /// its final value, the input.
     ///
-    /// A high-pass or band-pass never reaches its input; the value it tends to counts instead; otherwise a wait for it would never end.
+    /// For a high-pass or band-pass, which never reaches its input, the final value of the filter counts instead;
+    /// otherwise a wait for it would never end.
     pub fn settled(&self, window_mm: f64) -> bool {
         let (x, y) = self.newest;
         let target = self.filters.iter().fold(x, |x, filter| filter.final_value(x));
         self.flushed() && (y - target).abs() < window_mm
     }
 
-    /// Whether the kernel contains only the last input.
+    /// Whether all values in the kernel equal the last input.
     pub fn flushed(&self) -> bool {
         self.kernel.settled()
     }
 
-    /// Whether another cycle with the input `x` would give the output of the last one and change nothing but its number.
+    /// Whether another cycle with the input `x` would repeat the last output and only advance the count.
     ///
-    /// A chain with standard filters is never said to rest: they continue for as long as their states have digits.
+    /// False for a chain with standard filters: their states change for as long as they have digits.
     #[inline]
     pub fn rests_under(&self, x: f64) -> bool {
         self.filters.is_empty() && x.to_bits() == self.newest.0.to_bits() && self.kernel.rests()
     }
 
-    /// Instead of so many cycles while the chain [rests](Self::rests_under).
+    /// Replaces a number of cycles while the chain [rests](Self::rests_under).
     #[inline]
     pub fn rest(&mut self, cycles: usize) {
         self.kernel.rest(cycles);
     }
 
-    /// Marks where the chain is.
+    /// Saves the state of the chain in `mark`.
     pub fn mark(&self, mark: &mut Mark) {
         mark.rest_cycles = self.kernel.rest_cycles();
         mark.filters.clone_from(&self.filters);
         mark.newest = self.newest;
     }
 
-    /// Returns to a mark: so many cycles have been run since, at most [`Ring::ROOM`] and all of them in one
-    /// [`run`](Stage::run), besides those in which the chain rested.
+    /// Returns to a mark, `cycles` cycles later: at most [`Ring::ROOM`], all of them in one [`run`](Stage::run), apart
+    /// from those in which the chain rested.
     pub fn return_to(&mut self, mark: &Mark, cycles: usize) {
         self.kernel.take_back(cycles, mark.rest_cycles);
         self.filters.clone_from(&mark.filters);
         self.newest = mark.newest;
     }
 
-    /// Cycles of constant input that flush the kernel; the standard filters come on top.
+    /// Cycles of constant input that flush the kernel, without those of the standard filters.
     pub fn flush_cycles(&self) -> u32 {
         self.kernel().length()
     }
@@ -172,7 +174,7 @@ impl Shaping {
 }
 
 impl Stage for Shaping {
-    /// Next set position; with neither kernel nor filters the input bit for bit.
+    /// Next set position; without kernel and filters the input bit for bit.
     #[inline]
     fn step(&mut self, x: f64) -> f64 {
         let shaped = self.kernel.step(x);

@@ -21,14 +21,14 @@
 pub trait Stage {
     /// Next output for the next input. Never allocates, never panics.
     fn step(&mut self, x: f64) -> f64;
-    /// The next outputs in place of the next inputs.
+    /// Replaces a row of inputs by its outputs.
     fn run(&mut self, values: &mut [f64]) {
         for x in values {
             *x = self.step(*x);
         }
     }
-    /// Puts the stage at rest on the constant input `x`; no transient follows.
+    /// Settles the stage at the constant input `x`; no transient follows.
     fn settle(&mut self, x: f64);
-    /// Delay of slow signals in cycles; curves are aligned with it.
+    /// Delay of slow signals in cycles, used to align curves.
     fn delay_cycles(&self) -> f64;
 }

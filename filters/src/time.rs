@@ -1,6 +1,6 @@
-//! The cycle of the interpolator: an integer number of microseconds, counted, never accumulated.
+//! The interpolation cycle: a whole number of microseconds, counted and never accumulated.
 //!
-//! Order of calls: the cycle is made first of all; every design and every planner takes it.
+//! Order of calls: make the cycle first; every design and every planner takes it.
 //!
 //! ```
 //! use kontur_filters::time::CycleTime;
@@ -42,7 +42,7 @@ impl CycleTime {
         f64::from(self.us) / 1e6
     }
 
-    /// Time of cycle `k` in seconds: one rounding, whatever `k` is.
+    /// Time of cycle `k` in seconds, rounded once for any `k`.
     pub fn time_of(self, k: u64) -> f64 {
         (k as f64 * f64::from(self.us)) / 1e6
     }

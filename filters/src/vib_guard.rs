@@ -1,8 +1,8 @@
 //! Vibration Guard: a kernel per mode, frequency and damping that does not excite one natural frequency.
 //!
-//! The kernels are zero-vibration input shapers. The vendor publishes no impulses, only which modes are symmetric and
-//! how far the frequency may be off for a residual vibration of 5 % at damping 0.1; the four shapers below are the
-//! family that fits that table.
+//! The kernels are zero-vibration input shapers. The vendor does not publish the impulses, only which modes are
+//! symmetric and how far the frequency may be off for a residual vibration of 5 % at damping 0.1. The four shapers
+//! below are the family that fits that table.
 //!
 //! Source: TF5250 Vibration Guard (modes, ranges, sensitivity table), P-AXIS-00568, 00571, 00589.
 //! Assumption: the impulses, identified from the sensitivity table.
@@ -28,14 +28,15 @@ use std::f64::consts::PI;
 /// Settings of `vib_guard.*` in an axis list or of `#VIB GUARD` for one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VibGuardSettings {
-    /// Shaper, 1 to 4, default 1. Modes 1 to 3: once, twice, three times the two-impulse shaper, each less sensitive
-    /// to a wrong frequency and further off the contour than the one before; mode 4 is the symmetric one.
+    /// Shaper, 1 to 4, default 1. Modes 1 to 3: the two-impulse shaper once, twice and three times, each less sensitive
+    /// to a wrong frequency and with a larger contour error than the one before; mode 4 is the symmetric one.
     ///
     /// Source: TF5250, P-AXIS-00571.
     pub mode: u8,
-    /// Undamped natural frequency to leave alone in Hz, at least 1, default 30. Source: TF5250, P-AXIS-00589.
+    /// Undamped natural frequency in Hz that is not to be excited, at least 1, default 30. Source: TF5250,
+    /// P-AXIS-00589.
     pub freq_hz: f64,
-    /// Damping ratio of that vibration, 0 to 1, default 0.1; above 0.99 not realisable. Source: TF5250, P-AXIS-00568.
+    /// Damping ratio of that vibration, 0 to 1, default 0.1; not realisable above 0.99. Source: TF5250, P-AXIS-00568.
     pub damping: f64,
 }
 
@@ -51,22 +52,22 @@ pub enum VibGuardError {
     /// Vendor error 22062: there is no such mode.
     #[error("Vibration Guard mode {mode}, 1 to 4 are allowed")]
     Mode {
-        /// The mode asked for.
+        /// The configured mode.
         mode: u8,
     },
-    /// K-VIB-RANGE: the frequency is below [`VibGuardSettings::MIN_FREQ_HZ`] or no number.
+    /// K-VIB-RANGE: the frequency is below [`VibGuardSettings::MIN_FREQ_HZ`] or not a number.
     #[error(
         "Vibration Guard frequency {freq_hz} Hz, at least {} Hz",
         VibGuardSettings::MIN_FREQ_HZ
     )]
     Frequency {
-        /// The frequency asked for.
+        /// The configured frequency in Hz.
         freq_hz: f64,
     },
-    /// K-VIB-RANGE: the damping is outside 0 to 1 or no number.
+    /// K-VIB-RANGE: the damping is outside 0 to 1 or not a number.
     #[error("Vibration Guard damping {damping}, 0 to 1 are allowed")]
     Damping {
-        /// The damping asked for.
+        /// The configured damping.
         damping: f64,
     },
     /// Vendor error 50820: half a damped period is shorter than a cycle, or the kernel would be too long.
@@ -76,9 +77,9 @@ pub enum VibGuardError {
         VibGuardSettings::MAX_DAMPING
     )]
     NotRealisable {
-        /// The frequency asked for.
+        /// The configured frequency in Hz.
         freq_hz: f64,
-        /// The damping asked for.
+        /// The configured damping.
         damping: f64,
     },
 }
@@ -88,14 +89,14 @@ impl VibGuardSettings {
     pub const MIN_FREQ_HZ: f64 = 1.0;
     /// Largest damping with a kernel: towards 1 the damped period, and with it the kernel, grows without bound.
     pub const MAX_DAMPING: f64 = 0.99;
-    /// Longest kernel in taps. Assumption: a bound against exhausted memory, 16 s at 1 ms.
+    /// Longest kernel in taps. Assumption: a bound that prevents exhausting memory, 16 s at 1 ms.
     pub(crate) const MAX_TAPS: u32 = 16_384;
 
-    /// The kernel of these settings in the cycle time `cycle`.
+    /// The kernel of these settings at the cycle time `cycle`.
     ///
-    /// The impulse times of a zero-vibration shaper are not multiples of the cycle; rounding them would leave 5 % of the
-    /// vibration from 40 Hz on at 1 ms. Instead the second impulse is split over the two cycles around its time such
-    /// that the zeros stay exactly on the poles of the vibration.
+    /// The impulse times of a zero-vibration shaper are not multiples of the cycle, and rounding them would leave 5 %
+    /// of the vibration from 40 Hz on at 1 ms. Instead the second impulse is split over the two cycles around its time
+    /// such that the zeros lie exactly on the poles of the vibration.
     ///
     /// # Errors
     ///
@@ -160,7 +161,8 @@ impl VibGuardSettings {
     /// the solution `a : b : c = sin theta : sin((n + 1 - u) theta) e^-n : sin((u - n) theta) e^-(n + 1)`, which is
     /// never negative. If u is an integer, c vanishes and the two impulses of the textbook remain.
     fn zero_vibration(&self, cycle: CycleTime) -> Option<Kernel> {
-        /// Half a period this close to a whole number of cycles is one: the split would only hold rounding errors.
+        /// Half a period this close to a whole number of cycles counts as one: the split would only reflect rounding
+        /// errors.
         const WHOLE: f64 = 1e-10;
         if self.damping > Self::MAX_DAMPING {
             return None;

@@ -1,4 +1,4 @@
-//! A cycle allocates nothing: the machine's cycles must not wait for an allocator, and long runs must not grow.
+//! A cycle does not allocate: the machine's cycles must not wait for an allocator, and long runs must not grow.
 //!
 //! The counter replaces the allocator of this test binary.
 
@@ -28,7 +28,7 @@ use std::sync::Arc;
 const MS: CycleTime = CycleTime::DEFAULT;
 const CYCLES: u32 = 2000;
 
-/// To and fro with stops, up to 100 mm/s.
+/// Back and forth with stops, up to 100 mm/s.
 fn set_mm(k: u32) -> f64 {
     let t = f64::from(k % 500) * 1e-3;
     if t < 0.4 { 12.0 * (1.0 - libm::cos(std::f64::consts::TAU * t / 0.4)) } else { 0.0 }
@@ -72,7 +72,7 @@ fn kernels() -> Vec<Kernel> {
     all
 }
 
-/// Every kernel before every three of the standard filters.
+/// Every kernel followed by every three of the standard filters.
 #[test]
 fn no_allocation_in_the_shaping_chain() {
     let filters = standard_filters();

@@ -1,4 +1,4 @@
-//! The axis downstream of its set position as a whole: closed loops against closed forms and documented figures.
+//! The axis downstream of its set position as a whole: closed loops compared with closed forms and documented figures.
 
 #![expect(
     clippy::float_cmp,

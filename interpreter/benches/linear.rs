@@ -1,4 +1,4 @@
-//! Programs whose time once grew faster than their length: per block, pass or subroutine it is the same at a tenth of the size.
+//! Programs whose time once grew faster than their length: per block, pass or subroutine it must be the same at a tenth of the size.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use kontur_interpreter::job::Job;
@@ -8,7 +8,7 @@ use kontur_interpreter::source::MemorySources;
 use std::fmt::Write;
 use std::hint::black_box;
 
-/// The text of a program of so many pieces.
+/// The text of a program with the given number of pieces.
 type Program = fn(u32) -> String;
 
 /// A jump back from `$IF`: its target is looked up and its blocks are parsed once, whatever the number of passes.
@@ -27,7 +27,7 @@ fn subroutines(count: u32) -> String {
     text + &format!("%MAIN\nG01 F1000 X1\nLL S0\nLL S{last}\nM30\n")
 }
 
-/// Stairs of 0.1 um: no block is as long as a cycle at any speed, and every one is a corner.
+/// Steps of 0.1 um: no block is as long as a cycle at any speed, and every block ends at a corner.
 fn stairs(blocks: u32) -> String {
     let mut text = String::from("#SLOPE [TYPE=HSC]\nG01 F1000\n");
     for i in 1..=blocks {
@@ -37,7 +37,7 @@ fn stairs(blocks: u32) -> String {
     text + "M30\n"
 }
 
-/// Corners that are rounded symmetrically, under a guard that keeps a tolerance: the nearest point of each curve is looked for.
+/// Corners that are rounded symmetrically, under a guard with a tolerance: the nearest point of each curve is searched for.
 fn rounded(squares: u32) -> String {
     let mut text = String::from(
         "#VIB GUARD ON [MODE=1 FREQ=20 AX_DEV=0.01]\n#CONTOUR MODE [POS]\nG01 G261 F4000\n",
@@ -48,7 +48,7 @@ fn rounded(squares: u32) -> String {
     text + "G260\nM30\n"
 }
 
-/// Runs a program to its end; returns the cycles.
+/// Runs a program to its end; returns the number of cycles.
 fn run(text: &str) -> u64 {
     let sources = MemorySources::new().with("part.nc", text);
     let Ok((machine, _)) = Machine::builtin(&[]) else { return 0 };

@@ -30,7 +30,7 @@ fn parse(c: &mut Criterion) {
     let file = Arc::from("waves.nc");
     let mut group = c.benchmark_group("parse");
     group.throughput(Throughput::Elements(1));
-    // the last one is of the same words and goes through the grammar
+    // the last one has the same words and goes through the grammar
     let lines =
         [("plain", "N10 X12.6000 Y0.3000 Z-1.2345"), ("grammar", "N10 X=12.6 Y=0.3 Z=-1.2")];
     for (name, line) in lines {

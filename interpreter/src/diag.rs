@@ -1,9 +1,9 @@
-//! Diagnostics: messages to the user, with ID, place, values and a hint.
+//! Diagnostics: messages to the user, with ID, position, values and a hint.
 //!
-//! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
-//! vendor's space. Everything that is always true of a condition is in one table, [`condition`].
+//! Vendor conditions have the vendor's number, kontur's own have `K-nnnn`; numbers are never invented inside the
+//! vendor's range. All constant properties of a condition are in one table, [`condition`].
 //!
-//! Order of calls: a diagnostic is made from its condition, given its place and values, and rendered last.
+//! Order of calls: make a diagnostic from its condition, add position and values, and render it last.
 //!
 //! ```
 //! use kontur_interpreter::diag::{Condition, Diagnostic, ValueKind, render};
@@ -27,7 +27,7 @@ pub use number::rounded;
 use serde::{Serialize, Serializer};
 use std::sync::Arc;
 
-/// A place in a source text.
+/// A position in a source text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Location {
     /// Name of the file as the user gave it.
@@ -67,7 +67,7 @@ impl Serialize for Location {
     }
 }
 
-/// What a value of a diagnostic is (the vendor's flag, `70-errors` section 2, by name).
+/// Meaning of a value of a diagnostic (the vendor's flag, `70-errors` section 2, by name).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ValueKind {
@@ -134,7 +134,7 @@ impl From<String> for Datum {
 /// One value of a diagnostic.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Value {
-    /// What it is.
+    /// Its meaning.
     pub kind: ValueKind,
     /// The value.
     pub value: Datum,
@@ -142,7 +142,7 @@ pub struct Value {
     pub unit: &'static str,
 }
 
-/// The axis that a diagnostic is about.
+/// The axis that a diagnostic refers to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AxisRef {
     /// Logical axis number.
@@ -154,13 +154,13 @@ pub struct AxisRef {
 /// One message to the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// What happened.
+    /// The condition.
     pub id: Id,
-    /// How serious it is.
+    /// Severity.
     pub severity: Severity,
     /// Message: quantity, value, limit, axis, parameter, in this order.
     pub text: String,
-    /// Where in a program or list.
+    /// Position in a program or list.
     pub source: Option<Location>,
     /// Cycle at which it happened, for conditions of the running machine.
     pub cycle: Option<u64>,
@@ -174,13 +174,13 @@ pub struct Diagnostic {
     pub correction: Option<Datum>,
     /// Parameter concerned (`P-AXIS-00236`).
     pub parameter: Option<&'static str>,
-    /// What to do about it.
+    /// What the user can do about it.
     pub hint: Option<String>,
-    /// Which of several messages with one ID it is (`MID` of `#ERROR`).
+    /// Distinguishes messages with the same ID (`MID` of `#ERROR`).
     pub multiple_id: u32,
 }
 
-/// Characters of a word that a message quotes.
+/// Largest number of characters of a word that a message quotes.
 pub(crate) const QUOTED_MAX: usize = 80;
 
 /// A message whose text between backticks has at most [`QUOTED_MAX`] characters.
@@ -207,7 +207,7 @@ impl Diagnostic {
         Self::of(condition.row(), condition.id(), text.into())
     }
 
-    /// A condition that the program raises itself with `#ERROR`; its numbers, 1 to 1000, belong to the program.
+    /// A condition raised by the program itself with `#ERROR`; its number, 1 to 1000, is defined by the program.
     pub fn programmed(number: u32, text: impl Into<String>) -> Self {
         let id = Id::Vendor(number);
         Self::of(condition::row(id), id, text.into())
@@ -230,14 +230,14 @@ impl Diagnostic {
         }
     }
 
-    /// Sets another severity than the row's.
+    /// Sets a severity that differs from the row's.
     #[must_use]
     pub fn severity(mut self, severity: Severity) -> Self {
         self.severity = severity;
         self
     }
 
-    /// Sets the place.
+    /// Sets the position.
     #[must_use]
     pub fn at(mut self, source: Location) -> Self {
         self.source = Some(source);
@@ -279,14 +279,14 @@ impl Diagnostic {
         self
     }
 
-    /// What happens: nothing where an error is only a warning.
+    /// The reaction; none if an error is only a warning here.
     fn reaction(&self) -> condition::Reaction {
         let row = condition::row(self.id);
         let milder = row.severity == Severity::Error && !self.is_error();
         if milder { condition::Reaction::None } else { row.reaction }
     }
 
-    /// True if the program or list is refused or aborted.
+    /// Whether the program or list is refused or aborted.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

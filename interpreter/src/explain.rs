@@ -1,6 +1,7 @@
-//! The answers of `kontur explain THING`, from the tables of conditions, parameters and commands: an ID, a parameter, a command, an object or word of the documents.
+//! The answers of `kontur explain THING`, from the tables of conditions, parameters and commands: an ID, a parameter, a
+//! command, an object or word of the documents.
 //!
-//! Order of calls: none, questions are independent.
+//! Order of calls: none, the functions are independent.
 //!
 //! ```
 //! use kontur_interpreter::explain::explain;
@@ -31,7 +32,7 @@ use crate::suggest::edit_distance;
 /// (`#VIB GUARD`, `G136`), a system variable (`V.A.ABS.X`), an object or a word.
 ///
 /// # Errors
-/// What was probably meant (possibly nothing), if the thing is not known.
+/// Suggestions (possibly none), if the term is unknown.
 pub fn explain(thing: &str) -> Result<Explanation, Vec<String>> {
     let thing = thing.trim();
     message_of(thing)
@@ -89,7 +90,7 @@ fn key_of(thing: &str) -> Option<&'static Row> {
     kinds.iter().find_map(|kind| table::by_key(*kind, &key.shape))
 }
 
-/// The key that a printed variant stands for: misprints of the documents, and keys printed without their beginning.
+/// The key of a printed variant: misprints of the documents, and keys printed without their beginning.
 fn printed(key: &str) -> String {
     const WORDS: [(&str, &str); 3] =
         [("jerk_fact_nom", "jerk_fact_num"), ("v_time_bae", "v_time_base"), ("stages[", "stage[")];
@@ -104,7 +105,7 @@ fn printed(key: &str) -> String {
     if let Some((_, front)) = FRONTS.iter().find(|(start, _)| key.starts_with(start)) {
         key.insert_str(0, front);
     }
-    // the newer builds number the filters of a stage
+    // newer builds number the filters of a stage
     if key.contains("improved_position_control") {
         key.replace("].filter.", "].filter[].")
     } else {
@@ -236,7 +237,7 @@ fn reaction(row: &Row) -> Option<String> {
         );
     }
     let side = |bound: Bound, name: &str, reaction: table::Reaction| {
-        // what is negative is not a value of an unsigned type (K-0073)
+        // a negative number is not a value of an unsigned type (K-0073)
         let unsigned = matches!(row.raw, Raw::Uns08 | Raw::Uns16 | Raw::Uns32);
         let never =
             name == "below" && unsigned && matches!(bound, Bound::At(least) if least <= 0.0);
@@ -329,7 +330,7 @@ fn message(entry: &'static condition::Row) -> Explanation {
     }
 }
 
-/// Parameters that a row of the catalogue names by their five digits.
+/// Parameters that a row of the catalogue mentions by their five digits.
 fn named_parameters(entry: &condition::Row) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for text in [entry.meaning, entry.cause] {

@@ -1,8 +1,8 @@
-//! One way to run a program: a [`Job`] is a program on a machine; it is checked, or started as a [`Run`], whose cycles go to
-//! a [`Sink`].
+//! One way to run a program: a [`Job`] is a program on a machine. It is checked, or started as a [`Run`] whose cycles
+//! go to a [`Sink`].
 //!
-//! The order of calls: lists become a machine ([`MachineLists`]), machine and sources a job, the job a run, and the run
-//! goes through its cycles in one loop ([`Run::to_end`]), whatever is done with them.
+//! Order of calls: lists become a machine ([`MachineLists`]), machine and sources become a job, and the job a run. A
+//! run always goes through its cycles in one loop ([`Run::to_end`]).
 //!
 //! ```
 //! use kontur_interpreter::diag::render;
@@ -48,7 +48,7 @@ use crate::source::Sources;
 use std::fmt;
 use std::sync::Arc;
 
-/// A program on a machine. It keeps nothing of its runs: each of them starts afresh, on any thread.
+/// A program on a machine. It keeps no state of its runs: each of them starts from scratch, on any thread.
 #[derive(Clone)]
 pub struct Job {
     machine: Arc<Machine>,
@@ -68,7 +68,7 @@ impl fmt::Debug for Job {
 }
 
 impl Job {
-    /// `program` is what messages call it, and what `sources` open without a caller.
+    /// `program` is the name used in messages and opened from `sources` without a caller.
     pub fn new(
         machine: impl Into<Arc<Machine>>,
         sources: impl Sources + 'static,
@@ -116,8 +116,8 @@ impl Job {
         exec::check(sources, &self.program, Arc::clone(&self.machine), self.options.clone())
     }
 
-    /// The program before its first cycle. What a check can see refuses it: such a run has diagnostics, no cycles, and
-    /// [`Totals::aborted`].
+    /// The program before its first cycle. If a check finds an error the run is refused: it has diagnostics, no cycles,
+    /// and [`Totals::aborted`].
     ///
     /// # Errors
     /// The diagnostics, if the plant of an axis is not physical (K-0070).
@@ -129,7 +129,7 @@ impl Job {
         if refused {
             messages.extend(self.machine.chains().1);
         }
-        // the run itself says the rest, but of parts that it does not reach
+        // the run reports all others, except in parts that it does not reach
         let unreached =
             |d: &Diagnostic| d.id == Condition::Unreached || d.id == Condition::TextBehindEnd;
         messages.extend(checked.diagnostics.into_iter().filter(|d| refused || unreached(d)));
@@ -145,8 +145,8 @@ impl Job {
     }
 }
 
-/// What stays the same during a run; `several_files`: the check ahead has opened more than the program, or has seen
-/// calls that a run may reach.
+/// The constants of a run; `several_files`: the preceding check opened more files than the program, or found calls that
+/// a run may reach.
 fn facts(program: &str, machine: &Machine, simulation: &Simulation, several_files: bool) -> Facts {
     let (chains, _) = machine.chains();
     let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();

@@ -1,9 +1,10 @@
 //! NC programs of the ISG / TwinCAT dialect, parameter lists, the channel and its cycle loop.
 //!
-//! The library opens no file and reads no clock: sources come through a trait, results leave as records.
+//! The library itself does not open files or read a clock: sources come through a trait, results are records.
 //!
-//! [`job`] runs programs and shows the order of calls; [`machine`] reads lists, [`record`] is what comes out, [`diag`] what is
-//! said about it. [`syntax`] and [`source`] serve tools that look at programs without running them, [`explain`] looks things up.
+//! [`job`] runs programs and shows the order of calls; [`machine`] reads lists, [`record`] contains the results,
+//! [`diag`] the messages. [`syntax`] and [`source`] serve tools that examine programs without running them, [`explain`]
+//! is for look-ups.
 //!
 //! ```
 //! use kontur_interpreter::job::{Job, MachineLists};

@@ -1,8 +1,9 @@
-//! The machine: parameter lists in the vendor's format, their ranges, and the simulation's values derived from them.
+//! The machine: parameter lists in the vendor's format, their ranges, and the values that the simulation derives from
+//! them.
 //!
-//! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
+//! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios in this module only.
 //!
-//! Order of calls: lists are read, settings of the caller are put on top, and what [`Machine`] holds then goes into a
+//! Order of calls: read the lists, apply the settings of the caller, and pass the resulting [`Machine`] to a
 //! [`Job`](crate::job::Job).
 //!
 //! ```
@@ -77,11 +78,11 @@ pub struct Machine {
     pub zero_offsets: ZeroOffsets,
 }
 
-/// Half of the increment of 0.1 um (0.0001 deg) in which positions and limits are given: what is closer to a limit is at it, as
-/// after a thousand incremental steps.
+/// Half of the increment of 0.1 um (0.0001 deg) in which positions and limits are given. A position closer to a limit
+/// counts as being at it, for instance after a thousand incremental steps.
 const HALF_INCREMENT_MM: f64 = 0.5e-4;
 
-/// True if a position in mm (deg) is outside software limits.
+/// Whether a position in mm (deg) is outside software limits.
 pub(crate) fn is_outside(position_mm: f64, (least_mm, most_mm): (f64, f64)) -> bool {
     !(least_mm - HALF_INCREMENT_MM..=most_mm + HALF_INCREMENT_MM).contains(&position_mm)
 }
@@ -100,20 +101,20 @@ impl Machine {
         outside.then_some(limits)
     }
 
-    /// A position of a path axis outside its software limits is a warning.
+    /// Whether a position of a path axis outside its software limits is only a warning.
     pub(crate) fn limits_only_warn(&self, axis: usize) -> bool {
         let masked = self.channel.limit_warnings.checked_shr(axis as u32).unwrap_or(0) & 1 == 1;
         masked || self.axes[axis].software_limits_only_warn()
     }
 
-    /// Index of the path axis that is the master of a gantry slave; none for other axes.
+    /// Index of the path axis that is the master of a gantry slave; `None` for other axes.
     pub(crate) fn master_of(&self, axis: &Axis) -> Option<usize> {
         let number = axis.gantry_master()?;
         self.axes.iter().position(|a| a.number() == number)
     }
 
-    /// The axis whose list fills the kernel slot of an axis (FIR filter, HSC filter, Vibration Guard): the master of a gantry
-    /// slave, otherwise the axis itself.
+    /// The axis whose list configures the kernel slot of an axis (FIR filter, HSC filter, Vibration Guard): the master
+    /// of a gantry slave, otherwise the axis itself.
     ///
     /// Source: `#VIB GUARD` and `#FILTER` act on the axes of the channel, and a slave takes the set positions of its master.
     pub fn shaped_as<'a>(&'a self, axis: &'a Axis) -> &'a Axis {

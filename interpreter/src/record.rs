@@ -1,7 +1,7 @@
-//! What the simulation records of one cycle; traces, summaries and reports are made from these records only.
+//! The record of one cycle; traces, summaries and reports are made from these records only.
 //!
-//! Order of calls: a run hands its cycles to its sink, many at once as columns ([`Rows`]) or one after the other as records;
-//! [`columns`] reads values out of both.
+//! Order of calls: a run passes its cycles to its sink, many at once as columns ([`Rows`]) or one by one as records;
+//! [`columns`] reads values from both.
 //!
 //! ```
 //! use kontur_interpreter::record::{CycleRecord, SpeedLimit};
@@ -23,7 +23,7 @@ pub(crate) use rows::{AxisColumns, RowBuffer};
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::Path;
 
-/// What held the path speed down in a cycle (trace column `v_limit`).
+/// The reason for the path speed in a cycle (trace column `v_limit`).
 pub use kontur_motion::cap::SpeedLimit;
 
 /// The path in one cycle.
@@ -37,13 +37,13 @@ pub struct PathRecord {
     pub a_mm_s2: f64,
     /// Path jerk in mm/s3.
     pub j_mm_s3: f64,
-    /// What held the speed down.
+    /// Reason for the speed.
     pub limit: SpeedLimit,
     /// The block that is interpolated.
     pub motion: Motion,
-    /// The spindle that turns with the way of the path (tapping), by its place in [`CycleRecord::axes`].
+    /// The spindle that follows the path (tapping), by its index in [`CycleRecord::axes`].
     pub spindle: Option<u8>,
-    /// What the path rests for; none while it moves, and at the moment in which it turns or stops without waiting.
+    /// Reason why the path rests; `None` while it moves, and when it reverses or stops without waiting.
     pub rest: Option<Rest>,
 }
 
@@ -85,7 +85,7 @@ impl Motion {
     }
 }
 
-/// What the path rests for in a cycle.
+/// Reason why the path rests in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rest {
     /// G04, `#TIME`.
@@ -105,7 +105,7 @@ pub enum Rest {
 }
 
 impl Rest {
-    /// Every value.
+    /// All values.
     pub const ALL: [Self; 7] = [
         Self::Dwell,
         Self::Technology,
@@ -130,7 +130,7 @@ impl Rest {
     }
 }
 
-/// One axis in one cycle. Millimetre (degree for rotary axes) and seconds; see `design` section 4 for the columns.
+/// One axis in one cycle, in millimetres (degrees for rotary axes) and seconds; for the columns see `docs/trace.md`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisRecord {
     /// Interpolated setpoint.
@@ -143,12 +143,13 @@ pub struct AxisRecord {
     pub acc: f64,
     /// Jerk of `set` (third difference).
     pub jerk: f64,
-    /// `set` minus the interpolated setpoint of the moment that the filters' mean delay points to.
+    /// `set` minus the interpolated setpoint at the time given by the mean delay of the filters.
     pub err: f64,
     /// Component of the shortest vector from the set point to the contour.
     pub dev: f64,
-    /// Largest component of what the line to the set position leaves the contour by, and of what the set path has missed of
-    /// the contour that the filters have just let go, in mm (deg): the two directions that `AX_DEV` bounds.
+    /// Largest component in mm (deg) of the two directions that `AX_DEV` bounds: how far the line to the set position
+    /// leaves the contour, and by how much the set path has missed the part of the contour that has just left the
+    /// filters.
     pub dev_both_ways: f64,
     /// Feedforward speed, at the controller output or as additive velocity of the drive.
     pub ff: f64,
@@ -156,7 +157,7 @@ pub struct AxisRecord {
     pub cmd: f64,
     /// Additional speed of Improved Position Control.
     pub vadd: f64,
-    /// 1 while it is at its limit (P-AXIS-00757), else 0.
+    /// 1 while the additional speed is at its limit (P-AXIS-00757), else 0.
     pub vadd_limited: f64,
     /// Reference position of the position controller.
     pub reference: f64,
@@ -170,14 +171,14 @@ pub struct AxisRecord {
     pub lag_limit: f64,
     /// Additional interface.
     pub add: f64,
-    /// Time in s since the set position reached the target of a stop (t1) until the actual position is inside the window
-    /// (t2); then t2 - t1 of the last stop.
+    /// Time in s since the set position reached the target of a stop (t1) while the axis settles, until the actual
+    /// position is inside the window (t2); then t2 - t1 of the last stop.
     pub settling_s: f64,
     /// Position of the tool point (modal plants; else equal to `load`).
     pub tcp: f64,
     /// Acceleration of the tool point.
     pub tcp_acc: f64,
-    /// Where the block that is interpolated ends as it is programmed: before its corner is rounded.
+    /// Programmed end of the interpolated block, before its corner is rounded.
     pub target: f64,
     /// Speed command in the drive's format.
     pub cmd_drive: f64,
@@ -211,7 +212,7 @@ pub struct CycleRecord {
 }
 
 impl CycleRecord {
-    /// Not a number instead of a deviation from the contour that is not measured, for the path axes.
+    /// Sets the deviation of the path axes to NaN where it is not measured.
     pub(crate) fn omit_deviation(&mut self, path_axes: usize) {
         self.contour_err_mm = f64::NAN;
         for axis in self.axes.iter_mut().take(path_axes) {
@@ -225,7 +226,7 @@ impl Clone for CycleRecord {
         Self { axes: self.axes.clone(), ..*self }
     }
 
-    /// Keeps the memory of the axes.
+    /// Reuses the memory of the axes.
     fn clone_from(&mut self, other: &Self) {
         let mut axes = std::mem::take(&mut self.axes);
         axes.clone_from(&other.axes);

@@ -1,10 +1,10 @@
 //! The cycle loop: program steps into the planner, setpoints through the axes, records out.
 //!
-//! A [`Simulation`] is pulled as many cycles at a time as nothing can come between, see `batch`, mostly one where something can.
-//! The planner asks for blocks only as far as its look-ahead reaches, so neither the program nor the trace is ever held as a whole.
-//! Where the program needs the path at rest (exact stop, dwell, a new kernel), the planner runs dry, the loop holds the position
-//! until the condition is met, and only then
-//! asks the program for its next step.
+//! A [`Simulation`] advances by as many cycles at a time as nothing else can affect, see `batch`; near events mostly by
+//! a single one. The planner requests blocks only as far as its look-ahead reaches, so neither the program nor the
+//! trace is ever held as a whole. Where the program needs the path at rest (exact stop, dwell, a new kernel), the
+//! planner runs dry, the loop holds the position until the condition is met, and only then requests the next step of
+//! the program.
 
 mod act;
 mod axes;
@@ -53,12 +53,12 @@ use totals::{Programmed, Progress};
 use wait::{AwaitedMark, Parts, Wait};
 use wear::Wear;
 
-/// Where a run is.
+/// Phase of a run.
 #[derive(Debug)]
 enum Phase {
-    /// The row of time zero is still to come.
+    /// The row of time zero has not been output yet.
     Start,
-    /// The planner decides.
+    /// The planner determines the motion.
     Running,
     /// At rest until the condition is met.
     Waiting(Wait),
@@ -67,14 +67,14 @@ enum Phase {
     Done,
 }
 
-/// A block that is somewhere between the program and the machine.
+/// A block on its way from the program to the machine.
 #[derive(Debug)]
 struct Underway {
     seq: u64,
     source: SourceRef,
     programmed: Programmed,
     motion: Motion,
-    /// Where it ends as it is programmed.
+    /// Programmed end of the block.
     target: AxisVec,
     jerk_limited: bool,
     events: Vec<Event>,
@@ -83,13 +83,13 @@ struct Underway {
 /// A thread of G33 that is being cut.
 #[derive(Clone, Copy, Debug)]
 struct Thread {
-    /// The override does not act on it.
+    /// Whether the override has no effect on it.
     full_override: bool,
-    /// Its pitch has changed, and that has been said.
+    /// Whether its pitch has changed, which is reported once.
     broken: bool,
 }
 
-/// What follows when the path has come to rest.
+/// Continuation after the path has come to rest.
 #[derive(Debug)]
 enum After {
     Sync(Sync),
@@ -119,39 +119,39 @@ pub(crate) struct Simulation {
     /// Block of the last cycle, see [`Self::block_of_cycle`].
     shown: SourceRef,
     motion: Motion,
-    /// Feedhold or override 0 keeps the path at rest in this cycle.
+    /// Whether feedhold or override 0 keeps the path at rest in this cycle.
     is_held: bool,
-    /// Block that the path waits for at rest.
+    /// Block for which the path waits at rest.
     waits_at: SourceRef,
     /// Block of the last stop of every chain.
     stops_at: Vec<SourceRef>,
     jerk_limited: bool,
     pending: Option<(After, SourceRef, Vec<Event>)>,
     phase: Phase,
-    /// The cycle computed last; before the first one the state at time zero.
+    /// The cycle computed last; initially the state at time zero.
     record: CycleRecord,
-    /// Where the block ends as it is programmed, for every chain.
+    /// Programmed end of the block, for every chain.
     targets: Vec<f64>,
     /// Cycles that are computed in a row.
     batch: Batch,
     /// Set positions of the path axes in the previous cycle, before their filters.
     path_position: AxisVec,
-    /// G33: the share of a cycle by which the axes lag behind the planner, so that they go with the mark of the spindle.
+    /// G33: the share of a cycle by which the axes lag the planner, to be synchronous with the mark of the spindle.
     thread_delay: f64,
-    /// A thread of G33 is cut, and what may break it.
+    /// The thread of G33 that is cut, with conditions that may break it.
     thread: Option<Thread>,
-    /// A measuring run is on its way.
+    /// The measuring run under way.
     probing: Option<Probing>,
     /// The cycle last reported to the program.
     told: Option<u64>,
-    /// A motion of edge banding is on its way.
+    /// The motion of edge banding under way.
     banding: Option<Banding>,
     /// `#OTC`.
     wear: Wear,
-    /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
+    /// In a thread, the set positions of the path axes in the previous cycle as planned.
     planned: AxisVec,
     max_cycles: u64,
-    /// Axes that a fault has stopped, and where.
+    /// Position at which a fault has stopped each axis.
     frozen: Vec<Option<f64>>,
     messages: Messages,
     progress: Progress,
@@ -161,7 +161,7 @@ pub(crate) struct Simulation {
 impl Simulation {
     /// Connects the real-time inputs, before the first cycle; false if they never change anything.
     ///
-    /// Changes come in the order of time. An error among them ends the run, as [`Totals::input_failed`] shows.
+    /// Changes have to come in the order of time. An error among them ends the run, see [`Totals::input_failed`].
     pub(crate) fn connect(&mut self, changes: Changes) -> bool {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);
@@ -169,7 +169,7 @@ impl Simulation {
         !self.inputs.is_over()
     }
 
-    /// The records need no deviation from the contour: it is NaN until a block demands a tolerance.
+    /// Leaves out the deviation from the contour in the records: it is NaN until a block requires a tolerance.
     pub(crate) fn leave_out_deviation(&mut self) {
         self.planner.report_changes(false);
         let path_axes = self.path_axes();
@@ -194,7 +194,7 @@ impl Simulation {
         (!self.messages.is_empty()).then(|| std::mem::take(&mut self.messages))
     }
 
-    /// [`Self::take_messages`] has some.
+    /// Whether [`Self::take_messages`] would return messages.
     fn has_messages(&self) -> bool {
         self.executor.has_diagnostics() || !self.messages.is_empty()
     }
@@ -204,27 +204,27 @@ impl Simulation {
         self.path_position.len()
     }
 
-    /// What no record holds; complete when there are no more cycles.
+    /// Results that are not part of any record; complete when there are no more cycles.
     pub(crate) fn totals(&self) -> Totals {
         let (blocks, ideal_duration_s) = self.progress.up_to(self.record.path.s_mm);
         Totals { blocks, ideal_duration_s, ..self.totals.clone() }
     }
 
-    /// The cycle computed last, or the state at time zero; its deviation is still to be measured.
+    /// The cycle computed last, or the state at time zero; its deviation has not been measured yet.
     pub(crate) fn record(&self) -> &CycleRecord {
         &self.record
     }
 
-    /// The deviation from the contour is wanted.
+    /// Whether the deviation from the contour is measured.
     pub(crate) fn is_measured(&self) -> bool {
         self.planner.reports_changes()
     }
 
-    /// Computes the next cycles, `most` at the most; the number of them, 0 when the program has ended or was stopped and the
-    /// axes are at rest.
+    /// Computes up to `most` cycles and returns their number: 0 when the program has ended or was stopped and the axes
+    /// are at rest.
     ///
-    /// Their rows and points are added to `rows` and `samples`, which have room for them. Where nobody reads the cycles (not
-    /// `read`) and nothing is measured they are left out.
+    /// Rows and points of the cycles are added to `rows` and `samples`, which must have room for them. They are left
+    /// out if nobody reads the cycles (not `read`) and nothing is measured.
     pub(crate) fn next_cycles(
         &mut self,
         most: usize,
@@ -249,7 +249,7 @@ impl Simulation {
         count
     }
 
-    /// Computes the next cycle and the axes of up to `most` cycles, this one included; see [`Self::next_cycles`].
+    /// Computes the next cycle, and the axes of up to `most` cycles including this one; see [`Self::next_cycles`].
     fn begin_row(&mut self, most: usize, read: bool, rows: &mut RowBuffer) -> bool {
         loop {
             match &mut self.phase {
@@ -325,7 +325,7 @@ impl Simulation {
         true
     }
 
-    /// Ends the run: a fault in kontur itself.
+    /// Ends the run because of an internal error of kontur.
     pub(crate) fn fail(&mut self, text: &str) {
         self.messages.own.push(fault::internal(text));
         self.totals.aborted = true;
@@ -378,14 +378,14 @@ impl Simulation {
         self.not_contoured();
     }
 
-    /// The path stops after the last motion.
+    /// Announces that the path stops after the last motion.
     fn path_stops(&mut self) {
         self.smoothing.flush(&mut self.planner);
         self.not_contoured();
         self.planner.finish();
     }
 
-    /// The path has come to rest after everything that was pushed.
+    /// Handles the rest of the path after everything that was pushed.
     fn at_rest(&mut self) {
         if self.planner.halts() {
             self.at_halt();
@@ -412,7 +412,7 @@ impl Simulation {
         self.phase = Phase::Waiting(wait);
     }
 
-    /// The axes are expected where the path rests.
+    /// Expects the axes at the rest position of the path.
     fn expect_stops(&mut self) {
         for (i, chain) in self.chains.iter_mut().enumerate() {
             if let Driver::Path(p) = self.drivers[i]
@@ -425,7 +425,7 @@ impl Simulation {
         }
     }
 
-    /// A wait is over: acts and returns to the program.
+    /// Ends a wait: performs its action and returns to the program.
     fn go_on(&mut self) {
         let Phase::Waiting(wait) = std::mem::replace(&mut self.phase, Phase::Running) else {
             return;
@@ -457,7 +457,7 @@ impl Simulation {
         }
     }
 
-    /// Ends the run where the program needs a cycle beyond its time; braking after a fault has the time it takes.
+    /// Ends the run where the program needs a cycle beyond its time limit; braking after a fault is not limited.
     fn is_out_of_time(&mut self) -> bool {
         let last = self.max_cycles;
         if self.planner.setpoint().k <= last || matches!(self.phase, Phase::Stopping(_)) {

@@ -1,11 +1,11 @@
-//! Where programs come from, and their text block by block.
+//! Sources of programs, and their text block by block.
 //!
-//! The library opens no file: programs come through [`Sources`]. [`BlockReader`] turns bytes into logical blocks (line
-//! ends, continued lines, encoding, length limit) through a window of fixed size, so memory does not depend on the
-//! length of a program or of a line. It does not look at words; [`crate::syntax`] does.
+//! The library itself does not open files: programs come through [`Sources`]. [`BlockReader`] converts bytes to logical
+//! blocks (line ends, continued lines, encoding, length limit) through a window of fixed size, so memory does not
+//! depend on the length of a program or of a line. Words are left to [`crate::syntax`].
 //!
-//! Order of calls: sources open a program, a reader takes its bytes, [`BlockReader::next_block`] gives one block after
-//! the other.
+//! Order of calls: sources open a program, a reader takes its bytes, [`BlockReader::next_block`] returns the blocks one
+//! by one.
 //!
 //! ```
 //! use kontur_interpreter::source::{BlockReader, MemorySources, Sources};
@@ -13,7 +13,7 @@
 //! let sources = MemorySources::new().with("part.nc", "N10 X1 \\\nY2\nN20 M30\n");
 //! let mut blocks = BlockReader::new(sources.open("part.nc", None).unwrap());
 //! let block = blocks.next_block().unwrap().unwrap();
-//! // a continued line is one block, and every character knows its place
+//! // a continued line is one block, and the position of every character is known
 //! assert_eq!((block.text, block.position.line), ("N10 X1  Y2", 1));
 //! assert_eq!(blocks.next_block().unwrap().unwrap().position.line, 3);
 //! ```
@@ -32,7 +32,7 @@ use crate::diag::Location;
 use std::io;
 use std::sync::Arc;
 
-/// Longest block in characters; longer ones are warned about, 20301.
+/// Longest block in characters; 20301 warns about longer ones.
 ///
 /// Source: TF5200 programming manual, block structure.
 pub(crate) const BLOCK_LENGTH: u32 = 4000;
@@ -44,13 +44,13 @@ pub(crate) const BLOCK_LENGTH_MAX: u32 = 4096;
 
 /// Opens programs.
 pub trait Sources: Send + Sync {
-    /// Opens `name`, as it is written in the program `caller` (its [`Source::name`]) or on the command line.
+    /// Opens `name`, as written in the program `caller` (its [`Source::name`]) or on the command line.
     ///
     /// # Errors
-    /// If no program of that name can be opened; the error lists every place that was tried.
+    /// If a program of that name cannot be opened; the error lists every place that was tried.
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError>;
 
-    /// A program that has changed since it was first opened, and how that shows; asked at the end of a run.
+    /// A program that has changed since it was first opened, and how that was noticed; called at the end of a run.
     fn changed(&self) -> Option<(String, io::Error)> {
         None
     }
@@ -58,13 +58,13 @@ pub trait Sources: Send + Sync {
 
 /// Bytes of one program.
 pub trait Source: Send {
-    /// Name as messages show it; also what a called program gets as its caller.
+    /// Name in messages, also used as the caller of called programs.
     fn name(&self) -> Arc<str>;
 
-    /// Reads bytes from `offset` on into `buffer` and returns how many; 0 is the end of the program.
+    /// Reads bytes from `offset` on into `buffer` and returns their number; 0 at the end of the program.
     ///
     /// # Errors
-    /// What reading met with.
+    /// The error of the read operation.
     fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize>;
 }
 
@@ -72,15 +72,15 @@ pub trait Source: Send {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{name}: {reason}")]
 pub struct OpenError {
-    /// Name as asked for.
+    /// Requested name.
     pub name: String,
-    /// Why.
+    /// Reason.
     pub reason: String,
     /// Places tried, in order.
     pub searched: Vec<String>,
 }
 
-/// Place of a block in a program; [`BlockReader::seek`] goes there.
+/// Position of a block in a program, for [`BlockReader::seek`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// Offset of the first byte of the block's first line.
@@ -100,22 +100,23 @@ impl Default for Position {
     }
 }
 
-/// A stretch of a block's text that is in one line of the program without a break.
+/// A part of a block's text that is contiguous in one line of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// Where it begins in the block's text, in bytes.
+    /// Start in the block's text, in bytes.
     pub start: u32,
-    /// Where it begins in its line as decoded, in bytes.
+    /// Start in its line as decoded, in bytes.
     pub column: u32,
     /// Offset of the line in the program.
     pub offset: u64,
     /// Number of the line, from 1.
     pub line: u32,
-    /// The line was decoded as Latin-1: each of its characters is one byte in the program.
+    /// Whether the line was decoded as Latin-1, with one byte in the program per character.
     pub latin1: bool,
-    /// Where the line ends in the block's text; the text after it belongs to the next piece.
+    /// End of the line in the block's text; the text after it belongs to the next piece.
     pub end: u32,
-    /// The piece replaces text of this length, in bytes (use of a macro): all of it has one place in the program.
+    /// Length in bytes of the text that the piece replaces (use of a macro): all of the piece has one position in the
+    /// program.
     pub replaces: Option<u32>,
     /// The decoded line.
     pub text: Arc<str>,
@@ -126,7 +127,7 @@ pub struct Piece {
 pub struct Span {
     /// Offset of the first byte from the start of the block's text.
     pub start: u32,
-    /// Length in bytes; 0 marks a place between two bytes.
+    /// Length in bytes; 0 marks a position between two bytes.
     pub len: u32,
 }
 
@@ -142,7 +143,7 @@ impl Span {
         self.start.saturating_add(self.len)
     }
 
-    /// The smallest span that holds both.
+    /// The smallest span that contains both.
     #[must_use]
     pub fn to(self, other: Self) -> Self {
         let start = self.start.min(other.start);
@@ -156,9 +157,9 @@ pub struct RawBlock<'a> {
     /// Text without line ends; continued lines are joined, with a blank for each `\`. At most
     /// [`BLOCK_LENGTH_MAX`] characters.
     pub text: &'a str,
-    /// Place in the program.
+    /// Position in the program.
     pub position: Position,
-    /// Length in characters, also of what was cut off.
+    /// Length in characters, including text that was cut off.
     pub characters: u32,
     /// Pieces of the text; empty for a block of one line in UTF-8.
     pub pieces: &'a [Piece],

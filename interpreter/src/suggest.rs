@@ -1,6 +1,6 @@
 //! "Did you mean": the known name nearest to an unknown one.
 
-/// The candidate that differs least from `name`, by at most a third of it; case is ignored.
+/// The candidate with the smallest difference from `name`, at most a third of it; case is ignored.
 pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -28,7 +28,7 @@ pub(crate) fn hint<'a>(
 /// Number of letters to insert, delete or replace (Levenshtein), `None` above `limit`.
 pub(crate) fn edit_distance(a: &str, b: &str, limit: usize) -> Option<usize> {
     let lengths = [a, b].map(|text| text.chars().count());
-    // texts of any length come in
+    // texts may have any length
     let may = lengths[0].abs_diff(lengths[1]) <= limit;
     may.then(|| strsim::levenshtein(a, b)).filter(|distance| *distance <= limit)
 }

@@ -35,7 +35,7 @@ use std::collections::BTreeMap;
 pub use results::Measure;
 pub use ripple::SpeedRipple;
 
-/// More messages than this are counted and no longer kept: a program may repeat a warning without end.
+/// Number of messages that are kept; more are only counted, because a program may repeat a warning without end.
 const MESSAGES_KEPT: usize = 1000;
 
 /// How a run ended.
@@ -81,7 +81,7 @@ pub struct AxisSummary {
     pub filter_delay_cycles: f64,
     /// Exact stops.
     pub stops: u64,
-    /// The slowest of them; none without a stop.
+    /// The slowest of them; `None` without a stop.
     pub slowest_stop: Option<StopSummary>,
 }
 
@@ -94,7 +94,7 @@ pub struct StopSummary {
     pub time_s: f64,
     /// Seconds from the set position at its target to the actual position inside the window (t2 - t1).
     pub settling_s: f64,
-    /// File of the block whose stop it was.
+    /// File of the block that stopped.
     pub file: String,
     /// Line of the file.
     pub line: u32,
@@ -102,7 +102,7 @@ pub struct StopSummary {
     pub block: Option<u64>,
 }
 
-/// Where the contour error was largest.
+/// The largest contour error and its position.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContourError {
     /// Length of the shortest vector from the set point to the contour in mm.
@@ -117,16 +117,16 @@ pub struct ContourError {
     pub block: Option<u64>,
 }
 
-/// What a run was like.
+/// The summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Program as the user named it.
+    /// Program as given by the user.
     pub program: String,
     /// Machine.
     pub machine: String,
     /// Cycle time in microseconds.
     pub cycle_us: u32,
-    /// How it ended.
+    /// State at the end.
     pub state: State,
     /// Rows of the undecimated trace.
     pub cycles: u64,
@@ -134,9 +134,9 @@ pub struct Summary {
     pub duration_s: f64,
     /// Path / feed in seconds, rapid blocks at the rapid speed of their axes, without ramps, corners and limits.
     pub ideal_duration_s: f64,
-    /// Time in seconds for which the path dwelt (G04, `#TIME`); part of `stop` in `time_by_v_limit_s`.
+    /// Time in seconds of dwells (G04, `#TIME`); part of `stop` in `time_by_v_limit_s`.
     pub dwell_s: f64,
-    /// Time in seconds for which the path waited for M, H and S functions as long as the lists declare; part of `stop` in
+    /// Time in seconds of waits for M, H and S functions with declared durations; part of `stop` in
     /// `time_by_v_limit_s`.
     pub technology_s: f64,
     /// Time in seconds for which feedhold or override 0 kept the path at rest.
@@ -145,19 +145,19 @@ pub struct Summary {
     pub arrival_s: f64,
     /// Exact stops of the axes, the first thousand, in the order in which they ended.
     pub stops: Vec<StopSummary>,
-    /// What the duration does not contain.
+    /// Parts that the duration does not include.
     pub not_counted: Vec<String>,
     /// Blocks decoded.
     pub blocks: u64,
     /// Length of the path in mm.
     pub path_length_mm: f64,
-    /// Deepest dip of the path speed without a corner; none if it never dipped.
+    /// Deepest dip of the path speed without a corner; `None` if there is none.
     pub speed_ripple: Option<SpeedRipple>,
     /// Path axes in channel order, then spindles.
     pub axes: Vec<AxisSummary>,
-    /// Largest contour error; none if there was no cycle.
+    /// Largest contour error; `None` if there was no cycle.
     pub max_contour_error: Option<ContourError>,
-    /// Seconds by what held the speed down.
+    /// Seconds by reason for the speed.
     pub time_by_v_limit_s: BTreeMap<&'static str, f64>,
     /// Messages, the first thousand.
     pub messages: Vec<Diagnostic>,
@@ -197,7 +197,7 @@ impl Collector {
         }
     }
 
-    /// What it reads of the axes.
+    /// Axis quantities that it reads.
     pub fn asked() -> Asked {
         Asked::of(&[
             Quantity::Ipo,
@@ -243,13 +243,13 @@ impl Collector {
         }
     }
 
-    /// Adds what of a cycle is not of an axis; `ipo`: interpolated setpoints of the axes.
+    /// Adds the values of a cycle that do not belong to an axis; `ipo`: interpolated setpoints of the axes.
     fn add_whole(&mut self, record: &CycleRecord, ipo: impl Fn(usize) -> Option<f64>) {
         if self.cycles == 0 || record.contour_err_mm > self.worst.0 {
             let place = (record.contour_err_mm, record.k, record.file, record.line, record.block);
             self.worst = place;
         }
-        // row k covers the time since the row before; the first row is the start itself
+        // row k covers the time since the previous row; the first row is the start itself
         if let Some((before, _)) = self.last {
             let cycles = record.k.saturating_sub(before);
             if let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit) {
@@ -278,7 +278,7 @@ impl Collector {
         self.cycles
     }
 
-    /// The summary, with what only the simulation knows.
+    /// The summary, completed by totals from the simulation.
     pub fn finish(self, totals: &Totals) -> Summary {
         let facts = self.facts;
         let seconds = |cycles: u64| cycles as f64 * f64::from(facts.cycle_us) / 1e6;

@@ -1,5 +1,5 @@
-//! The tests of this crate from outside, one module per subject: one target, linked once. The tables of `language` and `syntax`
-//! belong to the unit tests.
+//! Tests of this crate from outside, one module per subject, linked into a single target. The tables of `language` and `syntax` belong to
+//! the unit tests.
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that fails here has failed")]
 

@@ -1,4 +1,4 @@
-//! Chains of the axes: the values that the lists state arrive in mm and s, and every correction is reported.
+//! Chains of the axes: the values of the lists arrive in mm and s, and every correction is reported.
 
 mod advice;
 mod listings;
@@ -10,7 +10,7 @@ use kontur_filters::control::{AxisControlConfig, Encoder, FeedforwardMode, IpcMo
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::machine::{ChainSetup, ListFiles, Machine, Override};
 
-/// The sample machines, with text added to one list.
+/// The sample machines, with text appended to one of the lists.
 struct Disk(&'static str, String);
 
 impl ListFiles for Disk {
@@ -33,14 +33,14 @@ fn machine(name: &str, set: &[&str]) -> Machine {
     load(name, set, &Disk("", String::new())).0
 }
 
-/// Chains of a machine and what is said about them, apart from the note on loops that are closed in the drive.
+/// Chains of a machine and the messages about them, apart from the note on loops that are closed in the drive.
 fn told(machine: &Machine) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
     let (chains, mut diagnostics) = machine.chains();
     diagnostics.retain(|d| d.id.to_string() != "K-0079");
     (chains, diagnostics)
 }
 
-/// Chains of a sample machine that has nothing to say about itself.
+/// Chains of a sample machine that gives rise to no message.
 fn silent(name: &str, set: &[&str]) -> Vec<ChainSetup> {
     let (chains, diagnostics) = told(&machine(name, set));
     assert_eq!(diagnostics, [], "{name}");
@@ -85,7 +85,7 @@ fn xyz() {
     near(chains[3].control.position.v_max_mm_s, 72_000.0);
     near(chains[3].control.exact_stop.window_mm, 0.5);
     assert_eq!(chains[3].control.delay_cycles, 5);
-    // no axis with feedforward: no delay; one of them: all wait
+    // no axis with feedforward: no delay; one axis with it: all of them wait
     let none = ["X", "Y", "Z", "S"].map(|axis| format!("{axis}.vorsteuer.vorsteuerung=NONE"));
     let none: Vec<&str> = none.iter().map(String::as_str).collect();
     assert!(silent("xyz", &none).iter().all(|chain| chain.control.delay_cycles == 0));

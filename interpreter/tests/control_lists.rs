@@ -1,4 +1,4 @@
-//! Feedforward, position control and Improved Position Control from the lists to what the axis does.
+//! Feedforward, position control and Improved Position Control, from the lists to the behaviour of the axis.
 
 mod feedforward;
 mod ipc;
@@ -15,7 +15,7 @@ use kontur_kit::near;
 const MS: CycleTime = CycleTime::DEFAULT;
 const IPC: &str = "X.lr_param.improved_position_control";
 
-/// The built-in machine with settings, and everything said about it.
+/// The built-in machine with settings, and all messages about it.
 fn machine(settings: &[String]) -> (Machine, Vec<Diagnostic>) {
     let settings: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
     let (machine, mut found) = Machine::builtin(&settings).unwrap();
@@ -31,19 +31,19 @@ fn ids(settings: &str) -> Vec<String> {
     machine(&split(settings)).1.iter().map(|d| d.id.to_string()).collect()
 }
 
-/// Axis X of the machine with settings; whatever is said about it is asserted elsewhere.
+/// Axis X of the machine with settings; the messages are asserted elsewhere.
 fn axis(settings: &str) -> AxisControl {
     let (machine, _) = machine(&split(settings));
     AxisControl::new(machine.chains().0.swap_remove(0).control, MS).unwrap()
 }
 
-/// 100 mm/s reached with 1000 mm/s2, held; mm in cycle `k`.
+/// Up to 100 mm/s with 1000 mm/s2, then constant; mm in cycle `k`.
 fn ramp(k: u32) -> f64 {
     let t = f64::from(k) * 1e-3;
     if t < 0.1 { 500.0 * t * t } else { 5.0 + 100.0 * (t - 0.1) }
 }
 
-/// A second of the ramp under G135 (gain 1) or with another gain.
+/// One second of the ramp under G135 (gain 1) or with another gain.
 fn drive(settings: &str, gain: f64) -> Vec<ControlOutput> {
     let mut axis = axis(settings);
     (0..1000).map(|k| axis.step(ramp(k), gain, true)).collect()
@@ -53,7 +53,7 @@ fn last(settings: &str, gain: f64) -> ControlOutput {
     *drive(settings, gain).last().unwrap()
 }
 
-/// A stage of X that works, and more settings.
+/// A working stage of X, and further settings.
 fn stage(more: &str) -> String {
     format!(
         "{IPC}.enable=1 {IPC}.v_add_max_fact=100 {IPC}.stage[0].mode=1 {IPC}.stage[0].filter[0].order=1 \
@@ -61,13 +61,13 @@ fn stage(more: &str) -> String {
     )
 }
 
-/// P-AXIS-00532 decides; 0 switches off, below 0 the older P-AXIS-00151 decides.
+/// P-AXIS-00532 decides; 0 switches off, and with a negative value the older P-AXIS-00151 decides.
 /// Conformance: P003, P005, P006, P007, P019, P020, P021.
 #[test]
 fn settling_time_of_the_lists() {
     let slow = "X.getriebe[0].kv=1000 X.getriebe[0].window=500 X.vorsteuer.vorsteuerung=NONE \
                 Y.vorsteuer.vorsteuerung=NONE Z.vorsteuer.vorsteuerung=NONE S.vorsteuer.vorsteuerung=NONE";
-    // cycle of 70082 after the stop after 100 mm/s
+    // cycle of 70082 after the stop from 100 mm/s
     let late = |settings: &str| {
         let mut axis = axis(&format!("{slow} {settings}"));
         let at = |k: u32| 0.1 * f64::from(k.min(2000));
@@ -104,7 +104,7 @@ fn dynamic_kv_needs_its_switch() {
     let falling = kv([4000, 10_000, 3000, 200_000]);
     let rising = kv([4000, 50_000, 10_000, 250_000]);
     let flat = kv([2000, 10_000, 2000, 200_000]);
-    // the drive that follows at once leaves nothing but the law of the controller
+    // the drive that follows at once leaves only the control law of the controller
     let bus = |drive: u32| format!("{flat} {on} X.kenngr.antr_typ={drive}");
     for (settings, gain_1_s, said) in [
         (String::new(), 50.0, &[][..]),
@@ -125,8 +125,8 @@ fn dynamic_kv_needs_its_switch() {
     }
 }
 
-/// P-AXIS-00395: an axis that is pushed aside at rest gets no command inside the dead band; at most the window, and not
-/// with a loop closed in the drive.
+/// P-AXIS-00395: an axis that is displaced at rest gets no command inside the dead band; at most the window, and not with a loop closed
+/// in the drive.
 #[test]
 fn dead_band_of_the_controller() {
     let ten_um = "X.getriebe[0].pos_control_deadband=100 X.getriebe[0].window=500";
@@ -143,14 +143,14 @@ fn dead_band_of_the_controller() {
     near(command(ten_um, 0.011), -0.55, 1e-12);
     let in_drive = format!("{ten_um} X.kenngr.antr_typ=2");
     near(command(&in_drive, 0.005), -0.25, 1e-12);
-    // beyond the window: 110528, and the window is the dead band, less than the lag at standstill
+    // larger than the window: 110528, and the window becomes the dead band, less than the lag at standstill
     let wide = "X.getriebe[0].pos_control_deadband=1000 X.getriebe[0].window=500";
     assert_eq!(ids(wide), ["110528", "K-0078"]);
     near(command(wide, 0.049), 0.0, 0.0);
     near(command(wide, 0.051), -2.55, 1e-12);
 }
 
-/// A drive three cycles late beside one without dead time, fed forward with next to no gain: with a time delay of three
+/// A drive with a dead time of three cycles beside one without, with a feedforward gain of next to nothing: with a time delay of three
 /// cycles in the other axis a diagonal is as straight as with equal axes. Conformance: A066.
 #[test]
 fn a_time_delay_equalises_dead_times() {
@@ -176,7 +176,7 @@ fn a_time_delay_equalises_dead_times() {
     let late = "Y.antr.simu.totzeit=3";
     let delay = "X.filter[0].enable=1 X.filter[0].type=TIME_DELAY X.filter[0].order=1 X.filter[0].time_constant=3000";
     assert!(gap("") <= 0.0);
-    // three cycles at 100 mm/s, seen across the diagonal
+    // three cycles at 100 mm/s, measured across the diagonal
     near(gap(late), 0.3 / std::f64::consts::SQRT_2, 0.03);
     assert!(
         gap(&format!("{late} {delay}")) < 0.25 * gap(late),
@@ -185,7 +185,7 @@ fn a_time_delay_equalises_dead_times() {
     );
 }
 
-/// PROFIdrive: conventional feedforward at the controller, additive at the drive. Conformance: F019.
+/// PROFIdrive: conventional feedforward acts at the controller, additive feedforward at the drive. Conformance: F019.
 #[test]
 fn both_inputs_of_a_profidrive() {
     let out = |names: &str| {
@@ -205,7 +205,7 @@ fn both_inputs_of_a_profidrive() {
     near(additive.lag_mm, 0.0, 0.5 / (1000.0 * 60.0 / 36.0) / 10.0);
 }
 
-/// P-AXIS-00320: the loop of a spindle may be open, that of a path axis not; both are reported, as kontur keeps it closed.
+/// P-AXIS-00320: the loop of a spindle may be open, that of a path axis may not; both are reported, as kontur keeps it closed.
 #[test]
 fn open_position_loops() {
     for mode in ["MODE", "POS_FEEDBACK", "VEL_FEEDBACK", "NO_FEEDBACK"] {
@@ -219,7 +219,7 @@ fn open_position_loops() {
     }
 }
 
-/// P-AXIS-00389, P-AXIS-00390, P-AXIS-00547 delay additive inputs; a delay that nothing uses is reported.
+/// P-AXIS-00389, P-AXIS-00390, P-AXIS-00547 delay additive inputs; a delay without any use is reported.
 #[test]
 fn delays_without_an_additive_input() {
     for (key, own) in [("velocity", "ADD_VEL"), ("acceleration", "ADD_ACC"), ("jerk", "ADD_JERK")] {
@@ -237,7 +237,7 @@ fn delays_without_an_additive_input() {
     }
 }
 
-/// What the controller reads goes in steps of the measuring system: `R = incr_per_rev i / f` of the manual's example, or
+/// The position that the controller reads goes in steps of the measuring system: `R = incr_per_rev i / f` of the manual's example, or
 /// P-AXIS-00234/00233, or P-AXIS-00422/00423 of a direct one; P-AXIS-00405 drops bits. Conformance: F060.
 #[test]
 fn steps_of_the_measuring_system() {
@@ -260,7 +260,7 @@ fn steps_of_the_measuring_system() {
             steps += u32::from((read - out[0].act_mm).abs() > 0.0);
         }
         assert!(steps > 900, "{settings}: {steps}");
-        // of coarse steps every one occurs: the smallest distance of two readings is one step
+        // with coarse steps every one of them occurs: the smallest distance between two readings is one step
         let mut readings: Vec<f64> = out
             .iter()
             .map(|o| if settings.contains("lr_hw") { o.load_mm } else { o.act_mm })
@@ -271,8 +271,8 @@ fn steps_of_the_measuring_system() {
             near(distances.fold(f64::INFINITY, f64::min), step_mm, 1e-9);
         }
     }
-    // without a word about the measuring system there are no steps: the same to the last digit as one so fine that
-    // a reading is rounded below a picometre
+    // without any entry for the measuring system there are no steps: the result is the same to the last digit as with one so fine that a
+    // reading is rounded by less than a picometre
     let fine = drive("X.getriebe[0].wegaufz=1000000000", 1.0);
     for (k, o) in drive("", 1.0).iter().enumerate() {
         near(o.act_mm, fine[k].act_mm, 1e-11);

@@ -1,8 +1,8 @@
-//! What `explain` says, compared with the parameter tables and remarks of the function manuals.
+//! Output of `explain`, compared with the parameter tables and remarks of the function manuals.
 
 use kontur_interpreter::explain::explain;
 
-/// Fails unless the explanation of `thing` contains every one of `parts`.
+/// Fails unless the explanation of `thing` contains each of `parts`.
 #[track_caller]
 fn says(thing: &str, parts: &[&str]) {
     let text = explain(thing).map_or_else(|near| panic!("{thing}: {near:?}"), |e| e.to_string());
@@ -204,7 +204,7 @@ fn table_of_feedforward() {
 fn table_of_position_monitoring() {
     says("70082", &["P-AXIS-00236", "P-AXIS-00532", "window not reached in time"]);
     let unit = "0.1um (rotary axes and spindles 0.0001deg)";
-    // the document prints a range from 0; the control takes the default for it (110087)
+    // the document prints a range from 0; the control replaces 0 by the default (110087)
     is("P-AXIS-00236", "getriebe[i].window", "SGN32", &format!("1 .. {MAX}"), "500", unit);
     says("P-AXIS-00236", &["500 is 0.05 mm", "three times the lag at standstill"]);
     let range = format!("least of the type .. {MAX}");
@@ -238,7 +238,7 @@ fn table_of_the_vibration_guard() {
     }
 }
 
-/// System variables are explained whatever axis, spindle or index they are written with; one that does not exist is not.
+/// System variables are explained with whatever axis, spindle or index they are written; one that does not exist is not.
 #[test]
 fn system_variables_have_a_meaning() {
     for (written, title) in [
@@ -255,7 +255,7 @@ fn system_variables_have_a_meaning() {
     assert!(explain("V.A.NOTHING.X").is_err());
 }
 
-/// Commands and functions of which there is nothing to say but what becomes of them.
+/// Commands and functions about which there is nothing to say but how kontur treats them.
 #[test]
 fn commands_without_a_description_have_a_state() {
     says("#TRAFO ON", &["#TRAFO", "kontur check"]);

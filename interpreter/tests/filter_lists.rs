@@ -1,4 +1,4 @@
-//! Axis filters, HSC filters and Vibration Guard as the lists state them: what becomes of the values, and what is said.
+//! Axis filters, HSC filters and Vibration Guard as stated in the lists: the resulting values and the messages.
 
 use kontur_filters::hsc::HscKind;
 use kontur_filters::iir::AxisFilter;
@@ -14,7 +14,7 @@ use kontur_interpreter::machine::{Machine, Override};
 
 const MS: CycleTime = CycleTime::DEFAULT;
 
-/// The built-in machine with settings, and everything said about it but recommendations (K-0078).
+/// The built-in machine with settings, and all messages about it except recommendations (K-0078).
 fn machine(settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
     let settings: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
     let (machine, mut found) = Machine::builtin(&settings).unwrap();
@@ -28,7 +28,7 @@ fn with(prefix: &str, entries: &str) -> Vec<String> {
     entries.split_whitespace().map(|entry| format!("{prefix}.{entry}")).collect()
 }
 
-/// The axis filters of X with one entry, and the IDs of what is said.
+/// The axis filters of X with one entry, and the IDs of the messages.
 fn x(entries: &str) -> (Shaping, Vec<String>) {
     let settings = with("X.filter[0]", entries);
     let (machine, found) = machine(&settings.iter().map(String::as_str).collect::<Vec<_>>());
@@ -46,7 +46,7 @@ fn db(shaping: &Shaping, f_hz: f64) -> f64 {
     shaping.response(Angle::of(f_hz, MS)).magnitude_db()
 }
 
-/// The kernel of the HSC filter of X, and the IDs of what is said.
+/// The kernel of the HSC filter of X, and the IDs of the messages.
 fn hsc(entries: &str) -> (Option<Kernel>, Vec<String>) {
     let settings = with("X.filter[0]", &format!("prototype=HSC {entries}"));
     let (machine, found) = machine(&settings.iter().map(String::as_str).collect::<Vec<_>>());
@@ -59,7 +59,7 @@ fn none() -> Vec<String> {
     Vec::new()
 }
 
-/// IDs of what reading an axis list says.
+/// IDs of the messages on reading an axis list.
 fn said(text: &str) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     lists::read(ListKind::Axis, "x.lis", text.as_bytes(), &mut diagnostics);
@@ -109,8 +109,8 @@ fn a_filter_acts_on_its_axis() {
     assert_eq!(counts(&rotary), [0, 0, 1, 0]);
 }
 
-/// The filter of the additional interface of X from `lr_param.add_interface` lines, the IDs of what reading and setting up
-/// says, and whether there is an interface.
+/// The filter of the additional interface of X from `lr_param.add_interface` lines, the IDs of the messages on reading and on setting up,
+/// and whether there is an interface.
 fn additional(entries: &str) -> (Option<AxisFilter>, Vec<String>, bool) {
     let prefix = "X.lr_param.add_interface";
     let settings: Vec<String> =
@@ -122,9 +122,9 @@ fn additional(entries: &str) -> (Option<AxisFilter>, Vec<String>, bool) {
     (interface.and_then(|i| i.filter), ids, is_on)
 }
 
-/// The listings of the manual for the additional interface: they load as printed, also with `Lr_param`, and give the
-/// frequencies: -3 dB of the low-pass at 8 Hz; edges of the band stop `17 (sqrt(1 + 1/4Q^2) +- 1/2Q)`, `Q` = 1.8; PT1 and
-/// PT2 at their `1 / 2 pi tau`; the delay.
+/// The listings of the manual for the additional interface: they load as printed, also with `Lr_param`, and give the expected
+/// frequencies: -3 dB of the low-pass at 8 Hz; edges of the band stop `17 (sqrt(1 + 1/4Q^2) +- 1/2Q)`, `Q` = 1.8; PT1 and PT2 at
+/// their `1 / 2 pi tau`; the delay.
 /// Conformance: A012, A032, A050, A057, A060, A065.
 #[test]
 fn listings_of_the_additional_interface() {
@@ -173,8 +173,8 @@ fn listings_of_the_additional_interface() {
     assert_eq!(found[0].id.to_string(), "1001119");
 }
 
-/// Switches, defaults and what is not allowed: the interface and its filter have a switch each, the filter needs an order;
-/// for PT1, PT2 and `TIME_DELAY` any order switches on; HSC is refused; the defaults PT2 and 0 us are out of range.
+/// Switches, defaults and forbidden values: the interface and its filter have a switch each, the filter needs an order; for PT1, PT2 and
+/// `TIME_DELAY` any order switches on; HSC is refused; the defaults PT2 and 0 us are out of range.
 /// Conformance: A089, A107, A109, A116.
 #[test]
 fn filter_of_the_additional_interface() {
@@ -206,8 +206,8 @@ fn filter_of_the_additional_interface() {
     }
 }
 
-/// A filter that the list switches on and gives no order is off (page 118178059), and that is said; HSC needs no switch, and a
-/// filter that is off no order.
+/// A filter that the list switches on without giving an order is off (page 118178059), and a message says so; HSC needs no switch, and a
+/// filter that is off needs no order.
 #[test]
 fn a_filter_without_order_is_named() {
     for kind in
@@ -246,10 +246,10 @@ fn three_filters_in_series() {
     assert_eq!(found[0].id.to_string(), "1001119");
 }
 
-/// Ranges with their reaction. Conformance: A053, A056, A063, A068, A075, A091, A092, A094, A095, A098, A099, A101.
+/// Ranges and the reaction to each. Conformance: A053, A056, A063, A068, A075, A091, A092, A094, A095, A098, A099, A101.
 #[test]
 fn ranges_of_axis_filters() {
-    // entries, ID, whether a filter is left
+    // entries, ID, whether a filter remains
     let cases = [
         ("type=ALLPASS order=2", "K-0037", true),
         ("type=ALLPASS order=2 prototype=BESSEL", "", true),
@@ -282,7 +282,7 @@ fn ranges_of_axis_filters() {
         assert_eq!(ids.join(" "), id, "{entries}");
         assert_eq!(shaping.delay_cycles() > 0.0, runs, "{entries}");
     }
-    // a corrected order is the highest one, a corrected frequency the lowest
+    // a corrected order is the highest permitted one, a corrected frequency the lowest
     let same = |a: &str, b: &str| {
         let (mut a, mut b) = (x(&format!("enable=1 {a}")).0, x(&format!("enable=1 {b}")).0);
         ramp(&mut a) == ramp(&mut b)
@@ -295,7 +295,7 @@ fn ranges_of_axis_filters() {
     assert!(same("order=2 type=4", "order=2 type=BANDSTOP") && !same("order=2", "order=2 type=4"));
 }
 
-/// A prototype that is not assigned; the names and numbers of the others. Conformance: A002, A097.
+/// A prototype number that is not assigned; names and numbers of the others. Conformance: A002, A097.
 #[test]
 fn prototypes_of_a_list() {
     let (mut off, ids) = x("enable=1 order=2 prototype=4");
@@ -314,7 +314,7 @@ fn prototypes_of_a_list() {
     assert_eq!(ramp(&mut x("enable=1 order=2").0), step("CRIT_DAMPING"), "the default");
 }
 
-/// Signal share: 50 % leaves half of what the filter takes out, 0 % everything. Conformance: A098.
+/// Signal share: 50 % leaves half of what the filter removes, 0 % all of it. Conformance: A098.
 #[test]
 fn share_of_a_list() {
     let (shaping, _) = x("enable=1 order=6 prototype=BUTTERWORTH share_percent=50");
@@ -368,7 +368,7 @@ fn order_of_hsc() {
     assert_eq!(length("type=LOWPASS order=2"), (None, vec!["K-0039".to_owned()]));
 }
 
-/// What no list holds, and what it corrects. Conformance: V053, V065, V067.
+/// Keys that no list holds, and the keys that are corrected. Conformance: V053, V065, V067.
 #[test]
 fn vibration_guard_in_lists() {
     let found = said("vib_guard.ax_dev 0.01\n");

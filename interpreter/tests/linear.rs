@@ -1,7 +1,7 @@
-//! A block costs work in proportion to its length, whatever brackets it holds.
+//! The work for a block is proportional to its length, whatever brackets it contains.
 //!
-//! Work is the number of calls that the grammar's machine makes, which pest can limit; the limit is global, so this file
-//! has one test. A limit that is met changes what comes out.
+//! Work is the number of calls made by the state machine of the grammar, which pest can limit; the limit is global, so this file has a
+//! single test. Where a limit is reached the result changes.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::source::RawBlock;
@@ -12,7 +12,7 @@ use proptest::test_runner::TestRunner;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-/// Calls per character for all readings of a block. Most texts take up to between 120 and 240.
+/// Calls per character for all ways of reading a block. Most texts need between 120 and 240.
 const CALLS: usize = 500;
 
 /// How a block is read.
@@ -36,7 +36,7 @@ fn read(text: &str, reading: Reading, calls: usize) -> (Block, Vec<Diagnostic>) 
     (block, diagnostics)
 }
 
-/// Eight times the work gives the same.
+/// Eight times the work gives the same result.
 fn is_linear(text: &str) -> Result<(), TestCaseError> {
     let calls = CALLS * (text.len() + 20);
     for reading in [Reading::Block, Reading::Declaration, Reading::Inactive] {
@@ -49,7 +49,7 @@ fn is_linear(text: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// What brackets can hold, and what can make one of two readings fail.
+/// Contents of brackets, and texts for which one of two ways of reading fails.
 const TOKENS: &[&str] = &[
     "[",
     "[",
@@ -113,7 +113,7 @@ const TOKENS: &[&str] = &[
     "a.nc",
 ];
 
-/// How blocks begin.
+/// Beginnings of blocks.
 const HEADS: &[&str] = &[
     "",
     "G01 X",
@@ -138,7 +138,7 @@ const HEADS: &[&str] = &[
     "[",
 ];
 
-/// Text of a few tokens repeated, a few levels deep or over the whole length of a block, with some text after it.
+/// Text of a few tokens repeated, nested a few levels or over the whole length of a block, with some text after it.
 fn text() -> impl Strategy<Value = String> {
     let token = || prop::sample::select(TOKENS);
     (
@@ -205,7 +205,7 @@ fn brackets_cost_work_in_proportion_to_their_length() {
         is_linear(&format!("#A [{}", unit.repeat(4000 / unit.len()))).unwrap();
         is_linear(&unit.repeat(4000 / unit.len())).unwrap();
     }
-    // a row of names is skipped as one, however long
+    // a row of names is skipped as one, however long it is
     for names in [1, 20, 100, 400, 900] {
         let row = "AP".repeat(names) + "[";
         is_linear(&row.repeat(3_900 / row.len())).unwrap();

@@ -45,7 +45,7 @@ fn all_load_without_a_message_that_the_vendor_does_not_demand() {
         let demanded: &[&str] = match name.as_str() {
             // the printed sampling time of the simulated drive is 10 ms
             "vendor_defaults" => &["K-0032", "K-0032", "K-0032"],
-            // a column that rings longer than the recommended settling time
+            // a column that keeps ringing longer than the recommended settling time
             "rack_and_pinion" => &["K-0078"],
             _ => &[],
         };
@@ -73,7 +73,7 @@ fn vendor_defaults_lists_every_printed_default() {
     assert!(listed > 140, "{listed}");
 }
 
-/// Page 149304587: F is in mm/min with 100 and in m/min with 0.1; -1 is 100 without a word, and no other value is a unit.
+/// Page 149304587: F is in mm/min with 100 and in m/min with 0.1; -1 is 100 without a message, and no other value is a unit.
 #[test]
 fn the_feed_has_one_of_two_units() {
     for (value, mm_min, said) in [

@@ -1,4 +1,4 @@
-//! Setpoints of cycles that are final, read before they are output.
+//! Setpoints of cycles that are final, read ahead of their output.
 //!
 //! What follows the planner does with one axis after the other what it would do cycle by cycle: it reads the setpoints of many
 //! cycles at once, as columns, and takes one cycle after the other when everything of it is computed. Reading changes nothing, so
@@ -41,7 +41,7 @@ pub struct Ahead {
     rows: Vec<Row>,
     /// Positions, axis after axis.
     positions: Vec<f64>,
-    /// Length of the column of an axis.
+    /// Length of the column of one axis.
     most: usize,
     state: PathState,
 }
@@ -65,7 +65,7 @@ impl Ahead {
         self.rows.len()
     }
 
-    /// No cycle.
+    /// Whether there are no cycles.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -85,7 +85,7 @@ impl Ahead {
         self.rows[i].s
     }
 
-    /// Reads up to `most` cycles from `k` on, as far as the timeline reaches, up to block `before`.
+    /// Reads up to `most` cycles from `k` on, as far as the timeline extends, but only up to block `before`.
     pub(crate) fn read(
         &mut self,
         (timeline, cycle): (&Timeline, CycleTime),
@@ -105,7 +105,7 @@ impl Ahead {
             && let Some(found) = timeline.find(&mut entry, k, cycle)
         {
             let walk = found.walk(cycle);
-            // where it stops, the next entry may begin later than in the next cycle
+            // after a stop the next entry may begin more than one cycle later
             loop {
                 walk.state(k, &mut self.state);
                 if self.state.seq >= before {

@@ -1,6 +1,6 @@
 //! Demands of the tolerance (`AX_DEV`) on a block, kept with the block when it is planned again.
 
-/// What is asked of one block and of the boundary before it.
+/// Demands on one block and on the boundary before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked {
     /// Velocity cap at the boundary in mm/s.
@@ -9,12 +9,12 @@ pub(crate) struct Asked {
     pub(crate) stop: Option<u32>,
     /// Velocity cap of the block in mm/s.
     pub(crate) feed: f64,
-    /// Part of its acceleration that the block may use.
+    /// Share of its acceleration that the block may use.
     pub(crate) acceleration: f64,
 }
 
 impl Default for Asked {
-    /// Nothing.
+    /// No demands.
     fn default() -> Self {
         Self { cap: f64::INFINITY, stop: None, feed: f64::INFINITY, acceleration: 1.0 }
     }

@@ -1,6 +1,6 @@
 //! Axis values and the dynamic limits of one axis.
 //!
-//! First of all: values per axis, and the limits that blocks refer to.
+//! The first types of any program: values per axis, and the limits to which blocks refer.
 //!
 //! ```
 //! use kontur_motion::axis::{AxisVec, FeedSlope};
@@ -15,15 +15,15 @@
 use smallvec::SmallVec;
 use std::ops::{Deref, DerefMut};
 
-/// Axes whose values need no allocation.
+/// Up to this number of axes, values need no allocation.
 const INLINE: usize = 8;
 
-/// One value per axis of the channel, in channel order; up to eight without allocation.
+/// One value per axis of the channel, in channel order; up to eight axes without allocation.
 #[derive(Debug, Default, PartialEq)]
 pub struct AxisVec(SmallVec<[f64; INLINE]>);
 
 impl Clone for AxisVec {
-    /// By bytes; the derived one goes value by value.
+    /// Copies bytes; the derived implementation copies value by value.
     #[inline]
     fn clone(&self) -> Self {
         Self(SmallVec::from_slice(&self.0))
@@ -41,7 +41,7 @@ impl AxisVec {
     #[inline]
     pub fn zeros(n: usize) -> Self {
         if n <= INLINE {
-            // the whole buffer, whose size is known, without a call
+            // copies the whole buffer, whose size is a constant, without a call
             Self(SmallVec::from_buf_and_len([0.0; INLINE], n))
         } else {
             Self(SmallVec::from_elem(0.0, n))
@@ -108,7 +108,7 @@ pub struct StepSlope {
     pub change_mm_s: f64,
 }
 
-/// Braking of one axis in a feedhold on its own parameters (P-CHAN-00097 = 1).
+/// Braking of one axis in a feedhold with its own parameters (P-CHAN-00097 = 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeedholdSlope {
     /// Deceleration of the linear slope in mm/s2 (P-AXIS-00024).
@@ -140,9 +140,9 @@ pub struct AxisDynamics {
     pub step_feed: StepSlope,
     /// Linear slope in rapid blocks (P-AXIS-00005, 00006, 00280, 00281, 00211).
     pub step_rapid: StepSlope,
-    /// Feedhold on its own parameters.
+    /// Feedhold with its own parameters.
     pub feedhold: FeedholdSlope,
-    /// Weight of the acceleration allowed at a kink, 0..1; 0 means cycle time / ramp time (P-AXIS-00013).
+    /// Weight of the acceleration allowed at a kink, 0..1; 0 selects cycle time / ramp time (P-AXIS-00013).
     pub a_trans_ratio: f64,
     /// Weight of the jerk allowed at tangential transitions, 0..1 (P-AXIS-00154).
     pub r_trans_ratio: f64,
@@ -153,8 +153,7 @@ pub struct AxisDynamics {
 }
 
 impl AxisDynamics {
-    /// The limits that this axis and another one keep together, when one goes as far as the other: of each value the one
-    /// that allows less.
+    /// The limits that hold for this axis and another one that moves the same distance: the lower of each value.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         let step = |a: &StepSlope, b: &StepSlope| StepSlope {

@@ -1,6 +1,6 @@
 //! Input of the planner: one programmed motion with all its limits.
 //!
-//! Made from limits ([`crate::axis`]) and geometry ([`crate::path`]), for [`crate::planner::Planner::push`].
+//! Made from limits ([`crate::axis`]) and geometry ([`crate::path`]), and passed to [`crate::planner::Planner::push`].
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -44,28 +44,28 @@ pub struct Slope {
     pub kind: SlopeKind,
     /// `NO_OPT=0`: profile planned across block limits.
     pub optimised: bool,
-    /// P-CHAN-00349 = 1: constant ramp time instead of constant jerk, with TRAPEZ and SIN2, never in rapid blocks.
+    /// P-CHAN-00349 = 1: constant ramp time instead of constant jerk, for TRAPEZ and SIN2, never in rapid blocks.
     pub constant_ramp_time: bool,
 }
 
 impl Slope {
-    /// True if the profile of a block may run on across its ends with a non-zero acceleration.
+    /// Whether the profile of a block may extend beyond its ends with a non-zero acceleration.
     pub(crate) fn plans_across(self) -> bool {
         self.kind != SlopeKind::Step && (self.optimised || !self.keeps_ramp_times())
     }
 
-    /// True if a small change of speed of a feed block takes whole ramp times, too.
+    /// Whether a small change of speed in a feed block also takes full ramp times.
     pub(crate) fn keeps_ramp_times(self) -> bool {
         self.constant_ramp_time && matches!(self.kind, SlopeKind::Trapez | SlopeKind::Sin2)
     }
 }
 
-/// Speed of the path as programmed.
+/// Programmed speed of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feed {
     /// G00: at least one axis at its rapid velocity.
     Rapid,
-    /// Path velocity in mm/s (G94, G95 already multiplied out).
+    /// Path velocity in mm/s (G94; G95 already converted).
     PathVelocity(f64),
     /// G93: time for the block in s.
     Duration(f64),
@@ -73,7 +73,7 @@ pub enum Feed {
     ShareOfMaximum(f64),
 }
 
-/// Path limits of `#VECTOR LIMIT`; `None` = not limited.
+/// Path limits of `#VECTOR LIMIT`; `None`: not limited.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct VectorLimits {
     /// Path velocity in mm/s.
@@ -88,11 +88,11 @@ pub struct VectorLimits {
     pub radial_acc_mm_s2: Option<f64>,
     /// Centripetal jerk in mm/s3.
     pub radial_jerk_mm_s3: Option<f64>,
-    /// Acceleration of the path at a kink in mm/s2: caps `v |du| / T`.
+    /// Acceleration of the path at a kink in mm/s2: limits `v |du| / T`.
     pub trans_acc_mm_s2: Option<f64>,
 }
 
-/// Which rule P-CHAN-00117 selects for the limits at block transitions.
+/// The rule that P-CHAN-00117 selects for the limits at block transitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum TransitionJerkMode {
     /// 0: the kink weight is not below the tangential weight (only with P-CHAN-00009 = 1 and a kink weight > 0).
@@ -100,41 +100,41 @@ pub enum TransitionJerkMode {
     Coupled,
     /// 1: both weights are independent.
     Independent,
-    /// 2: the direct jerk limits act.
+    /// 2: the direct jerk limits apply.
     DirectJerk,
 }
 
-/// What bounds the axis jerk that comes from the shape of a polynomial (P-CHAN-00110, `CHECK_JERK`).
+/// The limit on the axis jerk caused by the shape of a polynomial (P-CHAN-00110, `CHECK_JERK`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum CurveJerk {
-    /// 0: nothing.
+    /// 0: none.
     Unlimited,
-    /// 1 (default): the geometric ramp time (P-AXIS-00199). Mode 3 adds the kinematic compensation, which does not exist
-    /// here, and is the same.
+    /// 1 (default): the geometric ramp time (P-AXIS-00199). Mode 3 adds kinematic compensation, which is not
+    /// implemented here, and is treated as mode 1.
     #[default]
     Geometric,
     /// 2: the longest ramp time of the slope (P-AXIS-00195..00198).
     Ramps,
 }
 
-/// Limits and modes of a channel that hold for a run of blocks; shared, replaced when a word changes one of them.
+/// Limits and modes of a channel, shared by a run of blocks and replaced when an NC word changes one of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelDynamics {
     /// One entry per axis, in channel order.
     pub axes: Vec<AxisDynamics>,
-    /// Members of the feed group (P-CHAN-00011), one flag per axis: the path length is measured over them.
+    /// Members of the feed group (P-CHAN-00011), one flag per axis; the path length is measured over them.
     pub feed_axes: Vec<bool>,
     /// P-CHAN-00009: limit the jerk at tangential transitions.
     pub limit_tangential_jerk: bool,
     /// P-CHAN-00117.
     pub transition_jerk: TransitionJerkMode,
-    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 acceleration, the same in every direction.
+    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 acceleration, equal in every direction.
     pub curvature_estimate: u8,
     /// P-CHAN-00110.
     pub curve_jerk: CurveJerk,
     /// `#VECTOR LIMIT`.
     pub vector: VectorLimits,
-    /// P-CHAN-00350: the path acceleration limit also bounds arcs.
+    /// P-CHAN-00350: the path acceleration limit also applies to arcs.
     pub vector_acc_on_arcs: bool,
     /// `#TRANSVELMIN ON`: lower bound of kink velocities in mm/s.
     pub transition_velocity_min_mm_s: f64,
@@ -143,7 +143,7 @@ pub struct ChannelDynamics {
 }
 
 impl ChannelDynamics {
-    /// A channel of these axes, all of them in the feed group, with no limits but theirs and every mode off.
+    /// A channel with these axes, all of them in the feed group, with the limits of the axes only and every mode off.
     pub fn new(axes: Vec<AxisDynamics>) -> Self {
         Self {
             feed_axes: vec![true; axes.len()],
@@ -163,7 +163,7 @@ impl ChannelDynamics {
 /// Tolerance monitoring of a filter kernel (`AX_DEV`, `ACC_FACT` of `#VIB GUARD` and `#FILTER`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Largest deviation of each axis from the contour in mm (deg); `None` = no monitoring.
+    /// Largest deviation of each axis from the contour in mm (deg); `None`: not monitored.
     pub ax_dev_mm: Option<f64>,
     /// Factor 1..10 on the admissible acceleration at kinks.
     pub acc_fact: f64,
@@ -178,20 +178,20 @@ impl Default for Tolerance {
 /// One programmed motion.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Number of the block in order of execution; comes back with every sample of the block.
+    /// Number of the block in order of execution; every sample of the block carries it.
     pub seq: u64,
     /// Geometry over all axes.
     pub path: crate::path::Path,
     /// Programmed speed.
     pub feed: Feed,
-    /// Override and path weights on the programmed feed, 1.0 = 100 %.
+    /// Override and path weights on the programmed feed rate, 1.0 = 100 %.
     pub feed_ratio: f64,
-    /// The real-time override does not act on this block (G166); feedhold does.
+    /// The real-time override has no effect on this block (G166); feedhold has.
     pub full_override: bool,
-    /// Path velocity wanted at the end of the block in mm/s (E word).
+    /// Requested path velocity at the end of the block in mm/s (E word).
     pub end_velocity_mm_s: Option<f64>,
-    /// G901: braking to a lower feed of the next block may begin after the end of this block. The next block is entered
-    /// with at most what its limits allow, whatever its feed; G00 and HSC do not know it.
+    /// G901: braking to a lower feed rate of the next block may begin after the end of this block. The next block is
+    /// entered with at most what its limits allow, whatever its feed rate. Ignored by G00 and HSC.
     pub late_braking: bool,
     /// Slope.
     pub slope: Slope,
@@ -206,7 +206,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// A motion without overrides, end velocity, tolerance and smoothing, with the default slope.
+    /// A motion with the default slope, without override, end velocity, tolerance or smoothing.
     pub fn new(
         seq: u64,
         path: crate::path::Path,

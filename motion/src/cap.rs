@@ -1,8 +1,8 @@
-//! Why the path is not faster.
+//! The reason for the present path speed.
 //!
-//! The answer that every stage passes on, up to [`crate::planner::Setpoint::limit`].
+//! Every stage passes it on, up to [`crate::planner::Setpoint::limit`].
 //!
-//! Order of calls: caps are made for blocks and junctions, the lowest counts, and the planner reports its reason.
+//! Order of calls: caps are made for blocks and junctions, the lowest one applies, and the planner reports its reason.
 //!
 //! ```
 //! use kontur_motion::cap::{Cap, SpeedLimit};
@@ -13,7 +13,7 @@
 //! assert_eq!(corner.lower(Cap::new(3.0, SpeedLimit::AxDev)).why, SpeedLimit::AxDev);
 //! ```
 
-/// What held the path speed down.
+/// What limits the path speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SpeedLimit {
     /// At rest, or braking for and starting from a stop.
@@ -34,7 +34,7 @@ pub enum SpeedLimit {
 }
 
 impl SpeedLimit {
-    /// Every value, in the order of the summary.
+    /// All values, in the order of the summary.
     pub const ALL: [Self; 7] = [
         Self::Feed,
         Self::Axis,
@@ -59,17 +59,17 @@ impl SpeedLimit {
     }
 }
 
-/// A path velocity that is not exceeded, and why.
+/// An upper bound of the path velocity, and its reason.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cap {
-    /// Velocity in mm/s; infinite if nothing bounds it.
+    /// Velocity in mm/s; infinite if not bounded.
     pub v_mm_s: f64,
-    /// What it comes from.
+    /// The reason.
     pub why: SpeedLimit,
 }
 
 impl Cap {
-    /// At rest.
+    /// Standstill.
     pub const STOP: Self = Self::new(0.0, SpeedLimit::Stop);
 
     /// A velocity in mm/s with its reason.
@@ -77,7 +77,7 @@ impl Cap {
         Self { v_mm_s, why }
     }
 
-    /// The lower one of two, this one if they are equal.
+    /// The lower of two caps, this one if they are equal.
     #[must_use]
     pub fn lower(self, other: Self) -> Self {
         if other.v_mm_s < self.v_mm_s { other } else { self }

@@ -1,4 +1,4 @@
-//! Counts the closed forms of the look-ahead, so that a test can judge its cost without a clock.
+//! Counts evaluations of the closed forms of the look-ahead, so that a test can judge its cost without a clock.
 
 use std::cell::Cell;
 
@@ -6,7 +6,7 @@ thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// One evaluation.
+/// Counts one evaluation.
 pub(crate) fn add() {
     COUNT.with(|c| c.set(c.get() + 1));
 }

@@ -1,4 +1,4 @@
-//! The programmed contour that is still within reach of the filters, and the distance of a set point from it.
+//! The programmed contour within reach of the filters, and the distance of a set point from it.
 
 mod around;
 mod sight;
@@ -16,43 +16,44 @@ use around::nearest;
 pub(crate) use around::{Around, Nearest};
 pub(crate) use sight::Sight;
 
-/// Entries whose paths begin closer together than this, in mm of path length, have the same path.
+/// Entries whose paths begin closer together than this, in mm of path length, belong to the same path.
 pub(crate) const SAME_START_MM: f64 = 1e-9;
 
-/// Share by which a vector may be longer than the shortest one and still be taken for it.
+/// Relative excess in length up to which a vector may count as the shortest one.
 pub(crate) const WARY: f64 = 0.05;
 
-/// What rounding may make of a distance in mm.
+/// Allowance for rounding of a distance in mm.
 pub(crate) const ROUNDING_MM: f64 = 1e-9;
 
-/// Weight of a block that is further away than the nearest one: the eighth power of the ratio of both distances.
+/// Weight of a block further away than the nearest one: the eighth power of the ratio of the two distances.
 fn fading(least: f64, distance: f64) -> f64 {
     let square = |x: f64| x * x;
     if distance > least { square(square(square(least / distance))) } else { 1.0 }
 }
 
-/// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
+/// Blocks as the interpolator entered them. A block that is split by a change of speed is entered again for its
+/// remainder.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contour {
     blocks: VecDeque<Passed>,
-    /// Number of the first block: of those forgotten so far.
+    /// Number of blocks forgotten so far, hence the number of the first one.
     forgotten: u64,
 }
 
-/// A block with the moment and the place of its entry.
+/// A block with the time and the path length of its entry.
 #[derive(Clone, Debug)]
 pub(crate) struct Passed {
-    /// Moment in cycles.
+    /// Time in cycles.
     pub(crate) cycles: f64,
     /// Path length of the program in mm.
     pub(crate) s_mm: f64,
     pub(crate) queued: Arc<Queued>,
-    /// It may have been entered faster than its feed (G901).
+    /// Whether it may have been entered faster than its feed rate (G901).
     pub(crate) above_feed: bool,
 }
 
 impl Passed {
-    /// True if both are parts of one path: they are where the whole of it starts.
+    /// Whether both are parts of one path: the path as a whole starts at the same place for both.
     fn is_part_of_the_same(&self, other: &Self) -> bool {
         let start = |p: &Self| p.s_mm - p.queued.offset;
         self.queued.block.seq == other.queued.block.seq
@@ -61,18 +62,18 @@ impl Passed {
 }
 
 impl Passed {
-    /// True unless the block is straight.
+    /// Whether the block is not straight.
     fn is_bent(&self) -> bool {
         !self.queued.block.path.is_straight()
     }
 
-    /// Vector from the nearest point of the path of the block to a point, and the square of its length.
+    /// Vector to `point` from the nearest point on the path of the block, and the square of its length in mm2.
     #[inline]
     fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         self.queued.block.path.vector_to(point, out)
     }
 
-    /// True if the direction of an axis changes between two blocks.
+    /// Whether the direction of an axis changes between two blocks.
     fn turns_into(&self, next: &Self) -> bool {
         let (out, into) = (&self.queued.ends.tangent_out, &next.queued.ends.tangent_in);
         out.iter().zip(into.iter()).any(|(a, b)| (a - b).abs() > TANGENT)
@@ -80,10 +81,10 @@ impl Passed {
 }
 
 impl Contour {
-    /// Adds the block that is entered at `cycles` (not before the moments added so far) and at path length `s_mm`.
+    /// Adds the block that is entered at `cycles` (not before the times added so far) and at path length `s_mm`.
     pub(crate) fn enter(&mut self, cycles: f64, s_mm: f64, queued: Arc<Queued>) {
         let above_feed = self.blocks.back().is_some_and(|before| {
-            // the rest of a block continues as the block began
+            // the remainder of a block inherits this from the start of the block
             if queued.offset > 0.0 {
                 before.above_feed
             } else {
@@ -98,12 +99,12 @@ impl Contour {
         self.blocks.back()
     }
 
-    /// Adds a block that has entered another contour.
+    /// Adds a block that has already been entered in another contour.
     pub(crate) fn append(&mut self, passed: Passed) {
         self.blocks.push_back(passed);
     }
 
-    /// Forgets blocks that were left before `cycles`; returns how many.
+    /// Forgets the blocks that were left before `cycles`; returns their number.
     pub(crate) fn forget_before(&mut self, cycles: f64) -> usize {
         let mut count = 0;
         while self.blocks.len() > 1 && self.blocks[1].cycles < cycles {
@@ -114,16 +115,16 @@ impl Contour {
         count
     }
 
-    /// Forgets so many blocks.
+    /// Forgets the first `count` blocks.
     pub(crate) fn forget(&mut self, count: usize) {
-        // one at a time, mostly: a drain costs more than that
+        // mostly a single one: a drain costs more
         for _ in 0..count {
             self.blocks.pop_front();
         }
         self.forgotten += count as u64;
     }
 
-    /// Takes out the blocks that are to be entered at `cycles` or later.
+    /// Removes and returns the blocks that are to be entered at `cycles` or later.
     pub(crate) fn part_at(&mut self, cycles: f64) -> VecDeque<Passed> {
         self.blocks.split_off(self.blocks.partition_point(|b| b.cycles < cycles))
     }
@@ -133,7 +134,7 @@ impl Contour {
         self.blocks.len()
     }
 
-    /// The first `count` blocks, and others after them.
+    /// Keeps the first `count` blocks and appends others.
     pub(crate) fn restore(&mut self, count: usize, mut others: VecDeque<Passed>) {
         self.blocks.truncate(count);
         self.blocks.append(&mut others);
@@ -150,8 +151,8 @@ impl Contour {
         first..last
     }
 
-    /// End of the programmed block that the last of the first `count` entries belongs to: a rounded corner or a spline is
-    /// planned in parts, and where one of them ends means nothing outside.
+    /// Index after the programmed block that contains the last of the first `count` entries: a rounded corner or a
+    /// spline is planned in parts, whose ends have no meaning outside the planner.
     fn whole(&self, count: usize) -> usize {
         let Some(last) = count.checked_sub(1).and_then(|i| self.blocks.get(i)) else {
             return count;
@@ -160,8 +161,8 @@ impl Contour {
         count + self.blocks.range(count..).take_while(same).count()
     }
 
-    /// Components of the shortest vector from the contour between two moments (cycles) to `point`, and where it starts. The
-    /// block of the second moment counts as a whole. `None`, and zero, if there is no contour yet.
+    /// Components of the shortest vector to `point` from the contour between two times (cycles), and where it starts.
+    /// The block at the second time counts as a whole. `None`, and zeros, if there is no contour yet.
     pub(crate) fn nearest(
         &self,
         point: &[f64],
@@ -172,14 +173,15 @@ impl Contour {
         nearest(self.blocks.range(self.numbers(from, to)), point, out)
     }
 
-    /// Numbers of the blocks that [`Self::nearest`] looks at.
+    /// Indices of the blocks that [`Self::nearest`] examines.
     fn numbers(&self, from: f64, to: f64) -> Range<usize> {
         let Range { start, end } = self.entries(from, to);
         start..self.whole(end)
     }
 
-    /// Largest component of the shortest vector to a point from the blocks that the path lengths `from..=to` lie in. A block
-    /// that is hardly further away counts hardly less, so that where two of them are equally near nothing jumps.
+    /// Largest component of the shortest vector to a point from the blocks between the path lengths `from..=to`. A
+    /// block that is slightly further away has slightly less weight, so that the result does not jump where two blocks
+    /// are equally near.
     pub(crate) fn aside(&self, point: &[f64], from: f64, to: f64) -> f64 {
         let first = self.blocks.partition_point(|b| b.s_mm <= from).saturating_sub(1);
         let last = self.blocks.partition_point(|b| b.s_mm <= to).max(first);
@@ -194,12 +196,12 @@ impl Contour {
         vectors.iter().map(|(d, c)| c * fading(least, *d)).fold(0.0, f64::max)
     }
 
-    /// Number of blocks that were entered up to a moment in cycles.
+    /// Number of blocks that were entered up to a time in cycles.
     pub(crate) fn entered(&self, moment: f64) -> usize {
         self.blocks.partition_point(|b| b.cycles <= moment)
     }
 
-    /// The same, searched from what it was a few cycles away.
+    /// As [`Self::entered`], searched from the number `near` of a few cycles earlier or later.
     pub(crate) fn entered_near(&self, moment: f64, near: usize) -> usize {
         let mut count = near.min(self.blocks.len());
         while count > 0 && self.blocks[count - 1].cycles > moment {
@@ -211,17 +213,17 @@ impl Contour {
         count
     }
 
-    /// Number of a block, counted from the first one of all.
+    /// Number of a block, counted from the very first one.
     pub(crate) const fn number(&self, index: usize) -> u64 {
         self.forgotten + index as u64
     }
 
-    /// Index of the block with this number, unless it is forgotten.
+    /// Index of the block with this number, `None` if it has been forgotten.
     pub(crate) fn index(&self, number: u64) -> Option<usize> {
         number.checked_sub(self.forgotten).map(|index| index as usize)
     }
 
-    /// Moments in cycles and places of the kinks between the first `end` blocks that were passed after `from`.
+    /// Times in cycles and positions of the kinks between the first `end` blocks that were passed after `from`.
     pub(crate) fn kinks(&self, from: f64, end: usize) -> impl Iterator<Item = (f64, AxisVec)> + '_ {
         let mut first = end;
         while first > 1 && self.blocks[first - 1].cycles > from {
@@ -236,12 +238,12 @@ impl Contour {
         })
     }
 
-    /// True if the last of the first `end` blocks bends.
+    /// Whether the last of the first `end` blocks is curved.
     pub(crate) fn is_bent(&self, end: usize) -> bool {
         end.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
     }
 
-    /// Points of the contour near each other.
+    /// Reads points of the contour, fastest for points close to the previous one.
     pub(crate) fn walk(&self) -> Walk<'_> {
         Walk { contour: self, at: None }
     }
@@ -250,23 +252,24 @@ impl Contour {
 /// See [`Contour::walk`].
 pub(crate) struct Walk<'a> {
     contour: &'a Contour,
-    /// Block of the last point.
+    /// Index of the block of the last point.
     at: Option<usize>,
 }
 
 impl<'a> Walk<'a> {
-    /// Point of the contour at a path length of the program; the ends of what is known beyond them.
+    /// Point of the contour at a path length of the program; beyond the known contour its end point.
     pub(crate) fn position(&mut self, s_mm: f64, out: &mut [f64]) {
         if let Some((passed, s)) = self.seek(s_mm) {
             passed.queued.block.path.position(s, out);
         }
     }
 
-    /// Weighted sum of the points near some path lengths, see [`Path::near`]: for what is measured later anyway.
+    /// Weighted sum of the points near some path lengths, see [`Path::near`], for results that are measured exactly
+    /// later.
     pub(crate) fn sum_near(&mut self, places: impl Iterator<Item = (f64, f64)>, out: &mut [f64]) {
         out.fill(0.0);
         let mut point = AxisVec::zeros(out.len());
-        // on one straight line the sum of the path lengths is enough
+        // on a single straight line the weighted sum of the path lengths is enough
         let mut on_line: Option<(&LinePath, f64, f64)> = None;
         let add = |on_line: Option<(&LinePath, f64, f64)>, out: &mut [f64]| {
             let Some((line, weights, ways)) = on_line else { return };
@@ -296,7 +299,7 @@ impl<'a> Walk<'a> {
         add(on_line, out);
     }
 
-    /// The block at a path length of the program, and how far along its path that is.
+    /// The block at a path length of the program, and the path length within its path.
     fn seek(&mut self, s_mm: f64) -> Option<(&'a Passed, f64)> {
         let blocks = &self.contour.blocks;
         let mut i =

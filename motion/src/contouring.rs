@@ -1,11 +1,12 @@
 //! Polynomial contouring (G61, G261, `#CONTOUR MODE`): a stage between program and planner.
 //!
 //! At the end of every block with [`Block::contour`] the corner is replaced by a curve ([`blend`]): the block and the
-//! relevant one after it are shortened by the corner distances, the curve takes the number of the block before it.
-//! Where that is not possible the corner stays as programmed and a [`Notice`] says why. The stage holds one such block, and
-//! those too short to be relevant after it, at most [`SKIPPED`] of them.
+//! next relevant one are shortened by the corner distances, and the curve gets the number of the block before it. Where
+//! that is not possible the corner is kept as programmed, and a [`Notice`] gives the reason. The stage holds one such
+//! block and the blocks after it that are too short to be relevant, at most [`SKIPPED`] of them.
 //!
-//! A stage before the planner: blocks go in, blocks and curves come out; [`Contouring::flush`] where the path stops.
+//! Order of calls: [`Contouring::push`] for each block returns the final blocks and curves; [`Contouring::flush`] where
+//! the path stops.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -42,22 +43,22 @@ use std::sync::Arc;
 
 pub use notice::{NoContour, Notice};
 
-/// Blocks in a row that may be too short to be relevant before one of them counts all the same.
+/// Number of consecutive blocks too short to be relevant, after which one of them counts all the same.
 const SKIPPED: usize = 100;
-/// Pieces per half of the curve, each with its own speed (without `CONST_VEL`).
+/// Pieces per half of the curve, each with its own speed (unless `CONST_VEL` is set).
 const PARTS: u32 = 4;
-/// What is left of a block between two curves and shorter than this part of it is rounding.
+/// A remainder of a block between two curves that is shorter than this share of the block counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A block whose start may already belong to a curve.
+/// A block whose start may already be part of a curve.
 #[derive(Debug)]
 struct Held {
     block: Block,
-    /// Path length at which what is left of the block begins.
+    /// Path length at which the remaining part of the block begins.
     from: f64,
 }
 
-/// The stage.
+/// The contouring stage.
 #[derive(Debug)]
 pub struct Contouring {
     cycle: CycleTime,
@@ -65,29 +66,31 @@ pub struct Contouring {
     skipped: Vec<Block>,
     ready: Vec<Block>,
     notices: Vec<Notice>,
-    /// Limits with the jerk check of the settings, made from the ones beside it.
+    /// Limits as given, and with the jerk check of the settings.
     checked: Option<(Arc<ChannelDynamics>, Arc<ChannelDynamics>)>,
 }
 
 impl Contouring {
-    /// A stage that holds nothing.
+    /// An empty stage.
     pub fn new(cycle: CycleTime) -> Self {
         let (skipped, ready, notices) = (Vec::new(), Vec::new(), Vec::new());
         Self { cycle, held: None, skipped, ready, notices, checked: None }
     }
 
-    /// No corner at the block is rounded, and none waits: pushed, it would come back at once and alone.
+    /// Whether [`Self::push`] would return this block at once and alone: no corner at it is rounded, and no block is
+    /// held.
     pub fn passes(&self, block: &Block) -> bool {
         block.contour.is_none() && self.held.is_none()
     }
 
-    /// Takes a block; what is final comes back. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at corners.
+    /// Takes a block and returns the final ones. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at
+    /// corners.
     pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         self.take(block, kernel_active);
         self.ready.drain(..)
     }
 
-    /// The path stops after the last block: everything comes back.
+    /// Returns everything that is held, where the path stops after the last block.
     pub fn flush(&mut self) -> impl Iterator<Item = Block> + '_ {
         if let Some(held) = self.held.take() {
             self.notice(held.block.seq, NoContour::NothingFollows);
@@ -97,7 +100,7 @@ impl Contouring {
         self.ready.drain(..)
     }
 
-    /// Corners that were not contoured as asked for, since the last call.
+    /// The corners since the last call that were not contoured as programmed.
     pub fn take_notices(&mut self) -> Vec<Notice> {
         std::mem::take(&mut self.notices)
     }
@@ -129,8 +132,8 @@ impl Contouring {
                 cycle: self.cycle,
                 kernel_active,
             };
-            // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end
-            // speed are programmed explicitly
+            // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end speed are
+            // programmed explicitly
             let monitored = [&held.block, &block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
             let demanded = matches!(settings.mode, ContourMode::Pos { .. })
                 || held.block.end_velocity_mm_s.is_some();
@@ -179,7 +182,8 @@ impl Contouring {
         }
     }
 
-    /// What is left of a block after the curves at its start and, `pre` mm before its end, at its end.
+    /// Outputs the remaining part of a block after the curve at its start and, `pre` mm before its end, the one at its
+    /// end.
     fn emit(&mut self, Held { mut block, from }: Held, pre: Option<f64>) {
         let whole = block.path.length();
         let to = whole - pre.unwrap_or(0.0);
@@ -196,11 +200,11 @@ impl Contouring {
         self.ready.push(block);
     }
 
-    /// The blocks of a curve, each with its speed in mm/s. Either half has the feed of its block, unless the speed in the curve
-    /// is to be constant.
+    /// The blocks of a curve, each with its speed in mm/s. Each half has the feed rate of its block, unless the speed
+    /// in the curve is to be constant.
     ///
-    /// Assumption: the pages say nothing about different feeds; the two polynomials of a curve belong to one block each (TF5200,
-    /// polynomial contouring).
+    /// Assumption: the documents do not mention different feed rates; each of the two polynomials of a curve belongs to
+    /// one block (TF5200, polynomial contouring).
     fn parts(
         &mut self,
         from: &Block,
@@ -235,7 +239,7 @@ impl Contouring {
             Some((piece, part, v))
         };
         let pieces: Vec<_> = (0..).zip(curve.blend.pieces(parts)).filter_map(timed).collect();
-        // neighbouring pieces of the same feed that allow the same speed are one block
+        // neighbouring pieces with the same feed rate and the same permitted speed form one block
         let groups = pieces.chunk_by(|(_, a, v), (_, b, w)| {
             let same = settings.constant_velocity || (w - v).abs() <= 1e-9 * v;
             same && (a.feed, a.feed_ratio) == (b.feed, b.feed_ratio)
@@ -272,7 +276,7 @@ impl Contouring {
     }
 }
 
-/// Feed of a block whose path gets shorter: a time becomes the speed it means.
+/// Feed of a block that is shortened: a duration is converted to the speed it means.
 fn speed(block: &Block) -> Feed {
     match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
@@ -280,7 +284,7 @@ fn speed(block: &Block) -> Feed {
     }
 }
 
-/// The slower of the feeds of two blocks, with its ratio; a feed before rapid.
+/// The slower of the feeds of two blocks, with its ratio; a programmed feed counts as slower than rapid.
 fn slower(a: &Block, b: &Block) -> (Feed, f64) {
     let (fa, fb) = (speed(a), speed(b));
     let of_b = match (fa, fb) {
@@ -298,7 +302,7 @@ fn is_feed(block: &Block, i: usize) -> bool {
     block.dynamics.feed_axes.get(i).copied().unwrap_or(true)
 }
 
-/// True if a block is long enough to be the block after a corner.
+/// Whether a block is long enough to be the block after a corner.
 fn relevant(block: &Block, settings: &ContourSettings) -> bool {
     let (start, end) = (block.path.start(), block.path.end());
     let track = (0..start.len())

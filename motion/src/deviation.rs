@@ -1,4 +1,4 @@
-//! How far the filtered path leaves the contour: one definition for the planner, the trace and the summary.
+//! How far the filtered path leaves the contour: one definition for planner, trace and summary.
 //!
 //! ```text
 //!             (b) corner -> set path
@@ -10,20 +10,21 @@
 //!   contour
 //! ```
 //!
-//! (a) Every point of the *set path* (the filtered set points joined by straight lines) has a nearest point on the contour
-//! that was interpolated within the reach of the filter.
-//! (b) Every point of the contour has a nearest point on the set path of the cycles in which the filter still holds it: so
-//! the tips of reversals, acute corners and whole detours count that a set path passes by without ever being far from
-//! some other part of the contour.
+//! (a) Every point of the *set path* (the filtered set points joined by straight lines) has a nearest point on the
+//! contour that was interpolated within the reach of the filter.
+//! (b) Every point of the contour has a nearest point on the set path of those cycles in which the filter still holds
+//! it. This covers the tips of reversals, acute corners and whole detours that a set path misses without ever being far
+//! from some other part of the contour.
 //!
-//! Both are shortest vectors over all axes; what is bounded by `AX_DEV` is each of their components. A plan is held to that.
-//! In what is output, a point of (b) whose shortest vector exceeds the tolerance is within it if another vector is: the set
-//! path comes to it. A way back that is a little nearer, but by another axis, can end with the last cycle that counts.
+//! Both are shortest vectors over all axes; `AX_DEV` bounds each of their components. Plans are checked against this
+//! definition. In the output, a point of (b) whose shortest vector exceeds the tolerance still counts as within it if
+//! another vector to the set path does not exceed it, since the set path gets there. The shortest vector may lead to a
+//! way back that is only slightly nearer, along another axis, and that ends with the last cycle that counts.
 //!
-//! Between two samples (a) is taken where it can be larger than at both of them: where the nearest point passes from one
-//! block to another, and half way on a bent block. (b) is taken at the borders of blocks with a kink between them and, on
-//! bent blocks, at the interpolated points. Along a straight block (b) follows from (a) by continuity, as long as all axes
-//! have the same filter; otherwise the interpolated points count there, too.
+//! Between two samples (a) is evaluated where it can be larger than at both of them: where the nearest point moves from
+//! one block to another, and at the middle of a curved block. (b) is evaluated at block boundaries with a kink and, on
+//! curved blocks, at the interpolated points. Along a straight block (b) follows from (a) by continuity, as long as all
+//! axes have the same filter; otherwise the interpolated points are evaluated there as well.
 
 mod between;
 mod component;
@@ -39,14 +40,14 @@ pub use meter::{Change, Meter};
 use smallvec::SmallVec;
 use std::ops::Range;
 
-/// Parts into which the line between two set points is divided at most where it is in doubt what is within reach.
+/// Largest number of parts into which the line between two set points is divided where the reach is in doubt.
 const PARTS: u32 = 8;
 
-/// Share by which a vector to a point of the contour may be longer than the shortest one and still be taken for it. On a
+/// Relative excess in length up to which a vector to a point of the contour may count as the shortest one. On a
 /// straight set path that is 4.5 % of the vector along the path.
 pub(crate) const ALIKE: f64 = 1e-3;
 
-/// Share by which a vector from the contour to a set point may be longer than the shortest one while its components count.
+/// Relative excess in length up to which the components of a vector from the contour to a set point count.
 pub const HARDLY_LONGER: f64 = WARY;
 
 /// Set points of consecutive cycles.
@@ -54,22 +55,22 @@ pub const HARDLY_LONGER: f64 = WARY;
 pub(crate) struct SetPath {
     axes: usize,
     first: u64,
-    /// Axis by axis, cycle by cycle.
+    /// Coordinates of all axes, cycle after cycle.
     values: Vec<f64>,
-    /// Length of the set path in mm up to each set point, from some point before the first.
+    /// Length of the set path in mm at each set point, measured from some point before the first.
     ways: Vec<f64>,
 }
 
 /// The line of the set path that is nearest to a point.
 struct Search {
-    /// Square of its distance, and its number.
+    /// Square of the distance in mm2, and number of the line.
     best: (f64, u64),
-    /// How far away another line may be that could be called the nearest one, in mm.
+    /// Distance in mm up to which another line may count as the nearest one.
     alike: f64,
 }
 
 impl Search {
-    /// Takes another line; the first one of those equally near is found.
+    /// Considers another line; of equally near lines the first is kept.
     fn take(&mut self, k: u64, d2: f64) {
         if d2 < self.best.0 || d2 <= self.best.0 && k < self.best.1 {
             self.best = (d2, k);
@@ -78,7 +79,7 @@ impl Search {
     }
 }
 
-/// Largest components found, with the vector that one of them belongs to.
+/// Largest components found, and the length of the vectors.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Excursion {
     /// Component with the largest absolute value, per axis.
@@ -110,7 +111,7 @@ impl Excursion {
         self.length = self.length.max(f64::sqrt(square));
     }
 
-    /// Largest absolute component.
+    /// Largest absolute component in mm.
     pub(crate) fn largest(&self) -> f64 {
         self.vector.iter().fold(0.0, |m, c| m.max(c.abs()))
     }
@@ -123,12 +124,12 @@ impl Excursion {
 }
 
 impl SetPath {
-    /// No set points yet; the next one is that of cycle `first`.
+    /// Without set points; the next one is that of cycle `first`.
     pub(crate) fn starting(first: u64, axes: usize) -> Self {
         Self { axes, first, values: Vec::new(), ways: Vec::new() }
     }
 
-    /// The set point of cycle `k` alone.
+    /// Restarts with the set point of cycle `k` only.
     fn restart(&mut self, k: u64, point: &[f64]) {
         (self.axes, self.first) = (point.len(), k);
         self.values.clear();
@@ -160,7 +161,7 @@ impl SetPath {
         self.first + self.ways.len() as u64
     }
 
-    /// Forgets what lies before cycle `k`, now and then.
+    /// Forgets the set points before cycle `k`; not in every call.
     pub(crate) fn forget_before(&mut self, k: u64) {
         let old = (k.saturating_sub(self.first) as usize).min(self.ways.len());
         if 2 * old > self.ways.len() {
@@ -175,8 +176,8 @@ impl SetPath {
         self.values.get(at..at + self.axes)
     }
 
-    /// (a) between cycle `k - 1` and cycle `k`, from the contour interpolated between two moments (cycles). The shortest
-    /// vector to the set point of cycle `k` comes back with its length in mm, if there is a contour.
+    /// (a) between cycle `k - 1` and cycle `k`, from the contour interpolated between two moments (cycles). Returns the
+    /// shortest vector to the set point of cycle `k` with its length in mm, if there is a contour.
     pub(crate) fn leaves(
         &self,
         contour: &Contour,
@@ -200,9 +201,9 @@ impl SetPath {
         shortest
     }
 
-    /// Largest component of (a) between cycle `k - 1` and cycle `k`, whatever could be called the shortest vector: from
-    /// blocks within `slack` cycles of the two moments, too. Points of the line count at most `apart` mm from each other,
-    /// as long as `PARTS` of them are enough.
+    /// Largest component of (a) between cycle `k - 1` and cycle `k` over all vectors that may count as the shortest,
+    /// including those from blocks within `slack` cycles of the two moments. Points on the line are at most `apart` mm
+    /// from each other, as long as `PARTS` of them are enough.
     pub(crate) fn doubtful(
         &self,
         contour: &Contour,
@@ -224,8 +225,8 @@ impl SetPath {
         (1..=parts).map(component).fold(0.0, f64::max)
     }
 
-    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest and the
-    /// vector to it. Beyond `wary_mm` whatever could be called the shortest vector counts.
+    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest and
+    /// the vector to it. Beyond `wary_mm` every vector that may count as the shortest is included.
     pub(crate) fn misses(
         &self,
         point: &[f64],
@@ -237,8 +238,9 @@ impl SetPath {
         if first >= last {
             return None;
         }
-        // a first guess excuses most of the others: from one line to the next a distance falls by their length at most. What
-        // is left is looked at from both ends: the point lies between them, so either end excuses its half at once
+        // a first guess rules out most other lines: between neighbouring lines a distance falls by their length at
+        // most. The remaining ones are examined from both ends: the line lies between them, so that each end rules out
+        // its half at once
         let guess = first.midpoint(last);
         let guessed = self.to_line(guess, point).0;
         let mut search = Search { best: (guessed, guess), alike: (1.0 + ALIKE) * guessed.sqrt() };
@@ -285,7 +287,7 @@ impl SetPath {
         Some((k + 1, nearest))
     }
 
-    /// The vector from a point of the contour to the set path between two cycles whose largest component is smallest.
+    /// The vector from a point of the contour to the set path between two cycles with the smallest largest component.
     fn reaches(&self, point: &[f64], (first, last): (u64, u64)) -> Option<AxisVec> {
         let mut vector = AxisVec::zeros(self.axes);
         let mut best: Option<(f64, AxisVec)> = None;
@@ -299,7 +301,7 @@ impl SetPath {
         best.map(|(_, vector)| vector)
     }
 
-    /// Distance in mm of a point from the line to the set point of cycle `k` from the one before.
+    /// Distance in mm of a point from the line that ends at the set point of cycle `k`.
     pub(crate) fn distance(&self, k: u64, point: &[f64]) -> f64 {
         self.to_line(k.saturating_sub(1), point).0.sqrt()
     }
@@ -319,7 +321,8 @@ impl SetPath {
         beside.fold(0.0, f64::max).sqrt()
     }
 
-    /// Square of the distance of a point from the line between cycle `k` and cycle `k + 1`, and where along the line.
+    /// Square of the distance in mm2 of a point from the line between cycle `k` and cycle `k + 1`, and the position on
+    /// the line.
     fn to_line(&self, k: u64, point: &[f64]) -> (f64, f64) {
         let n = point.len();
         let ends = k.checked_sub(self.first).and_then(|at| {

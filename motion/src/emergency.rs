@@ -1,10 +1,11 @@
-//! Emergency braking along the path: what a fault of reaction class 4 and above does to the axes that are still healthy.
+//! Emergency braking along the path: the effect of a fault of reaction class 4 and above on the axes that are still
+//! healthy.
 
 use crate::axis::AxisVec;
 use crate::queue::Queued;
 use std::sync::Arc;
 
-/// Braking with constant deceleration from the present speed, on the path that is already known.
+/// Braking with constant deceleration from the present speed, on the already known path.
 #[derive(Clone, Debug)]
 pub(crate) struct EmergencyBraking {
     /// Blocks from the present one on, with the path length of the program at the start of the whole block.
@@ -42,7 +43,7 @@ impl EmergencyBraking {
     /// One cycle of `t` seconds; fills the position and returns the number of the block.
     pub(crate) fn step(&mut self, t: f64, position: &mut AxisVec) -> Option<u64> {
         let v = (self.v - self.dec * t).max(0.0);
-        // the cycle in which it comes to rest takes v^2 / 2a
+        // in the last cycle it travels v^2 / 2a
         self.s += if v > 0.0 { 0.5 * (self.v + v) * t } else { 0.5 * self.v * self.v / self.dec };
         self.v = v;
         let i = self.path.partition_point(|(start, _)| *start <= self.s).checked_sub(1)?;

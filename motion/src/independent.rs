@@ -1,9 +1,9 @@
-//! An independent axis: one axis on its own timeline, from rest to rest, with the legs of the path.
+//! An independent axis: one axis with its own timeline, from rest to rest, planned with the profiles of the path.
 //!
-//! When the next block may start (`INDP_SYN`, `INDP_ASYN`, `#WAIT INDP`) is the caller's.
+//! The caller decides when the next block may start (`INDP_SYN`, `INDP_ASYN`, `#WAIT INDP`).
 //!
-//! Made at the start of the motion and asked for its state in each cycle; [`IndependentMove::steer`] gives it the override and
-//! the feedhold of that cycle, [`IndependentMove::stop`] ends it early.
+//! Make it at the start of the motion and read its state in each cycle; [`IndependentMove::steer`] applies the override
+//! and feedhold of that cycle, [`IndependentMove::stop`] ends the motion early.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -36,11 +36,11 @@ use std::sync::Arc;
 pub enum IndependentSpeed {
     /// `G00`: the rapid velocity of the axis.
     Rapid,
-    /// `G01` with `FEED`, in mm/s (deg/s); the velocity limit of the axis (P-AXIS-00212) wins.
+    /// `G01` with `FEED`, in mm/s (deg/s), limited to the maximum velocity of the axis (P-AXIS-00212).
     Feed(f64),
     /// `G01` with `FEED_MAX_WEIGHT`, 1.0 = velocity limit of the axis.
     ShareOfMaximum(f64),
-    /// `G01` with `TIME`: duration in s from rest to rest; as fast as the limits allow if that is not possible.
+    /// `G01` with `TIME`: duration in s from rest to rest, or as fast as the limits allow if that is not possible.
     ///
     /// Assumption: the time includes speeding up and braking, so that axes with the same time arrive together.
     Time(f64),
@@ -57,7 +57,7 @@ pub struct IndependentState {
     pub a_mm_s2: f64,
 }
 
-/// Way in mm (deg) before the target from which on nothing acts on a motion any more.
+/// Remaining distance in mm (deg) below which nothing affects a motion any more.
 const ARRIVED_MM: f64 = 1e-9;
 
 /// External influences on a motion.
@@ -65,13 +65,13 @@ const ARRIVED_MM: f64 = 1e-9;
 pub struct Steering {
     /// Override.
     pub ratios: OverrideRatios,
-    /// What it is a percentage of (P-CHAN-00066).
+    /// The value that the override is a percentage of (P-CHAN-00066).
     pub mode: OverrideMode,
     /// Feedhold.
     pub held: bool,
 }
 
-/// Profiles in order with the time in s at their start and the distance there.
+/// Profiles in order, each with its start time in s and start distance.
 type Course = SmallVec<[(f64, f64, Profile); 1]>;
 
 /// A motion of one axis from rest to rest.
@@ -80,21 +80,21 @@ pub struct IndependentMove {
     cycle: CycleTime,
     from_mm: f64,
     to_mm: f64,
-    /// `None` if there is nothing to do.
+    /// `None` if there is no distance to travel.
     limits: Option<(SlopeLimits, PathSpeeds)>,
     course: Course,
     /// Distance at which the axis rests without a course.
     rest_mm: f64,
     steering: Steering,
-    /// The course ends at rest before the target, and continues from there.
+    /// Whether the course ends at rest before the target, to be resumed from there.
     pauses: bool,
     stopped: bool,
 }
 
 impl IndependentMove {
-    /// A motion to an absolute target; HSC counts as TRAPEZ.
+    /// A motion to an absolute target; HSC is treated as TRAPEZ.
     ///
-    /// `axis` holds the limits of the lists without the weights of G130..G133, which do not act on independent axes.
+    /// `axis` holds the limits of the lists without the weights of G130..G133, which do not apply to independent axes.
     /// STEP brakes with the deceleration of stage 1 at every speed (Source: TF5200, P-AXIS-00282, 00283).
     ///
     /// # Errors
@@ -144,7 +144,7 @@ impl IndependentMove {
         Self { cycle, from_mm, to_mm, limits, course, rest_mm, steering, pauses, stopped }
     }
 
-    /// Cycles from the start until the axis is at rest for good; `u64::MAX` while it is held.
+    /// Cycles from the start until the axis is finally at rest; `u64::MAX` while it is held.
     pub fn cycles(&self) -> u64 {
         if self.pauses {
             return u64::MAX;
@@ -153,7 +153,8 @@ impl IndependentMove {
         Moment::default().plus(end).next_tick(self.cycle)
     }
 
-    /// State `k` cycles after the start; exactly the target from [`Self::cycles`] on, unless it was stopped before.
+    /// State `k` cycles after the start; from [`Self::cycles`] on exactly the target, unless the motion was stopped
+    /// before.
     pub fn state(&self, k: u64) -> IndependentState {
         let over = k >= self.cycles();
         if over && !self.stopped {
@@ -168,17 +169,17 @@ impl IndependentMove {
         }
     }
 
-    /// True if the motion rests in cycle `k` and continues when it is released.
+    /// Whether the motion rests in cycle `k` and continues when it is released.
     pub fn is_held(&self, k: u64) -> bool {
         let end = self.course.last().map_or(0.0, |(start, _, part)| start + part.duration());
         self.pauses && Moment::default().plus(end).next_tick(self.cycle) <= k
     }
 
-    /// Override and feedhold from cycle `k` on; states before it are not asked for any more.
+    /// Applies override and feedhold from cycle `k` on; earlier states are not read any more.
     ///
-    /// The acceleration is brought to zero first. Where that leaves no way (close to the target, SIN2 within a ramp), the motion
-    /// continues and takes it over in a later cycle: call it in every one. A motion that brakes does not accelerate before
-    /// it has done so.
+    /// The acceleration is brought to zero first. Where there is no distance left for that (close to the target, SIN2
+    /// within a ramp), the motion continues and the change is made in a later cycle, so this must be called in every
+    /// one. A braking motion does not accelerate again before its deceleration is zero.
     pub fn steer(&mut self, k: u64, steering: Steering) {
         let Some((_, speeds)) = &self.limits else { return };
         if self.steering == steering || self.stopped || k >= self.cycles() {
@@ -203,7 +204,8 @@ impl IndependentMove {
         }
     }
 
-    /// The way on from cycle `k` with a feed: to the target, or to rest where it is 0. `None` if there is none.
+    /// The course from cycle `k` on with a feed rate: to the target, or to standstill where the feed rate is 0. `None`
+    /// if there is none.
     fn course_from(&self, k: u64, feed: f64) -> Option<Course> {
         let (slope, _) = self.limits.as_ref()?;
         let length = (self.to_mm - self.from_mm).abs();
@@ -237,10 +239,10 @@ impl IndependentMove {
         Some(course)
     }
 
-    /// Brakes from cycle `k` on, wherever that ends; states up to `k` stay.
+    /// Brakes from cycle `k` on, wherever the motion ends; states up to `k` stay.
     ///
     /// A positive acceleration is brought to zero first. Where SIN2 is about to reach its speed, a stop takes effect
-    /// when it has reached it, because only then the acceleration can be zero without more speed.
+    /// after that, because the acceleration can only then be zero without more speed.
     ///
     /// # Errors
     /// [`Infeasible`] is an internal error.
@@ -258,7 +260,7 @@ impl IndependentMove {
             return Ok(());
         }
         if state.a_mm_s2 < 0.0 {
-            // for a lower override; what brakes for the target has no shorter way to rest
+            // as for a lower override; a motion that brakes for the target already stops over the shortest distance
             if let Some(course) = self.course_from(k, 0.0) {
                 self.course.truncate(i + 1);
                 self.course.extend(course);
@@ -310,7 +312,7 @@ fn one(value: f64) -> AxisVec {
     AxisVec::from_slice(&[value])
 }
 
-/// The block of a channel with this axis alone.
+/// The block of a channel that contains this axis only.
 fn block(line: LinePath, speed: IndependentSpeed, kind: SlopeKind, axis: AxisDynamics) -> Block {
     let stage_1 = |s: StepSlope| StepSlope { dec_mm_s2: [s.dec_mm_s2[0]; 2], ..s };
     let axis = AxisDynamics {

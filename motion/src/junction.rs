@@ -1,9 +1,10 @@
-//! How fast the path may pass from one block to the next. Every limit is a separate function; all are per axis.
+//! Speed limits at the transition from one block to the next. Each limit is a separate function; all work axis by axis.
 //!
-//! At a kink the axis velocity jumps by `v |du_i|`. Sampled with the cycle `T` that is an acceleration of `v |du_i| / T`
-//! for one cycle, which P-AXIS-00013 weights (source: TF5200 axis parameters; formula derived).
+//! At a kink the axis velocity jumps by `v |du_i|`. Sampled with the cycle `T` this is an acceleration of
+//! `v |du_i| / T` for one cycle, which is weighted by P-AXIS-00013 (source: TF5200 axis parameters; formula derived).
 //!
-//! Called for every pair of neighbours as they enter the planner; [`crate::lookahead`] reads the result as a cap.
+//! Called for every pair of neighbouring blocks when they enter the planner; [`crate::lookahead`] uses the result as a
+//! cap.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -38,8 +39,8 @@ pub struct Ends {
     pub tangent_in: AxisVec,
     /// `dq/ds` at the end.
     pub tangent_out: AxisVec,
-    /// `d2q/ds2` at the start and at the end in 1/mm; none of a line, where they are 0: most blocks are lines, and many of
-    /// them wait in the queue.
+    /// `d2q/ds2` at the start and at the end in 1/mm; `None` for a line, where they are 0. Most blocks are lines, and
+    /// many of them are kept in the queue.
     pub curvatures: Option<Box<[AxisVec; 2]>>,
 }
 
@@ -73,7 +74,7 @@ fn is_rapid(block: &Block) -> bool {
     block.feed == Feed::Rapid
 }
 
-/// Acceleration of one axis that may be used up by a kink in one cycle, before P-CHAN-00117 = 2.
+/// Acceleration of one axis in mm/s2 that a kink may use within one cycle, without P-CHAN-00117 = 2.
 fn kink_acceleration(block: &Block, i: usize, cycle: CycleTime, acc_fact: f64) -> f64 {
     let axis = &block.dynamics.axes[i];
     let rapid = is_rapid(block);
@@ -86,8 +87,8 @@ fn kink_acceleration(block: &Block, i: usize, cycle: CycleTime, acc_fact: f64) -
 
 /// Weight of the acceleration at a kink: P-AXIS-00013, or cycle time / ramp time if it is 0.
 ///
-/// ACC_FACT of an active filter kernel multiplies a valid P-AXIS-00013 only: the kernel spreads the jump over its
-/// length. P-CHAN-00117 = 0 lifts the weight to P-AXIS-00154 if P-CHAN-00009 = 1 and the weight is not zero.
+/// ACC_FACT of an active filter kernel multiplies a valid P-AXIS-00013 only, because the kernel spreads the jump over
+/// its length. P-CHAN-00117 = 0 raises the weight to P-AXIS-00154 if P-CHAN-00009 = 1 and the weight is not zero.
 fn kink_weight(
     block: &Block,
     axis: &AxisDynamics,
@@ -107,7 +108,7 @@ fn kink_weight(
     }
 }
 
-/// Velocity jump in mm/s that a kink between two blocks may put on one axis.
+/// Velocity jump in mm/s that a kink between two blocks may cause in one axis.
 pub(crate) fn admissible_jump(
     from: &Block,
     to: &Block,
@@ -116,7 +117,7 @@ pub(crate) fn admissible_jump(
     kernel_active: bool,
 ) -> f64 {
     let t = cycle.seconds();
-    // blocks that share their limits say the same
+    // blocks with shared limits have the same jump
     let alike = Arc::ptr_eq(&from.dynamics, &to.dynamics)
         && from.slope == to.slope
         && is_rapid(from) == is_rapid(to)
@@ -139,7 +140,7 @@ pub(crate) fn admissible_jump(
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Velocity at a kink with the tangents `out` of the block before and `into` of the block after it.
+/// Velocity in mm/s at a kink with the tangents `out` of the block before and `into` of the block after it.
 pub(crate) fn kink_velocity(
     from: &Block,
     to: &Block,
@@ -160,7 +161,7 @@ pub(crate) fn kink_velocity(
             v = v.min(admissible_jump(from, to, i, cycle, kernel_active) / du);
         }
     }
-    // a reversal is a stop: the axes pass through zero there in any case
+    // a reversal is a stop: the axes pass through zero speed there in any case
     if dot <= -(n_out * n_in).sqrt() * (1.0 - 1e-12) {
         return 0.0;
     }
@@ -179,8 +180,8 @@ pub(crate) fn kink_velocity(
     v
 }
 
-/// Velocity at a transition whose curvature jumps (P-CHAN-00009 = 1, non-linear slopes): the axis acceleration jumps by
-/// `v^2 |dq''|`, P-AXIS-00154 or P-AXIS-00340 bounds it.
+/// Velocity in mm/s at a transition with a curvature jump (P-CHAN-00009 = 1, non-linear slopes). The axis acceleration
+/// jumps by `v^2 |dq''|`, which P-AXIS-00154 or P-AXIS-00340 limits.
 pub(crate) fn curvature_step_velocity(
     from: &Block,
     to: &Block,
@@ -225,9 +226,10 @@ pub(crate) fn curvature_step_velocity(
 
 /// P-CHAN-00245: curvature at the joint of two lines, estimated by the circle through the three points.
 ///
-/// `kappa = 2 sin(alpha) / |P2 - P0|`; mode 1 bounds `v^2 kappa` by the acceleration of the axes in the direction of the
-/// curvature, mode 2 bounds `v^3 kappa^2` by their geometric jerk, mode 3 bounds `v^2 kappa` by the weakest axis that moves,
-/// in whatever direction, so that a circle has one speed (source: TF5200, P-CHAN-00245; Assumption: the estimator).
+/// `kappa = 2 sin(alpha) / |P2 - P0|`. Mode 1 limits `v^2 kappa` by the acceleration of the axes in the direction of
+/// the curvature, mode 2 limits `v^3 kappa^2` by their geometric jerk. Mode 3 limits `v^2 kappa` by the weakest moving
+/// axis in every direction, so that a circle has a single speed (source: TF5200, P-CHAN-00245; Assumption: the
+/// estimator).
 pub(crate) fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends) -> f64 {
     let mode = to.dynamics.curvature_estimate;
     if mode == 0 || !from.path.is_straight() || !to.path.is_straight() {
@@ -249,7 +251,7 @@ pub(crate) fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b
     if kappa <= TANGENT {
         return f64::INFINITY;
     }
-    // the change of direction points along (b - a); its components share the centripetal acceleration
+    // the change of direction is along (b - a); its components share the centripetal acceleration
     let jump: AxisVec = (0..n).map(|i| b.tangent_in[i] - a.tangent_out[i]).collect();
     let norm = jump.iter().map(|c| c * c).sum::<f64>().sqrt();
     let moves = |i: usize| {
@@ -275,7 +277,7 @@ pub(crate) fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Velocity cap at the boundary of two blocks and where it comes from; the path velocities of the blocks are not in it.
+/// Velocity cap at the boundary of two blocks with its reason; the path velocities of the blocks are not included.
 pub fn transition(
     from: &Block,
     to: &Block,

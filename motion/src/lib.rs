@@ -1,12 +1,12 @@
 //! From programmed blocks to one set of interpolated setpoints per cycle.
 //!
 //! Units: `_mm _mm_s _mm_s2 _mm_s3` (degrees for rotary axes), `_s`, `_rad`, `_ratio` (1.0 = 100 %), `_cycles`.
-//! The crate knows axes, paths and limits; it knows no NC text, no files and no clock.
+//! The crate has no notion of NC text, files or wall-clock time.
 //!
-//! Order of calls: limits of axes and modes of the channel become [`block::ChannelDynamics`], a programmed motion with its
-//! [`path::Path`] a [`block::Block`]. Blocks pass the stages that change the path ([`contouring`], [`spline`]) where the program asks
-//! for them, and go into a [`planner::Planner`], which gives a setpoint for every cycle. The other modules are what it consists of,
-//! and can be used separately.
+//! Order of calls: limits of axes and modes of the channel become [`block::ChannelDynamics`], a programmed motion with
+//! its [`path::Path`] becomes a [`block::Block`]. Where the program requires it, blocks first pass the stages that
+//! change the path ([`contouring`], [`spline`]). They then go into a [`planner::Planner`], which returns one setpoint
+//! per cycle. The other modules are its building blocks and can be used separately.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -60,6 +60,6 @@ mod timeline;
 pub mod tolerance;
 mod worth;
 
-// so that unit tests can share the fixtures of the documentation's examples
+// the documentation examples and the unit tests share these fixtures
 #[cfg(test)]
 extern crate self as kontur_motion;

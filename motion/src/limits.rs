@@ -1,8 +1,8 @@
-//! What one block allows: path velocity and path slope, derived from the axes that move in it.
+//! The limits of one block: path velocity and path slope, derived from the axes that move in it.
 //!
 //! On a path with one profile `s(t)` every axis follows `q_i(s)`: its velocity is `v |q_i'|`, its acceleration
-//! `|a q_i' + v^2 q_i''|`. Every limit below is a named function of the block alone; what happens between blocks
-//! is in [`crate::junction`].
+//! `|a q_i' + v^2 q_i''|`. Each limit below is a separate function of the block alone; for transitions between blocks
+//! see [`crate::junction`].
 //!
 //! Called once per block, when it enters the queue ([`crate::queue::Queued::new`]).
 //!
@@ -36,13 +36,13 @@ pub struct PathExtremes {
     pub second: AxisVec,
     /// `max |q_i'''|` in 1/mm2.
     pub third: AxisVec,
-    /// Lengths of the vectors `q''` in 1/mm and `q'''` in 1/mm2: on arcs their largest values, on curves bounds (the
-    /// axes have their maxima at different places).
+    /// Lengths of the vectors `q''` in 1/mm and `q'''` in 1/mm2: the largest values on arcs, upper bounds on curves
+    /// (the axes reach their maxima at different places).
     pub lengths: [f64; 2],
 }
 
-/// `max |cos(x - phase)|` over the angles that an arc really travels: 1 where a multiple of pi lies among them, else the
-/// larger end value.
+/// `max |cos(x - phase)|` over the angles that an arc actually covers: 1 if a multiple of pi is among them, otherwise
+/// the larger end value.
 fn largest_cos(arc: &ArcPath, phase: f64) -> f64 {
     let (from, to) = swept(arc);
     let (lo, hi) = ((from - phase) / std::f64::consts::PI, (to - phase) / std::f64::consts::PI);
@@ -59,8 +59,8 @@ fn swept(arc: &ArcPath) -> (f64, f64) {
     if sweep > 0.0 { (start, start + sweep) } else { (start + sweep, start) }
 }
 
-/// Largest derivatives of an arc tilted to the axes. Those of its three axes are bounds: what comes from the circle and
-/// what comes from the height of a helix are added.
+/// Largest derivatives of an arc tilted to the axes. For its three axes they are upper bounds, the sum of the circular
+/// part and the height of a helix.
 fn tilted_extremes(tilted: &TiltedArc) -> PathExtremes {
     let arc = tilted.arc();
     let mut extremes = arc_extremes(arc);
@@ -79,7 +79,7 @@ fn tilted_extremes(tilted: &TiltedArc) -> PathExtremes {
     extremes
 }
 
-/// Largest derivatives over the angular range that an arc really travels.
+/// Largest derivatives over the angular range that an arc actually covers.
 fn arc_extremes(arc: &ArcPath) -> PathExtremes {
     let n = arc.start().len();
     let [a, b] = arc.shape().plane;
@@ -133,7 +133,7 @@ pub(crate) fn weakest(
     least(axes.iter().map(limit), share)
 }
 
-/// The same of limits by axis.
+/// As [`weakest`], for limits listed by axis.
 fn least(limits: impl Iterator<Item = f64>, share: &[f64]) -> f64 {
     limits
         .zip(share)
@@ -143,7 +143,7 @@ fn least(limits: impl Iterator<Item = f64>, share: &[f64]) -> f64 {
 }
 
 /// Acceleration that an axis may use for curvature and kinks: the smaller of its acceleration and deceleration in the
-/// active mode (Assumption: the documents tie it to G00 or feed, not to one of the two directions).
+/// active mode (Assumption: the documents relate it to G00 or feed, but not to acceleration or deceleration).
 pub(crate) fn contour_acceleration(axis: &AxisDynamics, slope: Slope, rapid: bool) -> f64 {
     match (slope.kind, rapid) {
         (SlopeKind::Step, false) => axis.step_feed.acc_mm_s2[0].min(axis.step_feed.dec_mm_s2[0]),
@@ -177,7 +177,7 @@ pub(crate) fn curve_acceleration(
     weakest(&d.axes, &x.second, |a| contour_acceleration(a, slope, rapid)).sqrt()
 }
 
-/// Velocity limit from the jerk of the contour, non-linear slopes: `v^3 max|q_i'''| <= a_i / t_i`.
+/// Velocity limit from the contour jerk, non-linear slopes: `v^3 max|q_i'''| <= a_i / t_i`.
 ///
 /// `t_i` is the geometric ramp time (P-AXIS-00199) on arcs; on polynomials P-CHAN-00110 selects it.
 pub fn curve_jerk(
@@ -210,14 +210,14 @@ fn vector_curve(d: &ChannelDynamics, x: &PathExtremes) -> f64 {
     (acc / k2).sqrt().min(libm::cbrt(jerk / k3))
 }
 
-/// Path velocities of a block before the real-time override: what is commanded and what is allowed.
+/// Path velocities of a block before the real-time override: programmed and permitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSpeeds {
-    /// Programmed velocity in mm/s, weights of the program included; rapid: that of the axes.
+    /// Programmed velocity in mm/s, including the weights of the program; for rapid blocks that of the axes.
     pub programmed_mm_s: f64,
-    /// Velocity limit of the axes in mm/s.
+    /// Velocity limit from the axes in mm/s.
     pub axis_mm_s: f64,
-    /// Velocity limit of the curvature in mm/s.
+    /// Velocity limit from the curvature in mm/s.
     pub curve_mm_s: f64,
     /// Velocity limit of `#VECTOR LIMIT` in mm/s, infinite without one.
     pub vector_mm_s: f64,
@@ -260,17 +260,17 @@ impl PathSpeeds {
         }
     }
 
-    /// Velocity in mm/s that no override (at most 200 %) exceeds.
+    /// Velocity in mm/s that is not exceeded with any override (at most 200 %).
     pub fn fastest(&self) -> f64 {
         self.highest().min(2.0 * self.programmed_mm_s)
     }
 
-    /// Velocity in mm/s that limits allow.
+    /// Velocity in mm/s that the limits permit.
     pub fn highest(&self) -> f64 {
         self.axis_mm_s.min(self.curve_mm_s).min(self.vector_mm_s)
     }
 
-    /// Velocity in mm/s with `commanded` instead of the programmed one, and what it comes from.
+    /// Velocity in mm/s with `commanded` in place of the programmed one, and its reason.
     pub fn limited(&self, commanded: f64) -> Cap {
         let mut best = Cap::new(commanded.min(self.vector_mm_s), SpeedLimit::Feed);
         if self.axis_mm_s < best.v_mm_s || self.rapid && self.axis_mm_s <= best.v_mm_s {
@@ -287,7 +287,8 @@ mod tests {
     use crate::path::{ArcPath, ArcShape, Path};
     use std::f64::consts::TAU;
 
-    /// Curvature of a helix of radius r and pitch 2 pi c: r / (r^2 + c^2), however long it is; a circle has c = 0.
+    /// Curvature of a helix of radius r and pitch 2 pi c: r / (r^2 + c^2), independent of its length; c = 0 for a
+    /// circle.
     #[test]
     fn curvature_of_circles_and_helices() {
         for (turns, pitch) in [(1.0, 0.0), (0.1, 0.0), (1.0, 5.0), (3.0, 40.0)] {

@@ -1,23 +1,24 @@
 //! Look-ahead: the speed at every block boundary of a window.
 //!
-//! Stages, each reads what the ones before guarantee:
-//! 1. *caps* (caller): the velocity that each boundary allows for itself, see [`crate::junction`];
-//! 2. *knots*: boundaries where the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
-//!    Constant ramp times (P-CHAN-00349): every boundary except those inside a run of blocks with equal feed, (nearly)
-//!    equal slope and no binding cap - such a run is one span. TRAPEZ, SIN2, HSC: the local minima of the speed, unless
-//!    they are so close to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see
-//!    [`late`];
-//! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
+//! Stages, each relying on the results of the ones before:
+//! 1. *caps* (from the caller): the velocity that each boundary permits on its own, see [`crate::junction`];
+//! 2. *knots*: boundaries at which the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
+//!    Constant ramp times (P-CHAN-00349): every boundary except those inside a run of blocks with equal feed rate,
+//!    (nearly) equal slope and no cap below the feed rate; such a run is one span. TRAPEZ, SIN2, HSC: the local minima
+//!    of the speed, unless they are so close to each other that bringing the acceleration to zero costs speed. For the
+//!    start of braking under G901 see [`late`];
+//! 3. *backward pass*: no knot is faster than the speed from which the path can brake to the next one, so the window
+//!    ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
-//! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
-//!    along its limits, see [`crate::ride`]; where that is refused, or takes longer than stops of the acceleration, the boundary that is exceeded most becomes a knot, and
-//!    3 to 5 are repeated;
-//! 6. *passing* (HSC): where that is faster, a kink is passed with an acceleration, see [`passing`].
+//! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is
+//!    planned along its limits, see [`crate::ride`]. Where that is refused, or takes longer than with zero acceleration
+//!    at boundaries, the boundary that is exceeded most becomes a knot, and 3 to 5 are repeated;
+//! 6. *passing* (HSC): where that is faster, a kink is passed with a non-zero acceleration, see [`passing`].
 //!
-//! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
-//! the passes only lower velocities and `reach_down` is monotone.
+//! Guarantee: every span is feasible. By induction a stop is possible from every state that is ever output, because the
+//! passes only lower velocities and `reach_down` is monotone.
 //!
-//! Called by the planner with what is in the queue, again for every window.
+//! Called by the planner with the blocks in the queue, again for every window.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -53,10 +54,10 @@ pub(crate) use draft::Draft;
 use std::sync::Arc;
 use stretch::{Stretch, Weakest, cells, most_exceeded};
 
-/// Relative difference of speeds that is rounding.
+/// Relative difference of speeds that counts as rounding.
 pub(crate) const ROUNDING: f64 = 1e-7;
 
-/// Acceleration that is zero but for rounding.
+/// Acceleration in mm/s2 that counts as zero.
 pub(crate) const FLAT_MM_S2: f64 = 1e-6;
 
 /// Blocks planned as one profile.
@@ -68,16 +69,16 @@ pub struct Span {
     pub end: usize,
     /// The profile.
     pub profile: Profile,
-    /// What held the speed down while accelerating.
+    /// Reason for the speed limit while accelerating.
     pub why_up: SpeedLimit,
-    /// What held the speed down while braking.
+    /// Reason for the speed limit while braking.
     pub why_down: SpeedLimit,
-    /// Speeds in mm/s between which it was planned: those of the profile but for rounding.
+    /// Speeds in mm/s between which the span was planned: those of the profile up to rounding.
     asked: (f64, f64),
 }
 
-/// What is planned: blocks with what each of them and each boundary allows. Entry `i` of `caps`, `forced`, `entries` and
-/// `carried` belongs to the boundary before block `i`.
+/// Input of a plan: blocks with the limits of each of them and of each boundary. Entry `i` of `caps`, `forced`,
+/// `entries` and `carried` belongs to the boundary before block `i`.
 #[derive(Clone, Debug)]
 struct Window<'a> {
     blocks: &'a [Arc<Queued>],
@@ -88,19 +89,19 @@ struct Window<'a> {
     a_start: f64,
     /// Speed at the end.
     end: Cap,
-    /// Speed at which a block may be entered: its feed, or more under G901.
+    /// Speed at which a block may be entered: its feed rate, or more under G901.
     entries: Vec<Cap>,
-    /// Braking under G901 continues across the boundary.
+    /// Whether braking under G901 continues across the boundary.
     carried: Vec<bool>,
 }
 
-/// Plans a window of blocks from `v_start` to rest, in spans that cover every block. An acceleration at the start (mm/s2) is the one at which a plan of
-/// constant jerk was left.
+/// Plans a window of blocks from `v_start` to rest, in spans that cover every block. A non-zero acceleration at the
+/// start (mm/s2) is that of a plan with constant jerk that was left there.
 ///
-/// `caps[i]` belongs to the boundary before block `i`; `caps[0]` is not read. `forced` boundaries are knots.
+/// `caps[i]` belongs to the boundary before block `i`; `caps[0]` is not used. `forced` boundaries are knots.
 ///
 /// # Errors
-/// [`Infeasible`] if even the slowest plan does not fit, which the passes exclude; it would be an internal error.
+/// [`Infeasible`] if even the slowest plan does not fit. The passes exclude this, so it would be an internal error.
 pub fn plan(
     blocks: &[Arc<Queued>],
     feeds: &[Cap],
@@ -112,8 +113,8 @@ pub fn plan(
     Ok(plan_again(blocks, (feeds, caps), forced, (v_start, a_start), end, None)?.spans)
 }
 
-/// As [`plan`], with what is left of a draft: of the same blocks, or of blocks of which the first ones are now before the
-/// start ([`Draft::pass`]).
+/// As [`plan`], reusing a draft of the same blocks, or of blocks of which the first ones are already before the start
+/// ([`Draft::pass`]).
 pub(crate) fn plan_again(
     blocks: &[Arc<Queued>],
     (feeds, caps): (&[Cap], &[Cap]),
@@ -128,12 +129,12 @@ pub(crate) fn plan_again(
     }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
     let end = Cap::new(0.0, end);
-    // where a plan was left inside, its speed has been computed in another way
+    // where a plan was left inside a span, its speed was computed by other formulas
     let rounded = !is_above(v_start.v_mm_s, feeds[0].v_mm_s) && a_start.abs() > FLAT_MM_S2;
     let v_start =
         if rounded { v_start.lower(Cap { v_mm_s: feeds[0].v_mm_s, ..v_start }) } else { v_start };
     let early = Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, carried };
-    // braking under G901 is a matter of the whole window
+    // braking under G901 concerns the whole window
     if let Some(entries) = late::entries(blocks, feeds) {
         return Ok(Draft::of_spans(late::plan(&early, entries)?));
     }
@@ -143,12 +144,12 @@ pub(crate) fn plan_again(
 }
 
 impl<'a> Window<'a> {
-    /// Speed and reason that the boundary before block `b` allows.
+    /// Cap of the boundary before block `b`.
     fn limit(&self, b: usize) -> Cap {
         self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
     }
 
-    /// Plans; `known` are spans planned before under the same limits, in order.
+    /// Plans the window; `known` are spans planned earlier under the same limits, in order.
     fn plan(&self, mut known: Vec<Span>) -> Result<Vec<Span>, Infeasible> {
         let Self { blocks, feeds, caps, .. } = *self;
         let n = blocks.len();
@@ -165,7 +166,7 @@ impl<'a> Window<'a> {
             }
             let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
             let mut again = false;
-            // a speed that is final already; the plan that it comes from continues
+            // the speed at the start is already final; the earlier plan then continues
             if !self.keeps(&stretches[0], speeds[0].v_mm_s, speeds[1].v_mm_s) {
                 let (length_mm, needed_mm) = (stretches[0].length, f64::INFINITY);
                 return Err(Infeasible { length_mm, needed_mm });
@@ -265,10 +266,10 @@ impl<'a> Window<'a> {
         for i in first + 1..end {
             s.length += blocks[i].length;
             s.feed = if self.carried[i] {
-                // what the braking ends at
+                // the speed at which the braking ends
                 feeds[i].v_mm_s
             } else {
-                // across blocks of different feed the check finds what is exceeded
+                // across blocks of different feed rates the check finds the boundaries that are exceeded
                 s.feed.max(feeds[i].v_mm_s)
             };
             s.slope.join(&blocks[i].slope);
@@ -292,8 +293,8 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// True if the window takes less than `most_s` with acceleration zero at these boundaries and at every one that would be
-    /// exceeded otherwise.
+    /// Whether the window takes less than `most_s` with zero acceleration at these boundaries and at every boundary
+    /// that would otherwise be exceeded.
     fn is_faster_with_knots(&self, knots: &[usize], most_s: f64) -> bool {
         let n = self.blocks.len();
         let mut knot = vec![false; n + 1];
@@ -320,7 +321,7 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Backward and forward pass: speed and reason at every knot.
+    /// Backward and forward pass: the cap at every knot.
     fn passes(&self, stretches: &[Stretch<'_>]) -> Vec<Cap> {
         let m = stretches.len();
         let mut v = vec![self.v_start; m + 1];
@@ -352,12 +353,12 @@ impl<'a> Window<'a> {
     }
 }
 
-/// True if a speed exceeds a feed by more than rounding.
+/// Whether a speed exceeds a feed rate by more than rounding.
 fn is_above(v: f64, feed: f64) -> bool {
     v > feed * (1.0 + ROUNDING)
 }
 
-/// The span of the last round, if neither its ends nor its speeds have changed.
+/// The span of the previous round, if neither its ends nor its speeds have changed.
 fn unchanged(known: &[Span], s: &Stretch<'_>, asked: (f64, f64)) -> Option<Span> {
     let span = &known[known.binary_search_by_key(&s.first, |span| span.first).ok()?];
     let same = span.end == s.end

@@ -1,22 +1,23 @@
-//! What a kernel with negative weights (windowed sinc) adds to a start or a stop: it swings beyond the end of the path.
+//! Overshoot of a kernel with negative weights (windowed sinc) at a start or a stop: the set point swings beyond the
+//! end of the path.
 //!
-//! From a speed `v` that a braking `a` ends in rest the filtered set point passes the end. Abruptly stopped it does so by
-//! `v` times an area of the kernel; a braking that is longer than the kernel leaves `a` times a second moment of its
-//! tail. So a lower acceleration keeps a tolerance at any speed, where a lower speed would have to be close to zero. Starts
-//! are stops backwards in time.
+//! When the path brakes from a speed `v` with a deceleration `a` to rest, the filtered set point passes the end. After
+//! an abrupt stop it does so by `v` times an area of the kernel; a braking phase longer than the kernel leaves `a`
+//! times a second moment of its tail. A lower acceleration therefore keeps a tolerance at any speed, while a lower
+//! speed would have to be close to zero. Starts are stops reversed in time.
 
 use kontur_filters::kernel::{Kernel, Tap};
 
-/// Halvings of the ratio of accelerations.
+/// Bisection steps for the ratio of accelerations.
 const BISECTIONS: usize = 20;
-/// Smallest acceleration looked for, as part of the present one.
+/// Smallest acceleration that is searched for, as a share of the present one.
 const LEAST: f64 = 1e-7;
 
-/// Largest distance in mm by which the set point swings beyond either end of a move that speeds up to `v` mm/s and
-/// brakes from it with `a` mm/s2.
+/// Largest distance in mm by which the set point swings beyond either end of a move that accelerates to `v` mm/s and
+/// decelerates with `a` mm/s2.
 pub(crate) fn beyond_the_end(kernel: &Kernel, cycle_s: f64, v: f64, a: f64) -> f64 {
     let braking_s = v / a;
-    // path after the rest `t` seconds before it
+    // distance from the rest position `t` seconds before it is reached
     let back = |t: f64| {
         let ramp = t.clamp(0.0, braking_s);
         0.5 * a * ramp * ramp + v * (t - braking_s).max(0.0)
@@ -32,8 +33,8 @@ pub(crate) fn beyond_the_end(kernel: &Kernel, cycle_s: f64, v: f64, a: f64) -> f
     (0..=length).map(beyond).fold(0.0, f64::max)
 }
 
-/// Largest acceleration in mm/s2, at most `a`, with which a lone start or stop keeps the tolerance in mm; the move has
-/// `v` mm/s at most and `length` mm.
+/// Largest acceleration in mm/s2, up to `a`, with which a single start or stop keeps the tolerance in mm; the move
+/// reaches at most `v` mm/s and is `length` mm long.
 pub(crate) fn gentle(
     kernel: &Kernel,
     cycle_s: f64,
@@ -65,8 +66,9 @@ mod tests {
         Kernel::from_taps(taps).unwrap()
     }
 
-    /// Weights -1/4, 3/2, -1/4: one cycle after an abrupt stop the oldest one alone still sees the path, a cycle of it
-    /// after the end, so the set point is `v T / 4` beyond it; with a braking over more than a cycle `a T^2 / 8`.
+    /// Weights -1/4, 3/2, -1/4: one cycle after an abrupt stop only the oldest weight still sees the path, one cycle
+    /// before its end, so the set point is `v T / 4` beyond the end; with braking over more than a cycle it is
+    /// `a T^2 / 8`.
     #[test]
     fn closed_forms_of_three_weights() {
         let k = kernel(&[-0.25, 1.5, -0.25]);
@@ -83,7 +85,7 @@ mod tests {
         assert!((gentle(&k, T, (100.0, 10.0), 5000.0, 1e-9) - 5000.0).abs() < 1e-12);
     }
 
-    /// From the closed form: `a = 8 tolerance / T^2`.
+    /// Closed form: `a = 8 tolerance / T^2`.
     #[test]
     fn the_gentle_acceleration_uses_the_tolerance() {
         let k = kernel(&[-0.25, 1.5, -0.25]);

@@ -1,9 +1,9 @@
 //! Geometry of one block over all axes of the channel, parameterised by path length `s`.
 //!
-//! `s` is measured over the feed axes; the other axes are slaved and run linearly in `s`. If no feed axis moves, `s` is
-//! measured over all axes that move (Assumption: the documents are silent; every axis then counts alike).
+//! `s` is measured over the feed axes; the other axes are slaved and linear in `s`. If no feed axis moves, `s` is
+//! measured over all axes that move (Assumption: the documents do not say; all axes are then treated alike).
 //!
-//! Paths are made before their block; the planner asks them for positions and derivatives.
+//! Make the path first, then its block; the planner evaluates positions and derivatives.
 //!
 //! ```
 //! use kontur_motion::axis::AxisVec;
@@ -62,7 +62,7 @@ impl Path {
         }
     }
 
-    /// Position of every axis at path length `s` (clamped to `0..=length`); exact at both ends.
+    /// Position of every axis at path length `s` (limited to `0..=length`); exact at both ends.
     pub fn position(&self, s: f64, out: &mut [f64]) {
         match self {
             Self::Line(p) => p.position(s, out),
@@ -72,7 +72,7 @@ impl Path {
         }
     }
 
-    /// As [`Self::position`], to 1e-7 of the length: curves cost a fifth then.
+    /// As [`Self::position`], to 1e-7 of the length, which costs a fifth for curves.
     pub(crate) fn near(&self, s: f64, out: &mut [f64]) {
         match self {
             Self::Curve(p) => p.near(s, out),
@@ -90,7 +90,7 @@ impl Path {
         }
     }
 
-    /// Second derivative of every axis by `s` in 1/mm.
+    /// Second derivative of every axis with respect to `s` in 1/mm.
     pub fn curvature(&self, s: f64, out: &mut [f64]) {
         match self {
             Self::Line(_) => out.fill(0.0),
@@ -120,7 +120,7 @@ impl Path {
         }
     }
 
-    /// True for a straight line in all axes.
+    /// Whether the path is a straight line in all axes.
     pub fn is_straight(&self) -> bool {
         matches!(self, Self::Line(_))
     }
@@ -174,7 +174,7 @@ impl Path {
     }
 
     /// Vector to `point` from the point of the path nearest to it, and the square of its length.
-    #[inline] // straight blocks, most of all, where they are looked at
+    #[inline] // mostly for straight blocks, at the call site
     pub(crate) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         match self {
             Self::Line(p) => p.vector_to(point, out),
@@ -184,7 +184,7 @@ impl Path {
 
     fn vector_from_bend(&self, point: &[f64], out: &mut [f64]) -> f64 {
         match self {
-            // without the way by the path length
+            // without the detour by the path length
             Self::Curve(p) => p.nearest_point(point, out),
             _ => self.position(self.nearest(point), out),
         }

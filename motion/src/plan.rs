@@ -1,11 +1,12 @@
-//! The plan: everything that lies ahead of what is final.
+//! The plan: everything after the part that is final.
 //!
-//! Segments with the boundaries before them, what `AX_DEV` asks of them, the state in which the path gets to the first
-//! one, and the way to rest found last. The passes are functions on it: [`crate::lookahead`] finds the speed of a window
-//! ([`Plan::place`]), [`crate::tolerance`] examines that and tightens the demands, the planner makes the front of it final.
-//! A change of override or feedhold puts another plan in its place, or leaves it as it was.
+//! It contains the segments with the boundaries before them, the demands of `AX_DEV` on them, the state in which the
+//! path enters the first one, and the most recent way to rest. The passes are functions on it: [`crate::lookahead`]
+//! determines the speed of a window ([`Plan::place`]), [`crate::tolerance`] examines the result and tightens the
+//! demands, and the planner makes its first part final. A change of override or feedhold either replaces the plan or
+//! leaves it unchanged.
 //!
-//! It knows segments, speeds and moments; it does not touch setpoints, filters or what is final.
+//! The plan is about segments, speeds and moments; setpoints, filters and the final part are not touched here.
 
 mod short;
 
@@ -26,36 +27,36 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub(crate) queued: Arc<Queued>,
-    /// What the boundary allows.
+    /// Speed that the boundary permits.
     pub(crate) cap: Cap,
-    /// What the tolerance has asked of both in the first plan of them.
+    /// Demands of the tolerance on both in their first plan.
     pub(crate) asked: Option<Asked>,
 }
 
-/// State in which a path gets to its first segment.
+/// State in which the path enters its first segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start {
     pub(crate) moment: Moment,
     /// Path length of the program in mm.
     pub(crate) s_mm: f64,
-    /// Speed, and what holds it down.
+    /// Speed and its reason.
     pub(crate) speed: Cap,
     /// Path acceleration in mm/s2.
     pub(crate) a_mm_s2: f64,
 }
 
-/// See the module.
+/// The part of the path that is not final, see the module.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub(crate) segments: VecDeque<Segment>,
-    /// Programmed blocks among them: a spline or a rounded corner is planned in parts.
+    /// Number of programmed blocks among them: a spline or a rounded corner is planned in parts.
     programmed: usize,
     pub(crate) start: Start,
-    /// What the tolerance asks of the segments, as far as they have been planned.
+    /// Demands of the tolerance on the segments, as far as they have been planned.
     pub(crate) demands: Demands,
-    /// Rest of the spans found last, from the start to rest.
+    /// Remaining spans of the most recent plan, from the start to rest.
     pub(crate) reserve: VecDeque<Entry>,
-    /// The plan found last; most of it stays as it is in the next one.
+    /// The most recent plan; most of it is reused in the next one.
     draft: Option<Draft>,
 }
 
@@ -79,7 +80,7 @@ impl Plan {
         }
     }
 
-    /// Adds a segment after the others, and lowers the caps of those that lie in one cycle with it.
+    /// Appends a segment, and lowers the caps of those that fall into one cycle with it.
     pub(crate) fn push(&mut self, segment: Segment, cycle: CycleTime, kernel_active: bool) {
         let seq = segment.queued.block.seq;
         if self.segments.back().is_none_or(|last| last.queued.block.seq != seq) {
@@ -89,7 +90,7 @@ impl Plan {
         lower_caps(&mut self.segments, cycle, kernel_active);
     }
 
-    /// Puts segments in the place of all of them, with what the tolerance has asked of them.
+    /// Replaces all segments, with the demands of the tolerance on the new ones.
     pub(crate) fn replace(&mut self, segments: Vec<Segment>) {
         self.demands = Demands::again(segments.iter().map(|s| s.asked.unwrap_or_default()));
         self.segments = segments.into();
@@ -102,26 +103,27 @@ impl Plan {
         self.programmed
     }
 
-    /// True if the path is at rest where the plan starts.
+    /// Whether the path is at rest where the plan starts.
     pub(crate) fn is_at_rest(&self) -> bool {
         self.start.speed.v_mm_s <= 0.0
     }
 
-    /// True if the first segment may not be entered (override 0).
+    /// Whether the first segment must not be entered (override 0).
     pub(crate) fn is_barred(&self) -> bool {
         self.segments.front().is_some_and(|s| s.queued.velocity.v_mm_s <= 0.0)
     }
 
-    /// The blocks up to the first one without speed, which ends the path before it.
+    /// The blocks up to the first one with zero speed; the path ends before it.
     pub(crate) fn window(&self) -> Vec<Arc<Queued>> {
         let blocks = self.segments.iter().map(|s| &s.queued);
         blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned().collect()
     }
 
-    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, and `end` is why the path ends.
+    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, and `end` is the reason why
+    /// the path ends.
     ///
     /// # Errors
-    /// [`Infeasible`] where no speed leads from the start to rest.
+    /// [`Infeasible`] if no speed profile leads from the start to rest.
     pub(crate) fn place(
         &mut self,
         window: &[Arc<Queued>],
@@ -147,7 +149,7 @@ impl Plan {
         let limits = (&feeds[..], &caps[..]);
         let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.as_ref())?;
         let spans = &self.draft.insert(planned).spans;
-        // after a rest the start may have to wait until the filters have left the corner before it
+        // after a rest the start may have to wait until the corner before it has left the filters
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
             None => start,
@@ -169,14 +171,14 @@ impl Plan {
         Ok(entries)
     }
 
-    /// The segments with what the tolerance asks of them now.
+    /// The segments with the present demands of the tolerance.
     pub(crate) fn asked(&self) -> impl Iterator<Item = Segment> {
         let segments = self.segments.iter().enumerate();
         segments
             .map(|(i, s)| Segment { asked: s.asked.or_else(|| self.demands.of(i)), ..s.clone() })
     }
 
-    /// Takes the first segments out, which become final.
+    /// Removes and returns the first segments, which become final.
     pub(crate) fn pass(&mut self, count: usize) -> Vec<Segment> {
         let Self { segments, demands, .. } = self;
         let passed = segments.drain(..count).enumerate();
@@ -191,7 +193,7 @@ impl Plan {
         final_ones
     }
 
-    /// Puts parts in the place of segments, by their index.
+    /// Replaces segments, given by their index, by parts of them.
     pub(crate) fn divide(
         &mut self,
         blocks: Vec<(usize, Vec<Arc<Queued>>)>,
@@ -217,7 +219,7 @@ impl Plan {
     }
 }
 
-/// Where the last `count` programmed blocks of a window begin.
+/// Index at which the last `count` programmed blocks of a window begin.
 pub(crate) fn last_blocks(window: &[Arc<Queued>], count: usize) -> usize {
     let (mut left, mut at) = (count, window.len());
     while at > 0 {
@@ -232,7 +234,7 @@ pub(crate) fn last_blocks(window: &[Arc<Queued>], count: usize) -> usize {
     at
 }
 
-/// Programmed blocks among parts of them.
+/// Number of programmed blocks, some of them in parts.
 fn programmed(segments: &VecDeque<Segment>) -> usize {
     let seqs = segments.iter().map(|s| s.queued.block.seq);
     let behind = seqs.clone().skip(1);

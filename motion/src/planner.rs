@@ -1,16 +1,17 @@
 //! Blocks in, one setpoint per cycle out.
 //!
-//! Up to two windows of blocks are collected (P-STUP-00071 gives the size of one); then [`crate::lookahead`] plans all
-//! of them with a stop at the end of what is known, and all but the last window becomes final. So every block that is
-//! executed had at least one window of look-ahead after it, and planning costs a constant number of closed forms per
-//! block. A plan of constant jerk is left inside, at the end of a block, with the acceleration that it has there; where no
-//! new plan starts from such a state the old one continues for a few blocks. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
+//! Up to two windows of blocks are collected (P-STUP-00071 is the size of one). Then [`crate::lookahead`] plans all of
+//! them with a stop at the end of the known path, and all but the last window becomes final. Every executed block
+//! therefore had at least one window of look-ahead after it, and planning costs a constant number of closed forms per
+//! block. A plan with constant jerk is left at the end of a block inside a span, with the acceleration it has there; if
+//! no new plan can start from such a state, the old one continues for a few blocks. The final part is a
+//! [`crate::timeline`] that is sampled cycle by cycle.
 //!
-//! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
-//! rest planned again, see `replan`. What is ahead is one plan, see `plan`.
+//! Override and feedhold revoke the final part from the next cycle on, bring the speed to its new value and plan the
+//! remainder again, see `replan`. The part that is not final is a single plan, see `plan`.
 //!
-//! Order of calls: kernels and modes at rest, [`Planner::push`] until [`Planner::advance`] no longer asks for input,
-//! [`Planner::finish`] after the last block, then [`Planner::advance`] to [`Next::Rest`].
+//! Order of calls: set kernels and modes at rest, call [`Planner::push`] until [`Planner::advance`] no longer returns
+//! [`Next::Input`], [`Planner::finish`] after the last block, then [`Planner::advance`] until [`Next::Rest`].
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -69,9 +70,9 @@ pub struct Setpoint {
     pub a_mm_s2: f64,
     /// Path jerk in mm/s3.
     pub j_mm_s3: f64,
-    /// What holds the speed down.
+    /// Reason for the present speed.
     pub limit: SpeedLimit,
-    /// Number of the block in which the setpoint lies.
+    /// Number of the block that contains the setpoint.
     pub seq: u64,
 }
 
@@ -96,10 +97,10 @@ pub struct Planner {
     /// Tables of the last feed block and of the last rapid one.
     slopes: [Option<SlopeTable>; 2],
     finishing: bool,
-    /// What is final, and the contour there.
+    /// The final part of the path, and its contour.
     timeline: Timeline,
     contour: Contour,
-    /// What lies ahead of it.
+    /// The part after it.
     plan: Plan,
     setpoint: Setpoint,
     state: PathState,
@@ -109,14 +110,14 @@ pub struct Planner {
     unkept: Vec<Unkept>,
     /// Least tolerance of any block so far in mm.
     least_tolerance_mm: f64,
-    /// What somebody who measures the output has to know and has not taken yet, if there is one.
+    /// Changes for a meter of the output that have not been taken yet; `None` without a meter.
     changes: Option<Vec<Change>>,
     /// Cycle in which the kernels were set.
     kernels_since: Option<u64>,
     brake: Option<EmergencyBraking>,
-    /// What lies after the place where the path halts, if it is to halt.
+    /// Segments after the point where the path halts, if it is to halt.
     halted: Option<Vec<Segment>>,
-    /// Override and feedhold in effect, and those asked for.
+    /// Override and feedhold in effect, and the requested ones.
     active: Realtime,
     wanted: Realtime,
 }
@@ -177,40 +178,40 @@ impl Planner {
         });
     }
 
-    /// True if the set positions of some axis are filtered, see [`Self::set_kernels`].
+    /// Whether the set positions of any axis are filtered, see [`Self::set_kernels`].
     pub fn has_kernels(&self) -> bool {
         self.kernels.any()
     }
 
-    /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
+    /// Sets the value that the override is a percentage of (P-CHAN-00066), from the next cycle on.
     pub fn set_override_mode(&mut self, mode: OverrideMode) {
         self.wanted.ratios.mode = mode;
     }
 
-    /// Sets the real-time override, from the next cycle on; setpoints already output stay.
+    /// Sets the real-time override from the next cycle on; setpoints already output stay.
     ///
-    /// Feed and rapid blocks that are ahead, known or not, run at the new ratio; acceleration stays continuous with
-    /// jerk-limited slopes. 0 brings the path to a standstill before, or in, the next block of that kind; time
-    /// continues, [`Self::advance`] produces setpoints at rest. Overrides of the program are in [`Block::feed_ratio`].
+    /// All feed and rapid blocks ahead, pushed or not, run at the new ratio; with jerk-limited slopes the acceleration
+    /// stays continuous. 0 brings the path to a standstill before, or in, the next block of that kind; time continues,
+    /// and [`Self::advance`] produces setpoints at rest. The override of the program is in [`Block::feed_ratio`].
     pub fn set_override(&mut self, ratios: OverrideRatios) {
         self.wanted.ratios.ratios = ratios.clamped();
     }
 
     /// Feedhold on or off, from the next cycle on.
     ///
-    /// On: the path brakes on its contour to a standstill and stays there; time continues, [`Self::advance`] produces
-    /// setpoints at rest. Off: it continues, also out of the braking. `braking` is P-CHAN-00097. Dwells and waits of the
-    /// program are the caller's.
+    /// On: the path brakes on its contour to a standstill and stays there; time continues, and [`Self::advance`]
+    /// produces setpoints at rest. Off: it continues, also while still braking. `braking` is P-CHAN-00097. The caller
+    /// handles dwells and waits of the program.
     pub fn feedhold(&mut self, on: bool, braking: FeedholdBraking) {
         self.wanted.hold = on.then_some(braking);
     }
 
-    /// At rest although there is something to do: by feedhold or override 0.
+    /// Whether the path is at rest with blocks pending, because of feedhold or override 0.
     pub fn is_held(&self) -> bool {
         self.plan.is_at_rest() && (self.active.hold.is_some() || self.plan.is_barred())
     }
 
-    /// Drops what lies ahead of a path that feedhold has brought to rest: the next block starts where it is.
+    /// Drops the path ahead after feedhold has brought it to rest: the next block starts at the present position.
     pub fn drop_ahead(&mut self) {
         if self.is_held() {
             let start = Start { speed: Cap::STOP, a_mm_s2: 0.0, ..self.plan.start };
@@ -219,7 +220,7 @@ impl Planner {
         }
     }
 
-    /// Adds a block after the ones pushed so far. Its path starts where the one before ends.
+    /// Appends a block. Its path starts at the end of the previous one.
     pub fn push(&mut self, block: impl Into<Box<Block>>) {
         let block = block.into();
         match sharp::parts(&block) {
@@ -257,17 +258,17 @@ impl Planner {
         self.last = Some(queued);
     }
 
-    /// The path comes to rest after the last block pushed.
+    /// Lets the path come to rest after the last block pushed.
     pub fn finish(&mut self) {
         self.finishing = true;
     }
 
-    /// The path comes to rest after what is planned.
+    /// Whether the path comes to rest after the planned part.
     fn ends(&self) -> bool {
         self.finishing || self.halted.is_some()
     }
 
-    /// Produces the next setpoint if it can.
+    /// Produces the next setpoint if possible.
     ///
     /// # Errors
     /// [`Infeasible`] is an internal error: the passes exclude it, and where they do not the last plan continues.
@@ -296,7 +297,7 @@ impl Planner {
         }
     }
 
-    /// Reads up to `most` setpoints of the coming cycles: those that are final, and that [`Self::advance`] would produce without
+    /// Reads up to `most` setpoints of the coming cycles: final ones, which [`Self::advance`] would produce without
     /// planning anything; none of block `before` or of a later one.
     pub fn look_ahead(&self, most: usize, before: u64, out: &mut Ahead) {
         let settled = self.wanted == self.active && self.unkept.is_empty() && !self.is_held();
@@ -320,7 +321,7 @@ impl Planner {
         self.output(self.setpoint.k + (last - first + 1) as u64);
     }
 
-    /// One more cycle at the current position; only at rest.
+    /// Repeats the present position for one more cycle; only at rest.
     pub fn hold(&mut self, limit: SpeedLimit) {
         self.setpoint.k += 1;
         let start = &mut self.plan.start;
@@ -330,7 +331,7 @@ impl Planner {
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
     }
 
-    /// Emergency braking from here on (P-AXIS-00003): [`Self::advance_braking`] takes the place of [`Self::advance`].
+    /// Starts emergency braking (P-AXIS-00003); [`Self::advance_braking`] replaces [`Self::advance`] from here on.
     pub fn brake(&mut self) {
         let mut path: Vec<(f64, Arc<Queued>)> = Vec::new();
         for entry in self.timeline.entries() {
@@ -346,7 +347,7 @@ impl Planner {
         self.brake = Some(EmergencyBraking::new(path, self.setpoint.s_mm, self.setpoint.v_mm_s));
     }
 
-    /// The braking has come to rest.
+    /// Whether the braking has come to rest.
     pub fn brake_is_over(&self) -> bool {
         self.brake.as_ref().is_none_or(EmergencyBraking::is_over)
     }
@@ -367,8 +368,8 @@ impl Planner {
         self.setpoint.limit = SpeedLimit::Stop;
     }
 
-    /// Reports what a [`Meter`](crate::deviation::Meter) has to know from here on, or does so from the first block with a
-    /// tolerance on: the output is measured then, even if no one reads it.
+    /// Reports the changes that a [`Meter`](crate::deviation::Meter) needs, from here on or (`always` false) from the
+    /// first block with a tolerance on: the output is measured from there, even if nobody reads it.
     pub fn report_changes(&mut self, always: bool) {
         if !always && self.least_tolerance_mm.is_infinite() {
             self.changes = None;
@@ -382,12 +383,12 @@ impl Planner {
         }
     }
 
-    /// True if [`Self::take_changes`] has something to say, now or later.
+    /// Whether [`Self::take_changes`] returns changes, now or later.
     pub fn reports_changes(&self) -> bool {
         self.changes.is_some()
     }
 
-    /// What has changed since the last call.
+    /// The changes since the last call.
     pub fn take_changes(&mut self) -> impl Iterator<Item = Change> + '_ {
         self.changes.iter_mut().flat_map(|changes| changes.drain(..))
     }

@@ -1,17 +1,18 @@
 //! Motion along one scalar coordinate: how speed changes over time.
 //!
-//! Every speed is a [`Profile`]: a row of phases of constant jerk, or of one sine-square ramp each. Those who plan differ:
-//! - slopes ([`SlopeLimits`]): the vendor's STEP, TRAPEZ and SIN2 over a path length between two velocities,
-//!   acceleration zero at both ends. The look-ahead asks [`SlopeLimits::reach_up`] and
-//!   [`SlopeLimits::reach_down`], the interpolator evaluates the plan.
+//! Every speed is a [`Profile`]: a row of phases with constant jerk, or of one sine-square ramp each. There are three
+//! ways to plan one:
+//! - slopes ([`SlopeLimits`]): the vendor's STEP, TRAPEZ and SIN2 over a path length between two velocities, with zero
+//!   acceleration at both ends. The look-ahead uses [`SlopeLimits::reach_up`] and [`SlopeLimits::reach_down`], the
+//!   interpolator evaluates the plan.
 //! - the change of speed (`SlopeLimits::change`) from a moving state with any acceleration, with the ramps of a slope:
 //!   feedhold and override.
 //! - the general third-order motion ([`ThirdOrderLimits::fastest`]): one coordinate from any position, velocity and
-//!   acceleration to any other with one jerk limit; it connects what SIN2 has planned from either end.
+//!   acceleration to any other with one jerk limit; it connects profiles that SIN2 has planned from both ends.
 //!
-//! Nothing here knows axes or geometry: limits arrive already referred to the path.
+//! The module has no notion of axes or geometry: limits arrive already referred to the path.
 //!
-//! A slope is asked what it can reach, then for a profile over a length; a profile is evaluated at times.
+//! Order of calls: read the reach of a slope, plan a profile over a length, then evaluate the profile at times.
 //!
 //! ```
 //! use kontur_motion::profile::{RampShape, RampedLimits, SlopeLimits};
@@ -19,7 +20,7 @@
 //! let limits = RampedLimits::new(RampShape::Trapez, false, 3500.0, 3500.0, [0.03; 4]);
 //! let slope = SlopeLimits::Ramped(limits);
 //! let profile = slope.plan(0.0, 0.0, 200.0, 100.0).unwrap();
-//! // one ramp comes on top of length / speed: v / a + tr, on the way half the speed
+//! one ramp in addition to length / speed: v / a + tr, during which the mean speed is half
 //! let expected = 100.0 / 200.0 + 200.0 / 3500.0 + 0.03;
 //! assert!((profile.duration() - expected).abs() < 1e-9);
 //! assert!((profile.at(0.25).v_mm_s - 200.0).abs() < 1e-9);

@@ -1,6 +1,6 @@
-//! A block in the look-ahead queue with everything that depends on it alone.
+//! A block in the look-ahead queue with all quantities that depend on it alone.
 //!
-//! Made by the planner from what is pushed, and read by [`crate::lookahead::plan`].
+//! Made by the planner from the pushed blocks, and read by [`crate::lookahead::plan`].
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -25,22 +25,22 @@ use kontur_filters::time::CycleTime;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
-/// Part of their time that two stretches of a block have to gain to be planned apart.
+/// Share of the time that two stretches of a block have to save to be planned separately.
 const WORTH: f64 = 0.1;
 
-/// A stretch of a block.
+/// A stretch of a block with its curvature and speed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch {
     /// Distance of its end in mm from the present start of the block.
     pub(crate) end: f64,
     /// Largest `|q''|` of an axis in 1/mm.
     pub(crate) bend: f64,
-    /// Speed in mm/s that is left to it.
+    /// Permitted speed in mm/s.
     pub(crate) speed: f64,
 }
 
 impl Stretch {
-    /// This one with the next one.
+    /// Both stretches as one.
     fn and(&self, next: &Self) -> Self {
         Self { end: next.end, bend: self.bend.max(next.bend), speed: self.speed.min(next.speed) }
     }
@@ -49,31 +49,32 @@ impl Stretch {
 /// A block with its own limits, computed once when it enters the queue.
 #[derive(Clone, Debug)]
 pub struct Queued {
-    /// The block, where it was programmed: it is large.
+    /// The block, boxed where it was programmed because it is large.
     pub block: Box<Block>,
     /// Tangents and curvatures at both ends.
     pub ends: Ends,
-    /// Path length in mm at which the block starts: not 0 for the rest of a block after a change of speed inside it.
+    /// Path length in mm at which the block starts; not 0 for the remainder of a block after a change of speed inside
+    /// it.
     pub offset: f64,
     /// Path length in mm from the offset to the end.
     pub length: f64,
     /// Path velocities without the real-time override.
     pub speeds: PathSpeeds,
-    /// Path velocity in mm/s under the real-time override, and what it comes from.
+    /// Path velocity in mm/s under the real-time override, with its reason.
     pub velocity: Cap,
-    /// What the path velocity would be if no feed were programmed.
+    /// The path velocity if no feed rate were programmed.
     pub ceiling: Cap,
     /// Path slope.
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
     pub bend: f64,
-    /// Holds the whole path of the block.
+    /// Contains the whole path of the block.
     pub(crate) ball: Ball,
-    /// The block continues after the end of this part of it.
+    /// Whether the block continues after the end of this part of it.
     pub(crate) goes_on: bool,
 }
 
-/// Path velocity under a real-time override, and what it would be if no feed were programmed.
+/// Path velocity under a real-time override, and the one that would result without a programmed feed rate.
 fn rated(block: &Block, speeds: &PathSpeeds, ratios: &Override) -> (Cap, Cap) {
     let rated = |speeds: &PathSpeeds| {
         if block.full_override {
@@ -123,7 +124,7 @@ impl Queued {
         }
     }
 
-    /// What is left of the block `s` mm after its present start.
+    /// The remainder of the block from `s` mm after its present start on.
     pub(crate) fn remainder(self: &Arc<Self>, s: f64) -> Arc<Self> {
         if s <= 0.0 {
             return Arc::clone(self);
@@ -139,7 +140,7 @@ impl Queued {
         Arc::new(rest)
     }
 
-    /// The first `s` mm of what is left of the block.
+    /// The first `s` mm of the remaining block.
     pub(crate) fn up_to(&self, s: f64) -> Self {
         let mut part = Self::clone(self);
         (part.length, part.goes_on) = (s, true);
@@ -151,18 +152,19 @@ impl Queued {
         part
     }
 
-    /// True if braking to the feed of the next block may begin in that block (G901).
+    /// Whether braking to the feed rate of the next block may begin in that block (G901).
     pub(crate) fn brakes_late_into(&self, next: &Self) -> bool {
         let hsc = [self, next].iter().any(|q| q.block.slope.kind == SlopeKind::Hsc);
         self.block.late_braking && self.block.feed != Feed::Rapid && !hsc
     }
 
-    /// Velocity in mm/s that the path has nowhere in this block after `before`, whatever the override.
+    /// Velocity in mm/s that the path never exceeds in this block after `before`, with any override.
     pub(crate) fn fastest_behind(&self, before: &Self) -> f64 {
         if before.brakes_late_into(self) { self.speeds.highest() } else { self.speeds.fastest() }
     }
 
-    /// Stretches of different bend by the distance of their ends from the present start: one, unless it is a curve.
+    /// Stretches of different curvature, by the distance of their ends from the present start; a single one unless the
+    /// block is a curve.
     pub(crate) fn bends(&self) -> SmallVec<[(f64, f64); 1]> {
         let Path::Curve(curve) = &self.block.path else {
             return smallvec![(self.length, self.bend)];
@@ -190,14 +192,14 @@ impl Queued {
         inside.map(|(_, bend)| bend).fold(0.0, f64::max)
     }
 
-    /// The block in parts with a speed of their own, where that is worth it; one part otherwise. `stretches` are those of
-    /// [`Self::bends`], or parts of them, with the speed that each is left.
+    /// The block in parts with separate speeds if that is worthwhile; otherwise in one part. `stretches` are those of
+    /// [`Self::bends`], or parts of them, each with its permitted speed.
     pub(crate) fn parts(
         self: &Arc<Self>,
         stretches: impl IntoIterator<Item = Stretch>,
     ) -> Vec<Arc<Self>> {
-        // neighbours stay together as long as their common speed costs little; each with the time of its stretches at their own
-        // speeds, so that a bend that grows step by step does not become one group
+        // neighbours stay together as long as their common speed costs little; each group keeps the time of its
+        // stretches at their separate speeds, so that a gradually increasing curvature does not end up in one group
         let mut groups: Vec<(f64, Stretch)> = Vec::new();
         let mut least_s: Vec<f64> = Vec::new();
         let mut from = 0.0;

@@ -1,8 +1,7 @@
 //! External influences on a running path: override and feedhold.
 //!
-//! They are applied at the next cycle; see [`crate::planner`] for how the path gets there.
-//!
-//! Set at the planner at any time between two cycles.
+//! Set on the planner at any time between two cycles, they apply from the next cycle on; see [`crate::planner`] for the
+//! transition.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -47,24 +46,24 @@ impl OverrideRatios {
     }
 }
 
-/// What the override is a percentage of (P-CHAN-00066).
+/// The value that the override is a percentage of (P-CHAN-00066).
 ///
-/// `v_max` is the least of the limits by axes, curvature and `#VECTOR LIMIT`. No mode exceeds it, also not above 100 %
-/// (Assumption: the formula of mode 0 read literally would drive axes beyond their velocity limit).
+/// `v_max` is the lowest of the limits by axes, curvature and `#VECTOR LIMIT`. No mode exceeds it, not even above 100 %
+/// (Assumption: the formula of mode 0 taken literally would drive axes beyond their velocity limit).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum OverrideMode {
-    /// 0: of what the path would reach, `min(v_prog, v_max) * override`.
+    /// 0: of the velocity that the path would reach, `min(v_prog, v_max) * override`.
     #[default]
     OfReached,
     /// 1: of the programmed velocity, `min(v_prog * override, v_max)`.
     OfProgrammed,
     /// 2: as 0, but as 1 while a function that reduces the velocity is active.
     ///
-    /// Assumption: that function is a velocity of `#VECTOR LIMIT`, the only one that this crate knows.
+    /// Assumption: that function is a velocity of `#VECTOR LIMIT`, the only one in this crate.
     OfProgrammedWhileReduced,
 }
 
-/// Which deceleration a feedhold uses (P-CHAN-00097).
+/// The deceleration that a feedhold uses (P-CHAN-00097).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum FeedholdBraking {
     /// 0: that of the active slope.
@@ -82,7 +81,7 @@ pub(crate) struct Override {
 }
 
 impl Override {
-    /// Path velocity of a block in mm/s, and what it comes from.
+    /// Path velocity of a block in mm/s, with its reason.
     pub(crate) fn velocity(&self, speeds: &PathSpeeds) -> Cap {
         let ratio = if speeds.rapid { self.ratios.rapid } else { self.ratios.feed };
         let of_programmed = match self.mode {
@@ -91,7 +90,7 @@ impl Override {
             OverrideMode::OfProgrammedWhileReduced => speeds.vector_mm_s.is_finite(),
         };
         let programmed = speeds.programmed_mm_s;
-        // from 100 % on both modes are the same, because `v_max` bounds the result
+        // at 100 % and above both modes are the same, because `v_max` limits the result
         let commanded = if of_programmed || ratio >= 1.0 {
             programmed * ratio
         } else {
@@ -110,7 +109,7 @@ mod tests {
         Override { ratios, mode }.velocity(speeds).v_mm_s
     }
 
-    /// 200 mm/s programmed, 100 allowed: 50 % are 50 of what is reached and 100 of what is programmed.
+    /// 200 mm/s programmed, 100 permitted: 50 % are 50 of the reached velocity and 100 of the programmed one.
     #[test]
     fn modes_of_p_chan_00066() {
         use OverrideMode::{OfProgrammed, OfProgrammedWhileReduced, OfReached};

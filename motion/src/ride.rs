@@ -1,18 +1,19 @@
-//! The speed over a stretch of blocks whose limits vary: along the limits where they change slowly, below them where
-//! acceleration or jerk do not allow more.
+//! The speed over a stretch of blocks with varying limits: along the limits where they change slowly, below them where
+//! acceleration or jerk require it.
 //!
-//! 1. *rise*: from the start, as fast as the blocks allow, never reducing the speed. Where a limit drops the speed is cut,
-//!    its acceleration zero, unless it was lowered before to pass the drop with an acceleration ([`climb`]).
+//! 1. *rise*: from the start, as fast as the blocks permit, without ever reducing the speed. Where a limit drops the
+//!    speed is cut with zero acceleration, unless the rise was lowered before to pass the drop with an acceleration
+//!    ([`climb`]).
 //! 2. *fall*: the same from the end, backwards.
-//! 3. the lower one of both is the speed. Where it changes from rise to fall the acceleration would jump; there the rise is
+//! 3. The speed is the lower of the two. At the change from rise to fall the acceleration would jump, so the rise is
 //!    left early enough to run into the fall with a falling acceleration ([`meet`]). At a local minimum both are at the
-//!    limit with zero acceleration and meet by themselves.
+//!    limit with zero acceleration and meet without a connection.
 //!
-//! Constant jerk (TRAPEZ, HSC): every block has its own jerk and acceleration, at the place where it lies. At a limit that
-//! is reached the acceleration is zero, except where the way to it leaves no room for that; a limit that is not reached
-//! has no say. Sine-square ramps (SIN2) cannot be cut at a limit; for them the same is done in steps, see [`sine`].
+//! Constant jerk (TRAPEZ, HSC): every block uses its jerk and acceleration over its length. At a limit that is reached
+//! the acceleration is zero, except where there is no room for that; a limit that is not reached has no effect.
+//! Sine-square ramps (SIN2) cannot be cut at a limit; they are built in steps, see [`sine`].
 //!
-//! A stretch for which rise and fall do not meet is refused; the caller then stops accelerating at its boundaries.
+//! A stretch whose rise and fall do not meet is refused; the caller then requires zero acceleration at its boundaries.
 
 mod climb;
 mod meet;
@@ -24,13 +25,13 @@ use meet::Meet;
 
 /// Shortest ramp in s.
 const SHORTEST_RAMP_S: f64 = 1e-4;
-/// Relative slack of a limit: rounding.
+/// Relative tolerance of a limit for rounding.
 const SLACK: f64 = 1e-9;
-/// Speed in mm/s that is rest but for rounding.
+/// Speed in mm/s that counts as standstill.
 const REST_MM_S: f64 = 1e-9;
-/// Relative gain of speed from which on a hill between two equal limits at the ends of a block is driven.
+/// Relative gain of speed from which on a hill between two equal limits at the ends of a block is used.
 const HILL: f64 = 0.005;
-/// Ratio of the jerks of neighbouring blocks from which on passing their boundary with acceleration zero may be faster.
+/// Ratio of the jerks of neighbouring blocks from which on zero acceleration at their boundary may be faster.
 const JERK_STEP: f64 = 1.1;
 
 /// One block of a stretch.
@@ -59,7 +60,7 @@ struct Block {
 }
 
 impl Block {
-    /// True if its end and the block after change nothing.
+    /// Whether neither its end nor the next block changes anything.
     fn goes_on_as(&self, next: &Self) -> bool {
         let same = |a: f64, b: f64| (a - b).abs() <= SLACK * a;
         self.cap >= self.v * (1.0 - SLACK)
@@ -85,7 +86,7 @@ fn own(cells: &[Cell]) -> Vec<Block> {
     cells.iter().map(block).collect()
 }
 
-/// Blocks between which nothing changes as one, so that a line in two parts is driven as a whole one.
+/// Combines blocks between which nothing changes, so that a line in two parts is treated as one.
 fn joined(blocks: Vec<Block>) -> Vec<Block> {
     let mut out: Vec<Block> = Vec::with_capacity(blocks.len());
     for block in blocks {
@@ -97,8 +98,8 @@ fn joined(blocks: Vec<Block>) -> Vec<Block> {
     out
 }
 
-/// The fastest speed found from `v0` with acceleration `a0` (constant jerk only) to `v1` with acceleration zero; `None` if
-/// the limits leave no way.
+/// The fastest speed found from `v0` with acceleration `a0` (constant jerk only) to `v1` with zero acceleration; `None`
+/// if there is none within the limits.
 pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Profile> {
     let last = cells.last()?;
     let length = last.end;
@@ -113,8 +114,8 @@ pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Prof
     Some(Profile::over(speed, length))
 }
 
-/// True if a ride connects rise and fall with less jerk than the limits allow: sine-square ramps, for which the least of the
-/// four jerks is used.
+/// Whether a ride connects rise and fall with less jerk than the limits permit: with sine-square ramps, for which the
+/// smallest of the four jerks is used.
 pub(crate) fn connects_gently(cells: &[Cell]) -> bool {
     let lopsided = |block: &Block| {
         let least = block.least_jerk();
@@ -123,8 +124,9 @@ pub(crate) fn connects_gently(cells: &[Cell]) -> bool {
     has_sine_ramps(cells) && own(cells).iter().any(lopsided)
 }
 
-/// The cells whose jerk differs much from that of the cell before, so that a ride with sine-square ramps takes the smaller one on
-/// both sides of the boundary ([`sine`]): the whole of a long block suffers from a tiny one beside it.
+/// The cells whose jerk differs considerably from that of the cell before. A ride with sine-square ramps uses the
+/// smaller jerk on both sides of the boundary ([`sine`]), so a tiny block would slow down the whole of a long one next
+/// to it.
 pub(crate) fn jerk_steps(cells: &[Cell]) -> Vec<usize> {
     if !has_sine_ramps(cells) {
         return Vec::new();
@@ -139,14 +141,14 @@ fn has_sine_ramps(cells: &[Cell]) -> bool {
     cells.last().is_some_and(|cell| cell.rates.shape == RampShape::Sin2)
 }
 
-/// One block, or several between which nothing changes, with one jerk.
+/// One block, or several between which nothing changes, with a single jerk.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Alone {
     block: Block,
 }
 
 impl Alone {
-    /// `None` if the limits change on the way, the ramps differ, or are those of SIN2.
+    /// `None` if the limits change on the way, or the ramps differ or are those of SIN2.
     pub(crate) fn of(cells: &[Cell]) -> Option<Self> {
         let block = match joined(own(cells))[..] {
             [block] if cells[0].rates.shape == RampShape::Trapez => block,
@@ -187,18 +189,18 @@ impl Alone {
             phase
         });
         let phases: Vec<Phase> = phases.collect();
-        // a start that is too steep for what is ahead of it exceeds that
+        // a start too steep for the path ahead exceeds this limit
         let keeps = |p: &Phase| p.lowest() >= -REST_MM_S && p.peak() <= v * (1.0 + 2.0 * SLACK);
         phases.iter().all(keeps).then(|| Profile::over(phases, end))
     }
 }
 
-/// Phases run backwards from the other end.
+/// Phases reversed, from the other end.
 fn turned(list: &[Phase], length: f64) -> Vec<Phase> {
     list.iter().rev().map(|p| p.reversed(length)).collect()
 }
 
-/// The blocks seen from the end: braking becomes accelerating.
+/// The blocks seen from the end, with acceleration and deceleration exchanged.
 fn mirror(cells: &[Block]) -> Vec<Block> {
     let length = cells.last().map_or(0.0, |c| c.end);
     (0..cells.len())
@@ -218,19 +220,19 @@ fn mirror(cells: &[Block]) -> Vec<Block> {
         .collect()
 }
 
-/// True if between two ends passed at `v` with acceleration zero a speed-up and a slow-down are worth the name.
+/// Whether accelerating and braking between two ends that are passed at `v` with zero acceleration gains enough.
 fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
     let time = length / v;
     (jerk * time * time / 16.0).min(acc * time / 4.0) >= HILL * v
 }
 
-/// True if a limit is below the present speed: the fall towards it does not belong to the rise.
+/// Whether a limit is below the present speed: the braking towards it is not part of the rise.
 fn is_drop(limit: f64, v: f64) -> bool {
     limit < v * (1.0 - 10.0 * SLACK)
 }
 
-/// True if a speed reached at `s` in block `c` may be kept up to its end, or be braked from there, or is cut; `v` is the
-/// speed at which the rise to it began.
+/// Whether a speed reached at `s` in block `c` can be held up to the end of the block, or reduced in time, or is cut
+/// there; `v` is the speed at which the rise to it began.
 fn is_level(cells: &[Block], c: usize, s: f64, reached: f64, v: f64) -> bool {
     let cell = &cells[c];
     let Some(behind) = cells.get(c + 1) else { return true };
@@ -263,7 +265,7 @@ mod tests {
     use kontur_kit::Random;
     use std::f64::consts::FRAC_PI_2;
 
-    /// Blocks with limits that vary slowly, with noise, dips and blocks of other lengths.
+    /// Blocks with slowly varying limits, with noise, dips and blocks of other lengths.
     fn cells(seed: u64, ramp: f64, shape: RampShape) -> Vec<Cell> {
         let mut r = Random::from_state(seed);
         let (waves, depth, noise) = (0.1 + r.ratio(), 60.0 * r.ratio(), 0.2 * r.ratio());

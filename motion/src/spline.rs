@@ -1,32 +1,35 @@
 //! B-spline through runs of short linear blocks (`#HSC ON [BSPLINE]`): a stage between program and planner.
 //!
-//! The programmed points, freed from the noise of rounding ([`fairing`]), are the control points of a cubic B-spline whose knots lie at their distances along the
-//! polygon (source: TF5200, extended HSC programming, control points; Assumption: degree and knots). In Bezier form the
-//! piece of an edge has both inner points on that edge, and its ends lie on the lines that cut the corners. So every
-//! piece belongs to one block, and is never further from its edge than its ends are: the deviation of the whole spline is
-//! known from the corners alone.
+//! The programmed points, after removal of rounding noise ([`fairing`]), are the control points of a cubic B-spline
+//! with knots at their distances along the polygon (source: TF5200, extended HSC programming, control points;
+//! Assumption: degree and knots). In Bezier form the piece of an edge has both inner points on that edge, and its ends
+//! are on the lines that cut the corners. Every piece therefore belongs to one block, and is never further from its
+//! edge than its ends are: the deviation of the whole spline follows from the corners alone.
 //!
-//! At even edges the deviation is a sixth of an edge times the change of direction: `h^2 / (6 r)` where the polygon runs
-//! along a radius. A corner that would deviate more is drawn back. With a little too small a tolerance, knots in the
-//! middles of its edges leave only the corner itself to move back to the programmed point, by as much as is needed; the
-//! full way halves the deviation, and the next knots continue from there. So the tolerance is used, and a larger one makes
-//! the spline neither sharper nor abruptly different. A corner whose tolerance is small compared with its edges, or whose edges
-//! are uneven and whose deviation could exceed the tolerance for any other edges, gets two more control points on either side, at distances `e` and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline
-//! touches the polygon before and after it (P-CHAN-00129 = 0). Or the spline ends there (`AUTO_OFF_PATH`; this goes by the
-//! bound for any other edges, at even ones a quarter of an edge). At its ends the spline meets the polygon with its
-//! direction and without curvature. Position, tangent and curvature are continuous everywhere else.
+//! On edges of equal length the deviation is a sixth of an edge times the change of direction: `h^2 / (6 r)` where the
+//! polygon follows an arc of radius `r`. A corner with more deviation is pulled back. If the tolerance is only slightly
+//! too small, knots at the middles of its edges leave only the corner itself to move back to the programmed point, by
+//! as much as necessary; the full distance halves the deviation, and the next knots continue from there. The tolerance
+//! is thus used, and a larger one makes the spline neither sharper nor abruptly different. A corner with a tolerance
+//! that is small compared with its edges, or with edges of unequal length and a deviation that could exceed the
+//! tolerance for any other edges, gets two more control points on either side, at distances `e` and `2 e`; its
+//! deviation is then `e/3 sin(theta/2)`, and the spline touches the polygon before and after it (P-CHAN-00129 = 0). Or
+//! the spline ends there (`AUTO_OFF_PATH`, decided by the bound for any other edges, which is a quarter of an edge on
+//! equal ones). At its ends the spline meets the polygon with its direction and without curvature. Everywhere else
+//! position, tangent and curvature are continuous.
 //!
 //! Whatever the control points: a spline that passes a corner at the distance `d` with a change of direction by `jump`
-//! has a curvature of about `jump^2 / (6 d)` there. Below the deviation of the even polygon a smaller tolerance therefore
-//! costs speed, as its root: the edges get straighter and the corners sharper, and the path speed has a ripple. A corner
-//! just short of a reversal stays a corner, as in contouring. So does one that is passed faster without the spline
-//! ([`worth`]): a larger tolerance or more corners do not cost time.
+//! has a curvature of about `jump^2 / (6 d)` there. Below the deviation of the polygon with equal edges a smaller
+//! tolerance therefore costs speed, as its square root: the edges become straighter and the corners sharper, and the
+//! path speed has a ripple. A corner just short of a reversal stays a corner, as in contouring. So does a corner that
+//! is passed faster without the spline ([`worth`]): neither a larger tolerance nor more corners cost time.
 //!
-//! `PATH_DEV` and `TRACK_DEV` hold for both together: what fairing takes is missing for the corners.
+//! `PATH_DEV` and `TRACK_DEV` limit the total: the part that fairing uses is not available at the corners.
 //!
-//! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
+//! An edge becomes several blocks with the number of the programmed one if its parts permit different speeds.
 //!
-//! A stage before the planner, like [`crate::contouring`]: [`Splining::push`] block by block, [`Splining::flush`] where the path stops.
+//! Order of calls, as for [`crate::contouring`]: [`Splining::push`] block by block, [`Splining::flush`] where the path
+//! stops.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -64,52 +67,53 @@ use polygon::ControlPolygon;
 use std::collections::VecDeque;
 use std::ops::Range;
 
-/// Edges after the present one that decide its piece.
+/// Number of edges after the present one that influence its piece.
 const AHEAD: usize = 5;
 /// Rounds in which corners are judged ([`worth`]).
 const ROUNDS: usize = 2;
-/// Edges before the present one that decide its piece.
+/// Number of edges before the present one that influence its piece.
 const BEHIND: usize = 3;
-/// Part of an edge that `e` takes at most, so that the control points added at both ends stay in order. Below a quarter,
-/// where twice halved edges have the same control points.
+/// Largest share of an edge for `e`, so that the control points added at both ends stay in order. It is below a
+/// quarter, where edges halved twice have the same control points.
 const SHARE: f64 = 0.245;
-/// Edges around a corner whose lengths differ by no more than this ratio can be halved: each halving takes at least a
-/// third of the deviation. Otherwise the control points would crowd at the ends of short edges.
+/// Edges around a corner whose lengths differ by at most this ratio can be halved: each halving reduces the deviation
+/// by at least a third. With other edges the control points would crowd at the ends of short edges.
 const EVEN: f64 = 2.0;
 
-/// Edges that decide a piece.
+/// Edges that determine a piece.
 #[derive(Clone, Debug, PartialEq)]
 struct Span {
     edges: Range<usize>,
-    /// The spline begins and ends with them.
+    /// Whether the spline begins with the first of them, and ends with the last.
     from_start: bool,
     to_end: bool,
 }
 
-/// The stage. It holds a few blocks after those of [`fairing`], and what it needs of the [`BEHIND`] before them.
+/// The spline stage. It holds a few blocks in addition to those of [`fairing`], and the part of the [`BEHIND`] before
+/// them that it needs.
 #[derive(Debug)]
 pub struct Splining {
     cycle: CycleTime,
     fairing: Fairing,
     run: VecDeque<Edge>,
-    /// Edges at the front that have their curves as if every corner of the run were rounded.
+    /// Number of leading edges that have their curves as if every corner of the run were rounded.
     curved: usize,
-    /// Edges at the front of which the corner at their start has been compared with its spline.
+    /// Number of leading edges of which the corner at the start has been compared with its spline.
     compared: usize,
-    /// Edges at the front whose corner has been judged in each of the rounds after that.
+    /// Number of leading edges of which the corner has been judged, for each of the rounds after that.
     judged: [usize; ROUNDS],
-    /// Edges at the front that have been put out.
+    /// Number of leading edges that have been output.
     done: usize,
-    /// The first edge in the buffer is the first of the run.
+    /// Whether the first edge in the buffer is the first of the run.
     from_start: bool,
-    /// The last edge in the buffer is the last of the run.
+    /// Whether the last edge in the buffer is the last of the run.
     to_end: bool,
     ready: Vec<Block>,
     notices: Vec<Notice>,
 }
 
 impl Splining {
-    /// A stage that holds nothing.
+    /// An empty stage.
     pub fn new(cycle: CycleTime) -> Self {
         Self {
             cycle,
@@ -126,12 +130,14 @@ impl Splining {
         }
     }
 
-    /// The block does not belong to a spline, and none is waiting: pushed, it would be returned at once and unchanged.
+    /// Whether [`Self::push`] would return this block at once and unchanged: it is not part of a spline, and no block
+    /// is held.
     pub fn passes(&self, block: &Block) -> bool {
         block.spline.is_none() && self.run.is_empty() && self.fairing.is_empty()
     }
 
-    /// Takes a block; what is final comes back. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at corners.
+    /// Takes a block and returns the final ones. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at
+    /// corners.
     pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
         for block in fairing.push(block) {
@@ -141,7 +147,7 @@ impl Splining {
         self.ready.drain(..)
     }
 
-    /// The path stops after the last block: everything comes back.
+    /// Returns everything that is held, where the path stops after the last block.
     pub fn flush(&mut self, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
         for block in fairing.flush() {
@@ -152,7 +158,7 @@ impl Splining {
         self.ready.drain(..)
     }
 
-    /// Corners that stay sharp because the spline would take longer, since the last call.
+    /// The corners since the last call that stay sharp because the spline would take longer.
     pub fn take_notices(&mut self) -> Vec<Notice> {
         std::mem::take(&mut self.notices)
     }
@@ -175,7 +181,7 @@ impl Splining {
         self.advance(kernel_active);
     }
 
-    /// Settles the corner at the start of the last edge, which the length of the next edge has a part in.
+    /// Completes the corner at the start of the last edge, which also depends on the length of the next edge.
     fn settle(&mut self, next: f64) {
         let Some(at) = self.run.len().checked_sub(2) else { return };
         let (h, k) = (self.run[at].length, self.run[at + 1].length);
@@ -203,7 +209,7 @@ impl Splining {
         (self.from_start, self.to_end) = (false, false);
     }
 
-    /// Puts out the edges that are decided; all of them at the end of the run.
+    /// Outputs the edges that are decided; at the end of the run all of them.
     fn advance(&mut self, kernel_active: bool) {
         let to_end = self.to_end;
         let decided = |ahead: usize, of: usize| if to_end { of } else { of.saturating_sub(ahead) };
@@ -235,10 +241,10 @@ impl Splining {
         }
     }
 
-    /// The edges that decide the piece of an edge where every corner is rounded.
+    /// The edges that determine the piece of an edge if every corner is rounded.
     fn span(&self, edge: usize) -> Span {
         let start = edge.saturating_sub(BEHIND);
-        // the corner after these edges is settled
+        // the corner after these edges is complete
         let end = (edge + AHEAD - 1).min(self.run.len());
         Span {
             edges: start..end,
@@ -247,7 +253,7 @@ impl Splining {
         }
     }
 
-    /// Those of them between the sharp corners next to the edge.
+    /// The part of these edges between the sharp corners next to the edge.
     fn between(edge: usize, span: &Span, is_sharp: impl Fn(&usize) -> bool) -> Span {
         let (start, end) = (span.edges.start, span.edges.end);
         let before = (start..=edge).rev().find(&is_sharp);
@@ -259,7 +265,7 @@ impl Splining {
         }
     }
 
-    /// Puts out the piece of the next edge.
+    /// Outputs the piece of the next edge.
     fn put_out(&mut self) {
         let edge = self.done;
         if self.run[edge].corner.sharp_since.is_some() {
@@ -300,7 +306,8 @@ impl Splining {
         }
     }
 
-    /// The spline over an edge: one curve, or one for each part with its own speed; none over an edge that is a spline for itself.
+    /// The spline over an edge: one curve, or one for each part with a different speed; none over an edge between two
+    /// sharp corners.
     fn curves(&self, edge: usize, span: &Span) -> Vec<Curve> {
         if span.from_start && span.to_end && span.edges.len() == 1 {
             return Vec::new();

@@ -1,8 +1,8 @@
 //! Spans on the time axis: where the path is in cycle `k`.
 //!
-//! The profiles are continuous; a motion starts on a cycle tick, its setpoint `j` is the profile at `j T`, counted with
-//! an integer. Span and block borders fall inside cycles; the rest of the cycle is spent in the next span. The last
-//! cycle of a motion is its exact end.
+//! The profiles are continuous. A motion starts on a cycle tick; its setpoint `j` is the profile at `j T`, counted as
+//! an integer. Boundaries of spans and blocks fall inside cycles, and the rest of such a cycle is spent in the next
+//! span. The last cycle of a motion is its exact end.
 
 mod reason;
 
@@ -19,10 +19,10 @@ use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Relative difference of lengths that is rounding.
+/// Relative difference of lengths that counts as rounding.
 pub(crate) const SAME_LENGTH: f64 = 1e-12;
 
-/// A moment: seconds after a cycle tick, the seconds kept as a sum with its rounding error.
+/// A moment: seconds after a cycle tick, kept as a sum with its rounding error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Moment {
     pub(crate) origin: u64,
@@ -35,7 +35,7 @@ impl Moment {
         Self { origin, ..Self::default() }
     }
 
-    /// Neumaier sum, so that a motion of a million spans keeps its ticks.
+    /// Neumaier sum, so that a motion of a million spans stays on its ticks.
     pub(crate) fn plus(mut self, s: f64) -> Self {
         let sum = self.after_s + s;
         self.error_s +=
@@ -48,12 +48,12 @@ impl Moment {
         self.after_s + self.error_s
     }
 
-    /// True if whole cycles lie between both: what starts there has the same states in its cycles.
+    /// Whether both are whole cycles apart: motions that start there have the same states in their cycles.
     pub(crate) fn is_whole_cycles_from(self, other: Self) -> bool {
         (self.after_s, self.error_s) == (other.after_s, other.error_s)
     }
 
-    /// In cycles since the start of the program.
+    /// The moment in cycles since the start of the program.
     pub(crate) fn cycles(self, cycle: CycleTime) -> f64 {
         self.origin as f64 + self.seconds() / cycle.seconds()
     }
@@ -64,16 +64,16 @@ impl Moment {
     }
 }
 
-/// What the examinations of earlier plans have found of an entry.
+/// Findings of earlier examinations about an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Seen {
-    /// Nothing, or that it exceeds the tolerance.
+    /// None, or that it exceeds the tolerance.
     Nothing,
-    /// At a first look it keeps the tolerance.
+    /// According to a first check it keeps the tolerance.
     Glanced,
-    /// Its set points stay at the contour, as it began when that was measured; what it misses is not known.
+    /// Its set points stay at the contour; the moment is its start in that measurement. What it misses is not known.
     Stays(Moment),
-    /// It kept the tolerance when it was measured last, and began then.
+    /// It kept the tolerance in the last measurement; the moment is its start then.
     Kept(Moment),
 }
 
@@ -87,18 +87,18 @@ pub(crate) struct Entry {
     pub(crate) profile: Profile,
     pub(crate) why_up: SpeedLimit,
     pub(crate) why_down: SpeedLimit,
-    /// Blocks with the path length inside the span at their end; the last one may reach beyond the span.
+    /// Blocks with the path length inside the span at their end; the last one may extend beyond the span.
     pub(crate) blocks: SmallVec<[(Arc<Queued>, f64); 1]>,
-    /// Speeds that the plan left to the blocks; empty: their own.
+    /// Speeds that the plan assigned to the blocks; empty: those of the blocks.
     pub(crate) feeds: SmallVec<[Cap; 1]>,
-    /// Caps at the starts of the blocks, and what the tolerance has asked of them, once the entry is final.
+    /// Caps at the starts of the blocks, and the demands of the tolerance on them, once the entry is final.
     pub(crate) caps: SmallVec<[(Cap, Option<Asked>); 1]>,
-    /// Limits inside that the speed runs down to, in order.
+    /// Limits inside the entry to which the speed falls, in order.
     lows: SmallVec<[Low; 1]>,
-    /// The motion ends here, at its next tick.
+    /// Whether the motion ends here, at its next tick.
     pub(crate) stops: bool,
     pub(crate) seen: Seen,
-    /// Time in s since the start from which on another entry takes over.
+    /// Time in s since the start from which on another entry applies.
     cut_s: Option<f64>,
 }
 
@@ -115,7 +115,7 @@ pub(crate) struct PathState {
     pub(crate) a: f64,
     /// Path jerk in mm/s3.
     pub(crate) j: f64,
-    /// What holds the speed down.
+    /// Reason for the present speed.
     pub(crate) limit: SpeedLimit,
     /// Number of the block.
     pub(crate) seq: u64,
@@ -141,7 +141,7 @@ impl Entry {
         Self::along(start, s0, span.profile.clone(), why, blocks, stops)
     }
 
-    /// A profile along blocks; `why` holds the speed down while accelerating and while braking.
+    /// A profile along blocks; `why` are the reasons while accelerating and while braking.
     pub(crate) fn along(
         start: Moment,
         s0: f64,
@@ -180,8 +180,8 @@ impl Entry {
         self.cut_s.map_or_else(|| self.profile.end(), |t| self.profile.at(t))
     }
 
-    /// The parts before and after block `n`, the acceleration between them as it is; `None` where the profile cannot be
-    /// parted.
+    /// The parts before and after block `n`, with the acceleration between them unchanged; `None` if the profile cannot
+    /// be split there.
     pub(crate) fn split(&self, n: usize) -> Option<[Self; 2]> {
         let s = self.blocks[n - 1].1;
         let (before, behind) = self.profile.split(s)?;
@@ -203,7 +203,7 @@ impl Entry {
         Some(parts)
     }
 
-    /// Puts parts in the place of a block.
+    /// Replaces a block by parts of it.
     pub(crate) fn divide(&mut self, block: usize, parts: &[Arc<Queued>]) {
         let mut end = self.blocks[block].1;
         self.blocks.remove(block);
@@ -227,7 +227,7 @@ impl Entry {
         self.end = self.start.plus(t);
     }
 
-    /// The motion or the dwell of this entry is over in cycle `k`.
+    /// Whether the motion or the dwell of this entry is over in cycle `k`.
     pub(crate) fn is_over(&self, k: u64, cycle: CycleTime) -> bool {
         if self.stops {
             k >= self.end.next_tick(cycle)
@@ -238,17 +238,17 @@ impl Entry {
         }
     }
 
-    /// Time since the start in cycle `k`; 0 before it (a dwell precedes it).
+    /// Time in s since the start in cycle `k`; 0 before it (during a dwell).
     pub(crate) fn seconds_at(&self, k: u64, cycle: CycleTime) -> f64 {
         (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0)
     }
 
-    /// State at `k` cycles; exact at the end of a motion.
+    /// State in cycle `k`; exact at the end of a motion.
     pub(crate) fn state(&self, k: u64, cycle: CycleTime, out: &mut PathState) {
         self.walk(cycle).state(k, out);
     }
 
-    /// The entry, to be read in many cycles.
+    /// The entry, prepared to be read in many cycles.
     pub(crate) fn walk(&self, cycle: CycleTime) -> Walk<'_> {
         let (start_s, end_s) = (self.start.seconds(), self.end.seconds());
         let last_k = if self.stops { self.end.next_tick(cycle) } else { u64::MAX };
@@ -292,12 +292,12 @@ impl Timeline {
         self.entries = entries.into();
     }
 
-    /// Takes all entries out.
+    /// Removes and returns all entries.
     pub(crate) fn take(&mut self) -> VecDeque<Entry> {
         std::mem::take(&mut self.entries)
     }
 
-    /// Drops what lies before cycle `k` and fills `out`; false if `k` lies after the last span.
+    /// Drops the entries before cycle `k` and fills `out`; false if `k` is after the last span.
     pub(crate) fn advance(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) -> bool {
         let mut at = 0;
         let found = self.find(&mut at, k, cycle);
@@ -309,8 +309,8 @@ impl Timeline {
         found
     }
 
-    /// The entry of cycle `k`, from number `at` on, which becomes its own; none if `k` lies after the last span. A path that has
-    /// stopped for good stays at its last entry.
+    /// The entry of cycle `k`, searched from number `at` on, which is set to its number; `None` if `k` is after the
+    /// last span. A path that has stopped for good stays at its last entry.
     pub(crate) fn find(&self, at: &mut usize, k: u64, cycle: CycleTime) -> Option<&Entry> {
         while let Some(entry) = self.entries.get(*at) {
             let next = self.entries.get(*at + 1);
@@ -334,7 +334,7 @@ impl Timeline {
     }
 }
 
-/// An entry and what is the same in all of its cycles.
+/// An entry with the values that are the same in all of its cycles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Walk<'a> {
     entry: &'a Entry,
@@ -346,7 +346,7 @@ pub(crate) struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Cycle `k` is not after the end.
+    /// Whether cycle `k` is not after the end.
     #[inline]
     pub(crate) fn covers(&self, k: u64) -> bool {
         if self.entry.stops {
@@ -356,7 +356,7 @@ impl Walk<'_> {
         }
     }
 
-    /// State at `k` cycles; exact at the end of a motion.
+    /// State in cycle `k`; exact at the end of a motion.
     #[inline]
     pub(crate) fn state(&self, k: u64, out: &mut PathState) {
         let Entry { profile, blocks, .. } = self.entry;
@@ -390,8 +390,8 @@ impl Walk<'_> {
     }
 }
 
-/// Path states of rising cycles along what is final and a plan after it; a cycle after the end of a motion rests at its
-/// end until the next one starts.
+/// Path states of increasing cycles along the final part and a plan after it; after the end of a motion the path rests
+/// there until the next one starts.
 #[derive(Debug)]
 pub(crate) struct Reader<'a> {
     placed: &'a VecDeque<Entry>,
@@ -408,7 +408,7 @@ impl<'a> Reader<'a> {
         self.placed.get(i).or_else(|| self.plan.get(i - self.placed.len()))
     }
 
-    /// State in cycle `k`; cycles before the first or after the last span rest at its end.
+    /// State in cycle `k`; before the first and after the last span the path rests at its end.
     pub(crate) fn state(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) {
         let started = |e: &Entry| {
             k >= e.start.origin && cycle.time_of(k - e.start.origin) >= e.start.seconds()

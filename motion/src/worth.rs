@@ -4,8 +4,8 @@
 //! length, to what its curvature and the rate of change of that curvature allow. A small curve at a sharp corner, or between
 //! two chords of a few hundredths of a millimetre, is the slower of the two.
 //!
-//! Both are timed from the middle of the block before the corner to the middle of the block after it, as if the speed peaked
-//! at those points. For a row of equal corners this is exact.
+//! Both are timed from the middle of the block before the corner to the middle of the block after it, as if the speed
+//! had a maximum at those points. For a row of equal corners this is exact.
 
 use crate::block::Block;
 use crate::junction::{Ends, transition};
@@ -86,7 +86,7 @@ impl Side {
         held.min(in_two).min(at_once.unwrap_or(f64::INFINITY))
     }
 
-    /// Time of a single leg from `v` over `length`, if it respects the speeds of the parts that it passes first.
+    /// Time of a single leg from `v` over `length`, if it stays within the speeds of the parts that it passes first.
     fn through(&self, v: f64, parts: &[Part], length: f64) -> Option<f64> {
         let (to, time) = self.leg(v, self.v_mm_s, length);
         // a braking leg is a speed-up reversed in time
@@ -115,16 +115,16 @@ pub(crate) struct Passage<'a> {
 }
 
 impl Passage<'_> {
-    /// True if the curve in `parts` takes no longer than the sharp corner; `pre_mm` and
-    /// `post_mm` are its corner distances.
+    /// Whether the curve in `parts` takes no longer than the sharp corner; `pre_mm` and `post_mm` are its corner
+    /// distances.
     pub(crate) fn is_worth(&self, parts: &[Part], pre_mm: f64, post_mm: f64) -> bool {
-        // where the path stops (G116) a curve only takes a stop more
+        // where the path stops (G116) a curve only adds a stop
         if self.to.dynamics.stop_at_transitions {
             return false;
         }
         let slowest = slowest(parts);
         let sides = self.sides();
-        // only the programmed feeds limit the curve
+        // only the programmed feed rates limit the curve
         if sides.iter().all(|side| slowest >= side.v_mm_s) {
             return true;
         }
@@ -146,7 +146,7 @@ impl Passage<'_> {
         caps.fold(f64::INFINITY, f64::min)
     }
 
-    /// Time in s for the parts alone, as if the speed peaked at both ends.
+    /// Time in s for the parts alone, as if the speed had a maximum at both ends.
     pub(crate) fn time_s(&self, parts: &[Part]) -> f64 {
         let sides = self.sides();
         curve_s(&sides, parts, sides.each_ref().map(|side| side.half_mm))
@@ -161,8 +161,8 @@ fn slowest(parts: &[Part]) -> f64 {
     parts.iter().map(|part| part.v_mm_s).fold(f64::INFINITY, f64::min)
 }
 
-/// Time in s for the curve and the rest of both sides: the slowest part at its speed, everything outside of it as fast as one
-/// or two legs allow.
+/// Time in s for the curve and the remainder of both sides: the slowest part at its speed, everything outside it as
+/// fast as one or two legs permit.
 fn curve_s(sides: &[Side; 2], parts: &[Part], distances: [f64; 2]) -> f64 {
     let slowest = slowest(parts);
     let is_slow = |part: &Part| part.v_mm_s <= slowest * (1.0 + SLACK);

@@ -1,4 +1,4 @@
-//! The tests of this crate from outside, one module per subject: one target, linked once.
+//! The integration tests of this crate, one module per subject in a single target that is linked once.
 
 #![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
 

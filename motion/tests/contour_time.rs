@@ -1,7 +1,7 @@
-//! Machine time of contours whose corners are rounded, where the speed is planned across blocks: it neither grows with
-//! the tolerance nor gets far from what is possible.
+//! Machine time of contours with rounded corners, where the speed is planned across blocks: it does not increase with
+//! the tolerance and stays close to the bound.
 //!
-//! The bound is computed here on its own: second-order path following (velocity and acceleration of every block, no
+//! The bound is computed independently here: second-order path following (velocity and acceleration of every block, no
 //! jerk limit) by a backward and a forward pass on a fine grid.
 
 use crate::common::{Job, axis, channel, second_order_time};
@@ -19,7 +19,7 @@ const CYCLE_US: u32 = 1000;
 const CYCLE_S: f64 = 1e-3;
 /// Ramps that a hill of the speed may take longer than without ramps.
 const HILL_RAMPS: f64 = 1.17;
-/// Part by which a run may get longer with the tolerance.
+/// Share by which a run may become longer with the tolerance.
 const LONGER: f64 = 0.01;
 
 fn limits(r: &mut Random) -> AxisDynamics {
@@ -134,12 +134,13 @@ fn bound(blocks: &[Block], a: &AxisDynamics) -> (f64, usize) {
     (time, hills)
 }
 
-/// The limits of a larger curve may cost time themselves (the jerk of the contour grows less than the path); that much the
-/// bound gets longer too. Beyond it 1 %: where the speed is planned in steps, and where its minima lie, changes with the
-/// blocks.
+/// The limits of a larger curve may cost time themselves (the contour jerk decreases by less than the path length
+/// increases); the bound increases by the same amount. 1 % is permitted beyond that: where the speed is planned in
+/// steps, and where its minima are, changes with the blocks.
 ///
-/// A hill of the speed takes 1.17 ramps longer with ramps than without at most (from rest to rest over `2 a t^2`, where
-/// the acceleration is just reached: 4 t against `2 sqrt(2) t`), sine-square ramps as much; beyond it 5 %.
+/// A hill of the speed takes at most 1.17 ramps longer with ramps than without (from rest to rest over `2 a t^2`, where
+/// the acceleration is just reached: 4 t compared with `2 sqrt(2) t`), sine-square ramps as much; 5 % are permitted
+/// beyond that.
 #[test]
 fn a_larger_tolerance_never_lengthens_and_nothing_crawls() {
     let count = count(25);
@@ -202,9 +203,9 @@ fn chords(r: &mut Random) -> Vec<Path> {
     points.windows(2).filter_map(line).collect()
 }
 
-/// A contour with rounded corners takes no longer than the sharp one, whatever the feeds of its blocks, also with a constant speed in
-/// the curves and stops at every transition (G116), up to a cycle at every corner and 3 %: whether a curve
-/// is worth it is judged at one corner alone.
+/// A contour with rounded corners takes no longer than the sharp one, for any feed rates of its blocks, also with a
+/// constant speed in the curves and stops at every transition (G116), up to a cycle at every corner and 3 %: whether a
+/// curve pays off is judged at one corner alone.
 #[test]
 fn rounding_costs_no_time() {
     let count = count(40);
@@ -239,9 +240,9 @@ fn rounding_costs_no_time() {
     }
 }
 
-/// Sine-square ramps gain the same speed in the same time and over the same length as those of constant jerk, so along
-/// contours they take as long, also where the four ramps and both accelerations differ: 1 % longer in the mean, because they
-/// cannot be cut at a limit, and never by a quarter.
+/// Sine-square ramps gain the same speed in the same time and over the same length as ramps of constant jerk, so
+/// contours take the same time with them, also where the four ramps and both accelerations differ: 1 % longer on
+/// average, because they cannot be cut at a limit, and never by a quarter.
 #[test]
 fn sine_square_ramps_take_the_time_of_constant_jerk() {
     let count = count(60);

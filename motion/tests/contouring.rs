@@ -1,4 +1,5 @@
-//! Polynomial contouring: the curve against its closed forms and its neighbours; in `tolerance` what a tolerance may not do.
+//! Polynomial contouring: the curve compared with its closed forms and its neighbours; module `tolerance`: effects that
+//! a tolerance must not have.
 
 mod runs;
 mod tolerance;
@@ -34,7 +35,7 @@ fn corner(degrees: f64) -> [Path; 2] {
     [line(&[-100.0, 0.0], &[0.0, 0.0]), line(&[0.0, 0.0], &[100.0 * cos, 100.0 * sin])]
 }
 
-/// At 1 mm/s, which no curve of these tests slows down: none of them gives way to the sharp corner.
+/// At 1 mm/s, at which no curve of these tests is slower than the feed rate, so that all of them are used.
 fn contoured(
     job: &Job,
     settings: ContourSettings,

@@ -1,4 +1,4 @@
-//! Halts at a place that becomes known on the way: where they are, when they are reached, and what follows.
+//! Halts at a point that becomes known under way: their position, their time, and the continuation.
 
 #![expect(clippy::float_cmp, reason = "exact values are meant")]
 
@@ -9,19 +9,19 @@ use kontur_kit::Random;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::planner::{Next, Planner, Setpoint};
 
-/// Cycles of rest at the halt.
+/// Number of cycles of rest at the halt.
 const RESTS: usize = 5;
 
 /// A drive with one halt.
 struct Driven {
     out: Vec<Setpoint>,
-    /// The halt was taken.
+    /// Whether the halt was accepted.
     taken: bool,
     /// Index of the setpoint at the halt.
     halt: Option<usize>,
 }
 
-/// Drives blocks; after cycle `k` the path is ordered to halt `distance_mm` further on in the block where it is.
+/// Drives blocks; after cycle `k` the path is told to halt `distance_mm` further on in its present block.
 fn drive(job: &Job, start: &[f64], blocks: &[Block], k: u64, distance_mm: f64) -> Driven {
     let mut planner = Planner::new(CycleTime::from_us(job.cycle_us).unwrap(), job.window, start);
     let mut blocks = blocks.iter().cloned();
@@ -75,7 +75,7 @@ fn place_and_time_of_a_halt_on_a_line() {
     assert!(out[halt..=halt + RESTS].iter().all(|p| p.s_mm == out[halt].s_mm));
     assert_eq!(out.len() - 1, halt + RESTS + cycles(70.0, 50.0, 1000.0));
     assert_eq!(out.last().unwrap().position[0], 100.0);
-    // the last place at which it can stop, and what lies after the block
+    // the last point at which it can stop, and the path after the block
     assert!(drive(&job, &[0.0, 0.0], &blocks, 425, 1.25 + 1e-6).taken);
     for distance in [0.0, 1.0, 1.25 - 1e-6, 80.1] {
         let driven = drive(&job, &[0.0, 0.0], &blocks, 425, distance);
@@ -84,7 +84,7 @@ fn place_and_time_of_a_halt_on_a_line() {
     }
 }
 
-/// The path asks for the blocks after a halt once it has left it, and passes the end of the block without a stop.
+/// The path requests the blocks after a halt once it has left it, and passes the end of the block without a stop.
 #[test]
 fn a_halt_behind_what_was_pushed() {
     let job = Job::new(1.0, SlopeKind::Step);
@@ -113,8 +113,8 @@ fn a_halt_behind_what_was_pushed() {
     assert!((slowest - 50.0).abs() < 1e-9 && planner.setpoint().position[0] == 60.0);
 }
 
-/// Polylines at random with every slope: a halt that is taken is exactly where it was asked for, on the contour and within
-/// the limits; one that is not changes nothing.
+/// Random polylines with every slope: an accepted halt is exactly at the requested point, on the contour and within the
+/// limits; a refused one changes nothing.
 #[test]
 fn halts_of_random_programs() {
     let mut r = Random::new(20);
@@ -147,7 +147,7 @@ fn halts_of_random_programs() {
             refused += 1;
             assert!(driven.halt.is_none() && out.len() == plain.len(), "{case}");
             assert!(out.iter().zip(&plain).all(|(a, b)| a.s_mm == b.s_mm), "{case}");
-            // four times the way of braking with constant acceleration holds every slope
+            // four times the braking distance with constant acceleration is enough for every slope
             let surely = here.v_mm_s * here.v_mm_s / 2000.0 * 4.0 + here.v_mm_s * 0.3;
             assert!(distance < surely || distance > left - 1e-9, "{case}: {distance} of {left}");
             continue;

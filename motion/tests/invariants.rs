@@ -1,4 +1,4 @@
-//! What holds for every program: random contours, blocks and limits.
+//! Properties of every program: random contours, blocks and limits.
 
 use crate::common::{Job, axis, channel};
 use kontur_kit::{Random, count};
@@ -92,7 +92,7 @@ fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
 }
 
 /// No axis is faster than its limit, and its acceleration stays within what the path, its curvature and a kink may use
-/// together: each of them keeps the limit of the axis for itself.
+/// together, each of them up to the limit of the axis.
 #[test]
 fn velocity_and_acceleration_of_the_axes() {
     let mut r = Random::from_state(1);
@@ -116,7 +116,8 @@ fn velocity_and_acceleration_of_the_axes() {
     println!("largest acceleration: {worst:.3} of the limit");
 }
 
-/// The same with feeds that change from block to block, without and with G901, which never costs time; cut anywhere too.
+/// The same with feed rates that change from block to block, without and with G901, which never costs time; cut at any
+/// place as well.
 #[test]
 fn changes_of_feed_with_and_without_late_braking() {
     let count = count(6);
@@ -148,7 +149,7 @@ fn changes_of_feed_with_and_without_late_braking() {
     }
 }
 
-/// Along straight lines without kinks there is nothing but the slope: its acceleration and its jerk.
+/// On straight lines without kinks only the slope matters: its acceleration and its jerk.
 #[test]
 fn acceleration_and_jerk_without_kinks() {
     let mut r = Random::from_state(2);
@@ -179,7 +180,7 @@ fn acceleration_and_jerk_without_kinks() {
     }
 }
 
-/// The path can be left at the end of any block: what comes later is not needed to keep the limits.
+/// The path can be left at the end of any block: later blocks are not needed to keep the limits.
 #[test]
 fn a_program_may_be_cut_anywhere() {
     let mut r = Random::from_state(3);
@@ -258,8 +259,8 @@ fn more_lookahead_and_a_second_run() {
     }
 }
 
-/// With a short window the knots of one plan are not those of the next; these programs end in a plan that is out of
-/// reach from the speed that is already final, and continue with the one before.
+/// With a short window the knots of one plan are not those of the next; these programs lead to a plan that cannot be
+/// reached from the speed that is already final, and continue with the previous one.
 #[test]
 fn a_final_speed_is_never_too_high() {
     let mut r = Random::from_state(77);
@@ -292,8 +293,8 @@ fn fine(edge: f64, degrees: f64, edges: usize, step: f64) -> Vec<[f64; 2]> {
     out
 }
 
-/// Blocks of 1e-4 mm at 60 m/min and 10 m/s2: ten thousand of them could pass in a cycle. What the path and its kinks use
-/// together is at most twice the acceleration of an axis, the path acceleration and the jump of one cycle.
+/// Blocks of 1e-4 mm at 60 m/min and 10 m/s2, of which ten thousand could pass in a cycle. The path and its kinks
+/// together use at most twice the acceleration of an axis: the path acceleration and the jump of one cycle.
 #[test]
 fn limits_hold_at_extreme_ratios() {
     let step = 1e-4;

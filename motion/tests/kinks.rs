@@ -1,4 +1,4 @@
-//! Kinks that hold the path down between two lines, against closed forms.
+//! Kinks that limit the path speed between two lines, compared with closed forms.
 
 use crate::common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
@@ -10,7 +10,7 @@ const CYCLE_US: u32 = 100;
 const CYCLE_S: f64 = 1e-4;
 /// Kinks may use the velocity jump of 1 ms of acceleration.
 const KINK_WEIGHT: f64 = 10.0;
-/// Acceleration in mm/s2, jerks in mm/s3: X is quick, Z is slow.
+/// Acceleration in mm/s2, jerks in mm/s3: X is fast, Z is slow.
 const ACC: f64 = 2000.0;
 const QUICK: f64 = ACC / 0.01;
 const SLOW: f64 = ACC / 0.1;
@@ -28,7 +28,7 @@ fn drive(kind: SlopeKind, points: &[&[f64]], feeds_mm_s: &[f64]) -> Vec<Setpoint
     job.drive(points, feeds_mm_s)
 }
 
-/// Along X, then at 45 degrees, where Z holds the jerk down.
+/// Along X, then at 45 degrees, where Z limits the jerk.
 const POINTS: [[f64; 2]; 3] = [[0.0, 0.0], [8.0, 0.0], [14.0, 6.0]];
 
 /// Speed at the kink: Z jumps by `v / sqrt 2`, X by less.
@@ -58,8 +58,8 @@ fn the_lowest_speed_lies_on_the_quicker_side() {
     assert!((8.0 - lowest.s_mm - way).abs() < slip, "{lowest:?}");
 }
 
-/// TRAPEZ reaches the speed of a kink with acceleration zero, and leaves it so: of no axis the acceleration jumps by more than its
-/// jerk and the jump of the velocity ask for.
+/// TRAPEZ reaches and leaves the speed of a kink with zero acceleration: the acceleration of an axis never jumps by
+/// more than its jerk and the velocity jump require.
 #[test]
 fn trapez_passes_a_kink_without_acceleration() {
     let points = POINTS.each_ref().map(|p| &p[..]);
@@ -75,10 +75,10 @@ fn trapez_passes_a_kink_without_acceleration() {
     }
 }
 
-/// Where both sides are the same nothing is gained: the path is slowest at the kink.
+/// Where both sides are equal nothing is gained: the path is slowest at the kink.
 #[test]
 fn between_equal_lines_the_lowest_speed_is_at_the_kink() {
-    // bends that one axis sees as the other one does
+    // bends that affect both axes alike
     let points = [[0.0, 0.0], [6.0, 2.0], [12.0, 0.0]];
     for kind in [Hsc, Trapez] {
         let out = drive(kind, &points.each_ref().map(|p| &p[..]), &[200.0]);
@@ -89,8 +89,8 @@ fn between_equal_lines_the_lowest_speed_is_at_the_kink() {
     }
 }
 
-/// After a kink that is passed with an acceleration, the time that counts for the feed is that of the way at the feed,
-/// except for the ramps of both ends.
+/// After a kink that is passed with an acceleration, the time attributed to the feed is that of the distance at the
+/// feed rate, except for the ramps at both ends.
 #[test]
 fn behind_a_kink_the_feed_is_the_reason_for_the_feed() {
     for kind in [Hsc, Trapez] {

@@ -65,7 +65,7 @@ fn drive(job: &Job, pieces: &[Piece]) -> Vec<Setpoint> {
 
 const KINDS: [SlopeKind; 3] = [Step, Trapez, Sin2];
 
-/// 100 to 20 mm/s: early the leg lies in the first block, late in the second one.
+/// From 100 to 20 mm/s: when braking early the leg is in the first block, when late in the second one.
 #[test]
 fn two_blocks() {
     for kind in KINDS {
@@ -88,7 +88,7 @@ fn two_blocks() {
                     let out = drive(&job, &[(100.0, 100.0, g901), (100.0, 20.0, g901)]);
                     let name = format!("{:?} {g901}", job.slope);
                     assert_eq!(out.len() - 1, cycles(time + more), "{name}");
-                    // the speed at the border, and where it has become the feed
+                    // the speed at the boundary, and the point at which it has fallen to the feed rate
                     let border = out.iter().find(|p| p.position[0] >= 100.0).unwrap();
                     let most = if g901 { 100.0 } else { 20.0 };
                     assert!((border.v_mm_s - most).abs() < 2.0, "{name}: {}", border.v_mm_s);
@@ -132,7 +132,8 @@ fn the_words_act_on_the_end_of_their_block() {
     }
 }
 
-/// A limit of the second block, 50 mm/s, holds from its start on: 100 to 50 in the first block, 50 to 20 in the second.
+/// A limit of the second block, 50 mm/s, applies from its start on: 100 to 50 in the first block, 50 to 20 in the
+/// second.
 #[test]
 fn a_hard_limit_of_the_slower_block_is_kept() {
     for kind in KINDS {
@@ -155,7 +156,7 @@ fn a_hard_limit_of_the_slower_block_is_kept() {
     }
 }
 
-/// Into an arc of 2.5 mm: `sqrt(a r)` = 50 mm/s, whatever its feed of 20.
+/// Into an arc of 2.5 mm: `sqrt(a r)` = 50 mm/s, for any feed rate up to it, here 20.
 #[test]
 fn the_curvature_of_the_slower_block_is_kept() {
     for kind in KINDS {
@@ -206,7 +207,7 @@ fn braking_goes_on_in_the_next_block() {
     assert_eq!(out.len() - 1, cycles(time));
 }
 
-/// A slower contour in pieces of 0.2 mm is braked into as one piece.
+/// A slower contour in pieces of 0.2 mm is entered with braking as one piece.
 #[test]
 fn a_run_of_short_blocks_is_one() {
     for kind in KINDS {
@@ -241,7 +242,7 @@ fn same(a: &[Setpoint], b: &[Setpoint]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bits(a) == bits(b))
 }
 
-/// G00 to feed, HSC on either side, and rising feeds are what they are without G901.
+/// G00 to feed, HSC on either side, and increasing feed rates are not affected by G901.
 #[test]
 fn without_effect() {
     for g901 in [false, true] {
@@ -310,8 +311,8 @@ fn slopes() -> Vec<Slope> {
     out
 }
 
-/// Random straight programs: with G901 in some blocks never longer than without, above a feed only while braking, every
-/// limit of the slope kept, and so at every point at which the program may be cut.
+/// Random straight programs: with G901 in some blocks they never take longer than without, exceed a feed rate only
+/// while braking, and keep every limit of the slope, hence at every point at which the program may be cut.
 #[test]
 fn random_straight_programs() {
     let count = count(60);

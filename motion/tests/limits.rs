@@ -1,4 +1,4 @@
-//! Velocity limits against worked numbers: kinks (P-AXIS-00013), arcs, oblique lines.
+//! Velocity limits compared with worked numbers: kinks (P-AXIS-00013), arcs, oblique lines.
 
 #![expect(clippy::float_cmp, reason = "exact values are meant")]
 

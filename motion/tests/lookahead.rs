@@ -75,7 +75,7 @@ fn samples_of_a_short_block() {
     }
 }
 
-/// Polygons of a circle: whatever the window ends at, the path continues after it without a rest.
+/// Polygons of a circle: whatever the window ends with, the path continues after it without a rest.
 #[test]
 fn a_smooth_contour_never_rests() {
     let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
@@ -104,8 +104,9 @@ fn a_smooth_contour_never_rests() {
     }
 }
 
-/// A corner between lines of short blocks: the rise after the corner is planned in one window and continues in the next.
-/// A hundred times the look-ahead is not faster, so the look-ahead holds nothing down, and no setpoint of a rise says so.
+/// A corner between lines of short blocks: the rise after the corner is planned in one window and continues in the
+/// next. A hundred times the look-ahead is not faster, so the look-ahead is not a limit, and no setpoint of a rise
+/// states it as the reason.
 #[test]
 fn a_rise_that_goes_on_in_the_next_window_keeps_its_reason() {
     let mut points: Vec<[f64; 2]> = (0..=60).map(|i| [0.0, 0.2 * f64::from(i)]).collect();
@@ -126,8 +127,8 @@ fn a_rise_that_goes_on_in_the_next_window_keeps_its_reason() {
     }
 }
 
-/// P-CHAN-00349 = 1 is a mode of TRAPEZ and SIN2: a move of 1 mm with ramps of 50 ms takes 0.2 s there and, at constant jerk,
-/// 0.116960710 s (T3c and T3 of the worked examples); HSC and G00 do not know the mode.
+/// P-CHAN-00349 = 1 is a mode of TRAPEZ and SIN2: a move of 1 mm with ramps of 50 ms takes 0.2 s there and 0.116960710
+/// s at constant jerk (T3c and T3 of the worked examples); HSC and G00 ignore it.
 #[test]
 fn constant_ramp_times_belong_to_trapez_and_sin2() {
     for (kind, cycles) in [(Trapez, 200), (Sin2, 200), (Hsc, 117)] {
@@ -138,8 +139,8 @@ fn constant_ramp_times_belong_to_trapez_and_sin2() {
     }
 }
 
-/// Blocks of 0.01 to 10 mm in slowly turning directions, axes of very different accelerations and ramps: a contour in one takes no
-/// longer than its blocks one by one, each from rest to rest.
+/// Blocks of 0.01 to 10 mm in slowly turning directions, axes with very different accelerations and ramps: a contour
+/// takes no longer than its blocks one by one, each from rest to rest.
 #[test]
 fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
     for seed in 0..count(40) {
@@ -174,8 +175,8 @@ fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
     }
 }
 
-/// A circle of chords, known as a whole: between the rise from its start and the fall to its end the speed is held down by
-/// what lies along it, and not by the stop at an end.
+/// A circle of chords, known as a whole: between the rise from its start and the fall to its end the reason for the
+/// speed is a limit along it, not the stop at an end.
 #[test]
 fn what_holds_the_speed_inside_a_contour_is_named_there() {
     let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };

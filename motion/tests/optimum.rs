@@ -1,4 +1,4 @@
-//! Machine time against the jerk-limited optimum of the same limits.
+//! Machine time compared with the jerk-limited optimum under the same limits.
 //!
 //! `data/optimum.csv` is made by `reference/table.py`, by convex programming; it shares no code with the planner.
 
@@ -6,7 +6,8 @@ use crate::common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
-/// Cycle of the table in us: so short that the rounding of the time to cycles and kinks within one cycle play no role.
+/// Cycle of the table in us: short enough that rounding of the time to cycles, and kinks within one cycle, do not
+/// matter.
 const CYCLE_US: u32 = 100;
 /// Kinks may use the velocity jump of 1 ms of acceleration.
 const KINK_WEIGHT: f64 = 10.0;
@@ -68,7 +69,7 @@ fn ratio(row: &Row, kind: SlopeKind) -> f64 {
 #[test]
 fn machine_time_is_close_to_the_optimum() {
     let rows = table();
-    // TRAPEZ comes to every kink that holds it down with acceleration zero, the optimum does not
+    // TRAPEZ arrives at every limiting kink with zero acceleration, the optimum does not
     for (kind, most_random) in [(Hsc, 1.05), (Trapez, 1.06)] {
         let (mut random, mut regular) = (Vec::new(), 0.0_f64);
         for row in &rows {

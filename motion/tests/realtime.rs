@@ -97,8 +97,8 @@ fn feedhold_while_accelerating() {
     assert_eq!(out[100].v_mm_s, 0.0);
 }
 
-/// A knob turned in small steps does not hold the acceleration down: 0.15 s to 100 mm/s, in spite of a change every
-/// 10 ms; and back down as fast.
+/// An override knob turned in small steps does not reduce the acceleration: 0.15 s to 100 mm/s in spite of a change
+/// every 10 ms, and the same back down.
 #[test]
 fn turning_the_knob_while_accelerating() {
     let mut events: Vec<_> = (0..=10_u32)
@@ -160,7 +160,7 @@ fn fast_override_over_short_blocks_that_were_read_at_a_slow_one() {
     }
 }
 
-/// Setting what is set already changes no bit.
+/// Setting the present value again changes no bit.
 #[test]
 fn override_of_100_percent_again_changes_nothing() {
     for seed in 0..50 {
@@ -180,7 +180,7 @@ fn override_of_100_percent_again_changes_nothing() {
     }
 }
 
-/// Programs left alone, with small look-ahead windows in which new blocks ask for a crawl.
+/// Programs without inputs, with small look-ahead windows in which new blocks require a very low speed.
 #[test]
 fn random_programs_without_events() {
     let mut failed = Vec::new();
@@ -216,8 +216,9 @@ fn feedhold_is_prompt_at_any_time() {
     }
 }
 
-/// A line too short for its feed, 100 mm/s over a length of which the closed form of the slope reaches less: while it speeds up the
-/// override changes to values that do not bind, and later back. The motion is the one without any change.
+/// A line too short for its feed rate, 100 mm/s over a length on which the closed form of the slope reaches less: while
+/// it accelerates, the override changes to values without influence on the speed, and later back. The motion is the
+/// same as without any change.
 #[test]
 fn an_override_that_does_not_bind_changes_nothing() {
     for kind in [Trapez, Hsc] {

@@ -1,4 +1,4 @@
-//! Override and feedhold under `AX_DEV`: what is planned after a change keeps the tolerance.
+//! Override and feedhold under `AX_DEV`: the plan after a change keeps the tolerance.
 
 use crate::common::events::{Event, drive, line};
 use crate::common::{Job, deviation, filtered};
@@ -14,7 +14,7 @@ use kontur_motion::realtime::FeedholdBraking::{Active, Own};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
-/// `AX_DEV` on a square with events at every time: what is planned after a change keeps the tolerance.
+/// `AX_DEV` on a square with events at every time: the plan after a change keeps the tolerance.
 #[test]
 fn tolerance_with_events() {
     const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[8.0, 0.0], &[8.0, 8.0], &[0.0, 8.0], &[0.0, 0.0]];

@@ -1,4 +1,4 @@
-//! The time of a contour does not depend on what does not matter, and more of what helps never costs any.
+//! The time of a contour does not depend on irrelevant differences, and less restrictive settings never cost time.
 
 use crate::common::{Job, axis, channel, contour};
 use kontur_kit::{Random, count, seed};
@@ -9,7 +9,7 @@ use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 const CYCLE_US: u32 = 100;
 const CYCLE_S: f64 = 1e-4;
 const KINK_WEIGHT: f64 = 10.0;
-/// Part of the time that another form of the same contour may differ by.
+/// Share of the time by which another form of the same contour may differ.
 const SAME: f64 = 1e-3;
 
 type Points = Vec<[f64; 3]>;

@@ -1,11 +1,11 @@
-//! Properties of the slopes over random input at extreme ratios, and an independent numerical integration.
+//! Properties of the slopes for random input at extreme ratios, and an independent numerical integration.
 
 use kontur_kit::Random;
 use kontur_motion::profile::{Profile, RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 
 const CASES: u32 = 20_000;
 
-/// Ramp time in s, at times none.
+/// Ramp time in s, sometimes 0.
 fn ramp_s(random: &mut Random) -> f64 {
     if random.chance(0.15) { 0.0 } else { random.log(1e-6, 1.0) }
 }

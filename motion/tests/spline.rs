@@ -18,7 +18,7 @@ fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) 
     splined_and_sharp(job, settings, points, feed).0
 }
 
-/// With the numbers of the blocks that end in a corner that is faster without a spline.
+/// With the numbers of the blocks that end in a corner that is passed faster without a spline.
 fn splined_and_sharp(
     job: &Job,
     settings: SplineSettings,
@@ -102,7 +102,7 @@ const ROUGH: Shape = (
 /// Edges of 0.1 to 5 mm that turn by at most 35 degrees.
 const GENTLE: Shape = (|u| 0.1 * libm::pow(50.0, u), |u| 1.2 * (u - 0.5));
 
-/// Edges of 0.6 to 1.2 mm that turn by at most 29 degrees: where a tolerance is a little too small.
+/// Edges of 0.6 to 1.2 mm that turn by at most 29 degrees, where a tolerance is slightly too small.
 const EVEN: Shape = (|u| 0.6 * libm::pow(2.0, u), |u| u - 0.5);
 
 /// Edges of 5 to 20 mm that turn by a right angle to either side.
@@ -163,7 +163,7 @@ fn a_coarse_corner_uses_the_tolerance() {
     }
 }
 
-/// The bend of a refined corner slows down the corner, not the edges: no slower than a stop at the corner.
+/// The bend of a refined corner slows down the corner, but not the edges: it is not slower than a stop at the corner.
 #[test]
 fn a_coarse_corner_does_not_slow_down_its_edges() {
     for kind in [Trapez, Hsc] {
@@ -175,7 +175,7 @@ fn a_coarse_corner_does_not_slow_down_its_edges() {
             let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
             let blocks = splined(&job, settings, &points, 50.0);
             let splined = job.run(&points[0], blocks.into_iter()).len();
-            // each part of the corner takes its own whole ramps
+            // each part of the corner takes its full ramps
             assert!(
                 splined <= stopping + stopping / 100,
                 "{kind:?} {path_dev_mm}: {splined} of {stopping} cycles"
@@ -184,7 +184,7 @@ fn a_coarse_corner_does_not_slow_down_its_edges() {
     }
 }
 
-/// Just short of a reversal a corner stays a corner: no slower than without the spline.
+/// A corner just short of a reversal stays a corner: it is not slower than without the spline.
 #[test]
 fn a_needle_stays_a_corner() {
     let job = Job::new(1.0, Hsc);
@@ -239,8 +239,9 @@ fn slaved_axes() {
     }
 }
 
-/// A larger `PATH_DEV` does not lengthen the run, but by the 3 % that a corner judged for itself may cost, and no axis is loaded beyond what the shape of the curve (`a`,
-/// `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together. `COUNT` raises the number of polygons.
+/// A larger `PATH_DEV` does not lengthen the run by more than the 3 % that judging each corner separately may cost, and
+/// no axis is loaded beyond what the shape of the curve (`a`, `a / tr_geom`) and the change of path speed (`a`, `a /
+/// t`) may use together. `COUNT` raises the number of polygons.
 #[test]
 fn a_larger_tolerance_costs_nothing() {
     let count = environment("COUNT", 2);
@@ -290,8 +291,8 @@ fn stops_at_transitions_leave_the_polygon() {
     }
 }
 
-/// A spline takes no longer than its polygon, but by the 1 % that a corner judged for itself may cost. `COUNT` raises the number of
-/// polygons.
+/// A spline takes at most 1 % longer than its polygon, as each corner is judged separately. `COUNT` raises the number
+/// of polygons.
 #[test]
 fn a_spline_takes_no_longer_than_its_polygon() {
     let count = environment("COUNT", 3);

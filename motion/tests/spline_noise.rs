@@ -54,7 +54,8 @@ fn judged(out: &[Setpoint]) -> Judged {
     Judged { cycles: out.len(), ripple: (high - low) / high, jerk }
 }
 
-/// Rounded to three or four decimals a circle runs as with all of them: at the full feed, without ripple, with the same jerk.
+/// Rounded to three or four decimals a circle runs as with full precision: at the full feed rate, without ripple, with
+/// the same jerk.
 #[test]
 fn a_rounded_circle_runs_as_an_exact_one() {
     let job = machine(2);
@@ -101,7 +102,7 @@ fn small_circles_in_tiny_chords() {
     }
 }
 
-/// A surface row with two rotary axes beside it: rounding of all five costs no time.
+/// A surface row with two rotary axes: rounding of all five coordinates costs no time.
 #[test]
 fn rounded_rotary_axes_cost_no_time() {
     let mut job = machine(5);
@@ -188,8 +189,8 @@ fn traced(blocks: &[Block], edges: usize, n: usize) -> Vec<Vec<Vec<f64>>> {
     of_edge.iter().map(points).collect()
 }
 
-/// What fairing and spline do together stays within `PATH_DEV`: every point of the path lies so near to the programmed edges
-/// around, and every programmed point so near to the path there. `COUNT` raises the number of contours.
+/// Fairing and spline together stay within `PATH_DEV`: every point of the path is that close to the programmed edges
+/// around it, and every programmed point to the path. `COUNT` raises the number of contours.
 #[test]
 fn the_whole_stays_within_the_tolerance() {
     let job = machine(3);
@@ -231,8 +232,9 @@ fn the_whole_stays_within_the_tolerance() {
     assert!(used > 0.9);
 }
 
-/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path. Where a corner takes as long with the
-/// spline as without, to a hundredth, the reversed one may be decided the other way: that changes two edges to either side.
+/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path. Where a corner takes the
+/// same time with and without the spline, to a hundredth, the reversed contour may be decided differently, which
+/// changes two edges on either side.
 #[test]
 fn the_path_is_the_same_seen_otherwise() {
     let job = machine(3);

@@ -1,5 +1,5 @@
-//! Random third-order problems with limits over six decades: always solved, target reached, limits kept, and
-//! replanning on the way does not change the end.
+//! Random third-order problems with limits over six decades: always solved, target reached, limits kept, and replanning
+//! on the way does not change the end.
 //!
 //! `KONTUR_CASES` raises the number of problems (1000000 before a release).
 
@@ -54,9 +54,9 @@ fn problem(random: &mut Random, at_rest: f64) -> Problem {
     let l = limits(random);
     let (mut v0, mut a0) = inside(random, &l);
     if l.v_min_mm_s < 0.0 && random.chance(0.1) {
-        // outside the limits: the brake has to act; without a way back it may have no solution
+        // outside the limits: the brake has to act; if reversing is forbidden there may be no solution
         v0 = random.between(2.0 * l.v_min_mm_s, 2.0 * l.v_max_mm_s);
-        // but not so far that braking alone goes through a multiple of all velocities
+        // but close enough that braking alone does not pass through a multiple of all velocities
         let most = 2.0 * (l.jerk_mm_s3 * (l.v_max_mm_s - l.v_min_mm_s)).sqrt();
         a0 = random.between(2.0 * l.a_min_mm_s2, 2.0 * l.a_max_mm_s2).clamp(-most, most);
     }
@@ -69,7 +69,7 @@ fn problem(random: &mut Random, at_rest: f64) -> Problem {
     let backwards =
         ThirdOrderLimits { a_max_mm_s2: -l.a_min_mm_s2, a_min_mm_s2: -l.a_max_mm_s2, ..l };
     let pe = if l.v_min_mm_s == 0.0 {
-        // there is no way back: far enough to stop and start again
+        // reversing is forbidden: far enough to stop and start again
         let room = way(v0, a0, &l).max(0.0) + way(ve, -ae, &backwards).max(0.0);
         p0 + room * (1.0 + 1e-9) + distance
     } else if random.chance(0.5) {
@@ -90,7 +90,7 @@ fn stop(v: f64, a: f64, l: &ThirdOrderLimits) -> f64 {
     let settled = v + a * a.abs() / (2.0 * jerk);
     let sign = if settled > 0.0 { -1.0 } else { 1.0 };
     let limit = if sign > 0.0 { l.a_max_mm_s2 } else { -l.a_min_mm_s2 };
-    // seen with the sign of the change: acceleration up to a peak, stay there, down to zero
+    // with the sign of the change: acceleration up to a peak, constant, and down to zero
     let (gain, a0) = (-sign * v, sign * a);
     let peak = (gain + a0 * a0 / (2.0 * jerk)).max(0.0) * jerk;
     let peak = peak.sqrt().min(limit);
@@ -123,7 +123,7 @@ fn at(from: &MotionState, phases: &[(f64, f64)], mut t: f64) -> MotionState {
             return after(&now, t, j);
         }
         now = after(&now, dt, j);
-        // what is left of a ramp to zero is rounding, and would add up over a long cruise
+        // the residue of a ramp to zero is rounding, and would add up over a long cruise
         if now.a_mm_s2.abs() <= 1e-14 * largest.max(j.abs() * dt) {
             now.a_mm_s2 = 0.0;
         }

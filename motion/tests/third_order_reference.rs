@@ -44,7 +44,7 @@ fn durations_and_end_states_of_the_reference() {
             a_min_mm_s2: number(10),
             jerk_mm_s3: number(11),
         };
-        // the rest of the table asks for a duration, which no motion of a path does
+        // the rest of the table prescribes a duration, which motions of a path do not have
         if !record[12].is_empty() {
             continue;
         }

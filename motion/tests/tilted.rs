@@ -1,4 +1,4 @@
-//! Arcs askew to the axes, against rotations written out by hand and against dense samples.
+//! Arcs oblique to the axes, compared with explicit rotations and with dense samples.
 
 use kontur_kit::Random;
 use kontur_motion::axis::AxisVec;

@@ -1,4 +1,4 @@
-//! Writes what a fuzzer starts with: the first corpus of every target to `tests/fuzz/corpus/TARGET`, and the words that the
+//! Writes the start data of a fuzzer: the first corpus of every target to `tests/fuzz/corpus/TARGET`, and the words that the
 //! readers know to `tests/fuzz/words.dict`.
 
 use kontur_tests::targets::{TARGETS, corpus, dictionary};

@@ -1,4 +1,4 @@
-//! The command line as a test calls it: what goes in, and what it prints.
+//! The command line as a test calls it: the input, and the printed output.
 
 use kontur::console::Console;
 use kontur::{Exit, run_with};
@@ -6,12 +6,12 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::sync::{Arc, Mutex};
 
-/// What a command did.
+/// Result of a command.
 #[derive(Debug)]
 pub struct Output {
     /// Exit code.
     pub exit: Exit,
-    /// What it printed.
+    /// Output on stdout.
     pub out: String,
     /// Its messages.
     pub err: String,
@@ -36,7 +36,7 @@ impl Write for Buffer {
     }
 }
 
-/// Runs `kontur` with words after it.
+/// Runs `kontur` with the given words.
 pub fn command<W: Into<OsString>>(words: impl IntoIterator<Item = W>) -> Output {
     let (out, err) = (Buffer::default(), Buffer::default());
     let mut console = Console::new(out.clone(), err.clone());

@@ -1,5 +1,5 @@
-//! Geometry of programs as the tests know it, without any of kontur's paths: lines, circles, helices and the curve that
-//! replaces a corner. Distances come from Newton's method on these formulas.
+//! Geometry of programs as the tests know it, without any of the paths of kontur: lines, circles, helices and the curve that replaces a
+//! corner. Distances come from Newton's method applied to these formulas.
 
 /// A point or vector of the three main axes in mm.
 pub type Point = [f64; 3];
@@ -23,8 +23,8 @@ pub enum Piece {
         z: [f64; 2],
     },
     /// One half of the symmetric curve that replaces the corner `c` between two lines: `c - d alpha a + d beta b`,
-    /// `alpha = 1 - x + x^3/4 - x^4/16`, `beta = x^3/4 - x^4/16`; `a`, `b` unit vectors of travel (for the second half
-    /// both are taken backwards).
+    /// `alpha = 1 - x + x^3/4 - x^4/16`, `beta = x^3/4 - x^4/16`; `a`, `b` are unit vectors of the direction of travel
+    /// (both reversed for the second half).
     Rounding {
         /// The corner.
         c: Point,
@@ -52,7 +52,7 @@ pub fn norm(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// `a` in the direction of `b - a` with length 1.
+/// Unit vector from `a` to `b`.
 pub fn direction(a: Point, b: Point) -> Point {
     let d = minus(b, a);
     let n = norm(d);
@@ -60,13 +60,13 @@ pub fn direction(a: Point, b: Point) -> Point {
 }
 
 impl Piece {
-    /// Both halves of the curve that replaces the corner `c` between lines of the directions `u1`, `u2`.
+    /// Both halves of the curve that replaces the corner `c` between lines with the directions `u1`, `u2`.
     pub fn corner(c: Point, d: f64, u1: Point, u2: Point) -> [Self; 2] {
         let back = |u: Point| u.map(|c| -c);
         [Self::Rounding { c, d, a: u1, b: u2 }, Self::Rounding { c, d, a: back(u2), b: back(u1) }]
     }
 
-    /// Position and the first two derivatives by the parameter.
+    /// Position and its first two derivatives with respect to the parameter.
     fn at(&self, u: f64) -> [Point; 3] {
         match self {
             Self::Line(a, b) => {
@@ -110,7 +110,7 @@ impl Piece {
         self.point(1.0)
     }
 
-    /// Direction of travel at the end, length 1.
+    /// Direction of travel at the end, a unit vector.
     pub fn end_direction(&self) -> Point {
         let d = self.at(1.0)[1];
         let n = norm(d);
@@ -135,7 +135,7 @@ impl Piece {
             if beside(k.checked_sub(1)) < far || beside(Some(k + 1)) < far {
                 continue;
             }
-            // the derivative of the squared distance is zero
+            // the derivative of the squared distance is zero there
             let mut u = u;
             for _ in 0..12 {
                 let [q, d1, d2] = self.at(u);

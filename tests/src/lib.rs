@@ -13,7 +13,7 @@ use kontur_interpreter::source::MemorySources;
 use kontur_kit::Random;
 use std::path::{Path, PathBuf};
 
-/// Everything that came out of a run.
+/// All outputs of a run.
 #[derive(Debug)]
 pub struct Run {
     /// One record per cycle; empty if the program was refused.
@@ -36,7 +36,7 @@ impl Run {
         self.diagnostics.iter().filter_map(number).collect()
     }
 
-    /// IDs of the messages as they are written.
+    /// IDs of the messages as printed.
     pub fn said(&self) -> Vec<String> {
         self.diagnostics.iter().map(|d| d.id.to_string()).collect()
     }
@@ -46,7 +46,7 @@ impl Run {
         self.diagnostics.iter().filter(|d| d.is_error()).map(|d| d.id.to_string()).collect()
     }
 
-    /// Cycles in which the path rests for something.
+    /// Cycles in which the path rests and waits for something.
     pub fn rested(&self, rest: Rest) -> usize {
         self.records.iter().filter(|r| r.path.rest == Some(rest)).count()
     }
@@ -92,7 +92,7 @@ pub fn sample_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic
     Machine::load(&Folder(programs()), &start_up, &overrides).unwrap()
 }
 
-/// A machine of `tests/suite/machines`, whose lists are partly those of the sample machines.
+/// A machine of `tests/suite/machines`, some of whose lists are those of the sample machines.
 pub fn suite_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
     let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
     let start_up = format!("tests/suite/machines/{name}/hochlauf.lis");
@@ -104,7 +104,7 @@ pub fn run(program: &str, settings: &[&str]) -> Run {
     run_on(machine(settings), program)
 }
 
-/// Runs a program text on a machine, refused by the check first as the command line does it.
+/// Runs a program text on a machine, unless the check refuses it first, as on the command line.
 pub fn run_on(machine: (Machine, Vec<Diagnostic>), program: &str) -> Run {
     run_with_inputs(machine, program, &[])
 }
@@ -129,7 +129,7 @@ pub fn run_with_inputs(
     Run { records, diagnostics: run.take_diagnostics(), totals: run.totals(), cycle_s }
 }
 
-/// Points that go there and back along X, up to a small distance across it.
+/// Points that run back and forth along X, offset by a small distance across it.
 pub fn there_and_back(random: &mut Random) -> Vec<[f64; 2]> {
     let many = 2 + random.below(5);
     let point = |i| {

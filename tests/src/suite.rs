@@ -1,14 +1,14 @@
-//! Programs that carry what they must do in their first lines, as `tests/suite` holds them.
+//! Programs that state the expected result in their first lines, as in `tests/suite`.
 
 use crate::command::command;
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// One message as a file states it or as the command line says it: severity, ID, place.
+/// One message, as a file states it or as the command line prints it: severity, ID, place.
 pub type Said = (String, String, String);
 
-/// What the first lines of a file say.
+/// Contents of the first lines of a file.
 #[derive(Debug)]
 pub struct Head {
     /// `run` or `check`, or the name of a list.
@@ -17,7 +17,7 @@ pub struct Head {
     pub options: Vec<String>,
     /// Exit code.
     pub exit: u8,
-    /// What is said, in order.
+    /// Messages, in order.
     pub messages: Vec<Said>,
     /// The lines that are not messages.
     pub other: Vec<String>,
@@ -36,7 +36,7 @@ pub fn machines() -> PathBuf {
     crate::programs().join("machines")
 }
 
-/// Files of a folder by their extension, in order.
+/// Files of a folder with the given extension, sorted.
 pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let mut files: Vec<PathBuf> = entries
@@ -55,7 +55,7 @@ pub fn name(path: &Path) -> String {
 /// The head of a file; programs open comments with `;`, lists with `#`.
 ///
 /// # Errors
-/// Says what its first line lacks.
+/// If the first line lacks something, with what it lacks.
 pub fn head(text: &str) -> Result<Head, String> {
     let mut lines = text.lines().map_while(|line| {
         line.strip_prefix("; ").or_else(|| line.strip_prefix("# ")).map(str::trim_end)
@@ -80,10 +80,10 @@ pub fn head(text: &str) -> Result<Head, String> {
     Ok(head)
 }
 
-/// Calls the command line with `more` words and reads its messages; machines of the repository go by their names.
+/// Calls the command line with the words of `more` and reads its messages; machines of the repository are given by name.
 ///
 /// # Errors
-/// A message without an ID or, but for notes, without a hint.
+/// If a message has no ID or, unless it is a note, no hint.
 pub fn call(
     verb: &str,
     program: &Path,
@@ -93,7 +93,7 @@ pub fn call(
 ) -> Result<(u8, Vec<Said>), String> {
     let mut args: Vec<OsString> = vec![verb.into(), program.into()];
     for option in options {
-        // a machine, or what `--input` reads
+        // a machine, or the file for `--input`
         let places = [machines().join(option), folder("inputs").join(option)];
         let file = places.into_iter().find(|path| path.exists());
         args.push(file.map_or_else(|| option.into(), Into::into));
@@ -105,7 +105,7 @@ pub fn call(
     }
     let output = command(args);
     let mut said = Vec::new();
-    // the sentence at the end of a refusal has no ID
+    // the closing sentence of a refusal has no ID
     let sentence = "{\"id\":null,\"severity\"";
     let is_message = |line: &&str| line.starts_with('{') && !line.starts_with(sentence);
     for line in output.err.lines().filter(is_message) {
@@ -138,10 +138,10 @@ fn message(line: &str, home: &Path) -> Result<Said, String> {
     Ok((severity, id, place))
 }
 
-/// Compares what was said with the head of the file called `own`.
+/// Compares the messages with the head of the file called `own`.
 ///
 /// # Errors
-/// Says what differs.
+/// If they differ, with the difference.
 pub fn compare(own: &str, head: &Head, exit: u8, said: &[Said]) -> Result<(), String> {
     let shown = |said: &[Said]| -> String {
         let mut text = String::new();
@@ -151,7 +151,7 @@ pub fn compare(own: &str, head: &Head, exit: u8, said: &[Said]) -> Result<(), St
         }
         text
     };
-    // recommendations for lists are noise beside everything but themselves
+    // recommendations for lists count only in the tests of the recommendations themselves
     let expects_advice = head.messages.iter().any(|m| m.1 == ADVICE);
     let said: Vec<Said> =
         said.iter().filter(|m| expects_advice || m.1 != ADVICE).cloned().collect();
@@ -165,10 +165,10 @@ pub fn compare(own: &str, head: &Head, exit: u8, said: &[Said]) -> Result<(), St
     Ok(())
 }
 
-/// Puts a table after the marker of a folder's README, with `KONTUR_WRITE_LEDGER` set, or compares.
+/// Writes a table after the marker in the README of a folder if `KONTUR_WRITE_LEDGER` is set, else compares.
 ///
 /// # Errors
-/// The README is out of date or not readable.
+/// If the README is out of date or cannot be read.
 pub fn ledger(folder: &Path, table: &str) -> Result<(), String> {
     let path = folder.join("README.md");
     let old = std::fs::read_to_string(&path).map_err(|e| e.to_string())?;

@@ -1,8 +1,8 @@
-//! What the fuzzer calls: one function per door that a file or a word of a stranger comes in by.
+//! Targets of the fuzzer: one function for each way by which a file or a word from outside comes in.
 //!
-//! Each takes any bytes and panics if something holds no longer that always has to: a call returns; what it reports has an
-//! exit code that fits; numbers are finite; axes keep their velocity limit. The folder `fuzz` beside this one feeds them
-//! with coverage-guided input and a time budget, `tests/hostile_input.rs` with bounded random input.
+//! Each takes arbitrary bytes and panics if something that must always hold does not: a call returns; the exit code matches the messages;
+//! numbers are finite; axes keep their velocity limit. The folder `fuzz` next to this one feeds the targets with coverage-guided input
+//! within a time budget, `tests/hostile_input.rs` with bounded random input.
 
 use crate::command::{Output, command};
 use kontur::Exit;
@@ -32,12 +32,12 @@ pub const TARGETS: [Target; 8] = [
     ("report", report),
 ];
 
-/// Separates the parts of an input that is several files.
+/// Separates the parts of an input that consists of several files.
 pub const BETWEEN: &[u8] = b"\n====\n";
 
 /// Program time of a run in s.
 const TIME_S: f64 = 2.0;
-/// Diagnostics of one program: the limits of the executor, and 10 of its last block.
+/// Messages for one program: the limits of the executor, and 10 from its last block.
 const MESSAGES_MAX: usize = 2000;
 
 static MACHINE: LazyLock<Arc<Machine>> =
@@ -52,7 +52,7 @@ fn options() -> Options {
     }
 }
 
-/// The program, and itself under the names that it may call.
+/// The program, also under the names that it may call.
 fn job(machine: Arc<Machine>, program: &[u8]) -> Job {
     let sources = MemorySources::new().with("main.nc", program).with("sub.nc", program);
     Job::new(machine, sources, "main.nc").with_options(options())
@@ -91,7 +91,7 @@ pub fn run(data: &[u8]) {
     let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         assert_eq!(record.k, cycles, "rows are cycles");
         cycles += 1;
-        // braking after a limit takes its time
+        // braking after a limit has been reached takes time
         assert!(cycles as f64 * cycle_s < TIME_S + 60.0, "the run does not end");
         for (i, axis) in record.axes.iter().enumerate() {
             let values =
@@ -110,9 +110,9 @@ pub fn run(data: &[u8]) {
     ends_as_it_says(&mut run);
 }
 
-/// The interpolated positions of one cycle beside those of the next.
+/// Compares the interpolated positions of one cycle with those of the next.
 struct Speeds {
-    /// Limit, and the length of a turn for an axis that may wrap around.
+    /// Limit, and the length of a revolution for an axis that may wrap around.
     axes: Vec<(f64, Option<f64>)>,
     cycle_s: f64,
     before: Vec<f64>,
@@ -125,7 +125,7 @@ impl Speeds {
         Self { axes: axes.collect(), cycle_s: machine.cycle.seconds(), before: Vec::new() }
     }
 
-    /// No axis is faster than it may be.
+    /// No axis exceeds its velocity limit.
     fn keep_limits(&mut self, record: &CycleRecord) {
         let now: Vec<f64> = record.axes.iter().take(self.axes.len()).map(|a| a.ipo).collect();
         for (i, (from, to)) in self.before.iter().zip(&now).enumerate() {
@@ -139,7 +139,7 @@ impl Speeds {
     }
 }
 
-/// A run is aborted exactly if it says an error.
+/// A run is aborted if and only if it reports an error.
 fn ends_as_it_says(run: &mut Run) {
     let (aborted, said) = (run.totals().aborted, run.take_diagnostics());
     assert_eq!(aborted, said.iter().any(Diagnostic::is_error), "{said:?}");
@@ -168,7 +168,7 @@ impl ListFiles for InMemory<'_> {
     }
 }
 
-/// Lists of a machine, which is built and moved.
+/// Lists of a machine, which is built and then moved.
 pub fn lists(data: &[u8]) {
     let files = InMemory(parts(data));
     let Ok((machine, said)) = Machine::load(&files, "m/hochlauf.lis", &[]) else { return };
@@ -180,7 +180,7 @@ pub fn lists(data: &[u8]) {
     let program = format!("G01 {axis}=0.5 F600\nG00 {axis}=0\nM30\n");
     let cycles = (TIME_S / machine.cycle.seconds()) as u64;
     if cycles > 100_000 {
-        // a cycle of microseconds is a long run of another kind
+        // a cycle of microseconds would only make the run long
         return;
     }
     let mut speeds = Speeds::new(&machine);
@@ -199,7 +199,7 @@ pub fn lists(data: &[u8]) {
     ends_as_it_says(&mut run);
 }
 
-/// Calls the command line on files of its own; words that begin with `@` name them.
+/// Calls the command line on files of its own; words that begin with `@` name these files.
 fn call(files: &[(&str, &[u8])], words: &[&str]) -> Output {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, bytes) in files {
@@ -245,16 +245,16 @@ pub fn diff(data: &[u8]) {
     let files = [("a.csv", a), ("b.csv", b)];
     let there = call(&files, &["diff", "@a.csv", "@b.csv"]).exit;
     let back = call(&files, &["diff", "@b.csv", "@a.csv"]).exit;
-    // of two tables that cannot be read, the first decides how
+    // if neither table can be read, the first one decides on the exit
     let is_read = |exit| exit == Exit::Finished || exit == Exit::Aborted;
     assert!(there == back || !is_read(there) && !is_read(back), "{there:?} {back:?}");
-    // what can be read equals itself
+    // what can be read is equal to itself
     if is_read(there) {
         assert_eq!(call(&files, &["diff", "@a.csv", "@a.csv"]).exit, Exit::Finished);
     }
 }
 
-/// The words of a command line, one per line, are taken apart; nothing is carried out.
+/// The words of a command line, one per line, are parsed; nothing is executed.
 pub fn command_line(data: &[u8]) {
     use clap::Parser as _;
     let text = String::from_utf8_lossy(data);
@@ -265,7 +265,7 @@ pub fn command_line(data: &[u8]) {
     }
 }
 
-/// A program becomes a picture and a page.
+/// A program is turned into a picture and a page.
 pub fn report(data: &[u8]) {
     for output in ["@a.svg", "@a.html"] {
         let words = [&["report", "@a.nc", "-o", output], &LIMITS[..]].concat();
@@ -273,7 +273,7 @@ pub fn report(data: &[u8]) {
     }
 }
 
-/// Inputs to begin with for a target: what the repository has of its kind.
+/// Seed inputs for a target: what the repository has of this kind.
 pub fn corpus(target: &str) -> Vec<Vec<u8>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let programs = || {
@@ -317,7 +317,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
     }
 }
 
-/// Files of a folder with an extension, in the order of their names.
+/// Files of a folder with an extension, sorted by name.
 fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
     let entries = std::fs::read_dir(folder).expect("a folder of the repository").flatten();
     let mut paths: Vec<_> = entries.map(|e| e.path()).collect();
@@ -326,7 +326,7 @@ fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
     paths.iter().map(|p| std::fs::read(p).expect("a file of the repository")).collect()
 }
 
-/// Words that the readers know: of the grammar, of the parameter tables, of the programs of the suite.
+/// Words known to the readers: of the grammar, of the parameter tables, of the programs of the suite.
 pub fn dictionary() -> Vec<String> {
     let mut words = std::collections::BTreeSet::new();
     let grammar = include_str!("../../interpreter/src/nc.pest");
@@ -350,7 +350,7 @@ pub fn dictionary() -> Vec<String> {
     words.into_iter().collect()
 }
 
-/// An input with a few changes: characters, lines, words of the dictionary, or pieces of another input.
+/// An input with a few mutations: characters, lines, words of the dictionary, or pieces of another input.
 pub fn mutated(input: &[u8], other: &[u8], words: &[String], random: &mut Random) -> Vec<u8> {
     let mut out = input.to_vec();
     for _ in 0..=random.below(4) {

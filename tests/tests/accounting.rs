@@ -1,4 +1,4 @@
-//! Where a run was and where its time went: files of subroutines, dwells, rapid blocks, declared technology times.
+//! Where a run was and where its time went: files of subroutines, dwells, rapid blocks, declared durations of technology functions.
 
 mod sweeps;
 
@@ -43,10 +43,10 @@ fn near(value: &Value, want: f64, tolerance: f64) {
 }
 
 const PART: &str = "N10 G01 X10 F6000\nN20 L corner.nc\nN30 X0 Y0\nM30\n";
-/// Its corner is where the guard leaves the contour most.
+/// Its corner is the point of the largest deviation of the guard from the contour.
 const CORNER: &str = "(a corner)\n\nN10 G01 Y10\nN20 X20\nN30 M17\n";
 
-/// Every row, and what the summary says of a place, names the file that is open there.
+/// Every row, and every place in the summary, names the file that is open there.
 #[test]
 fn places_in_subroutines_name_their_file() {
     let guarded = format!("#VIB GUARD ON [MODE=1 FREQ=20]\n{PART}");
@@ -71,15 +71,15 @@ fn places_in_subroutines_name_their_file() {
     let worst = &summary["max_contour_error"];
     assert_eq!(worst["file"], corner.as_str(), "{worst}");
     assert!(folder.text().contains(&format!(" of {corner}\n")), "{}", folder.text());
-    // Parquet and a comparison of the two forms know it too
+    // Parquet and a comparison of the two forms give it too
     let again = command(["diff", &trace, &part]);
     assert_eq!(again.exit, Exit::Finished, "{}{}", again.out, again.err);
 }
 
-/// A subroutine that only the moving machine opens has its name as well.
+/// A subroutine that only the run on the machine opens has its name as well.
 #[test]
 fn a_file_that_the_check_did_not_see() {
-    // the check assumes every axis to be at its set position; the machine lags by some micrometres
+    // the check assumes every axis to be at its set position; on the machine they lag by some micrometres
     let text = "G01 X10 F6000\n$IF V.A.ACT_POS.X < 10\nL late.nc\n$ENDIF\nG01 X0\nM30\n";
     let folder = Folder::new(&[("part.nc", text), ("late.nc", "G60 G01 Y5\nM17\n")]);
     let trace = folder.path("a.parquet");
@@ -89,7 +89,7 @@ fn a_file_that_the_check_did_not_see() {
     assert!(!stops.contains("\"file\":\"\""), "{stops}");
 }
 
-/// G04 is a dwell, no stop; the ideal time has the rapid blocks in it: 60 m/min on `xyz`.
+/// G04 is a dwell, not a stop; the ideal time includes the rapid blocks: 60 m/min on `xyz`.
 #[test]
 fn dwells_and_rapids() {
     let text = "N10 G01 X10 F6000\nN20 G04 0.5\nN30 G00 X0 Y5\nN40 #TIME 0.25\nM30\n";
@@ -111,7 +111,7 @@ fn dwells_and_rapids() {
     assert!(text.contains("contour error  none"), "{text}");
 }
 
-/// Durations that the channel list declares are not part of the run: the summary says so, with their values.
+/// Durations that the channel list declares are not part of the run: the summary gives their values and says so.
 #[test]
 fn declared_durations_are_named() {
     let folder = Folder::new(&[("part.nc", "M7\nH3\nM8\nG01 X1 F1000\nM30\n")]);
@@ -141,10 +141,10 @@ const DECLARED: [&str; 8] = [
     "channel.spindel[0].s_prozess_zeit=200000",
 ];
 
-/// With `--techno-times` the path waits for them, and the duration grows by just that; without, the summary names them.
+/// With `--techno-times` the path waits for them, and the duration grows by exactly that time; without it the summary names them.
 #[test]
 fn declared_durations_are_waited_for() {
-    // functions of one block go to the machine together: the longest counts
+    // functions of one block go to the machine together: the longest duration counts
     let text = "M7\nM8\nM3 S600\nM7 M8\nG01 X1 F1000\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
     let off = folder.summary(&DECLARED);
@@ -205,7 +205,7 @@ fn kinds_of_synchronisation() {
         let words = ["--set", &kind, "--set", &time, "--techno-times", "-o", &trace];
         let summary = folder.summary(&[&words[..], &["--signals", "path,ipo"]].concat());
         near(&summary["technology_s"], wait_s, 1e-9);
-        // without the option, what the control would wait for is named
+        // without the option, the functions for which the control would wait are named
         let named = folder.summary(&words[..4])["not_counted"].as_array().unwrap().len();
         assert_eq!(named, usize::from(!kind.ends_with("NO_SYNCH") && !kind.ends_with("MOS")));
         let text = std::fs::read_to_string(&trace).unwrap();
@@ -221,8 +221,7 @@ fn kinds_of_synchronisation() {
     }
 }
 
-/// A function with a duration stops the path where it acts: M07 before its block, M05 after it. Its cycles are of its
-/// block.
+/// A function with a duration stops the path where it acts: M07 before its block, M05 after it. Its cycles belong to its block.
 #[test]
 fn functions_that_take_time_stop_the_path() {
     let text = "G01 X10 F6000\nX20 M7\nX30\nX40 M5\nX50\nM30\n";
@@ -253,7 +252,7 @@ fn functions_that_take_time_stop_the_path() {
     assert!(slowest(20.0) > 99.0 && slowest(30.0) > 99.0);
 }
 
-/// With JSON messages every line of stderr is an object: what is wrong with files, lists and settings too.
+/// With JSON messages every line of stderr is an object, for mistakes in files, lists and settings too.
 #[test]
 fn every_message_is_json_if_asked_for() {
     let folder =

@@ -1,5 +1,5 @@
-//! Tests across the crates, one module per subject: one target, linked once. `faults` and `printed` have a test per program
-//! and a harness of their own.
+//! Tests across the crates, one module per subject, linked into a single target. `faults` and `printed` have one test per program and a
+//! harness of their own.
 
 mod accounting;
 mod arrival;

@@ -1,4 +1,4 @@
-//! What happens when the path has come to rest: arrival of the axes, waits that cannot end, stops after an error.
+//! Events after the path has come to rest: arrival of the axes, waits that cannot end, stops after an error.
 
 use kontur_interpreter::diag::{Diagnostic, Id};
 use kontur_interpreter::record::Rest;
@@ -20,8 +20,8 @@ fn only(run: &Run) -> (Id, String, u32) {
 
 const G60: &str = "%P\nG90\nG60 G01 X10 F6000\nY5\nM30\n";
 
-/// A force that never goes away keeps the axis 0.1 mm from its target (force x Ta / Kv): said within one settling time of
-/// a standstill, where the wait had no end.
+/// A force that never goes away keeps the axis 0.1 mm from its target (force x Ta / Kv): this is reported within one settling time of a
+/// standstill, where the wait used to have no end.
 #[test]
 fn a_wait_that_cannot_end() {
     let off = "X.getriebe[0].position_settling_time=0";
@@ -37,7 +37,7 @@ fn a_wait_that_cannot_end() {
     let rest = run.records.iter().rposition(|r| (r.axes[0].lag - 0.1).abs() > 1e-4).unwrap();
     let said = usize::try_from(d.cycle.unwrap()).unwrap();
     assert!(said - rest < 2000, "{said} {rest}: 1 s is the settling time of a list without one");
-    // the force of the plant itself, and one that swings about 0.1 mm without end
+    // the force of the plant itself, and one that oscillates by about 0.1 mm without end
     for disturbance in [&["amplitude=-1000"][..], &["amplitude=-1000", "frequency=0"]] {
         let settings: Vec<String> =
             disturbance.iter().map(|d| format!("kontur.axis[1].plant.disturbance.{d}")).collect();
@@ -47,7 +47,7 @@ fn a_wait_that_cannot_end() {
     }
 }
 
-/// An axis that the block does not move has no stop; a force on it holds the program all the same.
+/// An axis that the block does not move has no stop, but a force on it holds the program all the same.
 #[test]
 fn an_axis_beside_the_block_that_stands_outside() {
     let run = run_with_inputs(machine(&[]), G60, &[(0.0, "Z_force_mm_s2", 1000.0)]);
@@ -65,7 +65,7 @@ fn an_input_to_come_is_waited_for() {
     assert!(run.cycle_s * last.k as f64 > 5.0 && (last.axes[1].act - 5.0).abs() <= 0.01);
 }
 
-/// TF5200 diagnosis 110087: the control refuses a window of 0 and takes the default, 0.05 mm.
+/// TF5200 diagnosis 110087: the control refuses a window of 0 and uses the default, 0.05 mm.
 #[test]
 fn a_window_of_zero_is_the_default() {
     let run = run(G60, &["X.getriebe[0].window=0", "X.getriebe[0].position_settling_time=0"]);
@@ -75,8 +75,8 @@ fn a_window_of_zero_is_the_default() {
     assert!(run.records[begins - 2].axes[0].lag.abs() > 0.05);
 }
 
-/// The trace ends when the axes have arrived; the totals say how long that took: ln(lag / window) / Kv within some
-/// cycles of the drive's lag.
+/// The trace ends when the axes have arrived; the totals say how long that took: ln(lag / window) / Kv within some cycles of the lag of
+/// the drive.
 #[test]
 fn the_end_waits_for_the_axes() {
     let run = run("%P\nG90\nG01 X100 F6000\nM30\n", &[]);
@@ -87,14 +87,14 @@ fn the_end_waits_for_the_axes() {
     assert_eq!(run.rested(Rest::Arrival), run.records.len() - 1 - rest);
     let stop = &run.totals.stops.axes[&0];
     assert_eq!((stop.0, stop.1.source.line), (1, 3));
-    // t2 - t1 is what the trace shows, and what the positions say
+    // t2 - t1 is the value in the trace and follows from the positions
     assert!((stop.1.settling_s - last.axes[0].settling_s).abs() < 1e-12);
     assert!((stop.1.settling_s - run.rested(Rest::Arrival) as f64 * run.cycle_s).abs() < 2e-3);
     let ramp = &run.records[rest..];
     assert!(ramp.windows(2).all(|w| w[1].axes[0].settling_s > w[0].axes[0].settling_s - 1e-12));
 }
 
-/// Gain 10/s and a limit of 1 ms: the last motion is monitored too. The message points to the block whose stop it was.
+/// Gain 10/s and a limit of 1 ms: the last motion is monitored too. The message points to the block that the stop belongs to.
 #[test]
 fn the_last_motion_is_monitored() {
     let slow = ["X.getriebe[0].kv=1000", "X.getriebe[0].position_settling_time=1000"];
@@ -108,7 +108,7 @@ fn the_last_motion_is_monitored() {
     assert!(late.records[at].axes[1].ipo > 0.0, "Y is on its way");
 }
 
-/// After the error the axis stays where it is: no creeping to the target. Conformance: P010.
+/// After the error the axis stays where it is: it does not creep to the target. Conformance: P010.
 #[test]
 fn an_axis_with_an_error_stops() {
     let text =
@@ -118,14 +118,14 @@ fn an_axis_with_an_error_stops() {
     let here = run.records[at].axes[0].act;
     assert!((here - run.records[at].axes[0].set).abs() > 1.0, "far from its target");
     for r in &run.records[at..] {
-        // v Ta is what the drive needs to stop
+        // v Ta is the distance in which the drive stops
         assert!((r.axes[0].act - here).abs() < 0.08, "{} {here}", r.axes[0].act);
     }
     let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
     assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "at rest: 0.1 mm/s");
 }
 
-/// G60 waits for both sides of a bridge; an error of one brakes both along the path.
+/// G60 waits for both sides of a gantry bridge; an error of one side brakes both along the path.
 #[test]
 fn both_sides_of_a_gantry() {
     let on = |settings: &[&str], text: &str| run_on(sample_machine("gantry", settings), text);
@@ -135,7 +135,7 @@ fn both_sides_of_a_gantry() {
     let begins = waits.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
     let slave = waits.records[begins].axes.last().unwrap();
     assert!(slave.lag.abs() <= 0.01, "{}", slave.lag);
-    // one side does not arrive in time: the other one is held with it and has nothing to say
+    // one side does not arrive in time: the other one is held with it and gives no message
     let late = on(&["X2.getriebe[0].kv=1000", "X2.getriebe[0].position_settling_time=10000"], G60);
     assert_eq!(only(&late).0, Id::Vendor(70082));
     assert_eq!(only(&late).1, "X2");
@@ -161,7 +161,7 @@ fn most_rpm(run: &Run) -> f64 {
     run.axis(3, |a| a.vel / 6.0).iter().fold(0.0, |most: f64, v| most.max(v.abs()))
 }
 
-/// M19 turns with the speed of its bracket, whatever the order of the words, and the program ends when it has arrived.
+/// M19 turns at the speed in its bracket, whatever the order of the words, and the program ends when it has arrived.
 #[test]
 fn spindle_positioning_with_a_speed() {
     for bracket in ["M19 POS=90 REV=100", "REV=100 POS=90 M19", "POS=90 REV=100 M19"] {
@@ -186,7 +186,7 @@ fn a_spindle_that_does_not_arrive() {
     assert!(text.contains("deg") && !text.contains("mm"), "{text}");
 }
 
-/// A speed above P-AXIS-00212 is limited, and said.
+/// A speed above P-AXIS-00212 is limited, with a message.
 #[test]
 fn a_speed_above_the_limit_is_said() {
     let run = run("%P\nM3 S15000\nG04 2\nM30\n", &[]);
@@ -209,7 +209,7 @@ fn spindles_stop_with_the_axes() {
     assert!(run.axis(3, |a| a.acc).iter().all(|a| a.abs() <= 60_000.0 * 1.0001));
 }
 
-/// `main_spindle_name` addresses the main spindle beside its own name.
+/// `main_spindle_name` addresses the main spindle as well as its own name does.
 #[test]
 fn a_named_main_spindle() {
     let machine = || {
@@ -235,7 +235,7 @@ fn a_named_main_spindle() {
 }
 
 /// `#CHANNEL INIT [ACTPOS]` (206709515): the actual position becomes the set position. The set position goes back by the lag, and the
-/// axis, whose encoder counts on, moves to it without a jump.
+/// axis, whose encoder keeps counting, moves to it without a jump.
 #[test]
 fn an_actual_position_that_is_taken_over_lets_the_axis_move() {
     let run = kontur_tests::run("G01 X10 F6000\n#CHANNEL INIT [ACTPOS]\nG04 1\nM30\n", &[]);
@@ -245,7 +245,7 @@ fn an_actual_position_that_is_taken_over_lets_the_axis_move() {
     let lag = set[taken - 1] - act[taken - 1];
     assert!(lag > 1e-4, "{lag}");
     assert!((set[taken] - act[taken - 1]).abs() < 1e-9, "{} {}", set[taken], act[taken - 1]);
-    // along its way the axis was slowing down; at no time it is faster, and it ends at its new set position
+    // in its motion the axis was slowing down; at no time is it faster, and it ends at its new set position
     let most = (act[taken - 1] - act[taken - 2]).abs();
     for k in taken..act.len() {
         assert!((act[k] - act[k - 1]).abs() <= most * (1.0 + 1e-9), "{k}");

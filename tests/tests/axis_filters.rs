@@ -42,7 +42,7 @@ fn equal(run: &Run, axis: usize) -> bool {
     run.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
 }
 
-/// How many cycles `set` is after `ipo` in the middle of the motion of a line, at constant speed.
+/// By how many cycles `set` is later than `ipo` in the middle of the motion of a line, at constant speed.
 fn delay(run: &Run, line: u32) -> f64 {
     let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
     let middle = of_line[of_line.len() / 2];
@@ -50,7 +50,7 @@ fn delay(run: &Run, line: u32) -> f64 {
     (middle.axes[0].ipo - middle.axes[0].set) / (middle.path.v_mm_s * run.cycle_s)
 }
 
-/// `TIME_DELAY` of 2000 us in an axis: the interpolated position two cycles later, bit for bit. Conformance: A065.
+/// `TIME_DELAY` of 2000 us in an axis: the interpolated position of two cycles before, bit for bit. Conformance: A065.
 #[test]
 fn an_axis_is_two_cycles_late() {
     let delay = ["enable=1", "type=TIME_DELAY", "order=1", "time_constant=2000"];
@@ -119,7 +119,7 @@ fn no_command_switches_a_standard_filter() {
     assert!(reaches(&set(&run, 0), 10.0) > reaches(&ipo(&run, 0), 10.0) + 20);
 }
 
-/// Prepared by the list, effective by the command; `enable` says nothing. Conformance: A009, A087, A104.
+/// Prepared by the list, effective by the command; `enable` has no influence. Conformance: A009, A087, A104.
 #[test]
 fn the_command_makes_hsc_effective() {
     let without = "%P\nG90 G01 X100 F6000\nM30\n";

@@ -1,7 +1,7 @@
-//! The page of `kontur report` in a browser without a window: its script runs without an error or a request, the plots are drawn, and
-//! what is under the pointer is said.
+//! The page of `kontur report` in a headless browser: its script runs without errors and without requests, the plots are drawn, and the
+//! tip gives the values under the pointer.
 //!
-//! `KONTUR_BROWSER` names the browser; without it Chromium is looked for. Where there is none, nothing is tested, and the test says so.
+//! `KONTUR_BROWSER` names the browser; without it Chromium is searched for. If there is none, nothing is tested, and the test says so.
 
 use kontur::Exit;
 use kontur::chart::scale::ticks;
@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Looks at the page from inside: what it holds becomes JSON in a separate element.
+/// Inspects the page from inside: its contents are written as JSON to a separate element.
 const PROBE: &str = r#"<script>
 const errors = [];
 window.addEventListener("error", e => errors.push(String(e.message)));
@@ -49,12 +49,12 @@ const stepped = view.at;
 press(shownKeys[0], "Enter");
 const hiddenByKey = view.hidden.size;
 press(shownKeys[0], "Enter");
-// a click on a line of the text lights its samples: as many bands of colour on the speed as pixels of the mark
+// a click on a line of the text highlights its samples: as many coloured bands on the speed as pixels of the mark
 const rowOf = line => document.querySelectorAll("#program div")[line - 1];
 const marked = () => {
   const [r, g, b] = /rgba?\((\d+), (\d+), (\d+)/.exec((() => { const e = make("i"); e.style.color = "var(--mark)"; document.body.append(e); return getComputedStyle(e).color; })()).slice(1).map(Number);
   const canvas = plots[0].canvas, pixels = canvas.getContext("2d").getImageData(0, Math.round(canvas.height / 3), canvas.width, 1).data;
-  // the mark over the ground of the card: red stays high while green and blue fall
+  // the mark on the background of the card: red stays high while green and blue fall
   let n = 0;
   for (let i = 0; i < pixels.length; i += 4) n += pixels[i] - pixels[i + 1] > 40 && pixels[i + 3] > 0;
   return n / canvas.width;
@@ -66,11 +66,11 @@ const lit = marked(), chosen = rowOf(4).classList.contains("chosen"), chosenLine
 rowOf(4).click();
 drawAll();
 const unlit = marked();
-// under the pointer the text follows
+// the text follows the pointer
 view.at = 0.05;
 drawAll();
 const followed = document.querySelector("#program div.at span"), follows = followed && followed.textContent;
-// in space, in the colours of what limits
+// in space, coloured by the limiting reason
 const buttons = [...document.querySelectorAll("#planes button")];
 buttons[3].click();
 [...document.querySelectorAll("#paints button")][2].click();
@@ -80,7 +80,7 @@ const turned = [...view.turn];
 press(contour, "ArrowLeft");
 const turns = view.turn[0] !== turned[0];
 buttons[0].click();
-// round numbers of any range, and the spring of another frequency
+// round numbers of any range, and the spring with another frequency
 const ranges = [];
 for (let i = 0, seed = 1; i < 400; i++) {
   const next = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
@@ -92,10 +92,10 @@ for (const values of [[], ["37", "0.05"], ["", "", "61", "0.3"]]) {
   values.forEach((v, i) => { if (v && fields[i]) { fields[i].value = v; fields[i].dispatchEvent(new Event("input")); } });
   springs.push(spring.lines.map(l => ({ axis: l.axis, ...modelOf(l), most: responseOf(l).most, left: responseOf(l).left, said: spring.card.textContent })));
 }
-// what can be clicked can be reached by keys
+// everything that can be clicked can be reached by keys
 const keyless = [...document.querySelectorAll("canvas, .key, #program, tr[data-line]")].filter(e => e.tabIndex < 0 && !e.closest("#legend .note")).length;
 const shares = [...document.querySelectorAll("#times table")].map(t => [...t.rows].slice(1).map(row => Number(row.cells[2].textContent)).reduce((a, b) => a + b, 0));
-// two fingers that part on the contour and over time: to three times their distance
+// two fingers that spread to three times their distance, on the contour and over time
 const touch = (target, name, pointerId, x, y) => {
   const at = target.getBoundingClientRect();
   target.dispatchEvent(new PointerEvent(name, { pointerId, pointerType: "touch", clientX: at.left + x, clientY: at.top + y, bubbles: true }));
@@ -115,7 +115,7 @@ const scaleBefore = wide.scale, fixed = toData(wide, 200, 100), timeBefore = [..
 pinch(contour);
 const pinched = [wide.scale / scaleBefore, ...toScreen(wide, ...fixed)];
 touch(contour, "pointerup", 12, 290, 100);
-// one finger moves
+// one finger pans
 touch(contour, "pointermove", 11, 150, 130);
 const panned = toScreen(wide, ...fixed);
 lift(contour);
@@ -163,7 +163,7 @@ fn write_page(folder: &Path, programs: &[&str], options: &[&str]) -> String {
     path("page.html")
 }
 
-/// Sheets of paper that the page of some programs takes.
+/// Number of sheets of paper for the page of some programs.
 fn printed(browser: &Path, programs: &[&str]) -> usize {
     let folder = tempfile::tempdir().unwrap();
     let page = write_page(folder.path(), programs, &[]);
@@ -182,7 +182,7 @@ fn printed(browser: &Path, programs: &[&str]) -> usize {
     text.split("/Type /Page").skip(1).filter(|behind| !behind.starts_with('s')).count()
 }
 
-/// What the probe sees of the page of some programs.
+/// What the probe finds on the page of some programs.
 fn look(browser: &Path, programs: &[&str], options: &[&str]) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
@@ -223,11 +223,11 @@ fn the_page_draws_and_answers() {
     let tip = one["tip"].as_str().unwrap();
     assert!(tip.contains("line 4") && tip.contains("Y  set 10.0000"), "{tip}");
     assert_eq!(one["zoomed"], true);
-    // without a pointer: one step over time is a cycle, a legend hides its curve, an arrow turns the view in space
+    // without a pointer: one step over time is a cycle, a legend hides its curve, an arrow rotates the view in space
     assert!((one["stepped"].as_f64().unwrap() - 0.051).abs() < 1e-9, "{one}");
     assert_eq!((&one["hiddenByKey"], &one["turns"]), (&1.into(), &true.into()));
     assert!(one["label"].as_str().unwrap().contains("contour error at most"), "{one}");
-    // the chosen line takes about a quarter of the time, and nothing is lit before and after
+    // the chosen line takes about a quarter of the time, and nothing is highlighted before and after
     let lit = one["lit"].as_f64().unwrap();
     assert!(lit > 0.1 && lit < 0.4, "{one}");
     assert_eq!((&one["dark"], &one["unlit"], &one["chosen"]), (&0.into(), &0.into(), &true.into()));
@@ -243,7 +243,7 @@ fn the_page_draws_and_answers() {
             ticks((low, high), wanted).into_iter().map(|(_, text)| text).collect();
         assert_eq!(range[3], serde_json::json!(picture), "{low} {high} {wanted}");
     }
-    // the spring of the page against that of the library: as the guard is set, then of each axis as it is chosen
+    // the spring of the page against that of the library: with the setting of the guard first, then with each axis as it is selected
     let trace = run(SQUARE, &[]);
     let guard = (20.0, 0.1);
     let chosen = [[guard; 2], [(37.0, 0.05), guard], [(37.0, 0.05), (61.0, 0.3)]];
@@ -268,7 +268,7 @@ fn the_page_draws_and_answers() {
         }
     }
     assert_eq!(one["keyless"], 0);
-    // fingers that part to three times their distance: the scale too, about the point between them; one finger moves, none does not
+    // fingers that spread to three times their distance: so does the scale, about the point between them; one finger pans, none does not
     let near = |value: &Value, to: f64| (value.as_f64().unwrap() - to).abs() < 1e-6;
     for (i, to) in [3.0, 200.0, 100.0].into_iter().enumerate() {
         assert!(near(&one["pinched"][i], to), "{one}");
@@ -277,18 +277,18 @@ fn the_page_draws_and_answers() {
         assert!(near(&one[moved][0], 240.0) && near(&one[moved][1], 130.0), "{one}");
     }
     assert!(near(&one["pinchedTime"], 3.0), "{one}");
-    // all reasons make up the time
+    // all reasons together make up the time
     assert!((one["shares"][0].as_f64().unwrap() - 100.0).abs() < 0.5, "{one}");
 }
 
-/// With several runs a colour is a run and a dash is an axis, in every plot and its legend; what is actual is thin.
+/// With several runs the colour stands for the run and the dash for the axis, in every plot and its legend; actual values are thin.
 #[test]
 fn parts_and_several_runs() {
     let Some(browser) = browser() else {
         println!("no browser found: nothing tested");
         return;
     };
-    // only the part that is asked for is drawn, cycle by cycle
+    // only the requested part is drawn, cycle by cycle
     let part = look(&browser, &[SQUARE], &["--window", "0.05..0.1"]);
     assert_eq!(part["errors"], serde_json::json!([]), "{part}");
     assert_eq!(part["span"], serde_json::json!([0.05, 0.1]));
@@ -319,7 +319,7 @@ fn parts_and_several_runs() {
     assert!(of("Position", " X set")[0].2 > 1.5 * of("Position", " X actual")[0].2);
 }
 
-/// Where a plot has a bucket of several cycles, its values are not those of the first of them: the tip names both ends.
+/// Where a plot has a bucket of several cycles, its values are not those of its first cycle: the tip names both ends.
 #[test]
 fn the_tip_names_the_span_of_a_bucket() {
     let Some(browser) = browser() else {
@@ -341,7 +341,7 @@ fn the_tip_names_the_span_of_a_bucket() {
     assert!((set.parse::<f64>().unwrap() - 5.0).abs() < 0.05, "{tip}");
 }
 
-/// One run or four are one sheet of paper.
+/// One run or four runs fit on one sheet of paper.
 #[test]
 fn a_page_prints_on_one_sheet() {
     let Some(browser) = browser() else {
@@ -354,7 +354,7 @@ fn a_page_prints_on_one_sheet() {
     assert_eq!(printed(&browser, &[SQUARE, &other(40), &other(30), &other(25)]), 1);
 }
 
-/// A million cycles are a page that opens: what it holds of them has a bound, and it draws as any other.
+/// A page for a million cycles opens: the amount of data in it is bounded, and it draws like any other.
 #[test]
 fn a_long_run_is_a_page_that_opens() {
     let Some(browser) = browser() else {
@@ -363,7 +363,7 @@ fn a_long_run_is_a_page_that_opens() {
     };
     let long = look(&browser, &[&SQUARE.replace("F6000", "F2.4")], &[]);
     assert_eq!(long["errors"], serde_json::json!([]), "{long}");
-    // to the last of its cycles of 1 ms
+    // up to the last of its cycles of 1 ms
     let [end, cycles] = [&long["span"][1], &long["cycles"][0]].map(|v| v.as_f64().unwrap());
     assert!(cycles > 999_000.0 && (end - (cycles - 1.0) * 1e-3).abs() < 1e-9, "{long}");
     let buckets = long["buckets"][0].as_u64().unwrap();

@@ -1,9 +1,8 @@
-//! The ledger of `tests/conformance`: every testable statement of the vendor's five documents, and the test that proves
-//! it.
+//! The ledger of `tests/conformance`: every testable statement of the vendor's five documents, and the test that proves it.
 //!
-//! `documents.csv` holds the documents with the prefix and the number of their rows; the rows of a prefix are numbered
-//! without gaps (`A001` to `A120`). A row that is called reproduced or chosen must name a test that exists and that
-//! names the row in turn, in its documentation or its body.
+//! `documents.csv` lists the documents with their prefix and number of rows; the rows of a prefix are numbered without gaps (`A001` to
+//! `A120`). A row that is called reproduced or chosen must name a test that exists and that names the row in turn, in its documentation
+//! or its body.
 //!
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test all conformance` rewrites `tests/conformance/README.md`.
 
@@ -34,7 +33,7 @@ struct Row {
     state: String,
     /// Names of test functions, separated by blanks.
     tests: String,
-    /// What is missing, or what was chosen.
+    /// What is missing, or the choice that was made.
     note: String,
 }
 
@@ -100,8 +99,8 @@ fn sources() -> Vec<PathBuf> {
     files
 }
 
-/// The functions with `#[test]`, with the attributes and documentation above them and up to the closing brace, which
-/// formatted code has in the column of the first line.
+/// The functions with `#[test]`, with the attributes and documentation above them, down to the closing brace, which in formatted code
+/// stands in the column of the first line.
 fn tests_of(text: &str) -> Vec<(String, String)> {
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();
@@ -139,7 +138,7 @@ fn names_row(text: &str, id: &str) -> bool {
     text.split(|c: char| !c.is_alphanumeric()).any(|word| word == id)
 }
 
-/// Everything that is wrong with the rows of a document.
+/// All mistakes in the rows of a document.
 fn faults(document: &Document, rows: &[Row], tests: &Tests) -> Vec<String> {
     let mut faults = Vec::new();
     let known = document.ids();
@@ -247,7 +246,7 @@ fn the_page_is_made_from_the_data() {
     assert!(written == page, "README.md of the ledger is out of date: set KONTUR_WRITE_LEDGER=1");
 }
 
-/// The ledger's own rules.
+/// The rules of the ledger itself.
 #[test]
 fn what_is_wrong_is_found() {
     let source = "    /// Proves Q001.\n    #[test]\n    fn proof() {\n        let x = 1;\n    }\n\n    fn helper() {\n        // Q002\n    }\n";

@@ -1,4 +1,4 @@
-//! Rounded corners and splines of programs, judged from the trace and the programmed geometry alone.
+//! Rounded corners and splines of programs, judged only by the trace and the programmed geometry.
 
 use kontur_interpreter::diag::Condition;
 use kontur_kit::{Random, count, seed};
@@ -14,7 +14,7 @@ fn square(mode: &str) -> Run {
     run
 }
 
-/// Distance of the interpolated polyline from a point; at F600 its chords are 0.01 mm and less.
+/// Distance of the interpolated polyline from a point; at F600 its chords are at most 0.01 mm long.
 fn distance(run: &Run, p: [f64; 2]) -> f64 {
     let driven: Vec<Vec<f64>> =
         run.records.iter().map(|r| vec![r.axes[0].ipo, r.axes[1].ipo]).collect();
@@ -28,13 +28,13 @@ fn off_square(p: &[f64]) -> f64 {
     libm::hypot(e[0], e[1])
 }
 
-/// Messages about functions replaced by simpler ones.
+/// Messages about functions that are replaced by simpler ones.
 fn fallbacks(run: &Run) -> usize {
     run.diagnostics.iter().filter(|d| d.id == Condition::Fallback).count()
 }
 
-/// Between chords of length `h` a curve of radius `r` is `h^2 / 8 r` away; on the curve with d = 8/3 0.1 / sin 45 deg
-/// = 0.377 mm the least radius is 0.2 mm at the speed the axes allow.
+/// Between chords of length `h` a curve of radius `r` is `h^2 / 8 r` away; on the curve with d = 8/3 0.1 / sin 45 deg = 0.377 mm the
+/// smallest radius is 0.2 mm at the speed that the axes allow.
 #[test]
 fn dev_passes_every_corner_at_its_distance() {
     let run = square("#CONTOUR MODE ON [DEV PATH_DEV=0.1]");
@@ -50,7 +50,7 @@ fn dev_passes_every_corner_at_its_distance() {
     assert!(run.records.len() < square("").records.len());
 }
 
-/// The middle of the curve itself, at a speed so low that the chords do not matter.
+/// The middle of the curve itself, at a speed at which the chords do not matter.
 #[test]
 fn dev_to_a_nanometre() {
     let program = "%S\nG90 G01 F60\nG261\n#CONTOUR MODE [DEV PATH_DEV=0.1]\nX1\nG260 Y1\nM30\n";
@@ -77,7 +77,7 @@ fn dist_begins_and_ends_where_asked() {
     }
 }
 
-/// Keys keep their values over commands and modes; PATH_DEV starts with 1 mm.
+/// Keys keep their values across commands and modes; PATH_DEV starts with 1 mm.
 #[test]
 fn keys_persist() {
     let d = |mode: &str| distance(&square(mode), CORNERS[0]);
@@ -90,7 +90,7 @@ fn keys_persist() {
     assert!((d(dist) - 2.0 * 0.265_165_043).abs() < 1e-4);
 }
 
-/// G61 acts at the end of its block alone; OPMODE=1 contours with CONTERROR.
+/// G61 acts only at the end of its block; OPMODE=1 contours with CONTERROR.
 #[test]
 fn once_and_the_old_form() {
     let program = "%S\nG90 G01 F600\n#CONTOUR MODE [PATH_DEV=0.1]\nX20\nG61 Y20\nX0\nY0\nM30\n";
@@ -120,7 +120,7 @@ fn stops_suppress_contouring() {
     }
 }
 
-/// `#FLUSH CONTINUE` keeps the corner that it is in and stops nowhere: its corner is passed as that of G260, the next one is
+/// `#FLUSH CONTINUE` keeps the corner where it stands and stops nowhere: this corner is passed like that of G260, the next one is
 /// rounded. Source: TF5200 programming manual 207042443.
 #[test]
 fn flush_continue_keeps_its_corner() {
@@ -144,7 +144,7 @@ fn flush_continue_keeps_its_corner() {
     assert!((corner(&drive("", ""), [20.0, 0.0]) - 0.1).abs() < 1e-3);
 }
 
-/// The records name the blocks in their order, each of them.
+/// The records name all blocks in their order.
 #[test]
 fn lines_stay_in_order() {
     let run = square("#CONTOUR MODE ON [DEV PATH_DEV=0.1]");
@@ -181,8 +181,8 @@ fn spline_through_a_polygonised_circle() {
         assert!(libm::hypot(e[0], e[1]) <= 0.05, "{p:?}");
     }
     assert!(smooth.records.len() < sharp.records.len());
-    // the direction turns by 6 deg at a kink, in two cycles at most; on the spline, whose curvature is 0.1 per mm, by
-    // 0.05 mm * 0.1 per mm = 0.29 deg in a cycle
+    // the direction turns by 6 deg at a kink, within two cycles at most; on the spline, whose curvature is 0.1 per mm, by 0.05 mm * 0.1
+    // per mm = 0.29 deg in a cycle
     let sharpest_turn_deg = |p: &[Vec<f64>]| {
         let steps = p.windows(2).map(|w| [w[1][0] - w[0][0], w[1][1] - w[0][1]]);
         let steps: Vec<[f64; 2]> = steps.filter(|d| libm::hypot(d[0], d[1]) > 1e-4).collect();
@@ -199,8 +199,8 @@ fn spline_through_a_polygonised_circle() {
     assert!(libm::hypot(end[0] - 10.0, end[1]) < 1e-9, "{end:?}");
 }
 
-/// An edge between sharp bends is as fast as its straight part allows: a tenth of its speed lost on a long edge would
-/// make a larger tolerance slower.
+/// An edge between sharp bends is as fast as its straight part allows: if a long edge lost a tenth of its speed, a larger tolerance would
+/// be slower.
 #[test]
 fn a_larger_path_dev_keeps_long_edges_fast() {
     for feed in [500, 700, 1000] {
@@ -211,7 +211,7 @@ fn a_larger_path_dev_keeps_long_edges_fast() {
                  X-15 Y40\n#HSC OFF\nM30\n"
             );
             let run = run(&program, &[]);
-            // of the smallest ones a corner is faster
+            // with the smallest ones a corner is faster
             let other = run.diagnostics.iter().find(|d| d.id != Condition::CornerFaster);
             assert_eq!(other, None);
             let cycles = run.records.len();
@@ -221,8 +221,8 @@ fn a_larger_path_dev_keeps_long_edges_fast() {
     }
 }
 
-/// A spline that turns sharply is slow there and not along the whole of its block: it takes at most twice as long per mm
-/// as the polygon of its points with a stop at each of them.
+/// A spline that turns sharply is slow there and not along its whole block: per mm it takes at most twice as long as the polygon of its
+/// points with a stop at each of them.
 #[test]
 fn a_sharp_turn_does_not_slow_down_the_spline() {
     let mut compared = 0;
@@ -236,7 +236,7 @@ fn a_sharp_turn_does_not_slow_down_the_spline() {
         };
         let head = format!("%P\n#SLOPE [TYPE={slope}]\nG01 F{feed:.0}\n");
         let spline = run(&format!("{head}G151\n{}G150\nM30\n", blocks("")), &[]);
-        // a tip without any radius has no direction: refused
+        // a tip with zero radius has no direction: refused
         if spline.diagnostics.iter().any(|d| d.id == Condition::Unsupported) {
             continue;
         }

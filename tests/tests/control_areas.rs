@@ -1,10 +1,10 @@
-//! Workspaces and protection areas: what is watched against the set points of the same program without them.
+//! Workspaces and protection areas: monitoring compared with the set points of the same program without areas.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::{Run, run};
 
-/// A body over a polygon whose corners are seen from its middle, or over a circle.
+/// A body over a polygon that is star-shaped about its middle, or over a circle.
 struct Body {
     middle: [f64; 2],
     /// Empty: a circle of this radius.
@@ -49,7 +49,7 @@ impl Body {
         text + "#CONTROL AREA END\n"
     }
 
-    /// Whether a point is inside, by the angles under which it sees the sides.
+    /// Whether a point is inside, by the angles that the sides subtend at it.
     fn holds(&self, [x, y, z]: [f64; 3]) -> bool {
         let [low, high] = self.height;
         let in_base = if self.corners.is_empty() {
@@ -68,7 +68,7 @@ impl Body {
         in_base && (low..=high).contains(&z)
     }
 
-    /// Whether every point at this distance along the axes and their diagonals is inside, or none is.
+    /// Whether all points at this distance along the axes and their diagonals are inside, or none of them is.
     fn is_clear(&self, [x, y, z]: [f64; 3], distance: f64) -> bool {
         let steps = [-1.0, 0.0, 1.0];
         let mut all = steps.iter().flat_map(|i| steps.iter().map(move |j| (*i, *j)));
@@ -104,7 +104,7 @@ fn points(run: &Run) -> Vec<[f64; 3]> {
     x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect()
 }
 
-/// A program that keeps to its area is the same with it; one that does not drives nothing that leaves it.
+/// A program that stays in its area runs the same with it; one that does not moves nothing out of it.
 #[test]
 fn motions_are_where_the_area_lets_them() {
     let (mut kept, mut ended) = (0, 0);
@@ -129,7 +129,7 @@ fn motions_are_where_the_area_lets_them() {
         );
         let what = format!("seed {}: {contour}", seed() + k);
         let driven = points(&watched);
-        // on the way to its start the program is not watched yet
+        // on the way to its start the program is not monitored yet
         let is_start = |p: &[f64; 3]| (p[0] - 2.0).abs() + (p[1] - 3.0).abs() < 1e-9;
         let start = free.iter().position(is_start).unwrap();
         if free[start..].iter().all(|p| may(body.holds(*p)) && body.is_clear(*p, 0.3)) {
@@ -140,7 +140,7 @@ fn motions_are_where_the_area_lets_them() {
         let wrong = |p: &[f64; 3]| !may(body.holds(*p)) && body.is_clear(*p, 0.01);
         if free[start..].iter().any(wrong) {
             assert!(watched.diagnostics.iter().any(Diagnostic::is_error), "{what}");
-            // what the check sees lets nothing move at all
+            // where the check finds a violation nothing moves at all
             let mut driven = driven.iter().skip_while(|p| !is_start(p));
             assert!(wrong(&free[start]) || !driven.any(wrong), "{what}");
             ended += 1;

@@ -1,10 +1,10 @@
-//! Axis couplings and set positions of axes in runs of programs: what slaves do where their masters go.
+//! Axis couplings and set positions of axes in runs of programs: how slaves follow their masters.
 
 use kontur_interpreter::record::CycleRecord;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::{Run, machine, run_on, run_with_inputs};
 
-/// Z has no place among the main axes, so that it can follow; it begins at 5.
+/// Z is not one of the main axes, so that it can follow; it begins at 5.
 const SETUP: &str = "#SET AX [X,1,0][Y,2,1][C,3,3]\n";
 
 fn go(settings: &[&str], program: &str) -> Run {
@@ -33,7 +33,7 @@ fn contour(random: &mut Random) -> String {
     text
 }
 
-/// In every cycle the slave has gone as far as its master, or as far the other way; the path is what it is without it.
+/// In every cycle the slave has moved as far as its master, or as far in the other direction; the path is the same as without it.
 #[test]
 fn slaves_follow() {
     for k in 0..count(30) as u64 {
@@ -48,7 +48,7 @@ fn slaves_follow() {
         for (x, z) in x.iter().zip(&z).skip(from) {
             assert!((z - (5.0 + ratio * x)).abs() < 1e-9, "seed {}: X{x} Z{z}", seed() + k);
         }
-        // by the logical numbers of the axes it is the same (207120267)
+        // with the logical numbers of the axes it is the same (207120267)
         let numbers = if ratio > 0.0 { "3 = 1" } else { "[3 = 1, -1, 1]" };
         let by_number =
             format!("#AX LINK NBR [1, {numbers}]\nG00 C5\n#ENABLE AX LINK [1]\n{contour}");
@@ -59,7 +59,7 @@ fn slaves_follow() {
     }
 }
 
-/// A machine whose X has the limits of Z takes as long as one that couples a slow Z with X.
+/// A machine whose X has the limits of Z takes as long as one that couples a slow Z to X.
 #[test]
 fn the_path_keeps_the_limits_of_slaves() {
     let slow = |axis: &str| {
@@ -78,7 +78,7 @@ fn the_path_keeps_the_limits_of_slaves() {
     assert!(coupled > of("Z", contour) + 100);
 }
 
-/// What slaves have gone counts when they are free again, and in the next group.
+/// The distance moved by slaves counts when they are released, and in the next group.
 #[test]
 fn slaves_stay_where_they_are() {
     let run = go(
@@ -93,7 +93,7 @@ fn slaves_stay_where_they_are() {
     }
 }
 
-/// The limits of the slave count: 100 less than its master.
+/// The limits of the slave apply: 100 less than its master.
 #[test]
 fn software_limits_of_slaves() {
     let settings = ["Z.kenngr.swe_pos=1000000", "Z.kenngr.swe_neg=-1000000"];
@@ -108,8 +108,8 @@ fn software_limits_of_slaves() {
     assert!(run.diagnostics[0].text.contains("150.1") || run.diagnostics[0].text.contains("100.1"));
 }
 
-/// `SET_POSITION` moves nothing: speeds and lag are those of the same motions without it, and so is the deviation under a
-/// Vibration Guard.
+/// `SET_POSITION` moves nothing: speeds and lag are those of the same motions without it, and so is the deviation under a Vibration
+/// Guard.
 #[test]
 fn a_position_that_is_set_moves_nothing() {
     let run = |set: &str, by: f64| {
@@ -145,8 +145,8 @@ fn a_position_that_is_set_moves_nothing() {
     assert!(deviation(&with) > 0.02 && deviation(&with) <= 0.05, "{}", deviation(&with));
 }
 
-/// Directly after a motion, while the axis still follows: its lag is unchanged in the cycle in which the position changes, and
-/// decays as it does without the change.
+/// Directly after a motion, while the axis still follows: its lag is unchanged in the cycle in which the position changes, and decays as
+/// without the change.
 #[test]
 fn a_position_that_is_set_leaves_the_lag() {
     let run = |command: &str| go(&[], &format!("G60 G01 X20 F8000\n{command}\nG04 0.1\n"));
@@ -160,9 +160,8 @@ fn a_position_that_is_set_leaves_the_lag() {
     }
 }
 
-/// `#CHANNEL INIT [ACTPOS]` directly after a motion waits until the axes are in their windows and moves nothing: between
-/// two cycles the actual positions do not jump, the set positions by a window at most, and incremental motions count on
-/// from where the axes are.
+/// `#CHANNEL INIT [ACTPOS]` directly after a motion waits until the axes are in their windows and moves nothing: between two cycles the
+/// actual positions do not jump, the set positions jump by at most a window, and incremental motions count from where the axes are.
 #[test]
 fn actual_positions_are_taken_over_at_rest() {
     let window = machine(&[]).0.axes[0].window_mm();
@@ -191,7 +190,7 @@ fn actual_positions_are_taken_over_at_rest() {
     }
 }
 
-/// An additional value of the position loop is in the actual position, and does not become part of the set position, too.
+/// An additional value of the position loop is part of the actual position, but does not become part of the set position.
 #[test]
 fn additional_values_are_not_taken_over() {
     let machine = machine(&["X.lr_param.add_interface.enable=1"]);

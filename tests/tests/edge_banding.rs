@@ -1,7 +1,7 @@
-//! Edge banding (G108): the path stops where the probe signals and a way further, calls the M function, and continues.
+//! Edge banding (G108): the path stops a set distance after the signal of the probe, calls the M function, and continues.
 //!
 //! Programs after the examples of the TF5200 programming manual (206219787, 206230027) and of the M and H functions
-//! (285989771). The places are known beforehand: where a line or an arc meets the surface, and a way after it.
+//! (285989771). The places are known beforehand: a set distance after the point where a line or an arc meets the surface.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
@@ -28,7 +28,7 @@ fn at(record: &CycleRecord) -> [f64; 2] {
     [record.axes[0].ipo, record.axes[1].ipo]
 }
 
-/// Records of a line of the program in which the path rests, without those at its end.
+/// Records of a line of the program in which the path rests, except those at its end.
 fn rests(run: &Run, line: u32) -> Vec<&CycleRecord> {
     let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
     let end = at(of_line.last().unwrap());
@@ -51,10 +51,10 @@ fn the_path_stops_behind_the_surface_and_continues() {
         near(at(r)[0], place, 1e-7);
         near(at(r)[1], place, 1e-7);
     }
-    // it waits for the windows
+    // it waits for the position windows
     let last = &stop.last().unwrap().axes;
     near(last[0].act, place, 0.011);
-    // the speed of the block up to the braking, whose way is v2 / 2a
+    // the speed of the block up to the braking, whose distance is v2 / 2a
     let (v, a) = (20.0, 1000.0 * 2.0_f64.sqrt());
     let first = stop[0].k as usize;
     let braking = (v / a / run.cycle_s).ceil() as usize;
@@ -63,7 +63,7 @@ fn the_path_stops_behind_the_surface_and_continues() {
     for r in of_line.skip(20) {
         near(r.path.v_mm_s, v, 1e-9);
     }
-    // the end of the block is a corner of 45 deg and no stop
+    // the end of the block is a corner of 45 deg and not a stop
     let end = run.records.iter().filter(|r| r.line == 6).map(|r| r.path.v_mm_s);
     assert!(end.clone().next().unwrap() > 0.0);
     assert_eq!(at(run.records.last().unwrap()), [200.0, 150.0]);
@@ -71,7 +71,7 @@ fn the_path_stops_behind_the_surface_and_continues() {
     assert_eq!(functions, 1);
 }
 
-/// The way counts from the surface, whatever the lag: half of the gain doubles the lag and moves nothing.
+/// The distance counts from the surface, whatever the lag: half the gain doubles the lag and changes no place.
 #[test]
 fn the_lag_does_not_move_the_stop() {
     let of = |gain: &str| {
@@ -99,7 +99,7 @@ fn along_an_arc_with_the_way_of_the_program() {
     assert!(errors(&run).is_empty(), "{:?}", run.diagnostics);
     let angle = 12.0_f64 / 60.0;
     let [x, y] = at(rests(&run, 4)[0]);
-    // the measured point lies a little inside of the arc: the lag of an arc shortens its radius, not its angle
+    // the measured point lies slightly inside the arc: the lag on an arc shortens its radius, not its angle
     near(x, 60.0 * libm::sin(angle), 1e-6);
     near(y, 60.0 * libm::cos(angle), 1e-6);
     assert_eq!(at(run.records.last().unwrap()), [60.0, 0.0]);
@@ -114,7 +114,7 @@ fn the_time_of_the_function() {
         run_with_inputs(banding(&settings), ONE_BLOCK, &inputs)
     };
     let run = of("channel.m_prozess_zeit[97]=300000");
-    // without --techno-times it is named and not waited for
+    // without --techno-times it is named, and nothing waits for it
     assert!(run.totals.not_counted.iter().any(|f| f.starts_with("M97 (0.3 s each")));
     assert_eq!(run.records.len(), of("channel.m_prozess_zeit[97]=0").records.len());
 }
@@ -127,7 +127,7 @@ fn what_fails() {
     // 60 mm to the end of the block
     let long = ["channel.kasto_residual_path=600000"];
     assert_eq!(errors(&run_with_inputs(banding(&long), ONE_BLOCK, &probe)), ["50655"]);
-    // nothing left to brake
+    // nothing left for braking
     let none = ["channel.kasto_residual_path=0"];
     assert_eq!(errors(&run_with_inputs(banding(&none), ONE_BLOCK, &probe)), ["50655"]);
     let on = [(0.0, "probe", 1.0)];
@@ -143,7 +143,7 @@ fn what_fails() {
     assert_eq!(errors(&run_with_inputs(banding(&over_blocks), ONE_BLOCK, &probe)), ["K-0019"]);
     let nowhere = ONE_BLOCK.replace("X150 Y150 F1200\nN50", "X90 Y90 F1200\nN50");
     assert_eq!(errors(&run_with_inputs(banding(&[]), &nowhere, &probe)), ["K-0135"]);
-    // without G108, or after G107, M97 is an M function like others
+    // without G108, or after G107, M97 is an M function like any other
     for off in [ONE_BLOCK.replace("G108", "G04 0.1"), ONE_BLOCK.replace("G108", "G108\nG107")] {
         let run = run_with_inputs(banding(&[]), &off, &probe);
         assert!(
@@ -152,7 +152,7 @@ fn what_fails() {
     }
 }
 
-/// Random lines with every slope and guard: the stop is where it must be, or the program says why there is none.
+/// Random lines with every slope and guard: the stop is where it must be, or the program reports why there is none.
 #[test]
 fn random_lines() {
     let mut r = Random::new(108);
@@ -173,7 +173,7 @@ fn random_lines() {
             end[0], end[1]
         );
         let line = if guard.is_empty() { 5 } else { 6 };
-        // the override turns on the way, also between the signal and the stop, and a feedhold
+        // the override changes on the way, also between the signal and the stop, and there is a feedhold
         let mut times = [0.0; 4].map(|_| r.between(0.0, 2.0));
         times.sort_by(f64::total_cmp);
         let ratios = [r.between(30.0, 120.0), r.between(30.0, 120.0)];
@@ -195,7 +195,7 @@ fn random_lines() {
         let written = |x: f64| (x * 1000.0).round() / 1000.0;
         let along = surface * libm::hypot(written(end[0]), written(end[1])) / written(end[0])
             + written(way);
-        // where filters of the guard delay both axes alike the measured point lies on the line
+        // where the filters of the guard delay both axes equally the measured point lies on the line
         let of_line = run.records.iter().filter(|r| r.line == line);
         let stop = of_line.filter(|r| r.path.v_mm_s == 0.0).any(|r| {
             let [x, y] = at(r);
@@ -211,7 +211,7 @@ fn random_lines() {
     assert!(stopped > count(40) / 4, "{stopped}");
 }
 
-/// The halt and an exact stop at the end of its block (G60) are two stops; an independent axis drives on during both.
+/// The halt and an exact stop at the end of its block (G60) are two stops; an independent axis keeps moving during both.
 #[test]
 fn beside_an_exact_stop_and_an_independent_axis() {
     let of = |exact: &str| {
@@ -248,7 +248,7 @@ fn beside_an_exact_stop_and_an_independent_axis() {
     assert!(lag(&without) > 0.011, "{}", lag(&without));
 }
 
-/// Other kinds of synchronisation are named: here nothing waits for the PLC.
+/// Other kinds of synchronisation are reported: here nothing waits for the PLC.
 #[test]
 fn other_synchronisations_are_named() {
     let of = |kind: &str| {

@@ -1,7 +1,7 @@
 //! The smallest program or list for each message: ID, severity, line, column, hint and exit code.
 //!
-//! Every file of `tests/suite/faults` is one test. Its first lines say how it is run and what must be said, in this
-//! order and nothing else:
+//! Every file of `tests/suite/faults` is one test. Its first lines state how it is run and which messages must appear, in this order and
+//! no others:
 //!
 //! ```text
 //! ; run --set X.getriebe[0].kv=1000: exit 1      `check` instead of `run`: the syntax check already finds all of it
@@ -10,7 +10,7 @@
 //!
 //! A file of `lists` takes the place of a list of the machine `xyz`: `# x.lis: exit 0`.
 //!
-//! `open.csv` gives the reason for every ID of the catalogue that has no file.
+//! `open.csv` gives the reason for every ID of the catalogue without a file.
 
 use kontur_interpreter::diag::condition;
 use kontur_tests::suite::{self, call, compare, files, head, machines, name};
@@ -58,7 +58,7 @@ fn list(path: &Path) -> Result<(), Failed> {
     Ok(compare(&head.what, &head, exit, &said)?)
 }
 
-/// Files by the IDs that their heads name.
+/// Files by the IDs in their heads.
 fn named() -> Result<BTreeMap<String, BTreeSet<String>>, Failed> {
     let mut named: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     let folder = folder();
@@ -80,7 +80,7 @@ fn open() -> Result<BTreeMap<String, String>, Failed> {
     Ok(records.collect::<Result<_, _>>()?)
 }
 
-/// Every ID of the catalogue has either a file or a reason to have none.
+/// Every ID of the catalogue has either a file or a reason for having none.
 fn complete() -> Result<(), Failed> {
     let (named, open) = (named()?, open()?);
     let known: BTreeSet<String> = condition::rows().map(|row| row.id.to_string()).collect();

@@ -3,7 +3,7 @@
 use kontur_interpreter::diag::Condition;
 use kontur_tests::{Run, programs, run, run_on, sample_machine};
 
-/// Lag in per cent of what it is without feedforward (speed / Kv, Kv 50/s), in the middle of the motion of a line.
+/// Lag in per cent of the lag without feedforward (speed / Kv, Kv 50/s), in the middle of the motion of a line.
 fn percent(run: &Run, line: u32, axis: usize) -> f64 {
     let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
     assert!(of_line.len() > 300, "line {line}: {} cycles, {:?}", of_line.len(), run.diagnostics);
@@ -21,7 +21,7 @@ fn lags(run: &Run, line: u32, want: &[f64]) {
     }
 }
 
-/// A move back and forth, each long enough to reach constant speed.
+/// A move back and forth, with each way long enough to reach constant speed.
 const FORTH: &str = "G90 G01 X100 Y100 Z100 F6000";
 const BACK: &str = "G90 G01 X0 Y0 Z0 F6000";
 
@@ -29,7 +29,7 @@ fn program(lines: &[&str]) -> String {
     format!("%P\n{}\nM30\n", lines.join("\n"))
 }
 
-/// Off at program start, with weights of 100 %, whatever ran before. Conformance: F022, F027.
+/// Off at program start, with weights of 100 %, whatever has run before. Conformance: F022, F027.
 #[test]
 fn a_program_starts_without_feedforward() {
     let first = run(&program(&["G135 G136 X50", FORTH]), &[]);
@@ -52,7 +52,7 @@ fn g135_and_g137_are_modal() {
     }
 }
 
-/// Only axes that P-AXIS-00223 allows. Conformance: F006, F024.
+/// Only axes for which P-AXIS-00223 allows it. Conformance: F006, F024.
 #[test]
 fn axes_without_feedforward_stay_without() {
     let run = run(&program(&["G135", FORTH]), &["Y.vorsteuer.vorsteuerung=NONE"]);
@@ -178,7 +178,7 @@ fn feedforward_of_spindles_stands_alone() {
     assert!(run.records.is_empty() && at.length > 0, "{found:?}");
 }
 
-/// The speed at which a spindle falls behind, turns and comes back: what every form leaves of v / Kv = 6000 / 50 deg.
+/// Lag of the spindles in the sample program: what each form of the command leaves of v / Kv = 6000 / 50 deg.
 /// Conformance: F035, F036, F037, F038, F039.
 #[test]
 fn the_sample_program_of_the_spindles() {
@@ -201,7 +201,7 @@ fn the_sample_program_of_the_spindles() {
     assert!(last.axes[3].vel.abs() < 1e-9 && last.axes[4].vel.abs() < 1e-9, "M5");
 }
 
-/// G135 between blocks that run on steps the speed command of the moving axis; after an exact stop it does not.
+/// G135 between blocks that run on causes a step in the speed command of the moving axis; after an exact stop it does not.
 #[test]
 fn switching_in_motion_is_told() {
     let switched = |first: &str| {
@@ -218,8 +218,8 @@ fn switching_in_motion_is_told() {
     assert_eq!(switched("G04 0.1"), (None, 0));
 }
 
-/// `#MACHINE DATA` while the axes still follow: where the value is the one in force nothing changes, and another gain is felt
-/// as another speed command, with no jump of the axis.
+/// `#MACHINE DATA` while the axes still follow: where the value equals the one in force nothing changes, and another gain appears as
+/// another speed command, without a jump of the axis.
 #[test]
 fn machine_data_move_no_axis() {
     for settings in
@@ -242,14 +242,14 @@ fn machine_data_move_no_axis() {
         for other in ["getriebe[0].kv 2000", "filter[0].enable 0", "vorsteuer.vorsteuerung NONE"] {
             let run = with(&format!("#MACHINE DATA [AX=X AXPARAM=\"{other}\"]"));
             let fastest = moved(&run, act).into_iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-            // 100 mm/s, and a little more where the axis swings
+            // 100 mm/s, and slightly more where the axis overshoots
             assert!(fastest < 0.12, "{other}: {fastest} mm in a cycle");
         }
     }
 }
 
-/// `#MACHINE DATA` of one standard filter leaves the others where they are: a high-pass keeps the part that it holds back,
-/// so an axis at rest does not move; a changed one keeps it too.
+/// `#MACHINE DATA` of one standard filter leaves the state of the others unchanged: a high-pass keeps the part that it holds back, so an
+/// axis at rest does not move; a changed filter keeps it too.
 #[test]
 fn machine_data_of_a_filter_leave_the_others() {
     let high_pass = ["enable=1", "type=HIGHPASS", "order=2", "share_percent=50"];
@@ -270,14 +270,14 @@ fn machine_data_of_a_filter_leave_the_others() {
         let command = format!("#MACHINE DATA [AX=X AXPARAM=\"{changed}\"]");
         let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), &settings);
         let after = run.records.iter().filter(|r| r.line > 2).map(|r| r.axes[0].set);
-        // half of the way is held back, of the micrometre at the end too
+        // half of the distance is held back, also of the micrometre at the end
         let far = after.fold(0.0, |far: f64, set| far.max((set - 10.0).abs()));
         assert!(far < 0.0011, "{changed}: {far} mm from 10");
     }
 }
 
-/// The timer of an exact stop starts where the filters count as settled, P-AXIS-00351: the larger it is, the earlier; and no stop
-/// is lost.
+/// The timer of an exact stop starts where the filters count as settled, P-AXIS-00351: the larger this is, the earlier; and no stop is
+/// missed.
 #[test]
 fn the_exact_stop_waits_for_settled_filters() {
     let filter = ["enable=1", "type=PT1", "order=1", "time_constant=30000"];
@@ -294,7 +294,7 @@ fn the_exact_stop_waits_for_settled_filters() {
     assert!(with("1000") > 0.05 && with("0.4") < 0.002);
 }
 
-/// The weights of exchanged axes are 100 % again, those of the others stay. Source: spec 50/1 (programming manual).
+/// The weights of exchanged axes are 100 % again, those of the others are kept. Source: spec 50/1 (programming manual).
 #[test]
 fn weights_return_with_an_exchange() {
     let forth = |number: u32| format!("N{number} {FORTH}");
@@ -314,8 +314,8 @@ fn weights_return_with_an_exchange() {
     }
 }
 
-/// The path rests, the axis does not yet after its filter, or moves alone: switching steps its command by the share times its
-/// speed, and K-0022 names that jump. After a standstill of both there is no message.
+/// The path rests while the axis is still moving after its filter, or moves alone: switching causes a step in its command of the share
+/// times its speed, and K-0022 names that jump. When both are at rest there is no message.
 #[test]
 fn a_switch_behind_filters_is_told() {
     let guard = ["X.vib_guard.active=1", "X.vib_guard.mode=3", "X.vib_guard.freq=3"];
@@ -351,7 +351,7 @@ fn a_switch_behind_filters_is_told() {
     }
 }
 
-/// What the list makes of G135 and G137 counts from `#MACHINE DATA` on: the largest lag of the motion is that with the same value in
+/// The effect of the list on G135 and G137 applies from `#MACHINE DATA` on: the largest lag of the motion is that with the same value in
 /// the list, whose program needs no command.
 #[test]
 fn machine_data_switches_feedforward() {
@@ -367,7 +367,7 @@ fn machine_data_switches_feedforward() {
         let listed = most(g, &[&format!("X.vorsteuer.{key}={value}")]);
         let programmed = most(&format!("{g}{}", data(&format!("{key} {value}"))), &[]);
         assert!((listed - programmed).abs() < 1e-9, "{key}: {listed} {programmed} {plain}");
-        // and not what it is without
+        // and not the lag without it
         let without = most(g, &[]);
         assert!((listed - without).abs() > 0.5 * plain, "{key}: {listed} {without}");
     }

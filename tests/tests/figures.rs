@@ -14,8 +14,8 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Runs the command that is listed with a picture of this name, for the picture and for its numbers, and gives its curves in
-/// their order.
+/// Runs the command listed with a picture of this name, once for the picture and once for its numbers, and returns its curves in their
+/// order.
 fn figure(name: &str) -> Vec<Curve> {
     let text = std::fs::read_to_string(root().join("interpreter/cli/docs/figures.md")).unwrap();
     let svg = format!(" -o {name}.svg");
@@ -57,12 +57,12 @@ fn figure(name: &str) -> Vec<Curve> {
     curves.into_iter().map(|(_, curve)| curve).collect()
 }
 
-/// Value of a column where another one is nearest to `at`.
+/// Value of a column in the row where another column is nearest to `at`.
 fn at(curve: &Curve, x: &str, at: f64, y: &str) -> f64 {
     curve.iter().min_by(|a, b| (a[x] - at).abs().total_cmp(&(b[x] - at).abs())).unwrap()[y]
 }
 
-/// The step response from time 0 on, sample by sample.
+/// The step response from time 0, sample by sample.
 fn step(curve: &Curve) -> Vec<f64> {
     curve.iter().filter(|row| row["t_s"] >= 0.0).map(|row| row["output"]).collect()
 }
@@ -154,7 +154,7 @@ fn sensitivity_of_the_modes() {
             let left = at(curve, "f_set_over_f_real", 1.0 + percent / 100.0, "residual_ratio");
             assert!(left <= 0.0505, "{percent} %: {left}");
         }
-        // outside it grows
+        // outside of it the vibration grows
         assert!(at(curve, "f_set_over_f_real", 1.0 + 1.6 * high / 100.0, "residual_ratio") > 0.05);
     }
 }
@@ -172,7 +172,7 @@ fn lag_without_and_with_feedforward() {
     let most =
         |curve: &Curve| column(curve, "X_lag_mm").iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     near(most(&curves[0]), 2.0, 1e-3);
-    // a ramp of 30 ms up to 3.4 m/s2 and down again: less than the a Ta / Kv = 0.34 mm of a long one
+    // a ramp of 30 ms up to 3.4 m/s2 and down again: less than the a Ta / Kv = 0.34 mm of a long ramp
     let peak = most(&curves[1]);
     assert!(peak > 0.15 && peak < 0.34, "{peak}");
     let quiet = column(&curves[1], "X_lag_mm").iter().filter(|x| x.abs() < 0.01).count();
@@ -211,7 +211,7 @@ fn spectra_of_improved_position_control() {
     );
 }
 
-/// Raise the weight: better, then worse again; the least lies inside, where the table of the experiment has it.
+/// Raising the weight improves and then worsens the result; the minimum lies inside, where the table of the experiment has it.
 /// Conformance: I032.
 #[test]
 fn weights_of_improved_position_control() {
@@ -235,7 +235,7 @@ fn weights_of_improved_position_control() {
     assert!(amplitude(3) < amplitude(2) && amplitude(3) < amplitude(1));
 }
 
-/// The largest stable gain with a dead time of two cycles: 299/s by the eigenvalues of the loop, more with a damped loop.
+/// The largest stable gain with a dead time of two cycles: 299/s from the eigenvalues of the loop, more with a damped loop.
 /// Conformance: I001.
 #[test]
 fn a_higher_kv_by_improved_position_control() {
@@ -265,10 +265,10 @@ fn slopes_of_one_move() {
         near(peak(curve, "s_mm"), 20.0, 1e-6);
         near(peak(curve, "v_mm_s"), 150.0, 1e-6);
         near(peak(curve, "a_mm_s2"), a, 1e-3);
-        // the sine is sampled beside its peak, by up to half a cycle
+        // the sine is sampled up to half a cycle from its peak
         near(peak(curve, "j_mm_s3"), want, 2e-3 * want);
     }
-    // the border of the blocks lies at 21 mm: its lower feed is not reached, so it is crossed while accelerating
+    // the block boundary lies at 21 mm: its lower feed is not reached, so it is crossed while accelerating
     let borders = figure("slopes_border");
     assert_eq!(borders.len(), 3);
     for curve in &borders {
@@ -277,7 +277,7 @@ fn slopes_of_one_move() {
     }
 }
 
-/// Every command of the list, as it is written there; those that [`figure`] measures run there.
+/// Runs every command of the list as written; those that [`figure`] measures run there.
 #[test]
 fn every_command_of_the_list_runs() {
     let list = std::fs::read_to_string(root().join("interpreter/cli/docs/figures.md")).unwrap();

@@ -1,6 +1,6 @@
-//! The targets of the fuzzer under bounded random input: everything that the repository has of a kind, and changes of it.
+//! The targets of the fuzzer under bounded random input: everything of each kind in the repository, and mutations of it.
 //!
-//! `COUNT=100000 SEED=7 cargo test --release -p kontur-tests --test all hostile_input` continues for longer.
+//! `COUNT=100000 SEED=7 cargo test --release -p kontur-tests --test all hostile_input` runs for longer.
 
 use kontur_kit::{Random, count, seed};
 use kontur_tests::targets::{TARGETS, corpus, dictionary, mutated};

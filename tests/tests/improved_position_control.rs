@@ -9,7 +9,7 @@ fn on(machine: &str, settings: &[String], program: &str) -> Run {
     run_on(sample_machine(machine, &settings), program)
 }
 
-/// A stage that is too strong: the run ends with a message, every number is one. Conformance: I011.
+/// A stage that is too strong: the run ends with a message, and every value is a number. Conformance: I011.
 #[test]
 fn an_unstable_axis_ends_the_run() {
     let stage = "X.lr_param.improved_position_control.stage[0]";
@@ -32,7 +32,7 @@ fn an_unstable_axis_ends_the_run() {
     }
 }
 
-/// `#MACHINE DATA` between two motions: the axis comes to rest before it takes the new weight, and has it from then on.
+/// `#MACHINE DATA` between two motions: the axis comes to rest before it takes over the new weight, and uses it from then on.
 /// Conformance: I024.
 #[test]
 fn new_parameters_wait_for_standstill() {
@@ -54,7 +54,7 @@ fn new_parameters_wait_for_standstill() {
     assert!(before.path.v_mm_s.abs() <= 0.0 && (before.axes[0].set - 100.0).abs() <= 0.0);
 }
 
-/// The slave of a gantry pair gets its own additive speed by its master's parameters. Conformance: I027.
+/// The slave of a gantry pair gets its own additive speed, with the parameters of its master. Conformance: I027.
 #[test]
 fn a_gantry_slave_has_its_additive_speed() {
     let ipc = "X.lr_param.improved_position_control";
@@ -70,7 +70,7 @@ fn a_gantry_slave_has_its_additive_speed() {
     assert!(run.axis(1, |a| a.vadd).iter().all(|v| v.abs() <= 0.0));
 }
 
-/// A bridge whose two drives ring at 53 Hz: master and slave both calm down, by the master's parameters alone.
+/// A bridge whose two drives ring at 53 Hz: master and slave both settle, with the parameters of the master alone.
 /// Conformance: I025.
 #[test]
 fn a_gantry_pair_is_damped() {
@@ -115,8 +115,7 @@ fn sample(name: &str) -> String {
     std::fs::read_to_string(programs().join(name)).unwrap()
 }
 
-/// A bridge: the second drive takes the set positions of the first. With a different gain it lags by v / Kv, and under G135
-/// not at all.
+/// A bridge: the second drive follows the set positions of the first. With a different gain it lags by v / Kv, and under G135 not at all.
 #[test]
 fn the_sample_program_of_the_gantry() {
     let text = sample("gantry.nc");

@@ -46,8 +46,7 @@ fn largest_step(run: &Run, axis: usize) -> f64 {
     ipo(run, axis).windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
 }
 
-/// With the ramps of the list, 30 ms, and 3500 mm/s2: `100 / 100 + 2 sqrt(100 / j)`, `j = 3500 / 0.03`, is less than full
-/// acceleration.
+/// With the ramps of the list, 30 ms, and 3500 mm/s2: `100 / 100 + 2 sqrt(100 / j)`, `j = 3500 / 0.03`; full acceleration is not reached.
 #[test]
 fn slope_of_its_own() {
     let run = go("X[INDP_SYN G90 G01 FEED=6000 POS=100 SLOPE_TYPE=TRAPEZ]");
@@ -57,7 +56,7 @@ fn slope_of_its_own() {
     near(at(&run, 0, 0.5), 100.0 * (0.5 - change_s / 2.0));
 }
 
-/// What the axis has gone alone is in the coordinates: lines and arcs continue from there.
+/// The distance that the axis has moved alone is in the coordinates: lines and arcs continue from there.
 #[test]
 fn coordinates_go_on() {
     let run = go(
@@ -70,7 +69,7 @@ fn coordinates_go_on() {
     assert!(largest_step(&run, 0) < 0.1 + 1e-9);
 }
 
-/// The path does not know about the motion: it gives the same setpoints bit for bit, also through rounded corners.
+/// The path does not depend on the motion: its setpoints are the same bit for bit, also through rounded corners.
 #[test]
 fn the_path_is_the_same() {
     let path =
@@ -88,7 +87,7 @@ fn the_path_is_the_same() {
     near(error(&with), error(&plain));
 }
 
-/// A filter delays the axis; that is not a deviation from the contour of the path, and joins wait for its end.
+/// A filter delays the axis; that is not a deviation from the contour of the path, and joins wait until it has settled.
 #[test]
 fn filtered() {
     let delay = [
@@ -116,7 +115,7 @@ fn an_oscillation_under_feedhold_and_override() {
     let held = run_with_inputs(linear(&[]), program, &inputs);
     near(at(&held, 0, 1.1), at(&held, 0, 1.9));
     let reversal = |run: &Run| arrival_s(run, 0, 10.0);
-    // of the second, braking drives what takes 0.01 s at full speed; speeding up again loses as much
+    // of this second, braking covers the distance of 0.01 s at full speed; speeding up again loses the same amount
     near(reversal(&held), reversal(&free) + 1.0);
     let half = run_with_inputs(linear(&[]), program, &[(0.0, "override_percent", 50.0)]);
     // to -10 mm and back to 10 mm, each way with a ramp of v / 1000
@@ -124,7 +123,7 @@ fn an_oscillation_under_feedhold_and_override() {
     near(reversal(&half), 10.0 / 10.0 + 20.0 / 10.0 + 2.0 * 0.01);
 }
 
-/// An error of another axis stops an independent axis on its own way, inside its limits.
+/// An error of another axis stops an independent axis on its own path, within its limits.
 #[test]
 fn stopped_by_an_error() {
     let settings = ["Y.getriebe[0].slep_ueberw_typ=4", "Y.getriebe[0].slep_max=1000"];
@@ -138,8 +137,8 @@ fn stopped_by_an_error() {
     assert!(x.windows(3).all(|w| (w[2] - 2.0 * w[1] + w[0]).abs() <= 1000.0 * 1e-6 * 1.001));
 }
 
-/// An axis oscillates between -10 and 10 while the path goes its way; it always ends at the second position, and the path
-/// does not wait for it before OSC OFF.
+/// An axis oscillates between -10 and 10 while the path continues; it always ends at the second position, and the path does not wait for
+/// it before OSC OFF.
 #[test]
 fn an_axis_oscillates_beside_the_path() {
     let program = "%P\n#SLOPE [TYPE=STEP]\nN10 G90 G01 X10 F6000\nN20 Y[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=6000]\n\
@@ -149,11 +148,11 @@ fn an_axis_oscillates_beside_the_path() {
     let y = run.axis(1, |a| a.ipo);
     let (low, high) = y.iter().fold((0.0_f64, 0.0_f64), |(l, h), y| (l.min(*y), h.max(*y)));
     assert!(low.to_bits() == (-10.0_f64).to_bits() && high.to_bits() == 10.0_f64.to_bits());
-    // a way of 20 mm at 100 mm/s takes 0.2 s and the ramps: at least two oscillations in the second of N30
+    // a stroke of 20 mm at 100 mm/s takes 0.2 s and the ramps: at least two oscillations in the second of N30
     let highs =
         y.windows(2).filter(|w| w[0] < 10.0 && w[1].to_bits() == 10.0_f64.to_bits()).count();
     assert!((2..=4).contains(&highs), "{highs}");
-    // the path of N30 is that of a program without the oscillation
+    // the path of N30 is the same as in a program without the oscillation
     let alone = kontur_tests::run(
         &program
             .replace("N20 Y[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=6000]", "N20 #FLUSH")
@@ -174,7 +173,7 @@ fn an_axis_oscillates_beside_the_path() {
     assert!(y.last().unwrap().abs() < 1e-9);
 }
 
-/// FREQ=0.5: an oscillation takes two seconds, with rests of 0.25 s at the second position 2.25 s; NBR_OSC counts them.
+/// FREQ=0.5: an oscillation takes two seconds, or 2.25 s with rests of 0.25 s at the second position; NBR_OSC counts them.
 #[test]
 fn a_frequency_of_oscillation() {
     let of = |keys: &str| {
@@ -198,8 +197,7 @@ fn a_frequency_of_oscillation() {
     assert_eq!((times.len(), end.to_bits()), (3, 20.0_f64.to_bits()));
 }
 
-/// ZERO_POS and EXCUR name the same positions as 1ST_POS and 2ND_POS; INCL_OFFSETS reads them in the coordinates of the
-/// program.
+/// ZERO_POS and EXCUR give the same positions as 1ST_POS and 2ND_POS; INCL_OFFSETS reads them in the coordinates of the program.
 #[test]
 fn middle_and_offsets_of_an_oscillation() {
     let of = |before: &str, keys: &str| {
@@ -218,8 +216,8 @@ fn middle_and_offsets_of_an_oscillation() {
     assert_eq!(of("G92 Y-3", "1ST_POS=2 2ND_POS=12 INCL_OFFSETS"), offset);
 }
 
-/// An axis that was independent once counts on the path again: under the Vibration Guard it deviates from its corners as
-/// far as the same axis in a program without that motion.
+/// An axis that was independent belongs to the path again: under the Vibration Guard it deviates at its corners as much as the same axis
+/// in a program without that motion.
 #[test]
 fn afterwards_the_deviation_counts_again() {
     let guard = "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.05]\nG01 F8000\n";
@@ -234,8 +232,8 @@ fn afterwards_the_deviation_counts_again() {
     assert!(without > 0.03 && (with - without).abs() < 1e-6, "{with} instead of {without}");
 }
 
-/// P-CHAN-00297 = 1, after the page's example: G60 waits until Z, which is on its way alone, is in its window; with 0 and 2 it
-/// waits for the axes of the path. An axis that oscillates is never awaited, and a slower Z never makes the path faster.
+/// P-CHAN-00297 = 1, after the example of the page: G60 waits until Z, which is moving independently, is in its window; with 0 and 2 it
+/// waits for the axes of the path. Nothing ever waits for an oscillating axis, and a slower Z never makes the path faster.
 #[test]
 fn an_exact_stop_waits_for_independent_axes() {
     let arrives = |mode: u32, z: &str| {
@@ -262,8 +260,8 @@ fn an_exact_stop_waits_for_independent_axes() {
     assert!(oscillating < 0.6, "{oscillating}");
 }
 
-/// Position monitoring of an independent axis begins where its own motion ends, while the path is still on its way: too little
-/// time is 70082 in the line of the motion, and enough is a settled stop, which the end of the program waits for.
+/// Position monitoring of an independent axis begins where its own motion ends, while the path is still moving: too little time gives
+/// 70082 in the line of the motion, and enough time gives a settled stop, for which the end of the program waits.
 #[test]
 fn the_stop_of_an_independent_axis_is_monitored() {
     let program = "%P\nZ[INDP_ASYN G90 G01 FEED=6000 POS=10]\nG01 X200 F6000\nM30\n";
@@ -288,7 +286,7 @@ fn the_stop_of_an_independent_axis_is_monitored() {
     assert!((last.axes[2].act - 10.0).abs() < 0.011 && (end.axes[2].act - 100.0).abs() <= 0.01);
 }
 
-/// A fault in a dwell: the rows of the stop belong to the dwell.
+/// A fault during a dwell: the rows of the stop belong to the dwell.
 #[test]
 fn a_fault_in_a_dwell_belongs_to_the_dwell() {
     let program = "%P\nG01 X1 F6000\nM3 S1000\nG04 0.3\nG01 X20\nM30\n";
@@ -304,7 +302,7 @@ fn a_fault_in_a_dwell_belongs_to_the_dwell() {
     assert!(run.records.len() > dwell + 100);
 }
 
-/// An axis that the fault of another one stops arrives nowhere: its short stop is not too late.
+/// An axis that is stopped by the fault of another one arrives nowhere: its short stop is not late.
 #[test]
 fn what_a_fault_stops_is_not_late() {
     let program = "%P\nZ[INDP_ASYN G90 G01 FEED=9000 POS=100]\nG01 X50 F9000\nM30\n";

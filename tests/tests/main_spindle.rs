@@ -1,4 +1,4 @@
-//! `#MAIN SPINDLE`: which spindle S and M3 to M5 are for.
+//! `#MAIN SPINDLE`: the spindle that S and M3 to M5 are for.
 
 use kontur_tests::{Run, run_on, sample_machine};
 
@@ -9,7 +9,7 @@ fn rpm(run: &Run, spindle: usize, line: u32) -> f64 {
     (set(last) - set(last - 1)) / run.cycle_s / 6.0
 }
 
-/// After the manual's example (changing the main spindle): by name, by logical number, and back to that of the lists.
+/// After the example of the manual (changing the main spindle): by name, by logical number, and back to the one of the lists.
 #[test]
 fn the_main_spindle_changes() {
     let run = run_on(
@@ -32,7 +32,8 @@ fn the_main_spindle_changes() {
     }
 }
 
-/// With MVS_SVS for M3 (P-CHAN-00045) the motion beside it begins when the spindle has its speed (M and H functions 286059787).
+/// With MVS_SVS for M3 (P-CHAN-00045) the motion in the same block begins when the spindle has reached its speed (M and H functions
+/// 286059787).
 #[test]
 fn a_motion_waits_for_its_spindle() {
     let first_moved = |settings: &[&str]| {
@@ -46,9 +47,9 @@ fn a_motion_waits_for_its_spindle() {
     assert!((waited - 1000.0).abs() < 1e-6, "{waited}");
 }
 
-/// Kinds of synchronisation (149163787, 287516299): MVS_SVS is as it should be before the motion of its block, MVS_SNS and MOS begin
-/// with it, MNS_SNS only after it, and the path waits for all but MOS. For M4, M5 and the S word, from 2000 rev/min: speed at the
-/// beginning of the motion of the block and at its end, and when the next one begins.
+/// Kinds of synchronisation (149163787, 287516299): with MVS_SVS the state is reached before the motion of the block, MVS_SNS and MOS
+/// begin with the motion, MNS_SNS begins only after it, and the path waits for all but MOS. For M4, M5 and the S word, from 2000 rev/min:
+/// speed at the beginning and at the end of the motion of the block, and when the next one begins.
 #[test]
 fn functions_act_when_the_list_says() {
     let program =
@@ -86,7 +87,7 @@ fn functions_act_when_the_list_says() {
     }
 }
 
-/// Programmable override (208269707): it scales the speed of its spindle alone, at once, for M3 and M4, until it is changed.
+/// Programmable override (208269707): it scales only the speed of its own spindle, at once, for M3 and M4, until it is changed.
 #[test]
 fn an_override_acts_on_its_spindle_alone() {
     let run = run_on(

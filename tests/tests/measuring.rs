@@ -1,7 +1,7 @@
 //! Measuring runs with a probe from the real-time inputs: G100 with its types, G106, G310, G101 and G102.
 //!
 //! Programs after the examples of the TF5200 programming manual (206171147, 206177803, 206185227, 206197003, 206208011),
-//! with targets as printed there. What is measured is known beforehand: where a straight line meets the surface.
+//! with targets as printed there. The expected results are known beforehand: the points where a straight line meets the surface.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
@@ -17,7 +17,7 @@ fn linear(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
     machine(&settings.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// What the program says with `#MSG`, in order.
+/// The output of `#MSG` in the program, in order.
 fn said(run: &Run) -> Vec<String> {
     let own = run.diagnostics.iter().filter(|d| d.id.to_string() == "K-0081");
     own.map(|d| d.text.clone()).collect()
@@ -38,8 +38,8 @@ fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
     assert_eq!(said(&run), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
     assert!(run.errors().is_empty() && !run.totals.aborted);
     let of_run = |line: u32| run.records.iter().filter(move |r| r.line == line);
-    // every set position of the run lies on its line, and it ends soon after the surface: by the lag and the way of
-    // braking, not at the target
+    // every set position of the run lies on its line, and it ends soon after the surface: by the lag and the braking distance, not at the
+    // target
     for r in of_run(5) {
         near(r.axes[1].ipo, 2.0 * (r.axes[0].ipo - 5.0), 1e-9);
     }
@@ -51,8 +51,8 @@ fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
     near(end(&run, 1), y, 1e-9);
 }
 
-/// A signal at a time: braking from v = 500/60 mm/s takes v^2 / 2a, where a is what the steeper axis (2 / sqrt 5 of the
-/// way) does with 1000 mm/s2.
+/// A signal at a given time: braking from v = 500/60 mm/s takes v^2 / 2a, where a is what the steeper axis (2 / sqrt 5 of the distance)
+/// reaches with 1000 mm/s2.
 #[test]
 fn a_signal_at_a_time_brakes_the_path_from_the_next_cycle_on() {
     let program = format!("{TYPE_1}N50 M30\n");
@@ -63,12 +63,12 @@ fn a_signal_at_a_time_brakes_the_path_from_the_next_cycle_on() {
     let s = run.records.last().unwrap().path.s_mm;
     let a = 1000.0 * 5.0_f64.sqrt() / 2.0;
     near(s - at.path.s_mm, v * v / (2.0 * a), 1e-9);
-    // what is latched are the actual positions of that cycle
+    // the latched values are the actual positions of that cycle
     let latched = format!("{:.4} {:.4} 1", at.axes[0].act, at.axes[1].act);
     assert!(said(&run)[0].starts_with(&latched), "{:?}, {latched}", said(&run));
 }
 
-/// Without a signal the run goes to its target; what that means is up to the type, the list and the program.
+/// Without a signal the run goes to its target; the type, the list and the program decide what that means.
 #[test]
 fn a_missing_signal() {
     let program = format!("{TYPE_1}N50 M30\n");
@@ -80,7 +80,7 @@ fn a_missing_signal() {
     assert_eq!(listed.errors(), ["K-0133"]);
     let commanded = program.replace("N10", "#MEAS [ERR_NO_SIGNAL=1]\nN10");
     assert_eq!(run_with_inputs(linear(&[]), &commanded, &[]).errors(), ["K-0133"]);
-    // the list is overruled both ways
+    // the program overrides the list in both directions
     let excused = program.replace("N10", "#MEAS [ERR_NO_SIGNAL=0]\nN10");
     let run = run_with_inputs(linear(&["channel.meas_error_no_signal=1"]), &excused, &[]);
     assert!(run.errors().is_empty());
@@ -98,7 +98,7 @@ fn one_axis_at_its_own_speed() {
     assert_eq!(run_with_inputs(linear(&[]), program, &[]).errors(), ["K-0133"]);
 }
 
-/// Type 3: with G106 the path continues to the target, without it it stops.
+/// Type 3: with G106 the path continues to the target, without G106 it stops.
 #[test]
 fn through_to_the_target() {
     let of = |g106: &str| {
@@ -110,7 +110,7 @@ fn through_to_the_target() {
     assert_eq!(said(&through), said(&stopped));
     assert_eq!(said(&through), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
     near(end(&through, 0), 10.0, 1e-9);
-    // without a dip at the signal
+    // without a drop in speed at the signal
     let slow = through
         .records
         .iter()
@@ -119,7 +119,7 @@ fn through_to_the_target() {
     assert!(end(&stopped, 0) < 8.2);
 }
 
-/// G310: with a signal the program continues at the label and from where the axes are, without one after the block.
+/// G310: with a signal the program continues at the label from the positions of the axes, without a signal with the block after it.
 #[test]
 fn an_interrupted_motion_jumps() {
     let program = "#MEAS MODE [5]\nN10 G00 X0 Y0\nN20 G310 G01 F1000 X10 Y20 $GOTO[N_LABEL]\nN30 G01 X20\n\
@@ -133,8 +133,8 @@ fn an_interrupted_motion_jumps() {
     near(end(&missed, 1), 20.0, 1e-9);
 }
 
-/// Measuring offset = measured - target = -2, -4: with factors 1 and 7 the program is shifted by -2 and -28, with the
-/// next absolute words, until G102.
+/// Measuring offset = measured - target = -2, -4: with factors 1 and 7 the program is shifted by -2 and -28, effective with the next
+/// absolute words, until G102.
 #[test]
 fn measuring_offsets() {
     let program = format!(
@@ -158,7 +158,7 @@ fn measured_values_and_offsets() {
     assert_eq!(said(&run), ["8.0000 8.0000 5.0000 -5.0000", "-3000"]);
 }
 
-/// A probe that signals already, and one that signals outside of a measuring run.
+/// A probe that is on already, and one that signals outside of a measuring run.
 #[test]
 fn signals_at_other_times() {
     let program = format!("{TYPE_1}N50 M30\n");
@@ -169,7 +169,7 @@ fn signals_at_other_times() {
     near(end(&run, 0), 10.0, 1e-9);
 }
 
-/// A feedhold inside a run only shifts it.
+/// A feedhold during a run only delays it.
 #[test]
 fn feedhold_in_a_run() {
     let program = format!("{TYPE_1}N50 M30\n");
@@ -178,7 +178,7 @@ fn feedhold_in_a_run() {
     assert_eq!(said(&held), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
 }
 
-/// The surface is not known beforehand: the check takes the target for it, and refuses nothing that a run may do.
+/// The surface is not known beforehand: the check uses the target in its place, and refuses nothing that a run may do.
 #[test]
 fn a_check_refuses_no_measured_value() {
     let program =
@@ -187,7 +187,7 @@ fn a_check_refuses_no_measured_value() {
     assert!(run.errors().is_empty() && !run.records.is_empty());
 }
 
-/// The check takes the target for the surface and never comes to the subroutine; the run does, and its rows say so.
+/// The check uses the target for the surface and never reaches the subroutine; the run does, and its rows show it.
 #[test]
 fn a_subroutine_that_only_the_run_reaches_is_named_in_the_trace() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,8 +1,8 @@
 //! How close whole programs come to the shortest possible time.
 //!
-//! The bound is computed here from the points of the program alone: time-optimal path following of second order on the
-//! same polygon, with the same axis limits and transition speeds but without a jerk limit, by a backward and a forward
-//! pass over a fine grid. It shares nothing with the planner. `--nocapture` prints the table of the documentation.
+//! The bound is computed here from the points of the program alone: time-optimal path following of second order on the same polygon, with
+//! the same axis limits and transition speeds but without a jerk limit, by a backward and a forward pass over a fine grid. It shares
+//! nothing with the planner. `--nocapture` prints the table of the documentation.
 
 use kontur_interpreter::job::{Job, Options};
 use kontur_interpreter::record::CycleRecord;
@@ -16,7 +16,7 @@ const CYCLE_S: f64 = 1e-3;
 const AXIS_MM_S: f64 = 1000.0;
 const AXIS_MM_S2: f64 = 3500.0;
 
-/// Ramp times of that machine and the shortest that are ramps at all, in us.
+/// Ramp times of that machine, and the shortest ones that still are ramps, in us.
 const RAMPS_US: [u32; 2] = [30_000, 1_000];
 
 /// Feed in mm/s and the points of a program of straight blocks that starts in the origin.
@@ -61,19 +61,19 @@ impl Chord {
         points.windows(2).map(chord).collect()
     }
 
-    /// A limit of every axis as limit of the path.
+    /// A limit of every axis converted to a limit of the path.
     fn along(&self, axis_limit: f64) -> f64 {
         axis_limit / self.direction.iter().fold(0.0, |most: f64, c| most.max(c.abs()))
     }
 
-    /// Largest change of an axis' share of the path speed up to another block.
+    /// Largest change of the share of an axis in the path speed at the transition to another block.
     fn turn(&self, other: &Self) -> f64 {
         let change = |i: usize| (other.direction[i] - self.direction[i]).abs();
         (0..3).map(change).fold(0.0, f64::max)
     }
 }
 
-/// Least time in s without a jerk limit.
+/// Minimum time in s without a jerk limit.
 fn bound(points: &[Point], feed_mm_s: f64) -> f64 {
     let chords = Chord::all(points);
     // squared speed limits at the grid points; between them twice the product of acceleration and step
@@ -88,7 +88,7 @@ fn bound(points: &[Point], feed_mm_s: f64) -> f64 {
             gain.push(2.0 * chord.along(AXIS_MM_S2) * step);
             steps.push(step);
         }
-        // a kink is a jump of the axis velocities, an acceleration that lasts one cycle
+        // at a kink the axis velocities jump, with an acceleration that lasts one cycle
         let kink = chords.get(k + 1).map_or(0.0, |next| AXIS_MM_S2 * CYCLE_S / chord.turn(next));
         let end = squares.len() - 1;
         ends.push(end);
@@ -180,7 +180,7 @@ fn whole_programs_are_close_to_the_bound() {
                 100.0 * more
             );
             println!("{line}");
-            // the last cycle of a run is seldom a whole one
+            // the last cycle of a run is rarely a whole one
             assert!(time >= least - 1e-9, "the bound is one: {line}");
             if time > (1.0 + allowed) * least + CYCLE_S {
                 missed.push(line);
@@ -190,8 +190,8 @@ fn whole_programs_are_close_to_the_bound() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// What the jerk limit alone costs: from rest to the feed and back, a trapezoid of velocity takes `L/v + v/a`; ramps of
-/// `t` keep the mean speed of both changes and make each of them longer by `t`, of which half is travelled.
+/// Cost of the jerk limit alone: from rest to the feed and back, a trapezoidal profile takes `L/v + v/a`; ramps of `t` keep the mean
+/// speed of both changes and make each of them longer by `t`, half of which is made up by the distance that they cover.
 #[test]
 fn one_block_takes_one_ramp_time_longer_than_the_bound() {
     let (length, v) = (100.0, 50.0 * 2.0);

@@ -18,7 +18,7 @@ fn stop(program: &str, settling_us: i32) -> Run {
     run(program, &settings.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// The message, the class of its reaction, the frozen axis and what follows: nothing.
+/// The message, its reaction class, the frozen axis, and no further block.
 /// Conformance: P001, P002, P011, P012.
 #[test]
 fn an_axis_that_does_not_arrive_ends_the_program() {
@@ -58,7 +58,7 @@ fn g60_waits_for_the_window() {
     }
 }
 
-/// Not while the axis is interpolated: blocks without a stop between them. Conformance: P017.
+/// Not while the axis is interpolated: blocks without a stop in between. Conformance: P017.
 #[test]
 fn moving_axes_are_not_monitored() {
     let run = stop("%P\nG90 G01 X20 F6000\nX40\nX60\nX80\nX100\nX120\nM30\n", 1000);
@@ -67,7 +67,7 @@ fn moving_axes_are_not_monitored() {
     assert!(message > passed as u64, "only the last stop may be late");
 }
 
-/// Both stops of the program that a user runs: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P015.
+/// Both stops of the program as a user runs it: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P015.
 #[test]
 fn the_program_of_the_timeout() {
     let text = std::fs::read_to_string(programs().join("exact_stop_timeout.nc")).unwrap();
@@ -92,7 +92,7 @@ fn the_program_of_the_timeout() {
     assert!(last.axes[0].lag.abs() < 0.02, "{}", last.axes[0].lag);
 }
 
-/// A run with one lag monitor on X, and the cycle of its error.
+/// A run with lag monitoring on X only, and the cycle of its error.
 fn lag_monitor(kind: u32, settings: &[&str]) -> (Run, Option<usize>) {
     let mut all: Vec<String> = settings.iter().map(|s| format!("X.getriebe[0].{s}")).collect();
     all.push(format!("X.getriebe[0].slep_ueberw_typ={kind}"));
@@ -108,8 +108,8 @@ fn lag_monitor(kind: u32, settings: &[&str]) -> (Run, Option<usize>) {
     (run, at)
 }
 
-/// Type 4: the limit itself decides. Reaction class 8: the set position is frozen and the loop opened, so that the drive
-/// stops within its own time constant; the rest of the group brakes along the path.
+/// Type 4: the limit itself decides. Reaction class 8: the set position is frozen and the loop opened, so that the drive stops within its
+/// own time constant; the rest of the group brakes along the path.
 #[test]
 fn following_error_of_type_4() {
     let (run, at) = lag_monitor(4, &["slep_max=1000", "slep_min=1000"]);
@@ -135,12 +135,12 @@ fn following_error_of_type_4() {
     let y: Vec<f64> = stopping.iter().map(|r| r.axes[1].set).collect();
     assert!(y[0] > run.records[at].axes[1].set && y.windows(2).all(|w| w[1] >= w[0]));
     assert!(run.records.last().unwrap().axes[1].vel.abs() <= 0.0);
-    // suppressed or wide enough: nothing
+    // suppressed, or a limit that is wide enough: no message
     assert_eq!(lag_monitor(4, &["slep_max=25000", "slep_min=25000"]).1, None);
 }
 
-/// Type 2: the theoretical lag v / Kv times 1024 / (1024 - slep_dyn). While the axis accelerates its lag stays below
-/// v / Kv; while it brakes it is above, the more the slower the axis is.
+/// Type 2: the theoretical lag v / Kv times 1024 / (1024 - slep_dyn). During acceleration the lag stays below v / Kv; during braking it
+/// is above, and the excess grows as the axis gets slower.
 #[test]
 fn following_error_of_type_2() {
     let at = |dynamics: u32| {
@@ -148,7 +148,7 @@ fn following_error_of_type_2() {
         let (run, at) = lag_monitor(2, &["slep_max=500", "slep_min=20000", &dynamics]);
         at.map(|at| (run.records[at].path.a_mm_s2, at))
     };
-    // a hundredth of room: at constant speed the lag is v / Kv itself
+    // a margin of one per cent: at constant speed the lag is v / Kv itself
     let (a, plain) = at(10).unwrap();
     assert!(a < 0.0, "it brakes: {a}");
     let (_, doubled) = at(512).unwrap();
@@ -173,8 +173,8 @@ fn following_error_of_type_1() {
     assert_eq!(lag_monitor(1, &["slep_max=100000", "slep_min=10000", "slep_dyn=1000"]).1, None);
 }
 
-/// Feedforward of 120 % commands more at the end of the ramp than P-AXIS-00407 leaves above the axis' maximum: the limit
-/// is output, the axis brakes under control (class 7).
+/// At the end of the ramp a feedforward of 120 % commands more than P-AXIS-00407 permits above the maximum of the axis: the limit is
+/// output, the axis brakes under control (class 7).
 #[test]
 fn speed_command_above_its_limit() {
     let run = run(
@@ -189,7 +189,7 @@ fn speed_command_above_its_limit() {
     assert!(run.totals.aborted);
     let limit = 1000.0 * 1.001;
     assert!(run.axis(0, |a| a.cmd).iter().all(|v| v.abs() <= limit + 1e-9));
-    // under control: braking along the path, no step
+    // under control: braking along the path, without a step
     assert!(run.axis(0, |a| a.acc).iter().all(|a| a.abs() < 6000.0 * 1.001));
     assert!(run.records.last().unwrap().axes[0].ipo < 450.0);
 }

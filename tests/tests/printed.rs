@@ -1,7 +1,7 @@
-//! Programs that the vendor's public pages print, in own words with the numbers of the page, and what other programs do.
+//! Programs printed on the vendor's public pages, in own words with the numbers of the page, and the behaviour of other programs.
 //!
-//! Every file of `tests/suite/printed` and of `tests/suite/behaviour` is one test. Its head is that of `suite/faults`, with
-//! further kinds of lines; those of `behaviour` have no page, and a comment says what they show:
+//! Every file of `tests/suite/printed` and of `tests/suite/behaviour` is one test. Its head is that of `suite/faults`, with further kinds
+//! of lines; those of `behaviour` have no page, and a comment states what they show:
 //!
 //! ```text
 //! ; run --set X.getriebe[0].kv=1000: exit 0
@@ -11,7 +11,7 @@
 //! ; warning K-0100 at 7:1         what is said, in this order and nothing else
 //! ```
 //!
-//! A program that runs is checked, too: `check` says nothing that the run does not.
+//! A program that runs is checked as well: `check` reports nothing that the run does not report.
 //!
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test printed` rewrites the table of the folder's README.
 
@@ -23,7 +23,7 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Distance in mm or deg within which the set path leads through a point.
+/// Distance in mm or deg within which the set path must pass a point.
 const NEAR: f64 = 0.01;
 
 /// Positions at the end are exact to the digits of the trace.
@@ -69,7 +69,7 @@ fn along(path: &Path_, axes: &[(String, f64)]) -> Result<Vec<Vec<f64>>, Failed> 
     Ok((0..cycles).map(|k| columns.iter().map(|column| column[k]).collect()).collect())
 }
 
-/// What `check` says of a program that runs: that it may, and nothing that the run does not say as well.
+/// What `check` reports for a program that runs: it may run, and there is no message that the run does not give as well.
 fn agrees((exit, ahead): (u8, Vec<Said>), said: &[Said]) -> Result<(), Failed> {
     let mut said = said.iter();
     match ahead.iter().find(|message| !said.any(|other| other == *message)) {
@@ -127,7 +127,7 @@ fn page(head: &Head) -> Result<&str, Failed> {
     Ok(pages.next().ok_or("no page")?)
 }
 
-/// What a printed program does here.
+/// How a printed program behaves here.
 const STATES: [&str; 3] = ["runs", "refused with the printed number", "refused by name"];
 
 /// Index into [`STATES`].

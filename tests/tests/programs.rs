@@ -1,4 +1,4 @@
-//! The sample programs: those that must run are clean, those that must fail fail as their first line says.
+//! The sample programs: those that must run give no messages, those that must fail fail as stated in their first line.
 
 use kontur::Exit;
 use kontur_interpreter::diag::{Condition, Id};
@@ -31,7 +31,7 @@ fn sample_programs_run_clean() {
     }
 }
 
-/// HSC mean of order 20: in the first pass the corners are cut and the delay is 10 ms, in the second set = ipo.
+/// HSC mean of order 20: in the first pass the corners are cut and the delay is 10 ms, in the second pass set = ipo.
 #[test]
 fn hsc_square() {
     let run = run_on(sample_machine("xyz_hsc", &[]), &text("square_corner_hsc.nc"));
@@ -50,12 +50,12 @@ fn moving_s(run: &Run, lines: &RangeInclusive<u32>) -> f64 {
     let way: Vec<f64> =
         run.records.iter().filter(|r| lines.contains(&r.line)).map(|r| r.path.s_mm).collect();
     let end = way.last().unwrap() - 1e-9;
-    // and the cycle that arrives
+    // and the cycle of arrival
     (way.iter().filter(|s| **s < end).count() + 1) as f64 * run.cycle_s
 }
 
-/// `L/v + v/a`, and one ramp time more where there are ramps; over two blocks, whose first is too short for its feed, it is
-/// the same.
+/// `L/v + v/a`, and one more ramp time if there are ramps; over two blocks, of which the first is too short for its feed, the time is the
+/// same.
 #[test]
 fn slopes() {
     let (a, ramp_s, v) = (3500.0, 0.03, 150.0);
@@ -73,13 +73,13 @@ fn slopes() {
     }
 }
 
-/// Every change of speed of the program, the length it takes from its block and its time: at `a`, with ramps one ramp
-/// time more, or `2 t sqrt(dv / a t)` if the acceleration is not reached.
+/// Every change of speed in the program, the length that it takes from its block, and its time: at `a`, with ramps one more ramp time, or
+/// `2 t sqrt(dv / a t)` if the acceleration is not reached.
 #[test]
 fn late_braking() {
     let (a, ramp_s, mm) = (3500.0, 0.03, 20.0);
     let v = [150.0, 100.0, 75.0, 50.0, 25.0];
-    // per block the changes of speed that lie in it
+    // for each block the changes of speed within it
     let words: [&[(f64, f64)]; 5] = [
         &[(0.0, v[0])],
         &[(v[0], v[1]), (v[1], v[2])],
@@ -129,8 +129,7 @@ fn late_braking() {
     assert_eq!(way(&late), way(&early));
 }
 
-/// How far every curve stays from the corner, by the formulas of the contouring curve and of the B-spline; and how fast
-/// the corner is passed.
+/// The distance of every curve from the corner, by the formulas of the contouring curve and of the B-spline; and the speed at the corner.
 #[test]
 fn corner_rounding() {
     let run = run(&text("corner_rounding.nc"), &[]);
@@ -152,7 +151,7 @@ fn corner_rounding() {
         let points: Vec<Vec<f64>> = path(first).into_iter().map(|(p, _)| p).collect();
         let to = from_polyline(&near, &points);
         let least = libm::hypot(to[0], to[1]);
-        // the samples lie on both sides of a corner, or of the middle of a curve
+        // the samples lie on either side of a corner, or of the middle of a curve
         let chord = if first == 14 { 2e-3 } else { 5e-4 };
         assert!((least - want).abs() < chord, "line {first}: {least} mm, {want} mm expected");
     }
@@ -192,8 +191,8 @@ fn every_program_is_listed() {
     }
 }
 
-/// Every command of the list as it is written there: those of `fail/` and `exact_stop_timeout.nc` end with an error, the others
-/// finish. The sweep runs in `figures.rs`.
+/// Every command of the list as written: those of `fail/` and `exact_stop_timeout.nc` end with an error, the others finish. The sweep
+/// runs in `figures.rs`.
 #[test]
 fn every_listed_command_runs() {
     let folder = tempfile::tempdir().unwrap();
@@ -210,7 +209,7 @@ fn every_listed_command_runs() {
     }
 }
 
-/// A command as a document shows it, from the root of the repository; outputs go to a folder.
+/// A command as shown in a document, run from the root of the repository; outputs go to a folder.
 fn run_line(line: &str, folder: &Path) -> Output {
     let root = programs().join("..");
     let mut words: Vec<PathBuf> = Vec::new();
@@ -250,7 +249,7 @@ fn every_command_of_the_lessons_runs() {
     }
 }
 
-/// The exercises of the lessons: what their formulas give is what happens.
+/// The exercises of the lessons: the results of their formulas are what happens.
 #[test]
 fn the_exercises_have_their_answers() {
     let folder = tempfile::tempdir().unwrap();
@@ -304,12 +303,12 @@ fn the_exercises_have_their_answers() {
     near(slowest("3_corner", &[("N30 Y20", &turned)]), 20.0, 0.2);
     near(slowest("4_rounding", &[("V.E.DEV", "0.163")]), 30.0, 0.1);
 
-    // the feed is held up to 2.005 degrees
+    // the feed is kept up to 2.005 degrees
     let circle = |step: &str| path_s(&lesson("5_chords", &[("V.E.STEP", step)], &[]));
     near(circle("2"), circle("1"), 1.5e-3);
     assert!(circle("2.1") > circle("2") + 5e-3);
 
-    // in the middle of the way there, at an even speed
+    // in the middle of that distance, at a constant speed
     let lag = |kv: &str| -> f64 {
         let set = format!("X.getriebe[0].kv={kv}");
         let rows = trace("6_lag", &[], &["--set", &set], "X_lag_mm");
@@ -377,8 +376,8 @@ fn programs_that_must_fail() {
     assert_eq!(late.records.last().unwrap().axes[0].ipo, 50.0);
 }
 
-/// Twenty thousand short blocks: no message, no corner slower than the half circles between the rows allow, and the
-/// programmed feed wherever curvature allows it.
+/// Twenty thousand short blocks: no message, no corner slower than the half circles between the rows allow, and the programmed feed
+/// wherever the curvature allows it.
 #[test]
 fn surface_scan() {
     let run = run(&text("surface_scan.nc"), &[]);
@@ -392,7 +391,7 @@ fn surface_scan() {
     assert!(at_feed as f64 > 0.9 * inside.len() as f64, "{at_feed} of {}", inside.len());
 }
 
-/// 10 ms of dwell at 1 ms are ten rows of the dwell's own line, also before the first motion.
+/// 10 ms of dwell at 1 ms give ten rows of the line of the dwell, also before the first motion.
 #[test]
 fn the_cycles_of_a_dwell_name_its_line() {
     let run = run("%P\nG04 0.01\nG90 G01 X1 F6000\nG04 X0.01\n#TIME 0.01\nY1\nM30\n", &[]);

@@ -1,8 +1,8 @@
-//! Damaged programs: the sample programs and the programs of `suite/faults` with tokens deleted, doubled, swapped and
-//! replaced, and numbers changed. Whatever comes out, the parser and a whole run end, without a panic, with finite
-//! numbers, and a program that is refused or aborted says why.
+//! Damaged programs: the sample programs and the programs of `suite/faults` with tokens deleted, doubled, swapped and replaced, and with
+//! changed numbers. In every case the parser and a whole run end without a panic and with finite numbers, and a program that is refused
+//! or aborted says why.
 //!
-//! `COUNT` raises the number of programs, `SEED` chooses others.
+//! `COUNT` raises the number of programs, `SEED` selects others.
 
 use kontur_interpreter::diag::{Condition, Diagnostic, Location};
 use kontur_interpreter::job::{Job, Options};
@@ -14,13 +14,13 @@ use kontur_tests::{programs, sample_machine};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Programs by default.
+/// Number of programs by default.
 const COUNT: usize = 150;
 
-/// Longest sample in bytes that is worth damaging.
+/// Longest sample, in bytes, that is worth damaging.
 const LONGEST: usize = 6000;
 
-/// Cycles of a run at most: 2 s of program time.
+/// Limit of the cycles of a run: 2 s of program time.
 const TIME_S: f64 = 2.0;
 
 /// Programs that run, and programs that are refused.
@@ -30,7 +30,7 @@ struct Corpus {
 }
 
 impl Corpus {
-    /// Three of four are good.
+    /// Three out of four are good.
     fn pick<'a>(&'a self, random: &mut Random) -> &'a [String] {
         let list = if random.below(4) == 0 { &self.bad } else { &self.good };
         &list[random.below(list.len())]
@@ -46,7 +46,7 @@ fn texts(folder: &Path) -> Vec<String> {
     texts.filter(|text| text.len() < LONGEST).collect()
 }
 
-/// Samples and lines that bring rare functions together; the smallest programs of the messages.
+/// Samples, lines that combine rare functions, and the smallest programs for the messages.
 fn corpus() -> Corpus {
     let suite = Path::new(env!("CARGO_MANIFEST_DIR")).join("suite/faults");
     let mut bad = texts(&suite);
@@ -176,7 +176,7 @@ fn damaged(random: &mut Random, corpus: &Corpus) -> String {
     program.concat()
 }
 
-/// A place that a reader can find: inside the text, lines counted from 1.
+/// A place that a reader can find: inside the text, with lines counted from 1.
 fn check_place(at: &Location, text: &str) {
     if &*at.file != "part.nc" {
         return;
@@ -285,11 +285,11 @@ fn damaged_programs_end() {
             }
         }
     }
-    // damage leaves enough programs that run
+    // damaging leaves enough programs that run
     assert!(moved > count / 8, "{moved} of {count}");
 }
 
-/// Settings of the command line are text of the user too.
+/// Settings of the command line are also texts written by the user.
 #[test]
 fn damaged_settings_are_refused_or_taken() {
     let mut random = Random::new(seed());

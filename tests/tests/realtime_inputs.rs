@@ -25,7 +25,7 @@ fn override_with_jerk_limit() {
     near(x_at(&run, 0.6), x_at(&plain, 0.5) + 75.0 * change_s + 50.0 * (0.1 - change_s));
 }
 
-/// A time stamp between two cycles acts in the later one, one on a cycle in that cycle.
+/// A time stamp between two cycles takes effect in the later one, one that falls on a cycle in that cycle.
 #[test]
 fn time_stamps_between_cycles() {
     let program = "%P\nG04 0.1\nM30\n";
@@ -37,7 +37,7 @@ fn time_stamps_between_cycles() {
     }
 }
 
-/// The additional interface with the settings after `filter[0]`, a step of 1 mm in cycle 10.
+/// The additional interface with the settings after `filter[0]`, and a step of 1 mm in cycle 10.
 fn additional(filter: &str) -> Run {
     let prefix = "X.lr_param.add_interface";
     let mut settings = vec![format!("{prefix}.enable=1")];
@@ -46,8 +46,8 @@ fn additional(filter: &str) -> Run {
     run_with_inputs(machine(&settings), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)])
 }
 
-/// What flows through the interface: the input, its filter, and the sum after the axis filters that the controller
-/// follows; set position and deviation are those of the program. Conformance: A012, A106.
+/// The signals of the interface: the input, its filter, and the sum after the axis filters that the controller follows; set position and
+/// deviation are those of the program. Conformance: A012, A106.
 #[test]
 fn additional_position() {
     let run = additional("");
@@ -78,7 +78,7 @@ fn additional_pt1() {
     assert!(run.said().is_empty());
 }
 
-/// The axis filter and the filter of the interface act each on its own part.
+/// The axis filter and the filter of the interface each act on their own part.
 #[test]
 fn both_filters_add_up() {
     let settings = [
@@ -107,14 +107,14 @@ fn both_filters_add_up() {
         };
         assert_eq!(added[k].to_bits(), f64::to_bits(input));
     }
-    // the controller gets the sum after its buffer
+    // the controller receives the sum after its buffer
     let delay = (0..10).find(|d| {
         (10..run.records.len()).all(|k| (reference[k] - set[k - d] - added[k - d]).abs() < 1e-12)
     });
     assert!(delay.is_some());
 }
 
-/// A constant force: velocity loop of first order with `Ta` = 5 ms and `kv` = 50/s lag by `F Ta / kv`.
+/// A constant force: a velocity loop of first order with `Ta` = 5 ms and `kv` = 50/s lags by `F Ta / kv`.
 #[test]
 fn force_on_an_axis_at_rest() {
     let program = "%P\nG04 1\nM30\n";
@@ -136,8 +136,8 @@ fn encoder_offset() {
     assert_eq!(k, Some(200));
 }
 
-/// Friction (a force) or a measuring fault (an encoder offset) raises 70082 in a program that runs without them. The
-/// force keeps the axis 0.1 mm away; the encoder slips back by 0.2 mm every 20 ms, of which `exp(-1)` are left each time.
+/// Friction (a force) or a measuring error (an encoder offset) raises 70082 in a program that runs without them. The force keeps the axis
+/// 0.1 mm away; the encoder slips back by 0.2 mm every 20 ms, of which `exp(-1)` remains each time.
 /// Conformance: P004.
 #[test]
 fn disturbed_axis_misses_the_exact_stop() {
@@ -155,7 +155,7 @@ fn disturbed_axis_misses_the_exact_stop() {
     }
 }
 
-/// The inputs of an axis last over a change of its lists at standstill.
+/// The inputs of an axis persist over a change of its lists at standstill.
 #[test]
 fn inputs_last_over_machine_data() {
     let program =
@@ -182,7 +182,7 @@ fn sample_of_feedhold_and_override() {
     let text = command(["run", &program, "--input", &csv]).out;
     assert!(text.contains("held           0.385 s"), "{text}");
     let folder = tempfile::tempdir().unwrap();
-    // what is wrong with a file refuses run and check; a file that is not there is not a mistake in one
+    // mistakes in a file refuse run and check; a missing file is not a mistake in a file
     for verb in ["run", "check"] {
         let refused = command([verb, &program, "--input", &program]);
         assert_eq!(refused.exit, kontur::Exit::Usage);
@@ -199,7 +199,7 @@ fn sample_of_feedhold_and_override() {
     assert_eq!(both.exit, kontur::Exit::Usage, "{both:?}");
 }
 
-/// The three closed forms that the program's head states.
+/// The three closed forms stated in the head of the program.
 #[test]
 fn sample_of_inputs_of_axes() {
     let text = std::fs::read_to_string(kontur_tests::programs().join("inputs_of_axes.nc")).unwrap();
@@ -226,8 +226,8 @@ fn sample_of_inputs_of_axes() {
     assert_eq!(run.diagnostics, []);
 }
 
-/// A hold in any of the last cycles of a motion: the path waits for its release, or is so near to its end that nothing is left
-/// to hold; then no later hold holds it. Either way it ends where the block ends.
+/// A feedhold in any of the last cycles of a motion: the path waits for its release, or is so near to its end that nothing is left to
+/// hold; then no later feedhold stops it. In both cases it ends where the block ends.
 #[test]
 fn a_hold_at_the_end_of_the_last_motion() {
     let program = "%P\nG90 G01 X10 F3000\nM30\n";

@@ -1,4 +1,4 @@
-//! `kontur diff` of a program and a recording of a machine, as TwinCAT Scope exports it.
+//! `kontur diff` between a program and the recording of a machine, in the export format of TwinCAT Scope.
 
 use kontur::Exit;
 use kontur_tests::command::command;
@@ -7,22 +7,22 @@ use std::ops::Range;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
-/// Two axes, TRAPEZ, with a dwell between.
+/// Two axes, TRAPEZ, with a dwell in between.
 const PROGRAM: &str = "%P\nN10 G90 G01 X20 Y-5 F6000\nN20 G04 0.1\nN30 X-3 Y7.5 F4000\nN40 M30\n";
 
 struct Bench {
     folder: TempDir,
-    /// Set positions of X and Y in mm, one pair each millisecond.
+    /// Set positions of X and Y in mm, one pair per millisecond.
     set: Vec<[f64; 2]>,
 }
 
-/// A recording that is made of the positions: how it differs from them.
+/// A recording made from the positions, and how it differs from them.
 #[derive(Clone)]
 struct Recorder {
-    /// It begins so much earlier.
+    /// How much earlier it begins.
     lead_s: f64,
     step_s: f64,
-    /// X in micrometres with the other sign, Y as it is.
+    /// X in micrometres with the opposite sign, Y unchanged.
     noise_mm: f64,
     /// Samples that are missing.
     missing: Range<usize>,
@@ -55,7 +55,7 @@ impl Bench {
         path.to_str().unwrap().to_owned()
     }
 
-    /// Position at a time, at rest before the begin and after the end.
+    /// Position at a time, at rest before the beginning and after the end.
     fn at(&self, axis: usize, time_s: f64) -> f64 {
         let place = (time_s / 0.001).clamp(0.0, (self.set.len() - 1) as f64);
         let (k, part) = (place.floor() as usize, place.fract());
@@ -63,7 +63,7 @@ impl Bench {
         self.set[k][axis] + part * (next - self.set[k][axis])
     }
 
-    /// An export in the layout of TwinCAT Scope, German numbers; `change` may spoil a sample.
+    /// An export in the layout of TwinCAT Scope, with German numbers; `change` may spoil a sample.
     fn export(&self, r: &Recorder, change: impl Fn(usize, &mut [f64; 2])) -> String {
         let ms = format!("{}", 1e3 * r.step_s).replace('.', ",");
         let mut text = format!(
@@ -73,7 +73,7 @@ impl Bench {
         let samples = ((self.set.len() as f64 * 0.001 + 2.0 * r.lead_s) / r.step_s) as usize;
         for i in (0..samples).filter(|i| !r.missing.contains(i)) {
             let time_s = i as f64 * r.step_s;
-            // noise without a generator: the fractions of a multiple of an irrational number
+            // noise without a random generator: the fractions of the multiples of an irrational number
             let noise = |k: f64| r.noise_mm * (2.0 * (i as f64 * k).fract() - 1.0);
             let mut mm = [0, 1].map(|axis| self.at(axis, time_s - r.lead_s));
             mm[0] += noise(0.618_033_988_75);
@@ -107,7 +107,7 @@ fn near(value: &serde_json::Value, want: f64, tolerance: f64) {
     assert!((is - want).abs() <= tolerance, "{is}, not {want}");
 }
 
-/// Another unit and sign, a begin 12 cycles earlier or 3.4 ms later, other sampling times, noise below 0.1 um: equal.
+/// Another unit and sign, a beginning 12 cycles earlier or 3.4 ms later, other sampling times, noise below 0.1 um: equal.
 #[test]
 fn a_recording_of_the_same_motion_is_equal() {
     let bench = Bench::new();
@@ -116,7 +116,7 @@ fn a_recording_of_the_same_motion_is_equal() {
         (0.012, 0.001, 4e-5, 12.0, "0"),
         (0.5, 0.001, 0.0, 500.0, "0"),
         (0.0035, 0.000_25, 0.0, 3.5, "0"),
-        // no sample at the set points: what the corners of their polyline lose is a T^2 / 8 at most
+        // no sample at the set points: at their corners the polyline loses at most a T^2 / 8
         (0.0034, 0.000_25, 0.0, 3.4, "0.0003"),
     ] {
         let recorder = Recorder { lead_s, step_s, noise_mm, ..PLAIN };
@@ -129,7 +129,7 @@ fn a_recording_of_the_same_motion_is_equal() {
     }
 }
 
-/// A micrometre in one sample, for one axis: named with time, line and size. An offset of the zero points is the mean.
+/// A micrometre in one sample of one axis: reported with time, line and size. An offset of the zero points is the mean.
 #[test]
 fn what_differs_is_named() {
     let bench = Bench::new();
@@ -152,7 +152,7 @@ fn what_differs_is_named() {
     near(&found["result"]["pairs"][0]["rms"], 0.0, 1e-6);
 }
 
-/// Missing samples are named and not compared; what happens beyond the ends of either is a difference.
+/// Missing samples are reported and not compared; whatever happens beyond the ends of either one is a difference.
 #[test]
 fn drop_outs_and_ends() {
     let bench = Bench::new();
@@ -180,8 +180,8 @@ fn drop_outs_and_ends() {
     assert_eq!(found["result"]["pairs"][1]["recording_goes_on"], false);
 }
 
-/// Nothing moves in either: they agree, and no shift is made up. Every tenth sample is missing: the text names ten of the
-/// drop-outs and counts the rest.
+/// Nothing moves in either one: they agree, and no shift is invented. Every tenth sample is missing: the text lists ten of the drop-outs
+/// and counts the rest.
 #[test]
 fn rest_and_many_drop_outs() {
     let folder = tempfile::tempdir().unwrap();
@@ -196,7 +196,7 @@ fn rest_and_many_drop_outs() {
     assert!(done.out.contains("    drop-outs  30 more\n"), "{}", done.out);
 }
 
-/// Names that do not exist are refused with those that do.
+/// Names that do not exist are refused, with a list of those that do.
 #[test]
 fn wrong_names_are_refused() {
     let bench = Bench::new();
@@ -216,7 +216,7 @@ fn wrong_names_are_refused() {
     assert!(done.exit == Exit::Usage && done.err.contains("--map COLUMN=CHANNEL"), "{}", done.err);
 }
 
-/// A plain table of the motion itself: times printed with so many decimals, Y from a time on.
+/// A plain table of the motion itself: times printed with a given number of decimals, Y from a given time on.
 fn table(bench: &Bench, step_s: f64, decimals: usize, y_from_s: f64) -> String {
     let samples = ((bench.set.len() - 1) as f64 * 0.001 / step_s) as usize;
     let row = |i: usize| {
@@ -229,8 +229,8 @@ fn table(bench: &Bench, step_s: f64, decimals: usize, y_from_s: f64) -> String {
     format!("t_s,x,y\n{}", rows.concat())
 }
 
-/// The recording of the motion itself is equal to it, also where a channel begins later than the other and where the times
-/// are rounded: 3 kHz with four decimals, 2.5 ms with three.
+/// The recording of the motion itself is equal to it, also where one channel begins later than the other and where the times are rounded:
+/// 3 kHz with four decimals, 2.5 ms with three.
 #[test]
 fn clocks_and_rounded_times() {
     let bench = Bench::new();
@@ -238,7 +238,7 @@ fn clocks_and_rounded_times() {
     for (step_s, decimals, y_from_s, tolerance_mm) in [
         (0.001, 4, 0.0, "0"),
         (0.001, 4, 0.1, "0"),
-        // between the samples a polyline loses a T^2 / 8, some 0.4 um per ms^2 with 3.5 m/s2
+        // between the samples a polyline loses a T^2 / 8, about 0.4 um per ms^2 with 3.5 m/s2
         (1.0 / 3000.0, 4, 0.05, "0.002"),
         (0.0025, 3, 0.0, "0.005"),
     ] {
@@ -255,10 +255,10 @@ fn clocks_and_rounded_times() {
             assert_eq!(result["pairs"][pair]["different"], 0, "{step_s} {y_from_s}: {found}");
             assert_eq!(result["pairs"][pair]["drop_outs"], serde_json::json!([]));
         }
-        // the trace moves Y where the recording has nothing of it yet
+        // the trace moves Y where the recording does not contain Y yet
         assert_eq!(result["pairs"][1]["trace_goes_on"], y_from_s > 0.0);
     }
-    // 1.5 ms in milliseconds: a third of a step beside it
+    // 1.5 ms rounded to milliseconds: off by a third of a step
     std::fs::write(bench.path("t.csv"), table(&bench, 0.0015, 3, 0.0)).unwrap();
     let done = command(["diff", &program, &bench.path("t.csv"), "--map", "X_set_mm=x"]);
     assert!(done.exit == Exit::Usage && done.err.contains("equal steps"), "{}", done.err);
@@ -287,8 +287,8 @@ fn a_recording_with_fewer_samples_is_compared_at_its_samples() {
     }
 }
 
-/// A run ends while its axis still creeps into its window. A coarse recording of it is equal whatever the phase of its samples,
-/// although the last rows lie between two of them; one that ends two samples earlier is not.
+/// A run ends while its axis is still creeping into its window. A coarse recording of it is equal whatever the phase of its samples,
+/// although the last rows lie between two of them; a recording that ends two samples earlier is not.
 #[test]
 fn the_phase_of_the_samples_does_not_matter() {
     let folder = tempfile::tempdir().unwrap();
@@ -323,8 +323,8 @@ fn the_phase_of_the_samples_does_not_matter() {
     }
 }
 
-/// Thirty turns of a circle, recorded from the second, third or fifth second on: one shift makes every row equal, others are
-/// whole turns aside and differ only where the motion begins or ends.
+/// Thirty turns of a circle, recorded from the second, third or fifth second on: one shift makes all rows equal; others are off by whole
+/// turns and differ only where the motion begins or ends.
 #[test]
 fn a_motion_that_repeats_itself_is_not_shifted_by_a_turn() {
     let folder = tempfile::tempdir().unwrap();

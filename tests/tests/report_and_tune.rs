@@ -1,4 +1,4 @@
-//! `kontur report` and `kontur tune` on real runs: what the pages show, and what is proposed for a program.
+//! `kontur report` and `kontur tune` on real runs: the contents of the pages, and the proposal for a program.
 
 use kontur::Exit;
 use kontur_kit::Oscillator;
@@ -11,7 +11,7 @@ fn path(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().unwrap().to_owned()
 }
 
-/// The runs in the page that `kontur report` makes of programs with settings.
+/// The runs in the page that `kontur report` makes for programs with settings.
 fn page(texts: &[&str], settings: &str) -> Vec<Value> {
     whole_page(texts, settings)["runs"].as_array().unwrap().clone()
 }
@@ -44,12 +44,12 @@ fn curve(run: &Value, name: &str) -> Vec<f64> {
     numbers(&curves.iter().find(|c| c["name"] == name).unwrap_or_else(|| panic!("{name}"))["low"])
 }
 
-/// A load on a spring of 10 Hz: without the guard it keeps swinging, with it it is at rest. Conformance: V006.
+/// A load on a spring of 10 Hz: without the guard it keeps swinging, with the guard it is at rest. Conformance: V006.
 #[test]
 fn the_load_of_a_spring_with_and_without_the_guard() {
     let program = |guard: &str| format!("%P\n{guard}\nG90 G01 X20 F3000\nG04 1\nM30\n");
     let texts = [program(""), program("#VIB GUARD ON [MODE=2 FREQ=10 DAMPING=0.02]")];
-    // 10.26 Hz of two free masses is 10 Hz of the load when the motor, 19 times as heavy, is at rest
+    // the 10.26 Hz of two free masses become 10 Hz of the load when the motor, 19 times as heavy, is at rest
     let plant = "model=TWO_MASS mass_motor=95 mass_load=5 f0=10.26 damping=0.02"
         .split(' ')
         .map(|entry| format!("kontur.axis[1].plant.{entry} "))
@@ -66,7 +66,7 @@ fn the_load_of_a_spring_with_and_without_the_guard() {
     assert!(without > 0.02 && with < 0.2 * without, "{without} {with}");
 }
 
-/// The three passes lie over each other, each with its largest error. Conformance: V061.
+/// The three passes are drawn on top of each other, each with its largest error. Conformance: V061.
 #[test]
 fn the_three_passes_of_the_square_are_overlaid() {
     let square = programs().join("square_corner.nc");
@@ -81,7 +81,7 @@ fn the_three_passes_of_the_square_are_overlaid() {
             error.split(' ').next().unwrap().parse().unwrap()
         })
         .collect();
-    // 0.01 mm per axis is 0.0141 mm at most; 3500 mm/s2 in one cycle make 3.5 mm/s at the kinks
+    // 0.01 mm per axis give 0.0141 mm at most; 3500 mm/s2 in one cycle give 3.5 mm/s at the kinks
     assert!(errors[0] <= 0.0142 && errors[0] > 0.003, "{errors:?}");
     assert!(errors[1] > errors[0] && errors[2] < 1e-9, "{errors:?}");
     // one colour each, in one panel
@@ -101,7 +101,7 @@ fn the_three_passes_of_the_square_are_overlaid() {
     }
 }
 
-/// Set and actual position, the window, and t1, t2, t3 of an exact stop, against the trace. Conformance: P022.
+/// Set and actual position, the window, and t1, t2, t3 of an exact stop, compared with the trace. Conformance: P022.
 #[test]
 fn the_course_of_an_exact_stop() {
     let text = "%P\nG90 G60 G01 X50 F6000\nG60 X60\nM30\n";
@@ -128,7 +128,7 @@ fn the_course_of_an_exact_stop() {
             numbers(&Value::from(stop.as_array().unwrap()[1..].to_vec())),
             [target, 0.05, t1 as f64, t2 as f64, (t1 + 400) as f64]
         );
-        // ln(lag / window) over the slow pole of kv = 20/s after a drive of 5 ms
+        // ln(lag / window) over the slow pole of kv = 20/s with a drive of 5 ms
         let pole_1_s = (1.0 - (1.0_f64 - 4.0 * 20.0 * 0.005).sqrt()) / (2.0 * 0.005);
         let lag = act[t1] - target;
         let closed = libm::log(lag.abs() / 0.05) / pole_1_s;
@@ -145,7 +145,7 @@ fn driven(text: &str) -> (f64, f64) {
     ((run.records.len() - 1) as f64 * run.cycle_s, dev)
 }
 
-/// The choice for a real program: pasted into it, it takes the time and keeps the deviation that the table says.
+/// The choice for a real program: pasted into it, it gives the time and keeps the deviation stated in the table.
 #[test]
 fn a_choice_for_a_program_does_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
@@ -164,7 +164,7 @@ fn a_choice_for_a_program_does_what_it_says() {
     let (time_s, dev) = driven(&format!("%PART\n{line}\n{blocks}"));
     assert!((time_s - promised).abs() < 5e-4, "{time_s} {promised}\n{text}");
     assert!(dev <= 0.01 + 1e-9 && dev > 0.003, "{dev}");
-    // without the tolerance the corners leave the bound, which is why the choice carries it
+    // without the tolerance the corners exceed the bound, which is why the choice contains it
     let (_, free) = driven(&format!("%PART\n{}\n{blocks}", line.replace(" AX_DEV=0.01", "")));
     assert!(free > 0.01, "{free}");
     // the table: every mode, with and without AX_DEV
@@ -174,7 +174,7 @@ fn a_choice_for_a_program_does_what_it_says() {
         assert!(rows.iter().any(|r| r.starts_with(mode)), "{mode}: {text}");
     }
     assert!(rows.iter().any(|r| r.contains(" 0.01 ") && r.ends_with("yes")), "{text}");
-    // a bound that nothing leaves costs nothing, and is in the line all the same
+    // a bound that is never exceeded costs nothing, and is in the line all the same
     let text = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]).out;
     assert!(text.contains(" AX_DEV=5]\n"), "{text}");
 }
@@ -182,7 +182,7 @@ fn a_choice_for_a_program_does_what_it_says() {
 const SHAPED: &str =
     "%P\n#VIB GUARD ON [MODE=1 FREQ=25 DAMPING=0.05]\nG90 G01 X20 F9000\nX5 Y3\nM30\n";
 
-/// The spectrum of the commanded acceleration against the sum that defines it, and the mark of the guard.
+/// The spectrum of the commanded acceleration compared with its defining sum, and the mark of the guard.
 #[test]
 fn the_spectrum_of_a_page_is_that_of_the_accelerations() {
     let page = whole_page(&[SHAPED], "");
@@ -217,8 +217,8 @@ fn the_spectrum_of_a_page_is_that_of_the_accelerations() {
     }
 }
 
-/// What is left of the swinging of a mass on a spring, as the picture says it, against small steps of its differential equation; without the
-/// guard, whose frequency is then any other, much more is left.
+/// The residual vibration of a mass on a spring, as given in the picture, compared with its differential equation in small steps; without
+/// the guard, whose frequency is then arbitrary, much more remains.
 #[test]
 fn what_a_spring_is_left_with() {
     let folder = tempfile::tempdir().unwrap();

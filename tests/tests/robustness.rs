@@ -1,10 +1,10 @@
-//! Programs made to break an interpreter: each ends, and with its diagnostic, through the command line.
+//! Programs made to break an interpreter: each of them ends, and with its diagnostic, on the command line.
 
 use kontur::Exit;
 use kontur_tests::command::command;
 use std::ffi::OsString;
 
-/// Exit, IDs with line and column, and what `run` printed on stdout.
+/// Exit code, IDs with line and column, and the output of `run` on stdout.
 fn call(verb: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String) {
     let folder = tempfile::tempdir().unwrap();
     let program = folder.path().join("part.nc");
@@ -16,7 +16,7 @@ fn call(verb: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String)
     let said = output.err.lines().filter(|l| l.starts_with('{')).filter_map(|line| {
         let json: serde_json::Value = serde_json::from_str(line).unwrap();
         let id = json["id"].as_u64().map(|id| id.to_string());
-        // what the command itself says has no ID
+        // messages of the command itself have no ID
         let id = id.or_else(|| json["kontur_id"].as_str().map(str::to_owned))?;
         Some(format!("{id} {}:{}", json["source"]["line"], json["source"]["column"]))
     });
@@ -24,7 +24,7 @@ fn call(verb: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String)
     (output.exit, said, output.out)
 }
 
-/// What `check` and `run` both say, and that both refuse the program.
+/// The messages of `check` and `run`, which must be the same; both must refuse the program.
 fn refused(text: &str, options: &[&str]) -> Vec<String> {
     let (exit, checked, _) = call("check", text, options);
     assert_eq!(exit, Exit::Aborted, "{checked:?}");
@@ -36,20 +36,20 @@ fn refused(text: &str, options: &[&str]) -> Vec<String> {
 #[test]
 fn loops_without_motion_end() {
     let limit = ["--max-blocks", "2000"];
-    // the run meets what the check has seen, and says it once
+    // the run meets what the check has seen, and reports it once
     for text in ["$WHILE 1\n$ENDWHILE\nM30\n", "N1: P1=1\n$GOTO N1\nM30\n", "$DO\n$ENDDO 1\nM30\n"]
     {
         let said = refused(text, &limit);
         assert!(said.len() == 1 && said[0].starts_with("K-0017 "), "{text}: {said:?}");
     }
-    // what passes only time ends with the time
+    // a loop that only spends time ends when the time is over
     let text = "$WHILE 1\n#TIME 10\n$ENDWHILE\nM30\n";
     let (exit, said, _) = call("run", text, &["--max-blocks", "2000", "--max-time", "1"]);
     assert_eq!(exit, Exit::Aborted);
     assert!(said[0].starts_with("K-0017 "), "{said:?}");
 }
 
-/// A program without end starts, runs to its limit, and leaves a trace and a summary that are complete up to there.
+/// A program without an end starts, runs to its limit, and leaves a trace and a summary that are complete up to there.
 #[test]
 fn limits_stop_a_program_and_do_not_refuse_it() {
     let endless = "F6000\n$WHILE 1\nG01 X10\nX0\n$ENDWHILE\nM30\n";
@@ -76,9 +76,9 @@ fn limits_stop_a_program_and_do_not_refuse_it() {
         assert_eq!(summary["cycles"], rows);
         let duration = summary["duration_s"].as_f64().unwrap();
         assert!(duration > 2.0 && duration <= limit, "{options:?}: {duration}");
-        // of 100 blocks one is F, and every pass has $WHILE, two motions of 10 mm and $ENDWHILE
+        // one of 100 blocks is F, and every pass has $WHILE, two motions of 10 mm and $ENDWHILE
         let path = summary["path_length_mm"].as_f64().unwrap();
-        // at 100 mm/s, and not what the look-ahead has taken from the program
+        // at 100 mm/s, and not for the blocks that the look-ahead has already taken from the program
         let ideal = summary["ideal_duration_s"].as_f64().unwrap();
         assert!((ideal - path / 100.0).abs() < 1e-3, "{options:?}: {ideal} s for {path} mm");
         let blocks = summary["blocks"].as_f64().unwrap();
@@ -89,16 +89,16 @@ fn limits_stop_a_program_and_do_not_refuse_it() {
         assert!(said.len() == 1 && said[0].starts_with("K-0017 "), "{said:?}");
         assert_eq!(is_error, options[0] == "--max-blocks");
     }
-    // what the check sees before the limit still refuses
+    // an error that the check finds before the limit still refuses the program
     refused("F6000\nG7\n$WHILE 1\nG01 X10\nX0\n$ENDWHILE\nM30\n", &["--max-time", "1"]);
-    // and what it cannot see ends the run where it is met
+    // and one beyond it ends the run where it is met
     let behind = "F6000\nP1=0\n$WHILE P1<9000\nG01 X10\nX0\nP1=P1+1\n$ENDWHILE\nG7\nM30\n";
     let (exit, said, out) = call("run", behind, &["--max-time", "1"]);
     assert_eq!((exit, said.len()), (Exit::Aborted, 1), "{said:?} {out}");
     assert!(said[0].starts_with("K-0017 ") && out.contains("aborted"), "{said:?} {out}");
 }
 
-/// Motions of 100 s each in lines 2 to 4: a check names the one in which its time is over, the last one too.
+/// Motions of 100 s each in lines 2 to 4: a check names the one in which its time runs out, the last one too.
 #[test]
 fn a_check_counts_every_motion() {
     let text = "%P\nG01 F60 X100\nX0\nX100\nM30\n";
@@ -113,8 +113,8 @@ fn a_check_counts_every_motion() {
     assert_eq!((exit, said), (Exit::Aborted, vec!["K-0017 4:1".to_owned()]));
 }
 
-/// An amplitude that no run can have: above half the sampling frequency an error, after the end of every run a warning, and no
-/// word of a parameter without effect.
+/// An amplitude that cannot occur in any run: above half the sampling frequency it is an error, after the end of every run a warning, and
+/// there is no message about a parameter without effect.
 #[test]
 fn amplitudes_that_cannot_be() {
     let folder = tempfile::tempdir().unwrap();
@@ -145,7 +145,7 @@ fn amplitudes_that_cannot_be() {
     assert!(there.err.is_empty() && !there.out.contains("without_effect"), "{}", there.err);
 }
 
-/// A warning that is an error for its caller does not say that the run continues.
+/// A warning that its caller treats as an error does not say that the run continues.
 #[test]
 fn refused_lists_do_not_continue() {
     let folder = tempfile::tempdir().unwrap();
@@ -164,7 +164,7 @@ fn refused_lists_do_not_continue() {
     }
 }
 
-/// External variables are named as on the command line or as in the program.
+/// External variables are written as on the command line or as in the program.
 #[test]
 fn external_variables_with_their_prefix() {
     let text = "G01 F[V.E.SPEED] X10\nM30\n";
@@ -174,7 +174,7 @@ fn external_variables_with_their_prefix() {
     }
 }
 
-/// A mistake in a program that moves without end: the check does not continue to the limit of blocks.
+/// A mistake in a program that moves without end: the check does not continue up to the limit of blocks.
 #[test]
 fn a_wrong_program_without_end() {
     let said = refused("N5 G01 F600 X1 W1\nN10: X1\nX2\n$GOTO N10\nM30\n", &[]);
@@ -187,12 +187,12 @@ fn calls_and_macros_that_reach_themselves() {
     let selves = "%L A\nLL B\n%L B\nLL A\n%MAIN\nLL A\nM30\n";
     let said = refused(selves, &[]);
     assert!(said.len() == 1 && said[0].starts_with("K-0006 "), "{said:?}");
-    // the file calls itself; that its end ends the call too is reported as well
+    // the file calls itself; a second message says that its end also ends the call
     let said = refused("X1 F1000\nL part.nc\nM30\n", &[]);
     assert_eq!(said[0], "20360 2:3", "{said:?}");
     let said = refused("\"A\" = \"\\\"B\\\"\" \"B\" = \"\\\"A\\\"\"\nF1000 \"A\"\nM30\n", &[]);
     assert_eq!(said, ["20734 2:7"]);
-    // every step doubles: the text is cut where blocks end
+    // the text doubles with each step and is cut where blocks end
     let doubling: String =
         (0..15).map(|i| format!("\"M{}\" = \"\\\"M{i}\\\" \\\"M{i}\\\"\"\n", i + 1)).collect();
     let said = refused(&format!("\"M0\" = \"F1\"\n{doubling}\"M15\"\nM30\n"), &[]);
@@ -213,7 +213,7 @@ fn deep_brackets() {
     }
 }
 
-/// An expression as long as a block may be is computed; with more operators, or beyond that length, the ID says so.
+/// An expression as long as a block may be is computed; with more operators, or beyond that length, there is an ID for it.
 #[test]
 fn long_expressions() {
     let line = |length: usize| {
@@ -236,7 +236,7 @@ fn long_expressions() {
         assert!((way - tenths as f64 / 10.0).abs() < 1e-9, "{way}, {tenths} tenths");
     }
     assert_eq!(refused(&format!("{}\nM30\n", line(4098)), &[]), ["20301 1:4097"]);
-    // a chain of operators is a nesting to the one who computes it
+    // for the evaluation a chain of operators is a nesting
     let said = refused(&format!("P1=1{}\nM30\n", "+1".repeat(1990)), &[]);
     assert!(said[0].starts_with("K-0006 1:"), "{said:?}");
 }
@@ -251,7 +251,7 @@ fn names_of_subroutines_that_lead_elsewhere() {
     }
 }
 
-/// One of the two would have been dropped without a word.
+/// One of the two would have been dropped without a message.
 #[test]
 fn options_given_twice() {
     for options in [["--start", "X5,x6"], ["--path", "no/such/folder"]] {
@@ -264,7 +264,7 @@ fn options_given_twice() {
     assert_eq!((exit, said), (Exit::Finished, vec!["K-0028 null:null".to_owned()]));
 }
 
-/// What a loop says without motion is not kept until the program moves.
+/// Messages from a loop without motion are not kept until the program moves.
 #[test]
 fn messages_without_motion_fill_no_memory() {
     let text = "P1=0\n$WHILE P1<30000\n#MSG [\"x\"]\nP1=P1+1\n$ENDWHILE\nM30\n";

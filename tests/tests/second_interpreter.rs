@@ -1,10 +1,10 @@
 //! A second interpreter, for a part of the language, compared with the first one on random programs.
 //!
-//! A random program is a tree. It is written as text, which kontur runs, and carried out on the tree by a model that shares no
-//! code with kontur. In every cycle the interpolated position has to be where the model is at the same path length, in the
-//! same block; the ends and the lengths of the whole path have to agree.
+//! A random program is a tree. It is written as text, which kontur runs, and executed on the tree by a model that shares no code with
+//! kontur. In every cycle the interpolated position must be that of the model at the same path length and in the same block; the end
+//! points and the lengths of the whole path must agree.
 //!
-//! `COUNT` raises the number of programs, `SEED` chooses others.
+//! `COUNT` raises the number of programs, `SEED` selects others.
 
 mod changes;
 mod contours;
@@ -28,16 +28,16 @@ use kontur_tests::machine;
 use model::Model;
 use std::sync::Arc;
 
-/// Programs by default.
+/// Number of programs by default.
 const COUNT: usize = 150;
 
-/// Longer programs say no more.
+/// Longer programs show nothing more.
 const MOTIONS_MAX: usize = 150;
 
-/// Positions and path lengths agree to this, in mm.
+/// Tolerance of positions and path lengths in mm.
 const NEAR: f64 = 1e-6;
 
-/// Axes that reach everywhere, and room for the texts of macros: neither is what the programs are about.
+/// Axes with a range that reaches everywhere, and room for the texts of macros: these programs are about neither.
 const SETTINGS: &[&str] = &[
     "X,Y,Z.kenngr.swe_neg=-100000000",
     "X,Y,Z.kenngr.swe_pos=100000000",

@@ -1,4 +1,5 @@
-//! Vibration Guard and FIR filter on what is not a path axis: gantry slaves go with their master, spindles with their lists.
+//! Vibration Guard and FIR filter on axes other than path axes: gantry slaves are filtered like their master, spindles as their lists
+//! say.
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
@@ -21,7 +22,7 @@ fn in_axes(axes: &[&str], entries: &[&str]) -> Vec<String> {
     axes.iter().flat_map(|a| entries.iter().map(move |e| format!("{a}.{e}"))).collect()
 }
 
-/// The bridge does not rack, whatever shapes its master and whenever it is switched: same set positions, bit for bit.
+/// The bridge does not rack, whatever shapes the motion of its master and whenever it is switched: same set positions, bit for bit.
 #[test]
 fn a_gantry_slave_is_shaped_like_its_master() {
     const FIR: [&str; 3] = ["filter_fir.type=1", "filter_fir.order=40", "filter_fir.enable=1"];
@@ -66,7 +67,7 @@ fn a_gantry_slave_is_shaped_like_its_master() {
     }
 }
 
-/// What only the slave has is said: a kernel has no effect, a standard filter racks the bridge.
+/// Entries of the slave alone are reported: a kernel has no effect, a standard filter racks the bridge.
 #[test]
 fn filters_of_a_slave_alone_are_reported() {
     let kernel = on_gantry(&in_axes(&["X2"], &["vib_guard.active=1"]), "G01 X5 F3000");
@@ -86,13 +87,13 @@ fn filters_of_a_slave_alone_are_reported() {
     }
 }
 
-/// `sum h_k x[n-k]` over the cycles, the first position before them.
+/// `sum h_k x[n-k]` over the cycles, with the first position for all times before them.
 fn convolved(x: &[f64], kernel: &Kernel) -> Vec<f64> {
     let past = |n: usize, delay: u32| x[n.saturating_sub(delay as usize)];
     (0..x.len()).map(|n| kernel.taps().iter().map(|t| t.weight * past(n, t.delay)).sum()).collect()
 }
 
-/// A guard in the list of a spindle acts on its ramps and on its way to an angle, through commands that concern the path axes.
+/// A guard in the list of a spindle acts on its ramps and on its motion to an angle, also under commands that concern the path axes.
 #[test]
 fn spindles_are_shaped_by_their_lists() {
     let settings = VibGuardSettings { mode: 1, freq_hz: 10.0, damping: 0.0 };
@@ -118,7 +119,7 @@ fn spindles_are_shaped_by_their_lists() {
         "M3 S1000\nG04 0.5\nM30\n",
         &["S.filter_fir.type=1", "S.filter_fir.order=100", "S.filter_fir.enable=1"],
     );
-    // at constant speed late by the mean delay, 50 cycles
+    // at constant speed it is late by the mean delay, 50 cycles
     let last = fir.records.last().unwrap();
     let behind = last.axes[SPINDLE].ipo - last.axes[SPINDLE].set;
     assert!((behind - 6000.0 * 0.050).abs() < 1e-6, "{behind}");
@@ -136,7 +137,7 @@ fn a_listed_guard_that_cannot_be_built_is_off() {
     assert!(run.records.iter().all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
 }
 
-/// What makes a bridge rack or is not monitored in its slave is noted; equal entries are not.
+/// Entries that make a bridge rack, or that are not monitored in the slave, are reported in notes; equal entries are not.
 #[test]
 fn differences_of_a_gantry_slave_are_noted() {
     let notes = |settings: &[&str]| {

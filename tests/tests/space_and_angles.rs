@@ -16,8 +16,8 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// The page's program (arc in space, 206116363): every set point lies in the plane of the three points and as far from
-/// their circumcentre as they do, the arc passes the interim point once, and its length is radius times angle.
+/// The program of the page (arc in space, 206116363): every set point lies in the plane of the three points and at their distance from
+/// their circumcentre, the arc passes the interim point once, and its length is radius times angle.
 #[test]
 fn an_arc_through_three_points() {
     let (a, m, e) = ([0.0, 0.0, 30.0], [30.0, 75.0, 15.0], [60.0, 0.0, 0.0]);
@@ -44,7 +44,7 @@ fn an_arc_through_three_points() {
         let nearest = arc.iter().map(|p| distance(*p, m)).fold(f64::MAX, f64::min);
         assert!(nearest < 0.05, "the interim point is {nearest} away");
         let length: f64 = arc.windows(2).map(|w| distance(w[0], w[1])).sum();
-        // the angle at the centre by the law of cosines; the way over the interim point is the longer one
+        // the central angle by the law of cosines; the way through the interim point is the longer one
         let short = 2.0 * libm::asin(0.5 * distance(a, e) / radius);
         let want = radius * (std::f64::consts::TAU - short);
         assert!((length - want).abs() < 0.1, "{length} {want}");
@@ -55,8 +55,8 @@ fn an_arc_through_three_points() {
     }
 }
 
-/// Two lines meet where they cross: 30 deg out of (5, 0), 80 deg into (100, 80) (numbers of 21910), from the intersection
-/// of two lines solved by Cramer's rule.
+/// Two lines meet at their intersection: 30 deg out of (5, 0), 80 deg into (100, 80) (numbers of 21910), compared with the intersection
+/// of two lines by Cramer's rule.
 #[test]
 fn contour_lines_of_two_angles() {
     let run = run(
@@ -72,7 +72,7 @@ fn contour_lines_of_two_angles() {
     let nearest = run.records.iter().map(|r| distance([0, 1, 2].map(|i| r.axes[i].set), corner));
     assert!(nearest.fold(f64::MAX, f64::min) < 0.02);
     assert!(near(end(&run, 6), [100.0, 0.0, 80.0], 1e-9));
-    // the first line has its own line of the program
+    // the first line has a line of the program of its own
     let first = run.records.iter().filter(|r| r.line == 4).count();
     let second = run.records.iter().filter(|r| r.line == 5).count();
     assert!(first > 100 && second > 100, "{first} {second}");

@@ -1,13 +1,13 @@
-//! M19: the angle that holds, the way round, the speed; changes of the speed: ramps, G130.
+//! M19: the angle that is held, the direction, the speed; changes of the speed: ramps, G130.
 
 use kontur_tests::{Run, run};
 
-/// Set angle of the spindle at the end of a line of the program, counted on over the turns, in deg.
+/// Set angle of the spindle at the end of a line of the program, counted over the revolutions, in deg.
 fn angle(run: &Run, line: u32) -> f64 {
     run.records[run.records.iter().rposition(|r| r.line == line).unwrap()].axes[3].set
 }
 
-/// Speeds of the spindle in rev/min while a line is in work.
+/// Speeds of the spindle in rev/min during a line of the program.
 fn speeds(run: &Run, line: u32) -> Vec<f64> {
     let at = |w: &[kontur_interpreter::record::CycleRecord]| {
         (w[1].line == line).then(|| (w[1].axes[3].set - w[0].axes[3].set) / run.cycle_s / 6.0)
@@ -19,7 +19,7 @@ fn turns(deg: f64) -> f64 {
     deg.rem_euclid(360.0)
 }
 
-/// The page's program (spindle-specific positioning, 208198923), with a pause after each block so that it ends.
+/// The program of the page (spindle-specific positioning, 208198923), with a pause after each block so that the block can end.
 #[test]
 fn the_angle_holds_and_the_way_round_is_told() {
     let run = run(
@@ -30,21 +30,21 @@ fn the_angle_holds_and_the_way_round_is_told() {
     assert_eq!(run.diagnostics, []);
     assert!((angle(&run, 3) - 45.0).abs() < 1e-9, "{}", angle(&run, 3));
     assert!(speeds(&run, 3).iter().all(|v| *v >= 0.0));
-    // counter-clockwise out of M3: it stops first, and comes from above
+    // counter-clockwise after M3: it stops first, and arrives from above
     assert!((turns(angle(&run, 7)) - 45.0).abs() < 1e-6, "{}", angle(&run, 7));
     let least = speeds(&run, 7).into_iter().fold(0.0, f64::min);
     assert!((least + 150.0).abs() < 1e-6, "{least}");
-    // it is where M19 would turn it
+    // it is already where M19 would turn it
     assert!((angle(&run, 11) - angle(&run, 9)).abs() < 1e-9);
     assert!((angle(&run, 13) - angle(&run, 11) - 45.0).abs() < 1e-6);
     let most = speeds(&run, 13).into_iter().fold(0.0, f64::max);
-    // 45 deg are too short for the 200 rev/min, and for the acceleration: two legs of 2 sqrt(v / j)
+    // 45 deg are too short for the 200 rev/min, and for the acceleration: two halves of 2 sqrt(v / j)
     let jerk = 60_000.0_f64 / 0.03;
     let peak = libm::pow(45.0 / 2.0 * jerk.sqrt(), 2.0 / 3.0) / 6.0;
     assert!(most <= peak + 1e-6 && most > peak - 0.5, "{most}, not {peak}");
 }
 
-/// From rest the shorter way, out of a rotation in its direction, with M3 or M4 in theirs.
+/// From rest the shorter way, from rotation in the direction of rotation, with M3 or M4 in the direction of these.
 #[test]
 fn the_shorter_way_and_the_direction_of_rotation() {
     for (block, want) in [
@@ -68,7 +68,7 @@ fn the_shorter_way_and_the_direction_of_rotation() {
     assert!(speeds(&run, 5).iter().all(|v| *v <= 1e-9));
 }
 
-/// S[G130=70]: what is driven at the whole acceleration takes 1 / 0.7 of its time.
+/// S[G130=70]: what is driven at full acceleration takes 1 / 0.7 of the time.
 #[test]
 fn the_acceleration_of_a_spindle_is_weighed() {
     let ramp_s = |text: &str| {
@@ -95,7 +95,7 @@ fn ramps(us: [u32; 4]) -> Vec<String> {
     least.into_iter().chain(names.into_iter().zip(us).map(of)).collect()
 }
 
-/// Time in s and way in deg while the spindle changes its speed in some lines, and the largest acceleration and jerk.
+/// Time in s and distance in deg while the spindle changes its speed in some lines, and the largest acceleration and jerk.
 fn change(text: &str, us: [u32; 4], line: u32) -> [f64; 4] {
     let ramps = ramps(us);
     let run = run(&format!("%P\n{text}\nM30\n"), &ramps.iter().map(|s| &s[..]).collect::<Vec<_>>());
@@ -112,8 +112,8 @@ fn change(text: &str, us: [u32; 4], line: u32) -> [f64; 4] {
     [changing as f64 * t, set[changing] - set[0], peak(&a), peak(&jerk)]
 }
 
-/// The time of a ramp comes on top of v / a (P-AXIS-00195 to 00198): the mean of both ramps of a leg where they differ. With
-/// equal ramps the mean speed is half of the change.
+/// The ramp time is added to v / a (P-AXIS-00195 to 00198): the mean of both ramps where they differ. With equal ramps the mean speed is
+/// half of the change.
 #[test]
 fn the_ramp_times_of_a_spindle_act() {
     let (v, a) = (6000.0, 60_000.0);
@@ -141,8 +141,8 @@ fn the_ramp_times_of_a_spindle_act() {
     }
 }
 
-/// From M3 to M4 through rest, each leg with its ramps; a speed that is ordered while another change is under way keeps the
-/// jerk, and positioning has the ramps too.
+/// From M3 to M4 through standstill, each part with its own ramps; a speed commanded while another change is under way keeps the jerk,
+/// and positioning has the ramps too.
 #[test]
 fn changes_of_speed_in_a_row_keep_the_jerk() {
     let jerk_max = 60_000.0 / 0.05;

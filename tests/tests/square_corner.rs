@@ -1,4 +1,4 @@
-//! The main job: the square program end to end, judged from its trace and its geometry alone.
+//! The main use: the square program end to end, judged only by its trace and its geometry.
 
 use kontur_tests::{from_polyline, machine, programs, residual_mm, run};
 
@@ -31,7 +31,7 @@ fn three_passes() {
             assert_eq!(a.dev, 0.0);
         }
     }
-    // kontur's own columns are the geometry's
+    // the columns of kontur agree with the geometry
     for r in &run.records {
         let e = from_polyline(&[r.axes[0].set, r.axes[1].set], &square());
         assert!((r.contour_err_mm - libm::hypot(e[0], e[1])).abs() < 1e-9, "{r:?}");
@@ -62,7 +62,7 @@ fn residual_vibration() {
     }
 }
 
-/// The same simulation again, and after another program, gives the same bits.
+/// The same simulation gives the same bits again, also after another program.
 #[test]
 fn same_bits_again() {
     let text = std::fs::read_to_string(programs().join("square_corner.nc")).unwrap();
@@ -77,7 +77,7 @@ fn same_bits_again() {
     assert_eq!(first.records, set.records);
 }
 
-/// The trace of the release build, byte for byte, from whatever build this test is part of.
+/// The trace of the release build, byte for byte, from whichever build this test is part of.
 ///
 /// `tests/golden/square_corner.csv` is written by
 /// `cargo run --release -- run programs/square_corner.nc -o tests/golden/square_corner.csv --signals time,ipo,set`.

@@ -1,4 +1,4 @@
-//! Files that are not what they seem: programs, subroutines, traces and lists, through the command line.
+//! Files that are not what they seem: programs, subroutines, traces and lists, on the command line.
 
 use kontur::Exit;
 use kontur_tests::command::{Output, command};
@@ -33,7 +33,7 @@ impl Folder {
     }
 }
 
-/// The beginning of the block is a blank or a comment, and what would move lies beyond the limit.
+/// The beginning of the block is blanks or a comment, and the motion stands beyond the limit.
 #[test]
 fn a_first_block_that_is_too_long_does_not_vanish() {
     for begin in [" ".repeat(4100), format!("({})", "x".repeat(4100)), ";".repeat(4100)] {
@@ -72,7 +72,7 @@ fn one_unreadable_program_does_not_end_a_check() {
     assert_eq!(f.call(&["check", "@a.nc", "@c.nc"]).exit, Exit::Aborted);
 }
 
-/// A place for every message, also of an empty program and of one that speaks.
+/// A place for every message, also of an empty program and of one with messages.
 #[test]
 fn messages_have_places_and_no_numbers_of_their_own() {
     let f = Folder::new()
@@ -83,7 +83,7 @@ fn messages_have_places_and_no_numbers_of_their_own() {
     assert!(f.call(&["run", "@msg.nc"]).err.contains("msg.nc:2:1"));
     let said = f.call(&["check", "@g.nc"]).err;
     assert!(said.contains("20107") && !said.contains("4294967295"), "{said}");
-    // and they quote the beginning of a word
+    // and they quote only the beginning of a word
     let long = format!("L CYCLE [NAME={}]\nM30\n", "y".repeat(3000));
     let said = Folder::new().with("a.nc", format!("#{}\n{long}", "X".repeat(3000)));
     let said = said.call(&["check", "@a.nc", "--diagnostics", "json"]).err;
@@ -196,7 +196,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
     assert!(said.err.contains("longer than 65536 bytes"), "{}", said.err);
 }
 
-/// Nothing writes to a pipe that lies in a folder: a subroutine, a list or an input that is one would wait forever.
+/// Nothing writes to a pipe in a folder: a subroutine, a list or an input that is one would wait forever.
 #[test]
 #[cfg(unix)]
 fn pipes_are_no_subroutines_lists_or_inputs() {
@@ -218,7 +218,7 @@ fn pipes_are_no_subroutines_lists_or_inputs() {
     }
 }
 
-/// Cells and names of columns come from the file: they move no cursor and fill no screen.
+/// Cells and names of columns come from the file: they must not move the cursor or fill the screen.
 #[test]
 fn cells_are_quoted_on_one_line_and_shortened() {
     let f = Folder::new()
@@ -237,7 +237,7 @@ fn cells_are_quoted_on_one_line_and_shortened() {
     assert!(said.err.len() < 300, "{}", said.err);
 }
 
-/// Larger than what is read at once: the change is met while the program is read.
+/// Larger than what is read at once: the change is found while the program is read.
 #[test]
 fn a_program_that_changes_while_it_runs_ends_as_an_error() {
     use kontur::request::Request;
@@ -269,14 +269,14 @@ fn a_program_that_changes_while_it_runs_ends_as_an_error() {
     }
 }
 
-/// A checkout with the line ends of Windows, in its code page, with its separators in names of programs: the same trace, to the last byte, and
-/// the same lines in messages.
+/// A checkout with Windows line ends, in its code page, with its separators in the names of programs: the same trace, to the last byte,
+/// and the same lines in messages.
 #[test]
 fn a_checkout_of_windows_moves_the_same() {
     let root = kontur_tests::programs();
     let names = ["square_corner.nc", "parametric_pocket.nc", "lessons/6_lag.nc"];
     let windows = |bytes: &[u8], comment: &str| -> Vec<u8> {
-        // a comment of the editor, which no line of the program is moved by
+        // a comment of the editor, which does not shift any line of the program
         let mut all = bytes.strip_suffix(b"\n").unwrap_or(bytes).to_vec();
         all.extend_from_slice(comment.as_bytes());
         all.extend_from_slice(b"\n");

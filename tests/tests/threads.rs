@@ -21,7 +21,8 @@ fn rpm(run: &Run) -> Vec<(u32, f64, f64)> {
     run.records.windows(2).map(at).collect()
 }
 
-/// F = S x pitch (tapping, 208104203): in every cycle the spindle has turned once for each pitch, back with a negative speed.
+/// F = S x pitch (tapping, 208104203): in every cycle the spindle has made one revolution per pitch, and turns back with a negative
+/// speed.
 #[test]
 fn tapping_turns_the_spindle_with_the_path() {
     for (text, sense) in [
@@ -45,7 +46,7 @@ fn tapping_turns_the_spindle_with_the_path() {
     }
 }
 
-/// A spindle that cannot follow slows the path down: its speed and acceleration stay within its list, the pitch is kept.
+/// A spindle that cannot follow slows the path down: its speed and acceleration stay within its list, the pitch is maintained.
 #[test]
 fn tapping_as_fast_as_the_spindle_can() {
     let settings = [
@@ -67,7 +68,7 @@ fn tapping_as_fast_as_the_spindle_can() {
     assert!(acc > 100.0 && acc <= 2000.0 * (1.0 + 1e-6), "{acc} deg/s2");
 }
 
-/// Where a thread lies: Z minus the pitch for every turn, within one pitch, in the steady part of the lines.
+/// Position of a thread: Z minus the pitch for every revolution, within one pitch, in the steady part of the lines.
 fn thread(run: &Run, line: u32, pitch: f64, sense: f64) -> f64 {
     let all = together(run, line..=line);
     let (low, high) = (-30.0, -10.0);
@@ -89,7 +90,7 @@ const KEEPS_PITCH: &str = "channel.thread_cutting.ignore_override=1";
 /// P-CHAN-00837.
 const CHAIN: &str = "channel.thread_cutting.thread_chain=1";
 
-/// The pitch that is cut: the way of Z for each turn in the steady part of line 3.
+/// The pitch that is cut: the distance in Z per revolution in the steady part of line 3.
 fn pitch(run: &Run) -> f64 {
     let all = together(run, 3..=3);
     let steady: Vec<_> = all.iter().filter(|(z, _)| (-30.0..=-20.0).contains(z)).collect();
@@ -97,8 +98,8 @@ fn pitch(run: &Run) -> f64 {
     (first.0 - last.0) / (last.1 - first.1) * 360.0
 }
 
-/// The override acts on G33 (P-CHAN-00836 = 0, the default) and the pitch shrinks with it, which is said; P-CHAN-00836,
-/// `#TURN`, G166 and a chain keep it out. The override of the program likewise.
+/// The override acts on G33 (P-CHAN-00836 = 0, the default) and the pitch shrinks with it, which is reported; P-CHAN-00836, `#TURN`, G166
+/// and a chain keep it from acting. The same holds for the override of the program.
 #[test]
 fn the_override_in_a_thread() {
     let half = [(0.0, "override_percent", 50.0)];
@@ -129,7 +130,7 @@ fn the_override_in_a_thread() {
     assert!((pitch(&run) - 1.5).abs() < 1e-6);
 }
 
-/// A feedhold cuts the thread through; the path continues afterwards, and the block is named.
+/// A feedhold interrupts the thread; the path continues afterwards, and the block is named.
 #[test]
 fn a_feedhold_breaks_a_thread() {
     let text = "%P\nM3 S500\nG33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
@@ -149,7 +150,7 @@ fn a_feedhold_breaks_a_thread() {
     assert!(longer > 0.4, "{longer}");
 }
 
-/// A feedhold before the thread delays it: it begins at the mark all the same. Without an end it ends the run (K-0083).
+/// A feedhold before the thread delays it: the thread begins at the mark all the same. A feedhold without an end ends the run (K-0083).
 #[test]
 fn a_feedhold_before_a_thread_delays_it() {
     let text = "%P\nM3 S500\nG33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
@@ -163,7 +164,7 @@ fn a_feedhold_before_a_thread_delays_it() {
     assert_eq!(held.said(), ["K-0083"]);
 }
 
-/// Blocks of G33 after each other: separate threads, each from the mark (P-CHAN-00837 = 0), or one without a stop.
+/// Consecutive blocks with G33: separate threads, each from the mark (P-CHAN-00837 = 0), or one thread without a stop.
 #[test]
 fn a_chain_of_threads() {
     let text = "%P\nM3 S500\nG33 Z-15.4 K1.5\nZ-40\nG01 Z-41 F100\nM5\nM30\n";
@@ -183,7 +184,7 @@ fn a_chain_of_threads() {
     let (a, b) = (together(&chain, 3..=3), together(&chain, 4..=4));
     let lies = |(z, deg): &(f64, f64)| z + 1.5 * deg / 360.0;
     assert!((lies(&a[a.len() - 20]) - lies(&b[20])).abs() < 1e-7);
-    // another G function gives the spindle back
+    // another G function releases the spindle
     let run = run("%P\nG63 Z-10 F100 S100\nG01 Z0\nM19 S100 S.POS90\nM5\nM30\n", &[]);
     assert!(run.diagnostics.iter().all(|d| !d.is_error()), "{:?}", run.diagnostics);
 }
@@ -193,8 +194,8 @@ fn apart(a: f64, b: f64, pitch: f64) -> f64 {
     d.min(pitch - d)
 }
 
-/// Passes of G33 hit the same thread whenever they begin, other starts lie beside it (thread cutting, 400186379), and an
-/// override that does not act on G33 (P-CHAN-00836) changes nothing.
+/// Passes of G33 cut the same thread whenever they begin, other start angles lie next to it (thread cutting, 400186379), and an override
+/// that does not act on G33 (P-CHAN-00836) changes nothing.
 #[test]
 fn passes_of_a_thread_lie_in_each_other() {
     for (m, sense) in [("M3", 1.0), ("M4", -1.0)] {
@@ -228,8 +229,8 @@ fn a_tapered_thread() {
 
 const FACE: &str = "X.kenngr.achs_mode=65";
 
-/// The page's program (constant cutting speed at feed rate per revolution, 400190603) from X60 to X10: n = v / (2 pi x), the
-/// path 1.5 mm for each turn, the speed kept in rapid blocks.
+/// The program of the page (constant cutting speed at feed rate per revolution, 400190603) from X60 to X10: n = v / (2 pi x), the path
+/// 1.5 mm per revolution, the speed kept in rapid blocks.
 #[test]
 fn constant_cutting_speed_and_feed_per_revolution() {
     let run = run(
@@ -240,16 +241,16 @@ fn constant_cutting_speed_and_feed_per_revolution() {
     assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
     let n = |x: f64| (100_000.0 / (TAU * x)).min(2500.0);
     let speeds = rpm(&run);
-    // at X60 on the way in Z, after the dwell
+    // at X60 during the motion in Z, after the dwell
     for (line, x, v) in speeds.iter().filter(|(line, _, _)| matches!(line, 7 | 8)) {
-        // of the cycle before or this one
+        // of the previous cycle or of this one
         assert!((v - n(*x)).abs() < 0.01 * n(*x), "line {line}: X{x} {v} {}", n(*x));
     }
     let rapid: Vec<f64> =
         speeds.iter().filter(|(l, _, _)| matches!(l, 9..=11)).map(|s| s.2).collect();
-    // the first cycle still rises to it
+    // in the first cycle it is still rising
     assert!(rapid[1..].iter().all(|v| (v - n(10.0)).abs() < 1e-6), "G00 keeps the speed");
-    // the feed per turn where nothing accelerates: within the step of a hundredth
+    // the feed per revolution where nothing accelerates: within the step of a hundredth
     let on = run
         .records
         .windows(2)
@@ -259,7 +260,7 @@ fn constant_cutting_speed_and_feed_per_revolution() {
         let feed = (w[0].axes[0].set - w[1].axes[0].set) / turn;
         assert!((feed - 1.5).abs() < 0.04, "X{}: {feed} mm/rev", w[1].axes[0].set);
     }
-    // G97 keeps what was reached
+    // G97 keeps the speed that was reached
     let last = speeds.iter().rfind(|(line, _, _)| *line == 16).unwrap();
     assert!((last.2 - n(10.0)).abs() < 1e-3, "{last:?}");
 }
@@ -273,7 +274,7 @@ fn the_turning_centre() {
     assert!((at.2 - 1000.0).abs() < 1e-6, "{at:?}");
 }
 
-/// Blocks that the path rests between are separate threads, each with the mark: exact stop, dwell, flush.
+/// Blocks between which the path rests are separate threads, each from the mark: exact stop, dwell, flush.
 #[test]
 fn a_rest_in_a_thread_waits_for_the_mark_again() {
     for rest in ["G360", "", "#FLUSH"] {
@@ -284,13 +285,13 @@ fn a_rest_in_a_thread_waits_for_the_mark_again() {
         let run = run(&text, &[]);
         assert_eq!(run.diagnostics, [], "{text}");
         let begins = run.records.iter().position(|r| r.line == 6 && r.axes[Z].set < -5.0).unwrap();
-        // the spindle has turned from its mark for one cycle at most: 500 rev/min are 3 deg in it
+        // since the mark the spindle has turned for one cycle at most: 3 deg at 500 rev/min
         let angle = run.records[begins].axes[SPINDLE].set.rem_euclid(360.0);
         assert!(angle <= 3.0 + 1e-6, "{angle}");
     }
 }
 
-/// S counts as it was programmed last, before tapping or within it.
+/// The S word programmed last applies, before tapping or within it.
 #[test]
 fn the_last_speed_counts_for_tapping() {
     for text in
@@ -303,8 +304,8 @@ fn the_last_speed_counts_for_tapping() {
     }
 }
 
-/// Z and the spindle are in the same place of the thread only after the same filters and with the same lag: K-0112 where not,
-/// and then Z is as far away as delay and lag say; the same entries in both are silent.
+/// Z and the spindle are in the same place of the thread only after the same filters and with the same lag: K-0112 reports where not, and
+/// then Z is off by what delay and lag give; equal entries in both give no message.
 #[test]
 fn tapping_behind_filters_and_lags() {
     let of = |axes: &[&str], entries: &[&str]| -> Vec<String> {
@@ -340,7 +341,7 @@ fn tapping_behind_filters_and_lags() {
         let words: Vec<&str> = settings.iter().map(String::as_str).collect();
         let run = run(&format!("%P\n{before}G331 Z-10 K1.5 S600\nG332 Z0\nM30\n"), &words);
         let id = kontur_interpreter::diag::Condition::UnequalKernels;
-        // unequal axes of the path are another message, without a place of tapping
+        // unequal axes of the path give another message, without a place of tapping
         let said = run.diagnostics.iter().filter(|d| d.id == id && d.text.contains("tapping"));
         assert_eq!(said.count(), usize::from(told), "{settings:?}: {:?}", run.diagnostics);
         let apart = run.records.iter().map(|r| {

@@ -36,7 +36,7 @@ impl Run {
         self.summary["duration_s"].as_f64().unwrap()
     }
 
-    /// Seconds of a reason, all axes and limits together.
+    /// Seconds of a reason, over all axes and limits.
     fn reason(&self, name: &str) -> f64 {
         let reasons = self.summary["times"]["reasons"].as_array().unwrap().iter();
         let of = reasons.filter(|r| r["reason"] == name);
@@ -49,8 +49,8 @@ impl Run {
     }
 }
 
-/// The acceleration of a trapezoidal profile with separate ramps is known in closed form. 100 mm at F6000 with 1000 mm/s2 and
-/// ramp times of 50 ms: 50 ms build-up, 50 ms constant, 50 ms reduction; two such ramps cover 15 mm, the feed the other 85 in 0.85 s.
+/// The acceleration of a trapezoidal profile with separate ramps is known in closed form. 100 mm at F6000 with 1000 mm/s2 and ramp times
+/// of 50 ms: 50 ms build-up, 50 ms constant, 50 ms reduction; two such ramps cover 15 mm, the feed covers the other 85 mm in 0.85 s.
 #[test]
 fn a_straight_line_in_closed_form() {
     let dynamics = "getriebe[0].slope_profil";
@@ -77,7 +77,7 @@ fn a_straight_line_in_closed_form() {
     assert_eq!(run.axis_of("axis_a"), ["X"]);
 }
 
-/// The axis is named that is at its limit: Y, with a tenth of the speed of X.
+/// The axis that is at its limit is named: Y, with a tenth of the speed of X.
 #[test]
 fn the_axis_at_its_limit_is_named() {
     let words = ["--set", "Y.getriebe[0].dynamik.vb_max=10000"];
@@ -87,15 +87,15 @@ fn the_axis_at_its_limit_is_named() {
     assert!(run.reason("axis_v") > 4.5, "{}", run.summary);
 }
 
-/// In tapping the spindle may be at its limit before the axis: with 60000 deg/s2 and 1.5 mm per turn Z has 250 mm/s2, a fourteenth of
-/// its 3500. A spindle that only gathers speed meanwhile is not part of the path.
+/// In tapping the spindle may reach its limit before the axis: with 60000 deg/s2 and 1.5 mm per revolution Z has 250 mm/s2, a fourteenth
+/// of its 3500. A spindle that only runs up meanwhile is not part of the path.
 #[test]
 fn the_spindle_that_limits_a_thread_is_named() {
     let run = Run::new("G331 Z-20 K1.5 S6000\nG332 Z0\nM30\n", &[]);
     assert_eq!(run.axis_of("axis_a"), ["S"], "{}", run.summary);
     let proposals = run.summary["times"]["proposals"].as_array().unwrap();
     let of_spindle = proposals.iter().find(|p| p["what"] == "accelerations +10 % of S").unwrap();
-    // two ways of 20 mm from rest to rest: 2 sqrt(20 / 250) each, less by the root of 1.1
+    // two moves of 20 mm from rest to rest: 2 sqrt(20 / 250) each, reduced by the root of 1.1
     let want = 4.0 * (20.0_f64 / 250.0).sqrt() * (1.0 - 1.0 / 1.1_f64.sqrt());
     assert!((of_spindle["saves_s"].as_f64().unwrap() - want).abs() < 0.01, "{of_spindle}");
     let milled = Run::new("#SLOPE [TYPE=STEP]\nS6000 M3\nG01 X100 F6000\nM30\n", &[]);
@@ -104,7 +104,7 @@ fn the_spindle_that_limits_a_thread_is_named() {
     assert!(reasons.iter().all(|r| r["axis"] != "S"), "{}", milled.summary);
 }
 
-/// What the path waits for has its name, and the whole is the sum of the lines, the lines are the sums of their reasons.
+/// Whatever the path waits for is named; the total is the sum of the lines, and each line is the sum of its reasons.
 #[test]
 fn random_programs_add_up() {
     let mut random = Random::new(11);
@@ -139,7 +139,7 @@ fn random_programs_add_up() {
     }
 }
 
-/// The readable form quotes the lines; subroutines by their own file.
+/// The readable form quotes the lines; those of subroutines from their own file.
 #[test]
 fn the_most_expensive_lines_are_quoted() {
     let folder = tempfile::tempdir().unwrap();
@@ -154,7 +154,7 @@ fn the_most_expensive_lines_are_quoted() {
     assert_eq!(lines.next().unwrap().trim(), "G01 X20 F60 (this one)");
 }
 
-/// A proposal saves what a run with its settings saves; of a line at the speed limit of an axis that is known in closed form.
+/// A proposal saves what a run with its settings saves; for a line at the speed limit of an axis this is known in closed form.
 #[test]
 fn proposals_save_what_they_say() {
     // 10 mm/s over 50 mm, and with 10 % more
@@ -178,8 +178,8 @@ fn proposals_save_what_they_say() {
     assert!(line["line"] == 2 && line["helps"]["what"] == "velocity +10 % of Y", "{line}");
 }
 
-/// Time measurement (207464587): START and STOP count, READ puts the count into V.G.TIMER, CLEAR leaves it there. With SYN the
-/// moments are those of the motion.
+/// Time measurement (207464587): START and STOP count, READ copies the count to V.G.TIMER, CLEAR does not change that. With SYN the times
+/// are those of the motion.
 #[test]
 fn timers_measure_program_time() {
     let text = "%P\n#TIMER START SYN [ID=2]\nG04 1.5\n#TIMER STOP SYN [ID=2]\nG04 4\n#TIMER START SYN [ID=2]\nG04 0.25\n\
@@ -204,8 +204,8 @@ fn a_timer_does_not_stop_the_path() {
     assert_eq!(with.records.len(), without.records.len());
 }
 
-/// A program runs from top to bottom, and so does the column `line`, whatever waits for what: the waits of a motion belong to
-/// it, and those after another block's no longer.
+/// A program runs from top to bottom, and so does the column `line`, whatever waits for what: the waits of a motion belong to it, and
+/// those after another block no longer do.
 #[test]
 fn lines_never_go_back() {
     for n in 0..count(40) as u64 {
@@ -241,7 +241,7 @@ fn lines_never_go_back() {
     }
 }
 
-/// A single axis that moves alone, after a dwell: its cycles are counted for its own line.
+/// A single axis that moves alone, after a dwell: its cycles count for its own line.
 #[test]
 fn an_independent_motion_has_its_line() {
     let run =

@@ -1,5 +1,5 @@
-//! The tables of `tests/suite/timing`: short programs under real-time inputs, and where their axes are at which time. The form is
-//! that of `interpreter/tests/language`, with the heads `inputs TIME SIGNAL VALUE, ..` and `always with SETTING`, for all that
+//! The tables of `tests/suite/timing`: short programs under real-time inputs, and the positions of their axes at given times. The form is
+//! that of `interpreter/tests/language`, with the heads `inputs TIME SIGNAL VALUE, ..` and `always with SETTING` for everything that
 //! follows. After the messages a row says
 //!
 //! ```text
@@ -35,7 +35,7 @@ fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
         .map_or(f64::INFINITY, |k| k as f64 * run.cycle_s)
 }
 
-/// What a row says and the run does not.
+/// What a row states and the run does not fulfil.
 fn faults(row: &Row) -> Vec<String> {
     let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
     let inputs: Vec<_> = row.inputs.iter().map(|(t, name, x)| (*t, name.as_str(), *x)).collect();
@@ -105,7 +105,7 @@ fn axes_are_where_the_rows_say() {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// A wrong row is found, whatever kind of thing is wrong. 10 mm at 100 mm/s with 1000 mm/s2 take 0.2 s.
+/// A wrong row is found, whatever is wrong in it. 10 mm at 100 mm/s with 1000 mm/s2 take 0.2 s.
 #[test]
 fn wrong_rows_are_found() {
     let of = |expected: &str| {

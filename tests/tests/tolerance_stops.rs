@@ -1,5 +1,5 @@
-//! `AX_DEV` where the path rests or changes its speed for other reasons: dwells and stops shorter than the kernel,
-//! override and feedhold from outside. The contour is that of this test, not the program's own column.
+//! `AX_DEV` where the path rests or changes its speed for other reasons: dwells and stops shorter than the kernel, override and feedhold
+//! from outside. The contour is computed in this test, not taken from the program's own column.
 
 use kontur_interpreter::record::SpeedLimit;
 use kontur_tests::{Run, from_polyline, machine, run, run_with_inputs};
@@ -7,7 +7,7 @@ use kontur_tests::{Run, from_polyline, machine, run, run_with_inputs};
 /// Rounding of the sums over the kernel.
 const SLACK_MM: f64 = 1e-9;
 
-/// Largest component by which the set positions leave the polyline in the XY plane.
+/// Largest component of the deviation of the set positions from the polyline in the XY plane.
 fn off_polyline(run: &Run, corners: &[[f64; 2]]) -> f64 {
     let polyline: Vec<Vec<f64>> = corners.iter().map(|c| c.to_vec()).collect();
     let off =
@@ -15,8 +15,8 @@ fn off_polyline(run: &Run, corners: &[[f64; 2]]) -> f64 {
     run.set(2).iter().map(off).fold(0.0, f64::max)
 }
 
-/// The end of the motion before a stop is final when the motion after it is planned; that one waits until the
-/// tolerance is kept, and no longer than without the stop.
+/// The end of the motion before a stop is final when the motion after it is planned; that motion waits until the tolerance is kept, and
+/// no longer than without the stop.
 #[test]
 fn stops_shorter_than_the_kernel() {
     let program = |slope: &str, guard: &str, stop: &str| {
@@ -50,8 +50,8 @@ fn a_stop_on_a_line_does_not_wait() {
     assert_eq!(free.set(2), bound.set(2));
 }
 
-/// A change of override or a feedhold while the path speeds up on a curve: the speed that the tolerance allows there
-/// holds after it as well.
+/// A change of override or a feedhold while the path speeds up on a curve: the speed that the tolerance allows there is also kept after
+/// it.
 #[test]
 fn changes_of_speed_on_an_arc() {
     let fir: Vec<String> =
@@ -83,14 +83,14 @@ fn changes_of_speed_on_an_arc() {
     }
 }
 
-/// The trace names what holds the speed on an arc.
+/// The trace names what limits the speed on an arc.
 #[test]
 fn the_reason_on_an_arc() {
     let program = "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.01]\nG01 F6000\nG02 X20 Y0 I10 J0\nM30\n";
     let run = run(program, &[]);
     let top = run.records.iter().map(|r| r.path.v_mm_s).fold(0.0, f64::max);
     let held: Vec<_> = run.records.iter().filter(|r| r.path.v_mm_s > top * (1.0 - 1e-9)).collect();
-    // some 1.2 s at 25 mm/s
+    // about 1.2 s at 25 mm/s
     assert!(held.len() > 1000, "{}", held.len());
     assert!(held.iter().all(|r| r.path.limit == SpeedLimit::AxDev));
 }

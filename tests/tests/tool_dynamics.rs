@@ -1,4 +1,4 @@
-//! What a tool allows its spindle: P-TOOL-00012 to 00015, `S[GET_DYNAMIC_DATA]`, `S[DEFAULT_DYNAMIC_DATA]`.
+//! What a tool permits its spindle: P-TOOL-00012 to 00015, `S[GET_DYNAMIC_DATA]`, `S[DEFAULT_DYNAMIC_DATA]`.
 //!
 //! D1 has the numbers of TF5200 spindle 287608459: 10 to 500 rev/min and 3000 deg/s2; D2 allows 200 rev/min at most.
 
@@ -21,7 +21,7 @@ const TOOLS: [&str; 14] = [
     "tool.wz[4].a_max=1000000000",
 ];
 
-/// Speeds of the spindle in rev/min while a line is in work.
+/// Speeds of the spindle in rev/min during a line of the program.
 fn speeds(run: &Run, line: u32) -> Vec<f64> {
     let at = |w: &[kontur_interpreter::record::CycleRecord]| {
         (w[1].line == line).then(|| (w[1].axes[3].set - w[0].axes[3].set) / run.cycle_s / 6.0)
@@ -48,7 +48,7 @@ fn the_tool_limits_speed_and_acceleration() {
     assert!(most > 2999.0, "{most}");
 }
 
-/// The list alone allows 60000 deg/s2, the weight halves it; the smaller of both counts.
+/// The list alone allows 60000 deg/s2, the weight halves it; the smaller of the two limits applies.
 #[test]
 fn the_weight_of_the_acceleration_acts_on_the_list_and_not_on_the_tool() {
     for (percent, most) in [(50.0, 3000.0), (2.0, 1200.0)] {
@@ -72,8 +72,8 @@ fn limits_are_taken_at_a_start_from_rest_or_by_command_and_kept() {
     }
 }
 
-/// A tool without a spindle leaves the limits as they are (P-TOOL-00012 = 0); default data reach a turning spindle when it
-/// next starts.
+/// A tool without a spindle leaves the limits unchanged (P-TOOL-00012 = 0); default data take effect for a turning spindle when it next
+/// starts.
 #[test]
 fn what_changes_nothing_at_once() {
     let run = run(
@@ -85,7 +85,7 @@ fn what_changes_nothing_at_once() {
     }
 }
 
-/// Random commands: a tool that allows everything changes no bit against one without a spindle.
+/// Random commands: a tool that permits everything gives the same bits as one without a spindle.
 #[test]
 fn limits_beyond_those_of_the_list_change_nothing() {
     let mut state = 20_261_126_u64;
@@ -115,7 +115,7 @@ fn limits_beyond_those_of_the_list_change_nothing() {
     }
 }
 
-/// The least speed is one of turning: a positioning may be slower.
+/// The minimum speed is for turning: positioning may be slower.
 #[test]
 fn positioning_has_the_largest_speed_alone() {
     for (s, want) in [(5, 5.0), (2000, 500.0)] {

@@ -4,7 +4,7 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_tests::{Run, run, run_on, sample_machine};
 
-/// Square of 1 mm from where the axes are, at F4000.
+/// Square of 1 mm from the present position of the axes, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
 
 fn program(lines: &[&str]) -> String {
@@ -47,7 +47,7 @@ fn largest_step(values: &[f64]) -> f64 {
     values.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
 }
 
-/// How many cycles `set` is after `ipo` in the middle of a long motion of X.
+/// By how many cycles `set` is later than `ipo` in the middle of a long motion of X.
 fn delay(run: &Run, line: u32) -> f64 {
     let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
     assert!(!of_line.is_empty(), "{:?}", run.diagnostics);
@@ -56,7 +56,7 @@ fn delay(run: &Run, line: u32) -> f64 {
     (middle.axes[0].ipo - middle.axes[0].set) / (middle.path.v_mm_s * run.cycle_s)
 }
 
-/// The same of a kernel.
+/// The same for a kernel.
 fn kernel_delay(mode: u8, freq_hz: f64, damping: f64) -> f64 {
     let settings = VibGuardSettings { mode, freq_hz, damping };
     settings.kernel(CycleTime::DEFAULT).unwrap().delay_cycles()
@@ -140,7 +140,7 @@ fn the_error_grows_with_the_cycle() {
     assert!(one < two && two < four, "{one} {two} {four}");
 }
 
-/// A program that keeps the tolerance anyway is left as it is; 0 means no monitoring. Conformance: V026, V048.
+/// A program that keeps the tolerance anyway is unchanged; 0 means no monitoring. Conformance: V026, V048.
 #[test]
 fn the_tolerance_acts_only_where_it_must() {
     let with = |key: &str| {
@@ -160,7 +160,7 @@ fn the_tolerance_acts_only_where_it_must() {
     assert!(run.totals.aborted);
 }
 
-/// The list prepares, the program switches; the program's words win. Conformance: V028, V029.
+/// The list prepares, the program switches; the words of the program take precedence. Conformance: V028, V029.
 #[test]
 fn lists_and_program() {
     let motion = "G01 X100 F6000";
@@ -245,7 +245,7 @@ fn conflicts_with_lists() {
     }
 }
 
-/// Axis exchange switches the program's guard off; the list's stays. Conformance: V039, V040, V041.
+/// Axis exchange switches the guard of the program off; that of the list stays on. Conformance: V039, V040, V041.
 #[test]
 fn axis_exchange() {
     let motion = "G01 X100 F6000";
@@ -287,7 +287,7 @@ fn keys_of_the_command() {
     }
 }
 
-/// Inch under G70, if P-CHAN-00439 says so. Conformance: V049.
+/// Inches under G70, if P-CHAN-00439 says so. Conformance: V049.
 #[test]
 fn tolerance_in_inch() {
     let dev = |considered: u32| {
@@ -371,7 +371,7 @@ fn the_square_of_the_manual() {
     for r in pass(140) {
         assert!((0..2).all(|i| r.axes[i].set.to_bits() == r.axes[i].ipo.to_bits()), "{r:?}");
     }
-    // mode and frequency of the second pass are those of the first one
+    // the second pass keeps mode and frequency of the first one
     let alone = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &[]);
     near(
         largest(&alone, |r| r.axes[0].dev),

@@ -1,7 +1,7 @@
-//! Online tool compensation (`#OTC`): where the wear puts the axes, and measuring type 7 (a fixed stop shows in the lag).
+//! Online tool compensation (`#OTC`): the effect of the wear on the axis positions, and measuring type 7 (a fixed stop shows in the lag).
 //!
-//! Programs after the examples of TF5200 online tool compensation (213664139). Expected offsets from the direction of the
-//! programmed contour and from the way that the trace itself shows.
+//! Programs after the examples of TF5200 online tool compensation (213664139). The expected offsets come from the direction of the
+//! programmed contour and from the distance in the trace itself.
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
@@ -24,7 +24,7 @@ fn near(a: [f64; 3], b: [f64; 3]) {
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} instead of {b:?}");
 }
 
-/// Round a square, counter-clockwise with the wheel outside, or clockwise with G41.
+/// Around a square, counter-clockwise with the wheel outside, or clockwise with G41.
 fn square(otc: &str, side: &str) -> String {
     let y = if side == "G42" { "X102\nY100\nX2\nY0" } else { "Y100\nX102\nY0\nX2" };
     format!(
@@ -37,7 +37,7 @@ fn wear_from_outside_moves_the_wheel_towards_the_contour() {
     let wear = [(0.0, "wear_mm", 0.5)];
     let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
     assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
-    // the wheel is below, to the right, above and to the left of the square
+    // the wheel is below, to the right of, above and to the left of the square
     near(added(&run, 4), [0.0, 0.5, 0.0]);
     near(added(&run, 5), [-0.5, 0.0, 0.0]);
     near(added(&run, 6), [0.0, -0.5, 0.0]);
@@ -65,7 +65,7 @@ fn the_ways_to_the_contour_and_back_are_without_wear() {
 
 #[test]
 fn wear_by_the_way_grows_with_it() {
-    // 1e5 units of 0.1 um for a metre are 10 mm for a metre
+    // 1e5 units of 0.1 um per metre are 10 mm per metre
     let text = square("#OTC ON [RADIUS CONT WEAR_CONST=100000]", "G42");
     let run = run_with_inputs(grinding(), &text, &[]);
     let start = run.records.iter().rfind(|r| r.line == 3).unwrap().path.s_mm;
@@ -74,12 +74,12 @@ fn wear_by_the_way_grows_with_it() {
         let middle = records[records.len() / 2];
         let offset: f64 = middle.axes[..3].iter().map(|a| a.add * a.add).sum::<f64>().sqrt();
         let wear = (middle.path.s_mm - start) * 0.01;
-        // the cycle in which a block begins counts to either block
+        // the cycle in which a block begins may count as part of either block
         assert!((offset - wear).abs() < 0.01 * 0.11, "{offset} instead of {wear}");
     }
-    // the tool list has 1 um for a metre; DISC leaves it out
+    // the tool list has 1 um per metre; DISC omits it
     let listed = run_with_inputs(grinding(), &square("#OTC ON [RADIUS CONT]", "G42"), &[]);
-    // some 350 mm up to the middle of the last side
+    // about 350 mm to the middle of the last side
     let [x, ..] = added(&listed, 7);
     assert!((x - 0.35e-3).abs() < 0.02e-3, "{x}");
     let none = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &[]);
@@ -129,14 +129,14 @@ fn what_the_tool_does_not_allow_is_said() {
     let run = run_with_inputs(grinding(), &text, &[(0.0, "wear_mm", 3.0)]);
     assert_eq!(run.said(), ["K-0138"]);
     near(added(&run, 4), [0.0, 2.0, 0.0]);
-    // a cutter, no tool at all, and a cutter while it is on
+    // a cutter, no tool at all, and a cutter while compensation is on
     let cutter = run_with_inputs(grinding(), &text.replace("D1", "D2"), &[]);
     assert_eq!(cutter.said(), ["21391"]);
     let later = "D1 F6000\n#OTC ON\nX10\nD2\nX20\nM30\n";
     assert_eq!(run_with_inputs(grinding(), later, &[]).said(), ["21391"]);
 }
 
-/// The built-in machine whose X looks for a fixed stop: 2 mm of lag.
+/// The built-in machine whose X moves to a fixed stop: 2 mm of lag.
 fn stopping(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
     let mut settings = vec!["X,Y.kenngr.messachse=1"];
     settings.extend(more);
@@ -149,17 +149,17 @@ const STOP: [&str; 2] =
 #[test]
 fn a_fixed_stop_ends_the_run() {
     let text = "#MEAS MODE [7]\nG100 X50 F1200\nG01 Z[V.A.MERF.X]\nM30\n";
-    // a force that the drive cannot overcome, for as long as the run lasts
+    // a force that the drive cannot overcome, throughout the run
     let force = [(1.0, "X_force_mm_s2", -30_000.0), (1.1, "X_force_mm_s2", 0.0)];
     let run = run_with_inputs(stopping(&STOP), text, &force);
     let at = run.records.iter().position(|r| r.axes[0].lag.abs() > 2.0).unwrap();
     assert!(run.records[at - 1].axes[0].lag.abs() <= 2.0);
-    // before it the path is driven as programmed, after it there is only the way of braking
+    // before the stop the path is driven as programmed, after it there is only the braking distance
     let (here, rest) = (&run.records[at], run.records.last().unwrap());
     assert!((here.path.v_mm_s - 20.0).abs() < 1e-9);
     assert!(rest.axes[0].ipo > here.axes[0].ipo && rest.axes[0].ipo < here.axes[0].ipo + 2.0);
     assert!((rest.axes[2].ipo - 1.0).abs() < 1e-9, "the signal is known to the program");
-    // the same without the force, and with a lag of the run that is never reached
+    // the same without the force, with a lag that the run never reaches
     for (settings, inputs) in [
         (&STOP[..], &[][..]),
         (&["X.kenngr.measure.fixed_stop_detect.pos_lag_limit=1000000"][..], &force[..]),

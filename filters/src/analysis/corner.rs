@@ -1,9 +1,9 @@
-//! A 90 degree corner at constant speed through equal filters in both axes: how far the path leaves the contour.
+//! A 90 degree corner passed at constant speed, with equal filters in both axes: how far the path leaves the contour.
 //!
-//! The tool comes along x, passes the corner (0, 0) and leaves along y without slowing down. Speed reduction at the
-//! corner only makes the error smaller, so this is the worst that a filter does to a corner at a feed.
+//! The tool approaches along x, passes the corner (0, 0) and leaves along y without slowing down. Slowing down at the
+//! corner only reduces the error, so this is the worst case of a filter at a given feed rate.
 //!
-//! Any stage is driven as it is; of a kernel alone the error comes at once:
+//! [`CornerPath::drive`] takes any stage; for a kernel alone [`kernel_error_mm`] gives the error directly:
 //!
 //! ```
 //! use kontur_filters::analysis::corner::{CornerPath, kernel_error_mm};
@@ -24,7 +24,7 @@ use crate::kernel::Kernel;
 use crate::stage::Stage;
 use crate::time::CycleTime;
 
-/// The path through the corner and what it costs.
+/// The path through the corner and its errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerPath {
     /// Filtered positions (x, y) in mm, one per cycle, from before the corner to after the filters have settled.
@@ -36,7 +36,7 @@ pub struct CornerPath {
     pub corner_distance_mm: f64,
 }
 
-/// Longest transient that is waited for, in cycles.
+/// Longest transient that is computed, in cycles.
 const LONGEST_CYCLES: u32 = 1 << 18;
 
 /// Cycles after which the step response of a stage stays within `window` of its input; `None` if it never does (a
@@ -46,7 +46,8 @@ pub fn settling_cycles<S: Stage + Clone>(stage: &S, window: f64) -> Option<u32> 
     stage.settle(0.0);
     let mut settled = 0;
     let mut n = 0;
-    // Only a rest as long as the transient itself distinguishes its end from a zero crossing.
+    // A constant output marks the end only if it lasts as long as the transient itself; otherwise it may be a zero
+    // crossing.
     loop {
         for _ in 0..=n.max(64) {
             n += 1;
@@ -66,14 +67,15 @@ pub fn settling_cycles<S: Stage + Clone>(stage: &S, window: f64) -> Option<u32> 
 impl CornerPath {
     /// Drives two copies of `stage` through the corner at `speed_mm_s`, the corner on a sample.
     ///
-    /// `None` for a stage that does not follow its input in the end.
+    /// `None` for a stage that never settles on its input.
     pub fn drive<S: Stage + Clone>(stage: &S, speed_mm_s: f64, cycle: CycleTime) -> Option<Self> {
         const WINDOW: f64 = 1e-9;
         let settled = settling_cycles(stage, WINDOW)?;
         let reach = i64::from(settled) + 2;
         let per_cycle = speed_mm_s * cycle.seconds();
         let (mut x_axis, mut y_axis) = (stage.clone(), stage.clone());
-        // Both axes have moved at constant speed for so long that only the delay is left of the start.
+        // Both axes have moved at constant speed long enough for the start-up transient to have decayed to a pure
+        // delay.
         x_axis.settle(-2.0 * reach as f64 * per_cycle);
         y_axis.settle(0.0);
         let mut points = Vec::new();
@@ -124,8 +126,8 @@ fn distance([x, y]: [f64; 2]) -> f64 {
 /// Contour error of a kernel at a 90 degree corner passed at `speed_mm_s`, in mm; equal to the delay-aligned error of
 /// each axis.
 ///
-/// `v M1 T` if no tap is negative (the velocity jump `v` of an axis pulls its aligned output aside by that), otherwise
-/// what the driven corner shows.
+/// `v M1 T` if no tap is negative (a velocity jump `v` of an axis shifts its aligned output by that much), otherwise
+/// the error of the driven corner.
 pub fn kernel_error_mm(kernel: &Kernel, speed_mm_s: f64, cycle: CycleTime) -> f64 {
     if !kernel.has_negative_taps() {
         return speed_mm_s * kernel.m1_cycles() * cycle.seconds();

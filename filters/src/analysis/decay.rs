@@ -1,9 +1,10 @@
-//! Frequency and damping of a vibration from the record of its decay, by the logarithmic decrement.
+//! Frequency and damping of a vibration from a recording of its decay, by the logarithmic decrement.
 //!
 //! Source: TF5250 Vibration Guard, P-AXIS-00568: `delta = ln(A1 / A2)` of successive maxima,
 //! `damping = 1 / sqrt(1 + (2 pi / delta)^2)`.
 //!
-//! Order of calls: a record of the decay, then [`Decay::of`]; maxima read by hand go to [`damping_of_decrement`] instead.
+//! Order of calls: a recording of the decay, then [`Decay::of`]; maxima read by hand go to [`damping_of_decrement`]
+//! instead.
 //!
 //! ```
 //! use kontur_filters::analysis::decay::{Decay, damping_of_decrement};
@@ -28,23 +29,23 @@ pub fn damping_of_decrement(delta: f64) -> f64 {
 /// A decaying vibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay {
-    /// Undamped natural frequency in Hz: what FREQ means.
+    /// Undamped natural frequency in Hz, the quantity that FREQ sets.
     pub freq_hz: f64,
     /// Damping ratio.
     pub damping: f64,
-    /// Extremes (maxima and minima) that were used.
+    /// Number of extremes (maxima and minima) that were used.
     pub extremes: usize,
 }
 
-/// Extremes smaller than this share of the largest one are left to the noise.
+/// Extremes smaller than this share of the largest one are treated as noise.
 const FLOOR_RATIO: f64 = 0.05;
 
 impl Decay {
     /// The decay after the largest extreme of `samples` taken at `rate_hz`; the samples swing about 0.
     ///
     /// Maxima and minima half a period apart are used down to 5 % of the first one. Their times give the damped
-    /// frequency, the slope of the logarithm of their amplitudes the decrement, both by least squares. `None` with
-    /// fewer than three extremes, and if nothing decays.
+    /// frequency, the slope of the logarithm of their amplitudes gives the decrement, both by least squares. `None`
+    /// with fewer than three extremes, or if the amplitude does not decay.
     pub fn of(samples: &[f64], rate_hz: f64) -> Option<Self> {
         let extremes = extremes(samples);
         let largest = |best: Option<usize>, (i, e): (usize, &Extreme)| match best {
@@ -77,7 +78,7 @@ struct Extreme {
     value: f64,
 }
 
-/// The largest sample of each stretch without a change of sign, placed by a parabola through its neighbours.
+/// The largest sample of each section without a change of sign, refined by a parabola through its neighbours.
 fn extremes(samples: &[f64]) -> Vec<Extreme> {
     let mut found = Vec::new();
     let mut from = 0;

@@ -1,8 +1,8 @@
-//! The largest order of a FIR or HSC filter that keeps a tolerance at a corner.
+//! The largest order of a FIR or HSC filter that keeps a corner within a tolerance.
 //!
 //! Source: TF5200 axis filters (contour error over filter order at a 90 degree corner), FCT-C37.
 //!
-//! Order of calls: none, the functions are independent; the order it returns goes into the configuration of
+//! Order of calls: none, the functions are independent; the returned order goes into the configuration of
 //! [`crate::fir`] or [`crate::hsc`].
 //!
 //! ```
@@ -31,8 +31,8 @@ pub struct OrderChoice {
 /// The largest order of the filter `config` (its own order is ignored) with which the contour error at a 90 degree
 /// corner passed at `speed_mm_s` stays within `tolerance_mm`; order 0, no filter, if even the first order is too much.
 ///
-/// An odd order delays by half a cycle, which the delay filter of an axis without filter cannot match; then the next
-/// even order below is the one to take.
+/// An odd order delays by half a cycle, which the delay filter of an unfiltered axis cannot match; take the next lower
+/// even order then.
 pub fn largest_order(
     config: &FirConfig,
     tolerance_mm: f64,
@@ -43,7 +43,7 @@ pub fn largest_order(
         let (kernel, _) = FirConfig { order, ..*config }.design(cycle);
         kernel.map_or(f64::INFINITY, |kernel| kernel_error_mm(&kernel, speed_mm_s, cycle))
     };
-    // A tolerance that an order meets exactly is met: 24/8 cycles at 33.3 mm/s are 0.1 mm.
+    // An order that meets the tolerance exactly counts as within it: 24/8 cycles at 33.3 mm/s are 0.1 mm.
     let within = |error: f64| error <= tolerance_mm * (1.0 + 1e-12);
     let none = OrderChoice { order: 0, contour_error_mm: 0.0 };
     (1..=MAX_ORDER)

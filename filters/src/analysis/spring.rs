@@ -1,6 +1,6 @@
 //! A mass on a spring and a damper whose foot follows a set position: a model of an elastic machine.
 //!
-//! First the spring, then one step per cycle of a motion, then what is left of it:
+//! Make the spring, step it once per cycle of a motion, then read the residual amplitude:
 //!
 //! ```
 //! use kontur_filters::analysis::spring::SpringMass;
@@ -20,8 +20,8 @@ use std::f64::consts::TAU;
 
 /// The mass, described by the deflection `q` of its spring in mm: `q'' + 2 D w q' + w^2 q = -a`, with the acceleration `a` of the foot.
 ///
-/// The acceleration of a cycle is constant over it, as that of a set position interpolated by the drive; the solution is exact then:
-/// after `q = -a / w^2`, where the spring would rest, the free decaying vibration continues.
+/// The acceleration is constant over each cycle, as for a set position that the drive interpolates. The solution is
+/// therefore exact: the free decaying vibration continues about `q = -a / w^2`, the equilibrium of the spring.
 #[derive(Clone, Copy, Debug)]
 pub struct SpringMass {
     /// Undamped natural frequency in 1/s.
@@ -38,7 +38,8 @@ pub struct SpringMass {
 }
 
 impl SpringMass {
-    /// At rest. Undamped natural frequency in Hz, above 0; damping ratio from 0 to below 1. `None` for other numbers.
+    /// A mass at rest. Undamped natural frequency in Hz, above 0; damping ratio from 0 to below 1. `None` for other
+    /// values.
     pub fn new(freq_hz: f64, damping: f64, cycle: CycleTime) -> Option<Self> {
         if !(freq_hz > 0.0 && freq_hz.is_finite() && (0.0..1.0).contains(&damping)) {
             return None;
@@ -61,7 +62,7 @@ impl SpringMass {
         self.q
     }
 
-    /// Amplitude in mm of the vibration that is left if the foot does not accelerate any more.
+    /// Amplitude in mm of the vibration that remains once the foot stops accelerating.
     pub fn amplitude(&self) -> f64 {
         libm::hypot(self.q, (self.v + self.damping * self.w * self.q) / self.damped_w)
     }
@@ -78,7 +79,8 @@ mod tests {
         CycleTime::from_us(1000).unwrap()
     }
 
-    /// A constant acceleration for a time `t` leaves `2 a / w^2 |sin(w t / 2)|` on an undamped spring, nothing if `t` is a period.
+    /// A constant acceleration for a time `t` leaves `2 a / w^2 |sin(w t / 2)|` on an undamped spring, 0 if `t` is one
+    /// period.
     #[test]
     fn a_rectangle_of_acceleration_leaves_its_closed_form() {
         for (freq_hz, cycles) in [(10.0, 100), (10.0, 37), (12.5, 40), (3.7, 250)] {
@@ -87,13 +89,13 @@ mod tests {
             let w = TAU * freq_hz;
             let left = 2.0 * 2000.0 / (w * w) * libm::sin(0.5 * w * f64::from(cycles) * 1e-3).abs();
             assert!((spring.amplitude() - left).abs() < 1e-9 * most.max(1.0), "{freq_hz} {cycles}");
-            // free, the amplitude stays
+            // a free vibration keeps its amplitude
             for _ in 0..500 {
                 spring.step(0.0);
             }
             assert!((spring.amplitude() - left).abs() < 1e-9);
             if cycles == 100 {
-                // half a period: twice the deflection at rest
+                // half a period: twice the static deflection
                 assert!((most - 2.0 * 2000.0 / (w * w)).abs() < 1e-6 * most, "{most}");
             }
         }
@@ -112,7 +114,8 @@ mod tests {
         }
     }
 
-    /// A jump of speed through a shaper leaves the share that its impulses promise; at the set frequency nothing.
+    /// A velocity jump through a shaper leaves the share that the impulses of the shaper predict; none at the set
+    /// frequency.
     #[test]
     fn shapers_leave_what_their_impulses_promise() {
         let settings = VibGuardSettings { mode: 2, freq_hz: 20.0, damping: 0.05 };

@@ -1,11 +1,11 @@
 //! Which mode and frequency of the Vibration Guard fit a machine whose natural frequency varies over its workspace.
 //!
-//! The residual vibration is computed, never looked up: the vendor's table of permitted deviations normalises the set
-//! frequency by the real one, its worked example the real one by the set one.
+//! The residual vibration is computed, never taken from a table: the vendor's table of permitted deviations normalises
+//! the set frequency by the real one, its worked example the real one by the set one.
 //!
 //! Source: TF5250 Vibration Guard (choice of the mode from frequencies at several positions).
 //!
-//! First the band, then the choices of each mode:
+//! Order of calls: the band, then the choices of each mode:
 //!
 //! ```
 //! use kontur_filters::analysis::tuning::VibrationBand;
@@ -44,25 +44,25 @@ pub struct Choice {
     pub settings: VibGuardSettings,
     /// Largest residual vibration over the band, as a share of what the unshaped setpoint leaves.
     pub worst_ratio: f64,
-    /// Delay of slow signals in cycles.
+    /// Delay in cycles for slow signals.
     pub delay_cycles: f64,
     /// Contour error at a 90 degree corner per mm/s of speed, in mm: the delay-aligned error of each axis.
     pub corner_error_s: f64,
 }
 
-/// Resolution of set frequencies in Hz: no measurement is finer, and a program line stays short.
+/// Resolution of set frequencies in Hz: measurements are not finer, and a program line stays short.
 pub(crate) const RESOLUTION_HZ: f64 = 0.01;
 
-/// Real frequencies at which a band is looked at, its ends included.
+/// Number of real frequencies at which a band is evaluated, its ends included.
 const REAL_STEPS: u32 = 200;
-/// Set frequencies at which the best one is looked for before the search is refined.
+/// Number of set frequencies in the scan before the search is refined.
 const SET_STEPS: u32 = 100;
-/// Bound of the refinement to either side.
+/// Largest number of refinement steps to either side.
 const MOST_FINE_STEPS: u32 = 500;
 
 impl VibrationBand {
-    /// The band of frequencies measured at several positions; `None` without one, and for a frequency that is not
-    /// above 0.
+    /// The band of frequencies measured at several positions; `None` for an empty list or a frequency that is not above
+    /// 0.
     pub fn of(freqs_hz: &[f64], damping: f64) -> Option<Self> {
         let usable = |f: &f64| f.is_finite() && *f > 0.0;
         let low_hz = freqs_hz.iter().copied().reduce(f64::min)?;
@@ -92,8 +92,8 @@ impl VibrationBand {
         })
     }
 
-    /// The frequency of a mode with the smallest residual at the worst place of the band, in steps of
-    /// [`RESOLUTION_HZ`]; `None` if the mode has no kernel there. The guard is set to the damping of the band.
+    /// The set frequency of a mode with the smallest residual at the worst point of the band, in steps of
+    /// [`RESOLUTION_HZ`]; `None` if the mode has no kernel there. The damping of the guard is that of the band.
     pub fn best(&self, mode: u8, cycle: CycleTime) -> Option<Choice> {
         let judge = |freq_hz: f64| {
             self.judge(VibGuardSettings { mode, freq_hz, damping: self.damping }, cycle)
@@ -103,7 +103,7 @@ impl VibrationBand {
             .map(|i| self.low_hz + width * f64::from(i) / f64::from(SET_STEPS))
             .filter_map(|f| judge(rounded(f, f64::round)));
         let coarse = scan.reduce(better)?;
-        // the smallest residual lies between the neighbours of the best one of the scan
+        // the smallest residual lies within one scan step of the best scanned frequency
         let reach_hz = width / f64::from(SET_STEPS);
         let near = (1..=MOST_FINE_STEPS)
             .map(|i| f64::from(i) * RESOLUTION_HZ)
@@ -122,7 +122,7 @@ impl VibrationBand {
                 .filter(|choice| choice.worst_ratio <= limit_ratio)
         };
         let mut inside = self.best(mode, cycle).filter(|best| best.worst_ratio <= limit_ratio)?;
-        // Outward in steps, then bisection of the step that leaves.
+        // Step outward, then bisect the step that leaves the permitted range.
         let step = (0.01 * inside.settings.freq_hz).max(RESOLUTION_HZ);
         let mut outside = loop {
             let next = rounded(inside.settings.freq_hz + step, f64::round);
@@ -144,12 +144,12 @@ impl VibrationBand {
     }
 }
 
-/// A frequency in steps of [`RESOLUTION_HZ`], at least the lowest of the guard.
+/// A frequency rounded to steps of [`RESOLUTION_HZ`], not below the lowest one of the guard.
 fn rounded(freq_hz: f64, how: fn(f64) -> f64) -> f64 {
     (how(freq_hz / RESOLUTION_HZ + 1e-9) / (1.0 / RESOLUTION_HZ)).max(VibGuardSettings::MIN_FREQ_HZ)
 }
 
-/// The choice that leaves less; of equal ones the earlier.
+/// The choice with the smaller residual; of two equal ones the earlier.
 fn better(a: Choice, b: Choice) -> Choice {
     if b.worst_ratio < a.worst_ratio { b } else { a }
 }

@@ -1,4 +1,4 @@
-//! One axis downstream of its set position: the parts in their fixed order, once per cycle.
+//! One axis downstream of its set position: its parts in their fixed order, once per cycle.
 //!
 //! 1. Actual values of the cycle start.
 //! 2. Setpoint out of the buffer.
@@ -9,7 +9,7 @@
 //! 7. Monitors.
 //! 8. The plant advances by one cycle.
 //!
-//! Configured once, started at a position, then one [`AxisControl::step`] per cycle:
+//! Configure it once, start it at a position, then call [`AxisControl::step`] once per cycle:
 //!
 //! ```
 //! use kontur_filters::control::axis_control::{AxisControl, AxisControlConfig, AxisInputs};
@@ -51,10 +51,10 @@ use given::Given;
 pub struct AxisInputs {
     /// Position of the additional interface after its filter in mm, added to the set position.
     ///
-    /// The controller and its feedforward get the sum; the monitors of the set position and of the exact stop look at
-    /// the programmed part (Assumption: the documents name the interface only).
+    /// Controller and feedforward use the sum; the monitors of the set position and of the exact stop see the
+    /// programmed part only (Assumption: the documents only name the interface).
     pub additional_mm: f64,
-    /// External force (friction, process) as acceleration of the whole mass in mm/s2.
+    /// External force (friction, process) in mm/s2, as the acceleration of the whole mass.
     pub force_mm_s2: f64,
     /// Error of the measuring system of the position loop in mm.
     pub encoder_offset_mm: f64,
@@ -71,7 +71,7 @@ pub struct DriveValues {
     pub additive_speed: f64,
     /// Additive torque.
     pub torque: f64,
-    /// The same in N m (N for a linear motor).
+    /// Additive torque in N m (N for a linear motor).
     pub torque_n_m: f64,
 }
 
@@ -86,17 +86,17 @@ pub struct ControlOutput {
     pub load_mm: f64,
     /// Reference - actual position, mm.
     pub lag_mm: f64,
-    /// Largest lag that its monitor permits in mm, none while it is off.
+    /// Permitted lag in mm, `None` while its monitor is off.
     pub lag_limit_mm: Option<f64>,
     /// See [`ExactStopMonitor::settling_s`].
     pub settling_s: f64,
-    /// Feedforward.
+    /// Output of the feedforward.
     pub feedforward: FeedforwardOutput,
-    /// Speed command: controller, conventional feedforward and additive speed, limited, mm/s.
+    /// Speed command in mm/s: controller, conventional feedforward and additive speed, limited.
     pub command_mm_s: f64,
     /// Additive speed of Improved Position Control, mm/s.
     pub additive_speed_mm_s: f64,
-    /// It is at its limit.
+    /// Whether the additive speed is at its limit.
     pub additive_speed_limited: bool,
     /// Tool point, mm.
     pub tcp_mm: f64,
@@ -104,7 +104,7 @@ pub struct ControlOutput {
     pub tcp_acc_mm_s2: f64,
     /// Values in the drive's format.
     pub drive: DriveValues,
-    /// The monitors raised something, see [`AxisControl::faults`].
+    /// Whether the monitors raised a fault, see [`AxisControl::faults`].
     pub faulty: bool,
 }
 
@@ -114,7 +114,7 @@ pub struct AxisControl {
     config: AxisControlConfig,
     cycle: CycleTime,
     cycle_s: f64,
-    /// Of speed command and feedforward.
+    /// Scale of the speed command and of the feedforward.
     counts_per_mm_s: (f64, f64),
     buffer: SetpointBuffer,
     feedforward: Feedforward,
@@ -126,30 +126,30 @@ pub struct AxisControl {
     setpoint: SetpointMonitor,
     set_mm: f64,
     tcp_mm_s: f64,
-    /// Set position with the additional one.
+    /// Set position including the additional one, mm.
     position_mm: f64,
     inputs: AxisInputs,
     faults: Faults,
-    /// Following error in mm that belongs to no stable loop.
+    /// Following error in mm above which the loop counts as unstable.
     unstable_mm: f64,
     diverged: bool,
     moving: bool,
     open: bool,
-    /// Position at which a reaction holds the axis.
+    /// Position in mm at which a reaction holds the axis.
     held_mm: Option<f64>,
-    /// Inputs of the last cycle, and for how many cycles they have been the same without changing anything.
+    /// Inputs of the last cycle, and the number of cycles in which they have been the same without any effect.
     given: Given,
     still_cycles: u32,
 }
 
 impl AxisControl {
-    /// Still cycles after which everything that remembers a fixed number of cycles (buffer, delays of the feedforward, dead
-    /// time, differences) holds equal values only.
+    /// Cycles at standstill after which everything with a fixed memory (buffer, delays of the feedforward, dead time,
+    /// differences) holds equal values only.
     const REST_CYCLES: u32 = 32;
-    /// Following errors beyond this multiple of the permitted or the theoretical lag belong to no stable loop.
+    /// A following error beyond this multiple of the permitted or the theoretical lag means an unstable loop.
     const DIVERGED: f64 = 10.0;
 
-    /// An axis after its (checked) configuration, at rest at 0.
+    /// An axis with the given (checked) configuration, at rest at 0.
     ///
     /// # Errors
     /// [`PlantError`] if the plant is not physical.
@@ -189,12 +189,12 @@ impl AxisControl {
         Ok(control)
     }
 
-    /// Puts everything at rest at a position, without inputs from outside; no transient follows.
+    /// Puts all parts at rest at a position, without external inputs; no transient follows.
     pub fn start(&mut self, position_mm: f64) {
         self.start_with(position_mm, AxisInputs::default());
     }
 
-    /// Puts everything at rest at a set position under lasting inputs; only a force has a transient.
+    /// Puts all parts at rest at a set position under constant inputs; only a force causes a transient.
     pub fn start_with(&mut self, set_mm: f64, inputs: AxisInputs) {
         let position_mm = set_mm + inputs.additional_mm;
         self.buffer.start(position_mm);
@@ -232,18 +232,18 @@ impl AxisControl {
         &self.lag
     }
 
-    /// [`ControlOutput::load_mm`] is [`ControlOutput::act_mm`] in every cycle, unless
-    /// [`AxisInputs::encoder_offset_mm`] says otherwise: a rigid plant, read without steps.
+    /// Whether [`ControlOutput::load_mm`] equals [`ControlOutput::act_mm`] in every cycle unless
+    /// [`AxisInputs::encoder_offset_mm`] is set: true for a rigid plant whose encoder has no increments.
     pub fn shows_load_twice(&self) -> bool {
         !self.plant.is_elastic() && self.config.increment_mm <= 0.0
     }
 
-    /// The plant separates the tool point from the load.
+    /// Whether the plant separates the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
         self.plant.has_tool_point()
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position
+    /// Announces a stop of the path, for this axis at `target_mm`: the exact-stop timer starts when the set position
     /// gets there.
     pub fn expect_stop(&mut self, target_mm: f64) {
         self.still_cycles = 0;
@@ -260,22 +260,22 @@ impl AxisControl {
         &self.exact_stop
     }
 
-    /// Keeps the axis where it is (reaction class 5): until the next start the controller gets the actual position of this
-    /// moment, with its loop closed and without feedforward, whatever the set position does.
+    /// Holds the axis where it is (reaction class 5): until the next start the controller gets the present actual
+    /// position, with its loop closed and without feedforward, whatever the set position does.
     pub fn halt(&mut self) {
         self.still_cycles = 0;
         let here = self.controlled_mm();
         self.held_mm.get_or_insert(here);
     }
 
-    /// Opens the position loop until the next start: the drive gets the speed 0, whatever the set position does (reaction
-    /// class 8). The monitors, which watch a closed loop, have nothing to say any more.
+    /// Opens the position loop until the next start: the drive gets the speed 0, whatever the set position does
+    /// (reaction class 8). The monitors observe a closed loop, so they raise nothing any more.
     pub fn open_loop(&mut self) {
         self.still_cycles = 0;
         self.open = true;
     }
 
-    /// The motor is slower than `speed_mm_s`, or its plant is held after it diverged.
+    /// Whether the motor is slower than `speed_mm_s`, or the plant is held after it diverged.
     pub fn stands(&self, speed_mm_s: f64) -> bool {
         self.diverged || self.plant.measured().motor_mm_s.abs() <= speed_mm_s
     }
@@ -297,7 +297,7 @@ impl AxisControl {
         Ok(())
     }
 
-    /// Its monitors have to look at every cycle: a stop is awaited, or a set position is above a threshold.
+    /// Whether the monitors have to see every cycle: a stop is awaited, or a set position is above a threshold.
     pub const fn goes_alone(&self) -> bool {
         !self.exact_stop.rests() || self.setpoint.is_raised()
     }
@@ -307,8 +307,8 @@ impl AxisControl {
         &self.faults
     }
 
-    /// The axis rests, and a cycle with these values would change nothing: it would give the output of the last one bit
-    /// for bit, and may be left out.
+    /// Whether the axis rests and a cycle with these values would change nothing. Such a cycle repeats the last output
+    /// bit for bit and may be left out.
     #[inline]
     pub fn rests_under(
         &self,
@@ -322,10 +322,11 @@ impl AxisControl {
             && self.given.is_like(&Given::new(gain, jerk_limited, inputs))
     }
 
-    /// Counts cycles that change nothing that has no fixed memory; `calm`: they are given the same, and nothing else is in motion.
+    /// Counts the cycles in which nothing without a fixed memory changes; `calm`: the inputs are the same and nothing
+    /// else moves.
     #[inline]
     fn count_still(&mut self, calm: bool) {
-        // a plant that moves settles most cycles
+        // a moving plant rules out most cycles at once
         let still = calm
             && self.plant.rests()
             && self.lag.rests()

@@ -1,8 +1,8 @@
 //! The buffer between interpolator and position controller.
 //!
 //! Feedforward looks ahead, so the position path is delayed: by five interpolator cycles, by one with
-//! `feedforward_without_delay` (P-AXIS-00566), by none if no axis of the channel has feedforward. All axes of a
-//! channel get the same delay, whether or not G135 is active: they stay in step, and switching never jumps.
+//! `feedforward_without_delay` (P-AXIS-00566), by none if no axis of the channel has feedforward. All axes of a channel
+//! get the same delay, whether or not G135 is active; they stay synchronous, and switching feedforward causes no jump.
 //!
 //! Source: TF5200 axis parameters, P-AXIS-00566 (five cycles); TF5200 feedforward control (at least one cycle).
 //!
@@ -36,7 +36,7 @@ pub struct Setpoint {
     pub jerk_limited: bool,
 }
 
-/// Six successive setpoints around the one that feedforward is computed for.
+/// Six successive setpoints around the one for which feedforward is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Two and one cycles before, this cycle, one, two and three cycles after; mm.
@@ -54,18 +54,19 @@ pub struct SetpointBuffer {
     newest: usize,
     delay: usize,
     shift: usize,
-    /// Setpoints without feedforward in a row.
+    /// Number of consecutive setpoints without feedforward, up to the newest one.
     without_gain: usize,
 }
 
 impl SetpointBuffer {
-    /// Base delay 5, time offset 4, two setpoints before the reference, itself; rounded up to a power of two.
+    /// Base delay 5, time offset 4, two setpoints before the reference and the reference itself; rounded up to a power
+    /// of two.
     const CAPACITY: usize = 16;
     /// Longest delay in cycles.
     pub(crate) const MAX_DELAY: usize = Self::CAPACITY - 3;
 
-    /// A buffer that delays by `delay_cycles`; feedforward is taken `shift_cycles` before its setpoint.
-    /// Both are limited to what the ring holds.
+    /// A buffer that delays by `delay_cycles`; feedforward is computed `shift_cycles` before its setpoint. Both are
+    /// limited to the capacity of the ring.
     pub fn new(delay_cycles: usize, shift_cycles: usize) -> Self {
         let delay = delay_cycles.min(Self::MAX_DELAY);
         let ring = [Setpoint::default(); Self::CAPACITY];
@@ -89,12 +90,12 @@ impl SetpointBuffer {
         self.without_gain = Self::CAPACITY;
     }
 
-    /// Both give out the same setpoints if they hold the same.
+    /// Whether both buffers will output the same setpoints once they hold the same ones.
     pub(crate) const fn holds_like(&self, other: &Self) -> bool {
         self.delay == other.delay && self.shift == other.shift
     }
 
-    /// Every setpoint gets another position, `by_mm` further on.
+    /// Shifts every setpoint by `by_mm`.
     pub(crate) fn shift(&mut self, by_mm: f64) {
         for setpoint in &mut self.ring {
             setpoint.position_mm += by_mm;
@@ -110,12 +111,12 @@ impl SetpointBuffer {
         self.without_gain = if has_gain { 0 } else { self.without_gain.saturating_add(1) };
     }
 
-    /// No setpoint of the buffer has feedforward: the gain of every window is 0.
+    /// Whether no setpoint of the buffer has feedforward: the gain of every window is then 0.
     pub(crate) const fn is_without_gain(&self) -> bool {
         self.without_gain >= Self::CAPACITY
     }
 
-    /// Setpoint `age` cycles ago; beyond the newest the newest.
+    /// Setpoint `age - ahead` cycles ago, not beyond the newest one.
     #[inline]
     fn at(&self, age: usize, ahead: usize) -> &Setpoint {
         let age = age.saturating_sub(ahead);
@@ -128,17 +129,17 @@ impl SetpointBuffer {
         self.at(self.delay, 0).position_mm
     }
 
-    /// Speed with which the reference moved in the last cycle, mm per cycle.
+    /// Movement of the reference in the last cycle, mm per cycle.
     #[inline]
     pub(crate) fn reference_step_mm(&self) -> f64 {
         self.reference_mm() - self.at(self.delay + 1, 0).position_mm
     }
 
-    /// The setpoints feedforward is computed from.
+    /// The setpoints from which feedforward is computed.
     ///
-    /// A flag belongs to the motion that leads to its setpoint. The window reaches three cycles ahead: where one flag holds
-    /// for everything that moves in it, that flag counts, so that a motion out of rest is fed forward from its first
-    /// difference on. If the flags change while the axis moves, those of the coming cycle count.
+    /// A flag belongs to the motion that leads to its setpoint. The window reaches three cycles ahead. If one flag
+    /// holds for everything that moves in the window, that flag counts: a motion that starts from rest is fed forward
+    /// from its first difference on. If the flags change while the axis moves, those of the coming cycle count.
     pub fn window(&self) -> Window {
         let centre = self.delay - self.shift;
         let all = [
@@ -201,7 +202,7 @@ mod tests {
         assert_eq!(buffer.reference_step_mm(), 1.0);
     }
 
-    /// Out of rest the flags of the motion hold from its first appearance in the window on, and until its last.
+    /// At the start of a motion its flags count from its first appearance in the window, at the end until its last.
     #[test]
     fn flags_belong_to_the_motion() {
         let mut buffer = SetpointBuffer::new(5, 0);

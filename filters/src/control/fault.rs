@@ -1,9 +1,9 @@
 //! Faults of a running axis and issues of its configuration: quantity, value and limit.
 //!
-//! How a control numbers a condition and how it reacts is not known here; the numbers in the texts below are those of
-//! the vendor's documents.
+//! The module does not number conditions and does not define reactions; the numbers in the texts below are those of the
+//! vendor's documents.
 //!
-//! Issues come from checking a configuration, faults from each step:
+//! Checking a configuration gives issues, each step may give faults:
 //!
 //! ```
 //! use kontur_filters::control::fault::{Fault, Issue};
@@ -21,7 +21,7 @@
 //! assert!(matches!(faults[..], [Fault::SettlingTimeout { .. }]));
 //! ```
 
-/// Which derivative of the setpoint a monitor watched.
+/// The derivative of the setpoint that a monitor checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivative {
     /// Velocity in mm/s.
@@ -43,7 +43,7 @@ impl Derivative {
     }
 }
 
-/// A condition met while the axis runs. Raised once when it begins, not in every cycle it lasts.
+/// A condition found while the axis runs. It is raised once when it begins, not in every cycle it lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// 70020: the following error exceeds the permitted lag.
@@ -71,7 +71,7 @@ pub enum Fault {
     },
     /// Setpoint above its warning threshold: 50119 for velocity, for acceleration and jerk K-0060.
     SetpointWarning {
-        /// What was watched.
+        /// Derivative that is monitored.
         what: Derivative,
         /// Magnitude, unit of `what`.
         value: f64,
@@ -80,7 +80,7 @@ pub enum Fault {
     },
     /// Setpoint above its error threshold: 50118 for velocity, for acceleration and jerk K-0061.
     SetpointError {
-        /// What was watched.
+        /// Derivative that is monitored.
         what: Derivative,
         /// Magnitude, unit of `what`.
         value: f64,
@@ -89,11 +89,11 @@ pub enum Fault {
     },
     /// 70601: parameters of Improved Position Control changed while the axis moves; the old ones stay.
     IpcChangedMoving,
-    /// K-0035: the simulated plant diverged; it is held where it was.
+    /// K-0035: the simulated plant diverged; it is held at its last finite position.
     Unstable {
         /// Following error in mm, the last finite one.
         lag_mm: f64,
-        /// Largest following error taken for a stable loop, in mm.
+        /// Largest following error of a loop that counts as stable, in mm.
         limit_mm: f64,
     },
 }
@@ -108,7 +108,8 @@ impl Faults {
     /// One slot per source: three setpoint derivatives, controller speed, lag, exact stop, divergence.
     const CAPACITY: usize = 7;
 
-    /// Adds a fault; a full list keeps what it has, since every source raises at most one per cycle.
+    /// Adds a fault. A full list stays as it is; it cannot overflow, since every source raises at most one fault per
+    /// cycle.
     #[inline]
     pub(crate) fn push(&mut self, fault: Option<Fault>) {
         if fault.is_some()
@@ -123,7 +124,7 @@ impl Faults {
         self.items.iter().flatten()
     }
 
-    /// Forgets all of them.
+    /// Clears the list.
     #[inline]
     pub(crate) fn clear(&mut self) {
         if !self.is_empty() {
@@ -131,7 +132,7 @@ impl Faults {
         }
     }
 
-    /// Nothing was raised.
+    /// Whether no fault was raised.
     pub fn is_empty(&self) -> bool {
         self.items[0].is_none()
     }
@@ -163,7 +164,8 @@ pub enum Issue {
     OutputWithoutActivation,
     /// K-0023: `default_active` (P-AXIS-00255) and `global_disable` (P-AXIS-00256) both set; disabled.
     ActiveAndDisabled,
-    /// K-0024: torque at the largest acceleration above ten times the reference torque: unit of P-AXIS-00391.
+    /// K-0024: torque at the largest acceleration above ten times the reference torque, which suggests a wrong unit of
+    /// P-AXIS-00391.
     ImplausibleLoad {
         /// Torque (N m) or force (N) at the largest acceleration.
         torque: f64,

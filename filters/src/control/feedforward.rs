@@ -1,9 +1,6 @@
 //! Feedforward of velocity, acceleration and jerk.
 //!
-//! Conventional variant (flags without output bit): the speed to add at the output of the position controller,
-//!
-//! Order of calls: [`FeedforwardConfig::checked`], [`Feedforward::start`] at rest, then one [`Feedforward::step`] per cycle with the
-//! set positions of the buffer.
+//! Conventional variant (flags without output bit): a speed that is added at the output of the position controller,
 //!
 //! ```text
 //! u_ff = g W (wv v + Ta a + wj j)         wj = factor Ta / Kv
@@ -12,17 +9,18 @@
 //! Additive variant (flags with output bit): velocity and torque for the inner loops of the drive, each with its own
 //! delay. `g` is the switch and the weight of G135, G136, G137; `W` the global weight.
 //!
-//! `v`, `a`, `j` are forward differences of setpoint, its velocity and its acceleration: means over the coming
+//! `v`, `a`, `j` are forward differences of the setpoint, its velocity and its acceleration: means over the coming
 //! cycle, for which the drive holds its command. Instantaneous derivatives would leave a lag of `a T / (2 Kv)`. The
-//! velocity at a sample comes from the setpoints around it by the rule of fourth order, which is exact while the
-//! jerk is constant and leaves no net error where it changes.
+//! velocity at a sample follows from the setpoints around it by the rule of fourth order, which is exact while the jerk
+//! is constant and leaves no net error where it changes.
 //!
-//! The manual prints the lag under constant jerk as `j+T/K2`; the plus cannot be (the units differ), it is the product
-//! `j Ta / Kv2`.
+//! The manual prints the lag under constant jerk as `j+T/K2`. The plus must be a misprint, as the units differ; the lag
+//! is the product `j Ta / Kv2`.
 //!
 //! Source: TF5200 feedforward control 2, figures 1 and 2.
 //!
-//! The configuration is checked, then stepped with the windows of the [buffer](super::buffer):
+//! Order of calls: [`FeedforwardConfig::checked`], [`Feedforward::start`] at rest, then one [`Feedforward::step`] per
+//! cycle with the window of the [buffer](super::buffer):
 //!
 //! ```
 //! use kontur_filters::control::buffer::{Setpoint, SetpointBuffer};
@@ -70,13 +68,13 @@ bitflags::bitflags! {
 }
 
 impl FeedforwardMode {
-    /// The part `activation` is on and goes to the controller output.
+    /// Whether the part `activation` is on and goes to the controller output.
     fn conventional(self, activation: Self, additive: Self) -> bool {
         self.contains(activation) && !self.contains(additive)
     }
 
-    /// In a window of gain 0 every value is 0: no delay gives out what went in before. (All three parts at the controller
-    /// output could sum up to -0.)
+    /// Whether every output is 0 in a window of gain 0. This holds without delays, which would still output earlier
+    /// values. (All three parts at the controller output could sum up to -0.)
     fn needs_gain(self) -> bool {
         let delayed = [Self::ADD_VEL, Self::ADD_ACC, Self::ADD_JERK];
         !delayed.into_iter().any(|part| self.contains(part))
@@ -98,7 +96,7 @@ pub struct AdditiveInputs {
 pub struct FeedforwardConfig {
     /// What is fed forward (P-AXIS-00223), default none.
     pub mode: FeedforwardMode,
-    /// Global weight `W` (P-AXIS-00228/00229), default 1; recommended 0.7 to 1, above 1 the axis leads.
+    /// Global weight `W` (P-AXIS-00228/00229), default 1; recommended 0.7 to 1; above 1 the axis leads the setpoint.
     ///
     /// Assumption: it weights the sum including jerk, as figure 1 draws it (the parameter text names velocity and
     /// acceleration only).
@@ -116,7 +114,7 @@ pub struct FeedforwardConfig {
     pub acceleration_delay_s: f64,
     /// Delay of the additive torque of the jerk part in s (P-AXIS-00547), below 6 cycles, default 0.
     pub jerk_delay_s: f64,
-    /// On under G137 too (P-AXIS-00255), default false.
+    /// On under G137 as well (P-AXIS-00255), default false.
     pub default_active: bool,
     /// Never on (P-AXIS-00256), default false; wins over `default_active`.
     pub global_disable: bool,
@@ -146,10 +144,10 @@ impl Default for FeedforwardConfig {
     }
 }
 
-/// Delay in cycles that every axis of a channel gets.
+/// Delay in cycles of every axis of a channel.
 ///
 /// The PROFIdrive time offset (P-AXIS-00165) delays the position path further.
-/// Assumption: the largest offset of the channel delays all its axes, because they have to stay in step
+/// Assumption: the largest offset of the channel delays all its axes, because they have to stay synchronous
 /// ([`buffer`](super::buffer)).
 pub fn channel_delay_cycles<'a>(axes: impl IntoIterator<Item = &'a FeedforwardConfig>) -> usize {
     axes.into_iter().map(FeedforwardConfig::delay_cycles).max().unwrap_or(0)
@@ -161,26 +159,26 @@ impl FeedforwardConfig {
     /// Source: TF5200 parameter tables (six interpolator cycles); the example text and older builds say one.
     pub const MAX_DELAY_CYCLES: usize = 6;
 
-    /// Gain of this axis in a cycle, of the checked configuration: the weight of G136 (1 = 100 %, limited to 1)
-    /// while it is switched on, else 0.
+    /// Gain of this axis in a cycle, for a checked configuration: the weight of G136 (1 = 100 %, limited to 1) while
+    /// feedforward is on, otherwise 0.
     pub fn gain(&self, g135: bool, g136_ratio: f64) -> f64 {
         let on = !self.global_disable && (self.default_active || g135) && !self.mode.is_empty();
         if on { g136_ratio.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Share of the speed that is fed forward, in the same state.
+    /// Share of the speed that is fed forward, with the same arguments as [`Self::gain`].
     pub fn velocity_share(&self, g135: bool, g136_ratio: f64) -> f64 {
         let is_fed = self.mode.contains(FeedforwardMode::VEL);
         let share = self.gain(g135, g136_ratio) * self.global_ratio * self.velocity_ratio;
         if is_fed { share } else { 0.0 }
     }
 
-    /// Something goes to the additive torque.
+    /// Whether a part goes to the additive torque.
     pub fn uses_torque(&self) -> bool {
         [FeedforwardMode::ADD_ACC, FeedforwardMode::ADD_JERK].iter().any(|m| self.mode.contains(*m))
     }
 
-    /// Delay of the position path in cycles that this axis asks for.
+    /// Delay of the position path in cycles that this axis needs.
     pub fn delay_cycles(&self) -> usize {
         match (self.mode.is_empty(), self.without_delay) {
             (true, _) => 0,
@@ -273,13 +271,13 @@ pub struct Feedforward {
 }
 
 impl Feedforward {
-    /// Time that turns the jerk factor of the additive variant into a weight.
+    /// Time in s that converts the jerk factor of the additive variant into a weight.
     ///
     /// Assumption: no document gives the unit of that factor; 1 ms is the time constant that the default factor of the
-    /// conventional variant stands for at the default Kv.
+    /// conventional variant corresponds to at the default Kv.
     const JERK_TIME_S: f64 = 1e-3;
 
-    /// Feedforward after a configuration; see [`FeedforwardConfig::checked`].
+    /// Feedforward with the given configuration; see [`FeedforwardConfig::checked`].
     pub fn new(config: FeedforwardConfig, cycle: CycleTime) -> Self {
         let cycle_s = cycle.seconds();
         Self {
@@ -304,7 +302,7 @@ impl Feedforward {
         self.needs_gain
     }
 
-    /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
+    /// Output of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
     #[inline] // the window is used where it is made
     pub fn step(&mut self, window: &Window, kv_per_s: f64) -> FeedforwardOutput {
         use FeedforwardMode as M;
@@ -322,7 +320,7 @@ impl Feedforward {
                 0.0
             }
         };
-        // a controller without gain has no lag that jerk feedforward could anticipate
+        // a controller without gain has no lag that jerk feedforward could compensate
         let wj = || if kv_per_s > 0.0 { 1e-6 * c.acceleration_quotient / kv_per_s } else { 0.0 };
         let weight = window.gain * c.global_ratio;
         let ta = 1e-6; // the quotient is in microseconds in the conventional variant
@@ -348,7 +346,7 @@ fn part(on: bool, value: impl FnOnce() -> f64) -> f64 {
     if on { value() } else { 0.0 }
 }
 
-/// Delay of a signal by less than six cycles; fractions interpolate linearly between the two neighbours.
+/// Delay of a signal by less than six cycles; fractions of a cycle are interpolated linearly between neighbours.
 #[derive(Clone, Debug)]
 struct Delay {
     past: [f64; FeedforwardConfig::MAX_DELAY_CYCLES + 1],

@@ -8,14 +8,15 @@
 //! ```
 //!
 //! The source is the measured speed of the direct measuring system (DIRECT), of the motor (INDIRECT) or the speed
-//! command (`SET_POINT`); the last two see a vibration that the encoders do not show through a simulated oscillator.
+//! command (`SET_POINT`). The last two go through a simulated oscillator and so damp a vibration that the encoders do
+//! not show.
 //!
-//! Assumption: the manual speaks of a counter-movement and prints no sign; minus adds damping wherever the motor moves
-//! with the encoder that is fed back, plus removes it.
+//! Assumption: the manual speaks of a counter-movement and prints no sign. Minus adds damping wherever the motor moves
+//! in phase with the encoder that is fed back; plus removes it.
 //!
 //! Source: ISG Improved Position Control (available from V3.1.3077.08).
 //!
-//! Checked first; then one step per cycle, with the speeds that were measured:
+//! Order of calls: [`IpcConfig::check`], then [`Ipc::step`] once per cycle with the measured speeds:
 //!
 //! ```
 //! use kontur_filters::control::ipc::{
@@ -54,7 +55,7 @@ use super::fault::{Fault, IpcParameter, Issue};
 use crate::time::CycleTime;
 use filter::{Cascade, all_pass, band_pass, oscillator};
 
-/// The signal by which a stage damps (P-AXIS-00753).
+/// The signal from which a stage derives its damping (P-AXIS-00753).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IpcMode {
     /// 0: the stage is off (default).
@@ -73,7 +74,7 @@ pub enum IpcMode {
 pub enum IpcFilterType {
     /// Band-pass around the damped frequency.
     BandPass,
-    /// All-pass that turns the phase of the additive speed.
+    /// All-pass that shifts the phase of the additive speed.
     AllPass,
 }
 
@@ -82,12 +83,12 @@ pub enum IpcFilterType {
 pub struct IpcFilterConfig {
     /// Type (P-AXIS-00849).
     pub kind: IpcFilterType,
-    /// Order (P-AXIS-00750), 1..=3. A band-pass falls by 20 dB per decade and order on either side; an all-pass
-    /// turns by 90 degrees per order at its frequency.
+    /// Order (P-AXIS-00750), 1..=3. A band-pass falls by 20 dB per decade and order on either side; an all-pass shifts
+    /// the phase by 90 degrees per order at its frequency.
     pub order: u32,
     /// Damped frequency in Hz (P-AXIS-00751), above 0, at most 500 and below half the sampling rate.
     pub frequency_hz: f64,
-    /// Quality (P-AXIS-00752), 1..=10: frequency / bandwidth. Without meaning for an all-pass.
+    /// Quality (P-AXIS-00752), 1..=10: frequency / bandwidth. Ignored by an all-pass.
     pub quality: f64,
 }
 
@@ -100,15 +101,15 @@ pub struct IpcStageConfig {
     pub weight_num: f64,
     /// Denominator of the weight (P-AXIS-00755), above 0, default 1.
     pub weight_denom: f64,
-    /// The filters, at least one of them a band-pass; their order does not matter. The first band-pass gives the
-    /// frequency of the oscillator.
+    /// The filters, at least one of them a band-pass, in any order. The first band-pass sets the frequency of the
+    /// oscillator.
     pub filters: Vec<IpcFilterConfig>,
     /// Damping of the simulated oscillation (P-AXIS-00756, newer builds P-AXIS-00850), between 0 and 1, exclusive; the
-    /// less, the larger the additive speed. Without meaning for DIRECT. Default -1: outside the range on purpose.
+    /// smaller, the larger the additive speed. Ignored by DIRECT. Default -1: outside the range on purpose.
     pub oscillator_damping: f64,
 }
 
-/// Improved Position Control of one axis. Gantry slaves take the master's with their own signals.
+/// Improved Position Control of one axis. Gantry slaves use the configuration of the master with their own signals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IpcConfig {
     /// On (P-AXIS-00758), default false.
@@ -118,7 +119,7 @@ pub struct IpcConfig {
     pub limit_ratio: f64,
     /// Cycles from the computation of the additive speed to its effect, 0..=5, default 1.
     ///
-    /// Assumption: one, as for any value that a drive receives in the next telegram; no document says.
+    /// Assumption: 1, as for any value that a drive receives in the next telegram; the documents do not say.
     pub delay_cycles: usize,
     /// Up to three stages.
     pub stages: Vec<IpcStageConfig>,
@@ -163,7 +164,7 @@ impl IpcStageConfig {
         self.filters.iter().find(|f| f.kind == IpcFilterType::BandPass)
     }
 
-    /// Errors that switch the function off, then warnings.
+    /// Adds the errors that switch the function off, then the warnings.
     fn check(&self, stage: usize, cycle: CycleTime, issues: &mut Vec<Issue>) {
         let positive = |v: f64| v > 0.0;
         if !positive(self.weight_num) {
@@ -237,7 +238,7 @@ impl IpcConfig {
         issues
     }
 
-    /// Enabled and free of errors.
+    /// Whether the function is enabled and free of errors.
     pub fn active(&self, cycle: CycleTime) -> bool {
         let warning = |i: &Issue| {
             matches!(i, Issue::IpcNoLimit | Issue::IpcWeight { .. } | Issue::IpcOverlap { .. })
@@ -260,7 +261,7 @@ pub struct IpcInput {
     pub motor_mm_s: f64,
     /// Speed of the direct measuring system, if the axis has one.
     pub direct_mm_s: Option<f64>,
-    /// Command of the position controller, feedforward included, additive speed not.
+    /// Command of the position controller, with feedforward, without the additive speed.
     pub command_mm_s: f64,
 }
 
@@ -269,7 +270,7 @@ pub struct IpcInput {
 pub struct IpcOutput {
     /// Additive speed that acts in this cycle, mm/s.
     pub speed_mm_s: f64,
-    /// It is the limit (P-AXIS-00757); the control reports nothing then.
+    /// Whether the limit (P-AXIS-00757) is reached; the control reports nothing in this case.
     pub limited: bool,
 }
 
@@ -323,7 +324,7 @@ pub struct Ipc {
 }
 
 impl Ipc {
-    /// The function as configured; without effect if it is off or has an error ([`IpcConfig::check`]).
+    /// The configured function; it outputs 0 if it is off or has an error ([`IpcConfig::check`]).
     pub fn new(config: &IpcConfig, v_max_mm_s: f64, cycle: CycleTime) -> Self {
         let stages = if config.active(cycle) {
             config.working_stages().map(|(_, s)| Stage::new(s, cycle.seconds())).collect()
@@ -344,7 +345,7 @@ impl Ipc {
         self.computed.fill(IpcOutput::default());
     }
 
-    /// It has no stages and adds nothing.
+    /// Whether there are no stages, so that the additive speed is always 0.
     pub(crate) const fn is_off(&self) -> bool {
         self.stages.is_empty()
     }

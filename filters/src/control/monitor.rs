@@ -1,9 +1,9 @@
 //! Monitors of one axis: following error, exact stop, dynamics of the set positions.
 //!
-//! A monitor raises a [`Fault`](super::fault::Fault) when its condition begins; what the machine does about it is the
-//! cycle loop's business.
+//! A monitor raises a [`Fault`](super::fault::Fault) when its condition begins; the cycle loop decides how the machine
+//! reacts.
 //!
-//! Each is started at a position and stepped once per cycle:
+//! Start each at a position and step it once per cycle:
 //!
 //! ```
 //! use kontur_filters::control::monitor::{LagMonitor, LagMonitorConfig, LagMonitorType};

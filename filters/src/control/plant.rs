@@ -1,7 +1,7 @@
 //! The simulated axis: drive and mechanics.
 //!
-//! Every model is linear and advances exactly for inputs held over a step: one matrix product per cycle, four with a
-//! disturbance force. Not modelled: backlash, Coulomb friction, saturation of the current.
+//! Every model is linear, and its step is exact for inputs held over the step: one matrix product per cycle, four with
+//! a disturbance force. Not modelled: backlash, Coulomb friction, saturation of the current.
 //!
 //! Input is the speed command in mm/s, an additive torque as the acceleration it gives the axis, and a disturbance
 //! force as the acceleration it gives the whole mass.
@@ -62,14 +62,15 @@ impl PlantModel {
     pub const VENDOR_DEFAULT: Self = Self::Simulated { damping_ratio: 0.6, natural_rad_s: 100.0 };
 }
 
-/// Disturbance force, sinusoidal or constant, that may grow with the speed of the load up to a nominal speed.
+/// Disturbance force, sinusoidal or constant, whose amplitude may increase with the speed of the load up to a nominal
+/// speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disturbance {
     /// Amplitude as the acceleration of the whole mass in mm/s2.
     pub amplitude_mm_s2: f64,
-    /// Frequency in Hz; 0 is a constant force.
+    /// Frequency in Hz; 0: a constant force.
     pub frequency_hz: f64,
-    /// Load speed in mm/s from which the amplitude is full; 0: always full.
+    /// Load speed in mm/s from which the amplitude is reached in full; 0: at any speed.
     pub full_speed_mm_s: f64,
 }
 
@@ -169,7 +170,7 @@ impl Measured {
         }
     }
 
-    /// Takes the place of what was measured before, unless a value is not a number; false then.
+    /// Replaces the previous measurement unless a value is not finite; false in that case.
     #[inline] // where it is made, its values are still in registers: as a whole it would be read back before it is written
     fn replace(self, before: &mut Self) -> bool {
         let finite = self.is_finite();
@@ -179,7 +180,7 @@ impl Measured {
         finite
     }
 
-    /// Every value is a number.
+    /// Whether every value is finite.
     #[inline]
     pub fn is_finite(&self) -> bool {
         let Self { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s } = self;
@@ -197,7 +198,7 @@ pub struct Plant {
     rests: bool,
 }
 
-/// The model with its number of states, which the drives of most machines have few of.
+/// The model by its number of states, which is small for the drives of most machines.
 #[derive(Clone, Debug)]
 enum Dynamics {
     Follow { cycle_s: f64 },
@@ -221,7 +222,7 @@ impl Dynamics {
 }
 
 impl Plant {
-    /// Builds the discrete model once; nothing of it is computed again per cycle.
+    /// Builds the discrete model once; steps do not compute it again.
     ///
     /// # Errors
     /// [`PlantError`] if a parameter is not physical.
@@ -252,7 +253,7 @@ impl Plant {
         }
     }
 
-    /// The place where the plant is gets another position, `by_mm` further on: nothing moves.
+    /// Shifts the coordinate of the plant by `by_mm`; nothing moves.
     pub(crate) fn shift(&mut self, by_mm: f64) {
         let m = &mut self.measured;
         for position_mm in [&mut m.motor_mm, &mut m.load_mm, &mut m.tcp_mm] {
@@ -267,12 +268,12 @@ impl Plant {
         }
     }
 
-    /// The state at the start of the cycle.
+    /// The measured values at the start of the cycle.
     pub const fn measured(&self) -> &Measured {
         &self.measured
     }
 
-    /// The model separates the load from the motor.
+    /// Whether the model separates the load from the motor.
     pub(crate) fn is_elastic(&self) -> bool {
         match &self.dynamics {
             Dynamics::Follow { .. } => false,
@@ -282,7 +283,7 @@ impl Plant {
         }
     }
 
-    /// The models separate the tool point from the load.
+    /// Whether the model separates the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
         match &self.dynamics {
             Dynamics::Follow { .. } => false,
@@ -292,12 +293,12 @@ impl Plant {
         }
     }
 
-    /// The last cycle has changed nothing, bit for bit: while the input stays the same, none will.
+    /// Whether the last cycle changed nothing, bit for bit; while the input stays the same, no later one will.
     pub const fn rests(&self) -> bool {
         self.rests
     }
 
-    /// Advances by one cycle. False if the state is no longer finite; what was measured last then stays.
+    /// Advances by one cycle. False if the state is no longer finite; the last finite measurement then remains.
     #[inline]
     pub fn advance(&mut self, mut input: PlantInput) -> bool {
         if self.dead_time_cycles > 0 {

@@ -2,8 +2,8 @@
 //!
 //! Source: TF5200 axis parameters, P-AXIS-00099, 00245 to 00248, 00320, 00395, 00407.
 //!
-//! Order of calls: the gain at the present speed, the command from the following error, then the limiter, once each per
-//! cycle.
+//! Order of calls, once per cycle: the gain at the present speed, the command from the following error, then the
+//! limiter.
 //!
 //! ```
 //! use kontur_filters::control::position::{DynamicKv, PositionConfig, SpeedLimiter};
@@ -20,7 +20,7 @@
 
 use super::fault::Fault;
 
-/// Gain that depends on axis speed (P-AXIS-00245 to 00248): linear between the two points, constant outside.
+/// Gain that depends on the axis speed (P-AXIS-00245 to 00248): linear between two points, constant outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DynamicKv {
     /// Lower speed in mm/s (P-AXIS-00246).
@@ -39,11 +39,11 @@ pub enum PositionLoop {
     /// In the control (default).
     #[default]
     Cnc,
-    /// In the drive, which takes set positions.
+    /// In the drive, which receives set positions.
     ///
-    /// Assumption: the drive has the same proportional law with the gain of the list (a SERCOS drive that is fed
-    /// forward by the control needs it in S-0-0104 anyway). What watches or shapes the output of the control's own
-    /// controller does not act: dead band, speed limit.
+    /// Assumption: the drive applies the same proportional law with the gain of the list (a SERCOS drive with
+    /// feedforward from the control needs that gain in S-0-0104 anyway). Functions that act on the output of the
+    /// control's own controller have no effect: dead band, speed limit.
     Drive,
 }
 
@@ -56,13 +56,13 @@ pub struct PositionConfig {
     pub dynamic_kv: Option<DynamicKv>,
     /// Largest speed of the axis in mm/s (P-AXIS-00212), default 200.
     pub v_max_mm_s: f64,
-    /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit
-    /// off.
+    /// Excess over `v_max_mm_s` that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the
+    /// limit off.
     pub v_excess_ratio: f64,
     /// Following error in mm below which an axis at rest gets no command (P-AXIS-00395), default 0: always a command.
     /// At most the exact-stop window (110528, corrected by the list reader).
     pub dead_band_mm: f64,
-    /// Where the loop is closed (P-AXIS-00320), default in the control.
+    /// Where the loop is closed (P-AXIS-00320), by default in the control.
     pub closed_in: PositionLoop,
 }
 
@@ -80,27 +80,26 @@ impl Default for PositionConfig {
 }
 
 impl PositionConfig {
-    /// Gain in 1/s at an axis speed.
+    /// Gain in 1/s at an axis speed in mm/s.
     ///
-    /// Assumption: the commanded speed decides, so that a vibrating actual value does not modulate the gain.
+    /// Assumption: the gain follows the commanded speed, so that a vibrating actual value does not modulate it.
     #[inline]
     pub fn gain_at(&self, speed_mm_s: f64) -> f64 {
         let Some(d) = self.dynamic_kv else { return self.kv_per_s };
         let share = (speed_mm_s.abs() - d.v1_mm_s) / (d.v2_mm_s - d.v1_mm_s);
-        // a width of 0 gives no number: take the upper gain
+        // points of equal speed give no quotient: use the upper gain
         let share = if share.is_nan() { 1.0 } else { share.clamp(0.0, 1.0) };
         d.kv1_per_s + share * (d.kv2_per_s - d.kv1_per_s)
     }
 
-    /// Smallest gain in 1/s that occurs.
+    /// Smallest gain in 1/s at any speed.
     pub(crate) fn lowest_gain(&self) -> f64 {
         self.dynamic_kv.map_or(self.kv_per_s, |d| d.kv1_per_s.min(d.kv2_per_s))
     }
 
-    /// The following error as the controller sees it: nothing inside the dead band while the reference rests.
+    /// The following error that the controller acts on: 0 inside the dead band while the reference rests.
     ///
-    /// Source: P-AXIS-00395 keeps the controller from giving out small commands at standstill; effective with position
-    /// control in the CNC only.
+    /// Source: P-AXIS-00395 suppresses small commands at standstill; effective only with position control in the CNC.
     #[inline]
     pub fn error_mm(&self, lag_mm: f64, reference_rests: bool) -> f64 {
         let inside = lag_mm.abs() < self.dead_band_mm;
@@ -108,14 +107,15 @@ impl PositionConfig {
         if quiet { 0.0 } else { lag_mm }
     }
 
-    /// Limit of the speed command in mm/s, if the control has one: a drive that closes the loop limits its own.
+    /// Limit of the speed command in mm/s; `None` without one, as with a drive that closes the loop and limits its own
+    /// command.
     pub(crate) fn speed_limit_mm_s(&self) -> Option<f64> {
         let limited = self.v_excess_ratio > 0.0 && self.closed_in == PositionLoop::Cnc;
         limited.then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
     }
 }
 
-/// Speed limit of the controller: outputs the limit and raises 70382 when an excess begins.
+/// Speed limit of the controller: limits the command and raises 70382 when an excess begins.
 #[derive(Clone, Copy, Debug)]
 pub struct SpeedLimiter {
     limit_mm_s: Option<f64>,
@@ -123,17 +123,17 @@ pub struct SpeedLimiter {
 }
 
 impl SpeedLimiter {
-    /// A limiter after the configuration.
+    /// A limiter with the given configuration.
     pub fn new(config: &PositionConfig) -> Self {
         Self { limit_mm_s: config.speed_limit_mm_s(), active: false }
     }
 
-    /// The command is at the limit.
+    /// Whether the command is at the limit.
     pub(crate) const fn is_active(&self) -> bool {
         self.active
     }
 
-    /// The limited command and the fault of a beginning excess.
+    /// The limited command in mm/s, and a fault if an excess begins.
     #[inline]
     pub fn step(&mut self, speed_mm_s: f64) -> (f64, Option<Fault>) {
         let Some(limit_mm_s) = self.limit_mm_s.filter(|l| speed_mm_s.abs() > *l) else {

@@ -1,8 +1,8 @@
-//! Values in the drive's own format: speed counts, torque counts, encoder resolution.
+//! Values in the drive's format: speed counts, torque counts, encoder resolution.
 //!
 //! Source: TF5200 feedforward control 4 and 5; Improved Position Control 4.2.
 //!
-//! Order of calls: formats are made from the list once; afterwards each value is converted separately.
+//! Order of calls: make the formats from the list once, then convert each value.
 //!
 //! ```
 //! use kontur_filters::control::scaling::{Motor, SpeedFormat, TorqueFormat, encoder_resolution};
@@ -36,7 +36,7 @@ pub enum TimeBase {
 /// Format of speed values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedFormat {
-    /// Digital value at 1 m/min or 1000 deg/min (P-AXIS-00129/00128, default 2000): conventional and simulated drives.
+    /// Digital value for 1 m/min or 1000 deg/min (P-AXIS-00129/00128, default 2000): conventional and simulated drives.
     Gain(f64),
     /// Increments per path (P-AXIS-00206/00205, default 1/36): `increments` are output for `path_um` um (or 0.001
     /// degrees) per time base.
@@ -57,8 +57,8 @@ impl Default for SpeedFormat {
 }
 
 impl SpeedFormat {
-    /// The speed in mm/s that a drive takes from the value that was sent for one: bus drives get whole counts, analogue and
-    /// simulated ones any value.
+    /// The speed in mm/s that a drive derives from the value sent to it: bus drives receive whole counts, analogue and
+    /// simulated drives any value.
     #[inline]
     pub fn sent(&self, speed_mm_s: f64, cycle_s: f64) -> f64 {
         match self {
@@ -90,7 +90,7 @@ impl SpeedFormat {
 /// Rotary or linear motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motor {
-    /// Torque in N m; scaled on the motor side (P-AXIS-00362/00363 or 00511/00512 given).
+    /// Torque in N m at the motor shaft (P-AXIS-00362/00363 or 00511/00512 given).
     Rotary {
         /// Travel per revolution of the gear output in mm (P-AXIS-00362/00363 x 1e-4).
         feed_mm: f64,
@@ -106,10 +106,10 @@ pub enum Motor {
 pub struct TorqueFormat {
     /// Kind of motor.
     pub motor: Motor,
-    /// Total inertia at the motor shaft in kg m2, or moved mass in kg, as the control believes (P-AXIS-00391), default
-    /// 1e-6.
+    /// Total inertia at the motor shaft in kg m2, or moved mass in kg, as configured in the control (P-AXIS-00391),
+    /// default 1e-6.
     pub load: f64,
-    /// The same as it really is; none: as the control believes.
+    /// Actual inertia or mass in the same unit; `None`: as configured.
     pub real_load: Option<f64>,
     /// Stall torque in N m or force in N (P-AXIS-00392), default 1.
     pub reference: f64,
@@ -147,8 +147,8 @@ impl TorqueFormat {
         }
     }
 
-    /// Acceleration in mm/s2 that the axis gets from a torque: the drive is sent whole counts and takes them by the scale
-    /// of the list, and what it gives acts on the real inertia.
+    /// Acceleration in mm/s2 that a torque gives the axis: the drive receives whole counts, converts them by the scale
+    /// of the list, and its torque acts on the actual inertia.
     pub fn acceleration(&self, torque: f64) -> f64 {
         let load = self.real_load.unwrap_or(self.load);
         let counts = libm::round(self.counts(torque));
@@ -294,7 +294,7 @@ mod tests {
         ] {
             assert_eq!(sent(none).to_bits(), 0.0_f64.to_bits(), "{none:?}");
         }
-        // 5 counts for 1 mm/s: whole counts; an analogue value has no steps
+        // 5 counts for 1 mm/s: whole counts; an analogue value is not rounded
         let format =
             SpeedFormat::Resolution { increments: 5.0, path_um: 1.0, time_base: TimeBase::Cycle };
         assert!((format.sent(1.13, T) - 1.2).abs() < 1e-12);

@@ -1,12 +1,12 @@
 //! Analog low-pass prototypes: factors `1 / (1 + a P + b P^2)` with `P = s / (2 pi f)`.
 //!
-//! All are normalised to -3.01 dB at `P = j`, whatever prototype and order: the vendor calls the band edges the -3 dB
-//! points and says that the steepest slope of the step response hardly depends on the order, which only holds for this
+//! All are normalised to -3.01 dB at `P = j`, whatever prototype and order. The vendor calls the band edges the -3 dB
+//! points and says that the steepest slope of the step response hardly depends on the order, which is only true of this
 //! normalisation.
 //!
 //! Source: TF5200 axis filters, P-AXIS-00153. Assumption: the -3 dB normalisation of critical damping and Bessel.
 //!
-//! Order of calls: the first step of a design; [`transform`](super::transform) makes sections of the factors.
+//! Order of calls: the factors are the first step of a design; [`transform`](super::transform) makes sections of them.
 //!
 //! ```
 //! use kontur_filters::iir::prototype::Prototype;
@@ -30,12 +30,12 @@ pub struct Term {
     pub b: f64,
 }
 
-/// Shape of the transition between pass band and stop band. Source: P-AXIS-00153.
+/// Shape of the transition between passband and stopband. Source: P-AXIS-00153.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Prototype {
     /// 1: equal real poles, the step response does not overshoot.
     CritDamping,
-    /// 2: flattest pass band; the step response overshoots, more with the order.
+    /// 2: flattest passband; the step response overshoots, more so with a higher order.
     Butterworth,
     /// 3: flattest group delay; the step response overshoots by less than 1 %.
     Bessel,

@@ -1,10 +1,11 @@
 //! First- and second-order sections as state-variable filters with the trapezoidal rule (TPT form).
 //!
-//! Direct forms lose digits as the square of sampling over corner frequency and drift on a large constant position.
-//! These sections keep the low-passed position itself as state: at rest all their differences are exactly zero, so
-//! output = input bit for bit, and the gain for constants is 1 by construction, not by the digits of coefficients.
+//! Direct forms lose digits with the square of the ratio of sampling to corner frequency, and drift on a large constant
+//! position. These sections have the low-passed position itself as a state. At rest all their differences are exactly
+//! zero: the output equals the input bit for bit, and the DC gain is 1 by construction, not by the digits of
+//! coefficients.
 //!
-//! A section is coefficients only; each axis has its own state:
+//! A section only consists of coefficients; each axis has its own state:
 //!
 //! ```
 //! use kontur_filters::iir::section::{FirstOutput, Section, SectionState};
@@ -19,7 +20,7 @@
 
 use crate::response::{Angle, Response};
 
-/// Below this magnitude the state that vanishes at rest is set to zero, before it becomes denormal and slow.
+/// Below this magnitude the state that decays to zero at rest is set to zero, before it becomes denormal and slow.
 const VANISHED: f64 = 1e-300;
 
 /// One section: coefficients only.
@@ -31,7 +32,7 @@ pub enum Section {
     Second(Second),
 }
 
-/// First-order section `1 / (1 + P')`, `P'` the frequency over that of the pole.
+/// First-order section `1 / (1 + P')`, with `P'` the frequency relative to that of the pole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct First {
     /// Prewarped frequency of the pole, `tan(pi f T)`.
@@ -96,7 +97,7 @@ pub struct SectionState {
 }
 
 impl SectionState {
-    /// At rest on the constant input `x`.
+    /// Settled at the constant input `x`.
     pub const fn at_rest(x: f64) -> Self {
         Self { s1: 0.0, s2: x }
     }

@@ -1,8 +1,8 @@
 //! Delay by a fractional number of cycles below 6: Thiran's all-pass.
 //!
-//! The vendor promises an amplitude response of exactly 1, an order computed from the delay and a limit of 6 cycles;
-//! the maximally flat all-pass has all three. Its group delay for slow signals is exactly the delay asked for; a whole
-//! number of cycles is a plain shift, bit for bit.
+//! The vendor specifies an amplitude response of exactly 1, an order computed from the delay and a limit of 6 cycles;
+//! the maximally flat all-pass has all three. Its group delay for slow signals is exactly the configured delay; a whole
+//! number of cycles is a pure shift, bit for bit.
 //!
 //! Source: TF5200 axis filters, type `TIME_DELAY`, P-AXIS-00357. Assumption: Thiran's design.
 
@@ -27,16 +27,16 @@ pub(super) struct ThiranState {
 }
 
 impl ThiranState {
-    /// At rest on the constant input `x`.
+    /// Settled at the constant input `x`.
     pub(super) const fn at_rest(x: f64) -> Self {
         Self { inputs: [x; MAX_ORDER], outputs: [x; MAX_ORDER] }
     }
 }
 
 impl Thiran {
-    /// The delay by `cycles`, 0 to below 6.
+    /// The delay by `cycles`, from 0 to below 6.
     ///
-    /// The order is the delay rounded, at least 1; delays outside the range give the nearest one inside.
+    /// The order is the delay rounded, at least 1; a delay outside the range is replaced by the nearest one inside.
     pub(super) fn new(cycles: f64) -> Self {
         let mut a = [0.0; MAX_ORDER];
         if cycles <= 0.0 {

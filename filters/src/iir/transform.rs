@@ -1,10 +1,10 @@
 //! From low-pass prototypes to the sections of a filter: frequency transforms and prewarped bilinear transform.
 //!
-//! `g = tan(pi f T)` is the prewarped characteristic frequency: there the discrete response is exactly the analog one.
-//! For band filters the centre is prewarped, so the notch lies exactly where the user measured, and the quality is
-//! corrected ([`warped_quality`]), so that the distance of the edges is exactly `f0 / Q` at any `f0 T`.
+//! `g = tan(pi f T)` is the prewarped characteristic frequency, at which the discrete response equals the analog one
+//! exactly. For band filters the centre is prewarped, so that the notch lies exactly at the measured frequency, and the
+//! quality is corrected ([`warped_quality`]), so that the edges are exactly `f0 / Q` apart at any `f0 T`.
 //!
-//! First the factors of a [prototype](super::prototype), then the sections:
+//! Order of calls: the factors of a [prototype](super::prototype), then the sections:
 //!
 //! ```
 //! use kontur_filters::iir::prototype::Prototype;
@@ -30,11 +30,11 @@ use std::f64::consts::PI;
 
 /// Quality of the analog band filter whose discrete form has the -3 dB edges `f0 / q` apart.
 ///
-/// The edges `fu`, `fo` satisfy `tan(pi fo T) tan(pi fu T) = tan(pi f0 T)^2`; from the sum and difference formulas of the
-/// tangent follows `Q' = sin(2 pi f0 T) / (2 tan(pi f0 T / Q))`. Without it Q = 1 at f0 T = 0.1 is 1.099.
+/// The edges `fu`, `fo` satisfy `tan(pi fo T) tan(pi fu T) = tan(pi f0 T)^2`; the sum and difference formulas of the
+/// tangent give `Q' = sin(2 pi f0 T) / (2 tan(pi f0 T / Q))`. Without the correction Q = 1 at f0 T = 0.1 becomes 1.099.
 ///
-/// Assumption: the vendor's own rule is not documented; the manual defines Q as `f0 / (fo - fu)` and says nothing of a
-/// change with the cycle time.
+/// Assumption: the vendor's own rule is not documented; the manual defines Q as `f0 / (fo - fu)` and does not mention a
+/// dependence on the cycle time.
 pub(crate) fn warped_quality(f_hz: f64, q: f64, period_s: f64) -> f64 {
     let centre = PI * f_hz * period_s;
     libm::sin(2.0 * centre) / (2.0 * libm::tan(centre / q))
@@ -100,7 +100,7 @@ pub fn band_stop(terms: &[Term], g: f64, q: f64) -> Vec<Section> {
     poles(terms).flat_map(stop).collect()
 }
 
-/// The section of a factor whose poles stay where the prototype has them.
+/// The section of a factor whose poles stay at those of the prototype.
 fn pole(term: &Term, g: f64, first: FirstOutput, second: SecondOutput) -> Section {
     if term.b > 0.0 {
         let root = term.b.sqrt();
@@ -163,8 +163,8 @@ impl Pole {
         }
     }
 
-    /// The pole pairs that `s^2 - r s + 1` has for this pole r, and, of a pair, for its conjugate: with a quality of at
-    /// least 1 and an order of at most 3 all roots are complex.
+    /// The pole pairs that `s^2 - r s + 1` has for this pole r and, for a complex pole, for its conjugate. With a
+    /// quality of at least 1 and an order of at most 3 all roots are complex.
     fn resonances(self) -> impl Iterator<Item = Resonance> {
         let [one, other] = match self {
             Self::Real(r) => [Some(Resonance { wn: 1.0, k: -r }), None],

@@ -1,4 +1,4 @@
-//! Exact stop of whole loops: how long the lag takes into the window.
+//! Exact stop of whole loops: time until the lag is inside the window.
 
 use super::profile::Profile;
 use kontur_filters::control::monitor::ExactStopConfig;
@@ -21,7 +21,7 @@ fn abrupt(k: u32) -> f64 {
     0.1 * f64::from(k.min(2000))
 }
 
-/// The axis came too late into the window, and nothing else.
+/// Whether the axis was too late in the window, without other faults.
 fn is_late(faults: &[Fault]) -> bool {
     matches!(faults, [Fault::SettlingTimeout { .. }])
 }
@@ -45,7 +45,7 @@ fn stop(mut axis: AxisControl, set: impl Fn(u32) -> f64, last: u32) -> (u32, Vec
     (entered.unwrap(), faults)
 }
 
-/// `ln(lag / window) / Kv` for a drive without lag of its own (Ta 10 us): 74 ms and 530 ms.
+/// `ln(lag / window) / Kv` for a drive with negligible lag (Ta 10 us): 74 ms and 530 ms.
 /// Conformance: P006.
 #[test]
 fn abrupt_stop_closed_form() {
@@ -60,7 +60,7 @@ fn abrupt_stop_closed_form() {
     }
 }
 
-/// Kv 10/s: 200 ms are too short, 600 ms are not, whatever the drive adds.
+/// Kv 10/s: 200 ms are too short, 600 ms are not, whatever the drive contributes.
 /// Conformance: P006, P007.
 #[test]
 fn time_limit_decides() {
@@ -71,8 +71,8 @@ fn time_limit_decides() {
     }
 }
 
-/// What shortens the 530 ms: the drive's own lag, which carries the axis on (502 ms), and a braking phase, which
-/// begins to close the lag of 10 mm before the stop: `a / Kv2 (1 - exp(-1))` = 6.32 mm are left then (484 ms).
+/// Effects that shorten the 530 ms: the lag of the drive, which moves the axis further (502 ms), and a braking phase,
+/// which begins to reduce the lag of 10 mm before the stop: `a / Kv2 (1 - exp(-1))` = 6.32 mm then remain (484 ms).
 #[test]
 fn what_shortens_the_settling() {
     let (cycles, _) = stop(axis(10.0, 0.005, 1.0), abrupt, 2000);
@@ -104,7 +104,8 @@ fn feedforward_settles_soon() {
     assert_eq!(faults, []);
 }
 
-/// The window lies on both sides of the target: the same cycles from either direction. Conformance: P008.
+/// The window extends to both sides of the target: the same number of cycles from either direction.
+/// Conformance: P008.
 #[test]
 fn both_sides_of_the_target() {
     for settling_s in [0.2, 1.0] {

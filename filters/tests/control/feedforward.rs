@@ -188,7 +188,7 @@ fn additive_variant_moves_the_axis_alike() {
     }
 }
 
-/// A weight belongs to the motion it was programmed for, so it waits in the buffer with its setpoint.
+/// A weight belongs to the motion for which it was programmed, so it passes the buffer with its setpoint.
 #[test]
 fn weight_travels_through_the_buffer() {
     let mut axis = axis(50.0, 0.005, fed(Mode::VEL, 0.005));
@@ -264,8 +264,8 @@ fn own_simulation(profile: &Profile, counts_per_n: f64, believed: f64, real: f64
         .collect()
 }
 
-/// The torque acts on the real inertia: a list that is wrong by half leaves half of the lag, a list of 0 all of it, and
-/// coarse counts show.
+/// The torque acts on the real inertia: a list value that is wrong by half leaves half of the lag, a value of 0 all of
+/// it, and coarse counts are visible.
 #[test]
 fn a_wrong_inertia_shows_as_lag() {
     let profile = move_profile(0.4);
@@ -294,7 +294,7 @@ fn a_wrong_inertia_shows_as_lag() {
             let is = out.lag_mm * 1e3;
             assert!((is - own).abs() < 0.02, "{load} kg, cycle {k}: {is} {own}");
         }
-        // 100 um, a Ta / Kv, is what no torque would leave
+        // 100 um, a Ta / Kv, remains without any torque
         let at = out[99].lag_mm * 1e3;
         assert!(constant_um.is_nan() || (at - constant_um).abs() < 1.0, "{load} kg: {at}");
     }
@@ -305,7 +305,7 @@ fn a_wrong_inertia_shows_as_lag() {
     }
 }
 
-/// Feedforward switched on for a motion out of rest is complete from its first difference on: as if it had always been
+/// Feedforward switched on for a motion from rest is complete from its first difference on, as if it had always been
 /// on. STEP slope, velocity and acceleration.
 #[test]
 fn switched_on_before_a_step_motion() {
@@ -331,8 +331,8 @@ fn switched_on_before_a_step_motion() {
     assert!(always.iter().all(|lag| lag.abs() < 1e-3), "less than 1 um");
 }
 
-/// Switching feedforward off does not empty its delay: five cycles later the last values still come out, also with the
-/// longest delay of the channel, where the whole buffer has no gain before they do.
+/// Switching feedforward off does not empty its delay: the last values are still output five cycles later, also with
+/// the longest delay of the channel, with which the gain of the whole buffer is 0 before that.
 #[test]
 fn a_delay_outlasts_the_gain() {
     let outputs = |velocity_delay_s: f64| {

@@ -46,7 +46,7 @@ fn on<const N: usize>(stages: [IpcStageConfig; N]) -> IpcConfig {
     IpcConfig { enable: true, limit_ratio: 0.1, stages: stages.into(), ..IpcConfig::default() }
 }
 
-/// The axis and its motion: from 0.1 s on 0.5 m forth with 272.7 mm/s, 2 m/s2 and ramps of 20 ms, 1.2 s at rest, and
+/// The axis and its motion: from 0.1 s on 0.5 m forward at 272.7 mm/s, 2 m/s2 and ramps of 20 ms, 1.2 s at rest, and
 /// back, up to the constant speed.
 #[derive(Clone, Debug)]
 struct Experiment {
@@ -176,7 +176,7 @@ fn both_stages_reduce_as_in_the_manual() {
     near(both.at_11(), run(on([indirect(3.0, 0.4)])).at_11(), 0.01);
 }
 
-/// Raising the weight: better, then worse again.
+/// Raising the weight improves the result up to a point, then makes it worse.
 /// Conformance: I010, I032.
 #[test]
 fn direct_weight() {
@@ -262,7 +262,7 @@ fn order_and_frequency_of_the_band_pass() {
     near(changed(indirect(4.0, 0.4), |f| f.frequency_hz = 11.6).at_11(), 0.227, DIGIT);
 }
 
-/// Parameters found for one machine on one whose resonances lie 5 % lower or higher.
+/// Parameters tuned on one machine, used on one with resonances 5 % lower or higher.
 /// Conformance: I040.
 #[test]
 fn detuned_machine() {
@@ -280,7 +280,7 @@ fn detuned_machine() {
     }
 }
 
-/// `SET_POINT` wants its frequency above the mode: its oscillator must be in phase there.
+/// `SET_POINT` needs a frequency above the mode, where its oscillator is in phase.
 #[test]
 fn set_point_frequency() {
     let above = run(on([stage(IpcMode::SetPoint, 14.0, 1.0, 0.1, 0.4)]));
@@ -290,7 +290,7 @@ fn set_point_frequency() {
     near(on_it.at_11(), 0.532, DIGIT);
 }
 
-/// The command is there before the motor has followed it.
+/// The command precedes the response of the motor.
 /// Conformance: I017.
 #[test]
 fn set_point_leads_indirect() {
@@ -339,7 +339,7 @@ fn set_point_cannot_swing_up() {
     assert!(last(&set_point) < 0.01 * set_point.v_add(), "{}", last(&set_point));
 }
 
-/// A vibration that neither motor nor load shows cannot be damped by what they measure.
+/// A vibration that neither motor nor load shows cannot be damped by measuring them.
 /// Conformance: I008.
 #[test]
 fn direct_does_not_reach_a_hidden_mode() {
@@ -351,7 +351,7 @@ fn direct_does_not_reach_a_hidden_mode() {
     assert!((damped / plain - 1.0).abs() < 0.01, "{plain} {damped}");
 }
 
-/// Largest stable Kv in 1/s, to 1/s: a disturbed loop must calm down.
+/// Largest stable Kv in 1/s, to 1/s: a disturbed loop must settle.
 fn largest_kv(dead_time_cycles: usize, ipc: &IpcConfig) -> f64 {
     let stable = |kv: f64| {
         let mut config = AxisControlConfig::new(500.0, 1e5, 1e8);
@@ -393,8 +393,8 @@ fn damping_allows_a_higher_kv() {
     assert!(damped > 1.2 * plain, "{plain} {damped}");
 }
 
-/// The sign: added instead of subtracted, the same speed feeds the vibration that the motor and the load show alike.
-/// The loop is put together from its parts here, since no parameter turns the sign.
+/// The sign: added instead of subtracted, the same speed amplifies a vibration in which motor and load move alike. The
+/// loop is assembled from its parts here, since the sign is not a parameter.
 /// Conformance: I010.
 #[test]
 fn added_speed_excites() {

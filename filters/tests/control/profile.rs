@@ -29,7 +29,7 @@ impl Profile {
         self
     }
 
-    /// Changes the speed by `dv` with acceleration `a` and ramps of `ramp_s`, standing or constant at both ends.
+    /// Changes the speed by `dv` with acceleration `a` and ramps of `ramp_s`, with zero acceleration at both ends.
     pub(crate) fn ramp(self, dv_mm_s: f64, a_mm_s2: f64, ramp_s: f64) -> Self {
         let jerk = a_mm_s2.copysign(dv_mm_s) / ramp_s;
         let hold = dv_mm_s.abs() / a_mm_s2 - ramp_s;

@@ -1,4 +1,5 @@
-//! Cycles that are left out: an axis that is asked only when it does not rest gives what one gives that is asked always.
+//! Skipped cycles: an axis that is only computed while it does not rest gives the same output as one computed in every
+//! cycle.
 
 use kontur_filters::control::monitor::{LagMonitorConfig, LagMonitorType};
 use kontur_filters::control::plant::{Disturbance, ModalConfig, PlantModel};
@@ -49,7 +50,7 @@ prop_compose! {
     }
 }
 
-/// A stretch of a run: cycles, speed in mm per cycle, gain, jerk limitation, what else changes at its beginning.
+/// A part of a run: cycles, speed in mm per cycle, gain, jerk limitation, and another change at its beginning.
 pub(crate) fn stretches() -> impl Strategy<Value = Vec<(u32, f64, f64, bool, u8)>> {
     let cycles = prop_oneof![2 => 1..60_u32, 1 => 2000..9000_u32];
     let speed = prop_oneof![2 => Just(0.0), 1 => -0.2..0.2];
@@ -97,7 +98,7 @@ proptest! {
     }
 }
 
-/// A standing axis does rest: at once where it starts, and some time after a motion.
+/// An axis at standstill does rest: at once where it starts, and some time after a motion.
 #[test]
 fn axes_come_to_rest() {
     for model in [FIRST_ORDER, PlantModel::VENDOR_DEFAULT, PlantModel::Follow] {

@@ -1,4 +1,4 @@
-//! Whatever the configuration, the axis never shows anything but numbers.
+//! The outputs of an axis are finite for any configuration.
 
 use kontur_filters::control::ipc::{
     IpcConfig, IpcFilterConfig, IpcFilterType, IpcMode, IpcStageConfig,
@@ -128,7 +128,7 @@ fn not_a_number_stands_still() {
     }
 }
 
-/// Reaction class 5: the axis stays where it is, though the set position and its feedforward continue at 100 mm/s.
+/// Reaction class 5: the axis stays where it is, although the set position and its feedforward continue at 100 mm/s.
 #[test]
 fn halt_keeps_the_axis_where_it_is() {
     let mut config = AxisControlConfig::new(500.0, 1e4, 1e6);
@@ -149,7 +149,7 @@ fn halt_keeps_the_axis_where_it_is() {
     assert_eq!(after.feedforward.speed_mm_s, 0.0);
 }
 
-/// In the drive's loop the speed of the IPC needs an additive interface.
+/// With the position loop in the drive, the speed of the IPC needs an additive interface.
 #[test]
 fn ipc_in_the_drive_needs_an_interface() {
     for (closed_in, velocity, runs) in [
@@ -166,7 +166,7 @@ fn ipc_in_the_drive_needs_an_interface() {
     }
 }
 
-/// Started again, an axis repeats itself bit by bit.
+/// After another start an axis repeats itself bit for bit.
 #[test]
 fn start_forgets_everything() {
     let mut config = AxisControlConfig::new(500.0, 1e4, 1e6);
@@ -231,7 +231,7 @@ fn encoder_of_the_position_loop() {
     }
 }
 
-/// The load is where the measured position says it is unless mechanics or the steps of an encoder lie between.
+/// The load is at the measured position unless mechanics or encoder increments make a difference.
 #[test]
 fn what_shows_the_load_twice() {
     let twice = |model: PlantModel, increment_mm: f64| {
@@ -253,6 +253,6 @@ fn what_shows_the_load_twice() {
         speed_loop,
     };
     assert_eq!(twice(PlantModel::TwoMass(spring), 0.0), (false, true));
-    // the modes of this one move motor and load alike: only its tool point is elsewhere
+    // its modes move motor and load alike: only its tool point differs
     assert_eq!(twice(PlantModel::Modal(ModalConfig::rack_and_pinion()), 0.0), (true, true));
 }

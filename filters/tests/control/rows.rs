@@ -1,5 +1,5 @@
-//! Cycles in a row: an axis that runs through many at once gives what one gives that is stepped, bit for bit, with faults in the
-//! middle of rows as well.
+//! Cycles in a row: an axis that runs through many at once gives the same output as one that is stepped, bit for bit,
+//! also with faults in the middle of rows.
 
 use super::rest::{configs, stretches};
 use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput};
@@ -63,7 +63,7 @@ proptest! {
             rows.set_inputs(inputs);
             let path: Vec<f64> = (0..cycles)
                 .map(|k| {
-                    // a jump now and then: the monitors of the set position are heard
+                    // an occasional jump, which the monitors of the set position report
                     set_mm += if k % 97 == 96 { 30.0 * speed } else { speed };
                     set_mm
                 })
@@ -91,7 +91,7 @@ proptest! {
         }
     }
 
-    /// However the inputs are cut into rows; the reference is the sum over the taps as it is written down.
+    /// For any division of the inputs into rows; the reference is the sum over the taps as defined.
     #[test]
     fn a_kernel_in_rows_is_its_sum(
         taps in prop::collection::vec((0..40_u32, 0.1..1.0), 1..7),

@@ -203,7 +203,7 @@ fn the_best_settings_are_those_of_a_full_search() {
         let least = (3000..=3300).map(judge).fold(f64::MAX, f64::min);
         let best = band.best(mode, MS).unwrap();
         assert!(best.worst_ratio <= least, "mode {mode}: {} {least}", best.worst_ratio);
-        // whoever allows everything gets the end of the search, not its endless run
+        // a limit that permits everything gives the end of the search rather than an endless loop
         let fastest = band.fastest(mode, 1e9, MS).unwrap();
         assert!(fastest.settings.freq_hz < 10.1 * 33.0, "mode {mode}: {fastest:?}");
     }

@@ -34,7 +34,7 @@ fn guard(mode: u8) -> Arc<Kernel> {
     Arc::new(settings.kernel(MS).unwrap())
 }
 
-/// Every kernel there is, with every share.
+/// Every kernel, with every share.
 fn kernels() -> Vec<Arc<Kernel>> {
     let mut kernels: Vec<_> = (1..=4).map(guard).collect();
     for share_ratio in [0.0, 0.37, 1.0] {
@@ -90,7 +90,7 @@ fn a_standing_axis_keeps_every_bit_in_every_kernel() {
     }
 }
 
-/// Low corner frequencies are where direct forms lose digits and creep.
+/// At low corner frequencies direct forms lose digits and drift.
 #[test]
 fn a_slow_filter_neither_creeps_nor_loses_digits() {
     for f_hz in [0.01, 0.1, 1.0, 15.0] {
@@ -345,7 +345,7 @@ proptest! {
         }
     }
 
-    /// Against a chain that is stepped and never goes a way that is taken back.
+    /// Compared with a chain that is stepped and never takes a way that is undone.
     #[test]
     fn a_row_that_is_taken_back_was_never_run(
         shaping in any_shaping(),
@@ -431,7 +431,7 @@ fn the_response_of_a_kernel_is_its_fourier_sum() {
 }
 
 proptest! {
-    /// Where the chain rests, a cycle repeats the output and may be left out, and counts all the same.
+    /// While the chain rests, a cycle repeats the output and may be skipped, but still counts.
     #[test]
     fn a_cycle_left_out_is_the_one_before(
         mode in 1_u8..=4,
@@ -458,7 +458,7 @@ proptest! {
                 }
                 prop_assert_eq!(every.step(set).to_bits(), before.to_bits());
             }
-            // what was left out counts as rest for a longer kernel
+            // skipped cycles count as rest for a longer kernel
             let ready = [&every, &seldom].map(|chain| chain.ready_for(Some(&longer)));
             prop_assert_eq!(ready[0], ready[1]);
         }

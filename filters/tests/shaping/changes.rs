@@ -14,8 +14,9 @@ fn low_pass(order: u32, f_hz: f64) -> AxisFilter {
 }
 
 proptest! {
-    /// An axis that is still a little away from its input when a filter is changed or switched on goes on from where it is, and
-    /// reaches the input: no step of a low-pass of at least 2 Hz is larger than what a step of its whole way takes in a cycle.
+    /// An axis that is still a little away from its input when a filter is changed or switched on continues from its
+    /// position and reaches the input: no step of a low-pass of at least 2 Hz is larger than the first step of its
+    /// response to the whole distance.
     #[test]
     fn a_changed_filter_goes_on_from_where_the_axis_is(
         order in 1..=4_u32, before_hz in 2.0..20.0_f64, after_hz in 2.0..20.0_f64, cycles in 1..400_u32, added: bool,

@@ -1,4 +1,4 @@
-//! What the axis filter manual says in words and shows in its figures, as numbers.
+//! Statements and figures of the axis filter manual, as numbers.
 
 use super::corner::{corner, path};
 use super::reference::assert_close;
@@ -175,7 +175,7 @@ fn band_filters_keep_their_quality() {
     }
 }
 
-/// Figure 8: how far X runs beyond the corner, Q 4, BUTTERWORTH: step in per cent, corner at F1000 in mm.
+/// Figure 8: how far X overshoots the corner, Q 4, BUTTERWORTH: step in per cent, corner at F1000 in mm.
 /// Conformance: A044, A045, A046.
 #[test]
 fn ringing_of_band_stops() {

@@ -48,7 +48,7 @@ impl Stage for Mode {
     }
 }
 
-/// A corner that excites a mode of 20 Hz: the band stop's own overshoot is smaller than what it takes away.
+/// A corner that excites a mode of 20 Hz: the overshoot of the band-stop is smaller than the vibration it removes.
 /// Conformance: A047.
 #[test]
 fn a_band_stop_is_better_than_the_resonance() {

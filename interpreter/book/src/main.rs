@@ -1,7 +1,7 @@
-//! `cargo run -p kontur-book -- FOLDER` brings the sources of the book together in a folder, for mdBook.
+//! `cargo run -p kontur-book -- FOLDER` collects the sources of the book in a folder, for mdBook.
 //!
-//! Three kinds of pages: those in `pages`, documents of the repository that have their own place there ([`shared`]), and the
-//! reference, which is made from the tables ([`mod@reference`]).
+//! Three kinds of pages: those in `pages`, documents that have their own place in the repository ([`shared`]), and the
+//! reference, which is generated from the tables ([`mod@reference`]).
 
 #![expect(clippy::print_stderr, reason = "a tool of the build says what went wrong")]
 
@@ -60,7 +60,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::path::Path;
 
-    /// Every link leads to a page or picture of the book, every page is in the summary, and nothing is left to include.
+    /// Every link leads to a page or picture of the book, every page is in the summary, and all includes are resolved.
     #[test]
     fn links_lead_somewhere() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,6 +1,6 @@
 //! The parts of Markdown that are needed: escaping, links, anchors of headings.
 
-/// Text that Markdown shows as it is.
+/// Text that Markdown shows unchanged.
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 8);
     for c in text.chars() {
@@ -22,7 +22,7 @@ pub(crate) fn cell_code(text: &str) -> String {
     code(text).replace('|', "\\|")
 }
 
-/// The anchor that mdBook gives to a heading: letters, digits, `_` and `-` in lower case, blanks as `-`, the rest left out.
+/// The anchor that mdBook gives to a heading: letters, digits, `_` and `-` in lower case, blanks as `-`, the rest omitted.
 pub(crate) fn anchor(heading: &str) -> String {
     let text = heading.trim_start_matches('#').trim();
     let kept = text.chars().filter_map(|c| match c {
@@ -42,7 +42,7 @@ pub(crate) fn links(text: &str) -> Vec<String> {
         if line.starts_with("```") {
             fenced = !fenced;
         }
-        // what is between backticks is not a link
+        // text between backticks is not a link
         let plain: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
         if !fenced {
             let targets = plain.split("](").skip(1).filter_map(|rest| rest.split(')').next());

@@ -6,7 +6,7 @@ use clap::CommandFactory as _;
 use kontur_interpreter::explain::{Explanation, Kind, all, explain};
 use std::fmt::Write as _;
 
-/// Name, title and introduction of a page, and which entries it has.
+/// Name, title and introduction of a page, and the choice of its entries.
 struct Page {
     name: &'static str,
     title: &'static str,
@@ -98,7 +98,7 @@ fn written(page: &Page) -> String {
             out.push_str("\n| | |\n|---|---|\n");
         }
         for (name, fact) in facts {
-            // keys and forms are what a program holds
+            // keys and forms are written in programs
             let fact = if *name == "form" { cell_code(fact) } else { escaped(fact) };
             let _ = writeln!(out, "| {name} | {fact} |");
         }
@@ -133,7 +133,7 @@ fn link(thing: &str) -> String {
     }
 }
 
-/// What `--help` says of every command.
+/// The output of `--help` for every command.
 fn command_line() -> String {
     let mut out = "# Command line\n\nWhat `kontur COMMAND --help` says. Results go to stdout, messages to stderr. Exit codes: 0 \
          finished, 1 refused or aborted by an NC or axis error, 2 wrong usage or machine lists, 3 input or output failed.\n"
@@ -157,7 +157,7 @@ mod tests {
     use super::{PAGES, all, pages};
     use kontur_interpreter::explain::{Kind, explain};
 
-    /// Every row of the tables is on one page, and on one alone.
+    /// Every row of the tables is on exactly one page.
     #[test]
     fn every_row_has_its_entry() {
         for kind in [Kind::Parameter, Kind::Message, Kind::Command, Kind::Variable, Kind::Word] {
@@ -174,7 +174,7 @@ mod tests {
         assert!(text("command-line.md").contains("--techno-times"));
     }
 
-    /// What an entry says is what `kontur explain` says.
+    /// An entry says the same as `kontur explain`.
     #[test]
     fn entries_are_what_explain_prints() {
         for kind in [Kind::Parameter, Kind::Message, Kind::Variable, Kind::Word] {

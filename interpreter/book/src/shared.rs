@@ -18,7 +18,7 @@ const DOCUMENTS: &[(&str, &str)] = &[
     ("CHANGELOG.md", "changelog.md"),
 ];
 
-/// Copies documents, and the pictures that they show.
+/// Copies documents, and their pictures.
 pub(crate) fn copy(root: &Path, src: &Path) -> io::Result<()> {
     for (document, page) in DOCUMENTS {
         let text = std::fs::read_to_string(root.join(document))?;
@@ -43,7 +43,7 @@ fn linked(
     let mut rest = text;
     while let Some((before, after)) = rest.split_once("](") {
         let Some((target, behind)) = after.split_once(')') else { break };
-        // a link begins at the bracket that is open last; code such as `axis[i](..)` has none
+        // a link begins at the bracket opened last; code such as `axis[i](..)` has none
         let Some((front, words)) = before.rsplit_once('[') else { break };
         let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
         let path = from_root(folder, file);
@@ -82,7 +82,7 @@ fn from_root(folder: &str, file: &str) -> String {
     parts.join("/")
 }
 
-/// A page with the files instead of the lines that name them: `{{#include PATH}}`, from the root of the repository.
+/// A page with the files in place of the lines that name them: `{{#include PATH}}`, from the root of the repository.
 pub(crate) fn with_files(root: &Path, page: &str) -> io::Result<String> {
     let mut out = String::new();
     for line in page.lines() {

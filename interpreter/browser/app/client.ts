@@ -1,16 +1,16 @@
-// The page's side of the worker. A worker that says nothing for too long is ended, and another one takes its place.
+// The page's side of the worker. A worker that is silent for too long is ended, and another one takes its place.
 
 import type { Checked, Explained, Request } from "./engine";
 import type { FromWorker, RunResult, ToWorker } from "./protocol";
 
-/** Time in ms without a word after which a worker counts as stuck. */
+/** Time in ms without a message after which a worker counts as stuck. */
 const SILENCE_MS = 10_000;
 
 export interface Listener {
   checked(checked: Checked): void;
   progress(rows: number): void;
   finished(result: RunResult): void;
-  /** No result: the module stopped, did not answer, or took the request for none. */
+  /** No result: the module stopped, did not answer, or did not accept the request. */
   failed(reason: string): void;
 }
 
@@ -27,14 +27,14 @@ export class Client {
     private readonly listener: Listener,
   ) {}
 
-  /** Runs a program instead of the running one. */
+  /** Runs a program in place of the current run. */
   run(request: Request): void {
     this.running = this.nextId++;
     this.watch();
     this.tell({ kind: "run", id: this.running, request });
   }
 
-  /** What `kontur explain` says; null if the worker ends before it answers. */
+  /** The output of `kontur explain`; null if the worker ends before it answers. */
   explain(thing: string): Promise<Explained | null> {
     const id = this.nextId++;
     const answer = new Promise<Explained | null>((resolve) => this.questions.set(id, resolve));

@@ -90,7 +90,7 @@ export class Contour {
     this.draw();
   }
 
-  /** Shows all of the path. */
+  /** Shows the whole path. */
   fit(): void {
     const { trace, canvas } = this;
     if (!trace || canvas.clientWidth === 0) {
@@ -215,7 +215,7 @@ export class Contour {
       let [lastX, lastY] = [NaN, NaN];
       for (let i = from; i < to; i++) {
         const [x, y] = [toX(xs[i] ?? 0), toY(ys[i] ?? 0)];
-        // steps below a fifth of a pixel are not seen
+        // steps below a fifth of a pixel are invisible
         if (Math.abs(x - lastX) + Math.abs(y - lastY) < 0.2 && i + 1 < to) {
           continue;
         }

@@ -1,4 +1,4 @@
-// The editor: colours of the dialect, messages where they belong, what a word means under the pointer.
+// The editor: syntax colours of the dialect, messages at their places, the meaning of the word under the pointer.
 
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
@@ -8,7 +8,7 @@ import { EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutt
 import { tags } from "@lezer/highlight";
 import type { Explained, Message } from "./engine";
 
-/** Words with what they are, from the start of the rest of a line. */
+/** Words and their kinds, matched at the start of the rest of a line. */
 const TOKENS: [RegExp, string][] = [
   [/^;.*/, "comment"],
   [/^\([^)]*\)?/, "comment"],
@@ -70,7 +70,7 @@ const look = EditorView.theme({
   ".cm-diagnostic": { padding: "6px 10px", fontFamily: "var(--sans)", fontSize: "13px" },
 });
 
-/** What `explain` could know about the word at a column: a command with what follows it, a function, a parameter. */
+/** The thing at a column that `explain` may know: a command with the text after it, a function, a parameter. */
 export function thingAt(line: string, column: number): { from: number; to: number; things: string[] } | null {
   for (const found of line.matchAll(/#[^[\];(]*|\$[A-Z]+|P-[A-Z]+-\d+|[GM]\d+|"[^"]*"|\([^)]*\)|[A-Z_.]{3,}/gi)) {
     const from = found.index;
@@ -125,7 +125,7 @@ export interface EditorHooks {
 
 export class Editor {
   private readonly view: EditorView;
-  /** Set while the text is replaced from outside. */
+  /** True while the text is replaced from outside. */
   private quiet = false;
 
   constructor(parent: HTMLElement, text: string, hooks: EditorHooks) {

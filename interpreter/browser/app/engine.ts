@@ -1,4 +1,4 @@
-// The module and its calls. A module that stopped is of no further use: `Trap` says why, and the caller loads another one.
+// The module and its calls. A module that has stopped cannot be used any more: `Trap` says why, and the caller loads another one.
 
 /** A message as an editor shows it; lines and columns from 1. */
 export interface Message {
@@ -10,7 +10,7 @@ export interface Message {
   time_s: number | null;
 }
 
-/** What is run: a program, settings as of `--set`, and how much of the result is wanted. */
+/** The request for a run: a program, settings as with `--set`, and the wanted part of the result. */
 export interface Request {
   program: string;
   settings: string[];
@@ -84,19 +84,19 @@ interface Exports {
 /** The module stopped. */
 export class Trap extends Error {}
 
-/** The request was none: too long, or not what the module expects. */
+/** The request is invalid: too long, or not in the form that the module expects. */
 export class Refused extends Error {}
 
 export class Engine {
   private constructor(private readonly exports: Exports) {}
 
-  /** A fresh module out of its bytes. */
+  /** A new module from its bytes. */
   static async load(bytes: BufferSource): Promise<Engine> {
     const { instance } = await WebAssembly.instantiate(bytes, {});
     return new Engine(instance.exports as unknown as Exports);
   }
 
-  /** An engine on exports of another origin. */
+  /** An engine on given exports. */
   static of(exports: object): Engine {
     return new Engine(exports as Exports);
   }
@@ -113,7 +113,7 @@ export class Engine {
     return this.ask<Started>(JSON.stringify(request), (e) => e.start());
   }
 
-  /** Computes up to so many cycles; true while there are more. */
+  /** Computes up to the given number of cycles; true while there are more. */
   advance(cycles: number): boolean {
     return this.guarded((e) => e.advance(cycles) === 1);
   }
@@ -126,7 +126,7 @@ export class Engine {
     return this.guarded((e) => e.rows());
   }
 
-  /** A copy of the values of a column; after the last one come the lines of the rows. */
+  /** A copy of the values of a column; after the last column come the lines of the rows. */
   column(i: number): Float64Array<ArrayBuffer> {
     return this.guarded((e) => new Float64Array(e.memory.buffer, e.column(i), e.rows()).slice());
   }

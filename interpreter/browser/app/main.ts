@@ -1,4 +1,4 @@
-// The page: what is typed and chosen goes to the worker, what comes back is drawn.
+// The page: text and settings go to the worker, the results are drawn.
 
 import "./style.css";
 import { traceHash } from "./canonical";
@@ -40,7 +40,7 @@ let sample: Sample = SAMPLES[0] as Sample;
 let trace: Trace | undefined;
 let kept: Trace | undefined;
 let asked = 0;
-/** What stays to be said beside a result, until another program is chosen. */
+/** A message that stays beside the results until another program is chosen. */
 let remark = "";
 let editor: Editor;
 let client: Client;
@@ -56,7 +56,7 @@ const plots = [
   new TimePlot($("error"), "error", (row) => point(row, false)),
 ];
 
-/** Says what is at a row, and marks it. */
+/** Shows the values of a row, and marks it. */
 function point(row: number | null, fromContour: boolean): void {
   contour.cursor(row);
   if (fromContour) {
@@ -123,7 +123,7 @@ function finished(result: RunResult): void {
   document.documentElement.dataset.drawn = drawn.toFixed(1);
 }
 
-/** The hash of what is drawn, where it is looked at. */
+/** The hash of the drawn run, computed only while it is shown. */
 async function hash(): Promise<void> {
   if (trace && $<HTMLDetailsElement>("same").open) {
     $("hash").textContent = await traceHash(trace.all());
@@ -191,7 +191,7 @@ async function detail(thing: string): Promise<void> {
   }
 }
 
-// ---- what is asked for
+// ---- requests
 
 let typing: ReturnType<typeof setTimeout> | undefined;
 
@@ -212,7 +212,7 @@ function run(): void {
 const form = $<HTMLFormElement>("controls");
 const fields = (name: string) => [...form.elements].filter((e) => e.getAttribute("name") === name) as (HTMLInputElement | HTMLSelectElement)[];
 
-/** Which controls act, by what else is chosen. */
+/** Whether a control has an effect with the other settings. */
 function acting(name: string): boolean {
   switch (name) {
     case "mode": case "freq_hz": case "damping": case "bounded":
@@ -252,7 +252,7 @@ function prepareControls(): void {
       if (field instanceof HTMLInputElement) {
         field.min = String(low);
         field.max = String(high);
-        // a number may be any; a slider has steps
+        // a number field takes any value; a slider has steps
         field.step = field.type === "range" ? String(step) : "any";
         if (field.type === "number") {
           field.setAttribute("aria-label", `${field.closest("label")?.firstElementChild?.textContent ?? name}, as a number`);
@@ -284,7 +284,7 @@ function prepareControls(): void {
     showControls();
     run();
   });
-  // what a control means, from the same source as everywhere
+  // the explanation of a control, from the same source as everywhere else
   for (const label of form.querySelectorAll<HTMLElement>("[data-thing]")) {
     label.addEventListener("pointerenter", async () => {
       if (!label.title) {

@@ -11,7 +11,7 @@ interface Line {
   colour: string;
 }
 
-/** What a plot can show, by name. */
+/** The quantities that a plot can show, by name. */
 export const QUANTITIES = {
   speed: { title: "Path speed", unit: "mm/s", lines: [{ signal: "v_mm_s", name: "speed", colour: "--set" }] },
   acceleration: { title: "Path acceleration", unit: "mm/s²", lines: [{ signal: "a_mm_s2", name: "acceleration", colour: "--set" }] },
@@ -36,7 +36,7 @@ export const QUANTITIES = {
 } as const satisfies Record<string, { title: string; unit: string; lines: readonly Line[] }>;
 export type Quantity = keyof typeof QUANTITIES;
 
-/** Plots of one group move their cursors and their range of time together. */
+/** Plots of one group share the cursor and the range of time. */
 const GROUP = "kontur";
 
 export class TimePlot {

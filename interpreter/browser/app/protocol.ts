@@ -4,7 +4,7 @@ import type { Checked, Explained, Finished, Request, Started } from "./engine";
 
 export type ToWorker =
   | { kind: "load"; bytes: ArrayBuffer }
-  /** Replaces the run before, finished or not. */
+  /** Replaces the previous run, finished or not. */
   | { kind: "run"; id: number; request: Request }
   | { kind: "explain"; id: number; thing: string };
 
@@ -13,12 +13,12 @@ export type FromWorker =
   | { kind: "progress"; id: number; rows: number }
   | { kind: "finished"; id: number; result: RunResult }
   | { kind: "explained"; id: number; explained: Explained }
-  /** The request was none. */
+  /** The request was invalid. */
   | { kind: "refused"; id: number; reason: string }
   /** The module stopped; the worker has loaded another one. */
   | { kind: "trap"; id: number; reason: string };
 
-/** A run with its columns; `lines` has the line of every row. */
+/** A run with its columns; `lines` holds the line of every row. */
 export interface RunResult {
   started: Started;
   finished: Finished;

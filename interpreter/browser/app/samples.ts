@@ -1,4 +1,4 @@
-// What the page begins with, and exercises with a goal. The programs of exercises are those of `programs/lessons`.
+// Samples to start with, and exercises with a goal. The programs of exercises are those of `programs/lessons`.
 
 import oneMove from "../../../programs/lessons/1_one_move.nc?raw";
 import corner from "../../../programs/lessons/3_corner.nc?raw";
@@ -10,17 +10,17 @@ import squareCorner from "../../../programs/square_corner.nc?raw";
 import type { Controls } from "./settings";
 import { type Trace, most } from "./trace";
 
-/** How far a goal is: a number of the run, and whether it is what was asked for. */
+/** State of a goal: a number of the run, and whether it meets the goal. */
 export interface Reached {
   reached: boolean;
-  /** What the run has now. */
+  /** Value of the current run. */
   now: string;
 }
 
 export interface Sample {
   id: string;
   title: string;
-  /** What can be seen, or what is asked for. */
+  /** What there is to see, or the task. */
   text: string;
   program: string;
   controls?: Partial<Controls>;
@@ -45,7 +45,7 @@ function pathTime(trace: Trace): number {
   return trace.summary.duration_s - trace.summary.arrival_s;
 }
 
-/** Lowest speed between the first and the last moment at half the highest one. */
+/** Lowest speed between the first and the last time at half of the highest speed. */
 function lowest(trace: Trace): number {
   const v = trace.of("v_mm_s");
   const half = most(v) / 2;
@@ -54,7 +54,7 @@ function lowest(trace: Trace): number {
   return first < 0 ? 0 : v.slice(first, last + 1).reduce((least, x) => Math.min(least, x), Infinity);
 }
 
-/** Lag of X in the middle of the first stretch at full speed. */
+/** Lag of X in the middle of the first section at full speed. */
 function onTheWay(trace: Trace): number {
   const v = trace.of("v_mm_s");
   const full = 0.999 * most(v);

@@ -1,11 +1,11 @@
-// The controls of the page, and the list parameters that they stand for.
+// The controls of the page, and the list parameters behind them.
 
 /** Types of `filter[0]` that the page offers. */
 export const FILTERS = ["none", "LOWPASS", "BANDSTOP", "PT1"] as const;
 export const PROTOTYPES = ["CRIT_DAMPING", "BUTTERWORTH", "BESSEL"] as const;
 export const SLOPES = ["STEP", "TRAPEZ", "SIN2", "HSC"] as const;
 
-/** Above it the control takes the highest one, with a message. */
+/** Above it the control uses the highest permitted value, with a message. */
 const HIGHEST_ORDER = { LOWPASS: 6, BANDSTOP: 3, PT1: 1 } as const;
 
 export interface Controls {
@@ -27,7 +27,7 @@ export interface Controls {
   kv_1_s: number;
 }
 
-/** The machine `xyz` as its lists are, and everything else off. */
+/** The machine `xyz` as in its lists, with everything else off. */
 export const DEFAULTS: Readonly<Controls> = {
   guard: false,
   mode: 2,
@@ -61,7 +61,7 @@ export const RANGES = {
   kv_1_s: [5, 250, 1],
 } as const satisfies Partial<Record<keyof Controls, readonly [number, number, number]>>;
 
-/** What is put over the lists, as of `--set`; only what differs from the machine. */
+/** Settings applied to the lists, as with `--set`; only those that differ from the machine. */
 export function settings(c: Controls): string[] {
   const all: string[] = [];
   const every = (key: string, value: number | string) => all.push(`*.${key}=${value}`);
@@ -107,12 +107,12 @@ export function settings(c: Controls): string[] {
   return all;
 }
 
-/** `AX_DEV` where the program gives none. */
+/** `AX_DEV` for programs that give none. */
 export function tolerance(c: Controls): number | null {
   return c.guard && c.bounded ? c.ax_dev_mm : null;
 }
 
-/** The block that does in a program what the controls of the guard do. */
+/** The block with the same effect in a program as the controls of the guard. */
 export function guardBlock(c: Controls): string | null {
   if (!c.guard) {
     return null;
@@ -121,12 +121,12 @@ export function guardBlock(c: Controls): string | null {
   return `#VIB GUARD ON [MODE=${c.mode} FREQ=${c.freq_hz} DAMPING=${c.damping}${bound}]`;
 }
 
-/** The command that runs the same; a tolerance has to be written in the program. */
+/** The command for the same run; a tolerance has to be written in the program. */
 export function commandLine(c: Controls): string {
   return ["kontur run part.nc", ...settings(c).map((setting) => `--set '${setting}'`)].join(" ");
 }
 
-/** Controls out of anything: what is not one of the values that a control can have becomes its default. */
+/** Controls from arbitrary data: anything that is not a permitted value of a control becomes its default. */
 export function controlsOf(anything: unknown): Controls {
   const given = (typeof anything === "object" && anything !== null ? anything : {}) as Record<string, unknown>;
   const result: Record<string, unknown> = { ...DEFAULTS };

@@ -3,7 +3,7 @@
 import { type Controls, controlsOf } from "./settings";
 
 export interface State {
-  /** Which sample or exercise it began with. */
+  /** The sample or exercise that it started from. */
   sample: string;
   program: string;
   controls: Controls;
@@ -22,7 +22,7 @@ async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream
       break;
     }
     length += value.length;
-    // what was small may become anything
+    // small data may inflate to any size
     if (length > most) {
       await reader.cancel();
       throw new Error("the link holds more than a program");
@@ -48,7 +48,7 @@ export async function toLink(state: State): Promise<string> {
   return btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** The state of a link; null if it holds none. */
+/** The state in a link; null if it contains none. */
 export async function fromLink(link: string): Promise<State | null> {
   try {
     const binary = atob(link.replaceAll("-", "+").replaceAll("_", "/"));

@@ -1,9 +1,9 @@
-// A finished run as plots and goals look at it.
+// A finished run in the form that plots and goals use.
 
 import type { Summary } from "./engine";
 import type { RunResult } from "./protocol";
 
-/** Columns that the page asks for. */
+/** Columns that the page requests. */
 export const SIGNALS = [
   "v_mm_s", "a_mm_s2", "j_mm_s3", "X_ipo_mm", "Y_ipo_mm", "X_set_mm", "Y_set_mm", "X_act_mm", "Y_act_mm",
   "X_dev_mm", "Y_dev_mm", "contour_err_mm", "X_lag_mm", "Y_lag_mm",
@@ -34,7 +34,7 @@ export class Trace {
     return this.lines.length;
   }
 
-  /** Every column in the order of the trace. */
+  /** All columns in the order of the trace. */
   all(): { name: string; values: Float64Array }[] {
     return Array.from(this.columns, ([name, values]) => ({ name, values }));
   }

@@ -1,11 +1,11 @@
-// Runs programs in the background, in stretches, so that a newer request ends an older one.
+// Runs programs in the background, in sections, so that a newer request ends an older one.
 
 import { Engine, Refused, Trap } from "./engine";
 import type { FromWorker, RunResult, ToWorker } from "./protocol";
 
-/** Time in ms between two looks at the messages. */
+/** Time in ms between two checks for messages. */
 const STRETCH_MS = 25;
-/** Time in ms after which a run is left where it is. */
+/** Time in ms after which a run is stopped where it is. */
 const RUN_MS = 15_000;
 
 let bytes: ArrayBuffer | undefined;
@@ -16,7 +16,7 @@ function send(message: FromWorker, transfer: Transferable[] = []): void {
   self.postMessage(message, { transfer });
 }
 
-/** Lets messages in. */
+/** Lets pending messages be processed. */
 function breath(): Promise<void> {
   return new Promise((resolve) => setTimeout(resolve, 0));
 }

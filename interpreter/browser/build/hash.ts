@@ -1,4 +1,4 @@
-// `npm run --silent hash -- PROGRAM...`: what `trace-hash` prints, computed by the module.
+// `npm run --silent hash -- PROGRAM...`: the output of `trace-hash`, computed by the module.
 import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 import { traceHash } from "../app/canonical";

@@ -51,7 +51,7 @@ struct State {
 
 thread_local! {
     static STATE: RefCell<State> = RefCell::default();
-    /// What the module said when it stopped; it can be read then, too.
+    /// The message of the module when it stopped; it can still be read then.
     static LAST_WORDS: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
@@ -72,7 +72,7 @@ fn answered(f: impl FnOnce(&mut Session, &str) -> String) {
     });
 }
 
-/// Room for a request of so many bytes; null if that is too long.
+/// Room for a request of the given number of bytes; null if that is too long.
 #[unsafe(no_mangle)]
 pub extern "C" fn request(bytes: usize) -> *mut u8 {
     with(|state| {
@@ -114,7 +114,7 @@ pub extern "C" fn finish() {
     answered(|session, _| session.finish());
 }
 
-/// Where the answer begins.
+/// Address of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     with(|state| state.answer.as_ptr())
@@ -126,7 +126,7 @@ pub extern "C" fn answer_length() -> usize {
     with(|state| state.answer.len())
 }
 
-/// Where [`Session::column`] begins.
+/// Address of [`Session::column`].
 #[unsafe(no_mangle)]
 pub extern "C" fn column(i: usize) -> *const f64 {
     with(|state| state.session.column(i).as_ptr())
@@ -138,7 +138,7 @@ pub extern "C" fn rows() -> usize {
     with(|state| state.session.column(0).len())
 }
 
-/// Where the reason of a stop of the module begins.
+/// Address of the reason why the module stopped.
 #[unsafe(no_mangle)]
 pub extern "C" fn last_words() -> *const u8 {
     LAST_WORDS.with_borrow(|words| words.as_ptr())

@@ -1,6 +1,6 @@
-//! The command line as clap sees it. Wrong usage ends with exit code 2.
+//! The command line as parsed by clap. Wrong usage ends with exit code 2.
 //!
-//! The first step of every call: words become arguments, and these a [`Request`](crate::request::Request).
+//! The first step of every call: words become arguments, and arguments a [`Request`](crate::request::Request).
 //!
 //! ```
 //! use clap::Parser as _;
@@ -65,7 +65,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// How its messages are printed.
+    /// The form in which its messages are printed.
     pub(crate) const fn message_form(&self) -> MessageForm {
         match self {
             Self::Run(a) => a.simulation.diagnostics,

@@ -1,7 +1,8 @@
-//! The drawing language of `report`, `response`, `sweep` and `tune`: what a view shows, its scales, colours and dashes.
+//! The drawing primitives of `report`, `response`, `sweep` and `tune`: views with their scales, colours and dashes.
 //!
-//! A [`view::View`] describes: axes with name, unit and range, lines with their styles, levels, marks. Pictures draw it as SVG. The page of `report`
-//! gets the same description as JSON, with the steps of the ticks and the colours, and redraws it when it is zoomed.
+//! A [`view::View`] describes axes with name, unit and range, lines with their styles, levels, and marks. Pictures draw
+//! it as SVG. The page of `report` receives the same description as JSON, with the tick steps and the colours, and
+//! redraws it when it is zoomed.
 //!
 //! Other crates use the scales only: [`scale`] has the order of calls.
 //!

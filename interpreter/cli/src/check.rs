@@ -1,4 +1,4 @@
-//! `kontur check`: every diagnostic of every program, nothing moves.
+//! `kontur check`: every diagnostic of every program, without motion.
 
 mod programs;
 mod sarif;
@@ -21,7 +21,7 @@ struct Findings {
     /// Programs that could not be read, with the system's reason.
     unreadable: Vec<String>,
     diagnostics: Vec<Diagnostic>,
-    /// Their JSON: a subroutine or a list that several programs share is reported once.
+    /// Diagnostics reported so far, as JSON: one in a subroutine or list that several programs share is reported once.
     #[serde(skip)]
     known: HashSet<String>,
 }
@@ -59,7 +59,7 @@ impl Findings {
     }
 }
 
-/// Checks the programs; the worst of them decides the exit code.
+/// Checks the programs; the worst result determines the exit code.
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong.
@@ -69,7 +69,7 @@ pub(crate) fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Err
     for program in &programs {
         all.push(match args.simulation.request(&program.path).check() {
             Ok(checked) => Ok(checked),
-            // one file that cannot be read says nothing about the others
+            // other files may be readable all the same
             Err(e @ OpenError::Io(..)) => Err(Error::from(e).to_string()),
             Err(e) => return Err(announce_lists(e, console)),
         });

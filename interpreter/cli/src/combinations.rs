@@ -1,4 +1,4 @@
-//! All combinations of parameters that take several values each.
+//! All combinations of parameters with several values each.
 
 use crate::Error;
 use crate::args::Vary;
@@ -9,7 +9,8 @@ use crate::words::Word;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// Every combination of values, the last parameter changing fastest: for each an index into the values of each parameter.
+/// All combinations of values, with the last parameter changing fastest: for each an index into the values of each
+/// parameter.
 ///
 /// # Errors
 /// [`Error::Usage`] for too many of them, a parameter given twice, or a name that is not given or not used.
@@ -65,7 +66,7 @@ pub(crate) fn values(vary: &[Vary], combination: &[usize]) -> Vec<String> {
         .collect()
 }
 
-/// Puts one combination into a request.
+/// Applies one combination to a request.
 pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
     for (v, value) in vary.iter().zip(values(vary, combination)) {
         if v.is_name() {
@@ -82,8 +83,8 @@ pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
     }
 }
 
-/// Parameters whose values make no difference to any result: `rows` holds those of the combinations, which may be a part of all. A
-/// parameter that no two rows can be compared for is not among them.
+/// Parameters whose values have no influence on any result. `rows` are those of the combinations, possibly only a part
+/// of all; a parameter for which no two rows can be compared is not included.
 pub(crate) fn without_effect<'v, R: PartialEq>(
     vary: &'v [Vary],
     combinations: &[Vec<usize>],
@@ -132,7 +133,7 @@ mod tests {
             let vary: Vec<Vary> = texts.iter().map(|text| text.parse().unwrap()).collect();
             combinations(&vary).unwrap_err().to_string()
         };
-        // only the second one makes a difference: rows 0 to 2 for X.a=1, 3 to 5 for X.a=2
+        // only the second one has an influence: rows 0 to 2 for X.a=1, 3 to 5 for X.a=2
         let keys = |rows: &[u32]| -> Vec<String> {
             without_effect(&vary, &all, rows).iter().map(|v| v.key.clone()).collect()
         };
@@ -140,7 +141,8 @@ mod tests {
         assert_eq!(keys(&[7, 7, 7, 8, 8, 8]), ["Y.b"]);
         assert_eq!(keys(&[7, 8, 9, 7, 8, 0]), [""; 0]);
         assert_eq!(keys(&[7; 6]), ["X.a", "Y.b"]);
-        // rows 2 to 4 of them: two of X.a=2 beside each other, none of both values of X.a; rows 1 to 4 have such ones
+        // rows 2 to 4 of them contain two rows that differ in Y.b alone, but none that differ in X.a alone; rows 1 to 4
+        // do
         let of_part = |range: std::ops::Range<usize>, rows: &[u32]| -> Vec<String> {
             without_effect(&vary, &all[range], rows).iter().map(|v| v.key.clone()).collect()
         };
@@ -152,7 +154,7 @@ mod tests {
         put(&external, &[1, 0], &mut request);
         assert_eq!(request.external, [("Speed".to_owned(), "200".to_owned())]);
         assert_eq!(request.settings, ["X.a=1"]);
-        // a name's values go where others use them, together
+        // the values of a name are used jointly wherever others refer to it
         let texts = ["F=20,30", "X.a={F}", "program.FREQ={F}"];
         let named: Vec<Vary> = texts.iter().map(|text| text.parse().unwrap()).collect();
         assert_eq!(combinations(&named).unwrap().len(), 2);
@@ -164,7 +166,7 @@ mod tests {
         assert!(error(["X.a={F}", "Y.b=1"]).contains("needs --vary F="));
         assert!(error(["kv=1,2", "Y.b=1"]).contains("AXIS.kv"));
         assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
-        // one alone may have as many as several together
+        // a single parameter may have as many values as there may be combinations
         assert_eq!("X.a=1000..60000:10".parse::<Vary>().unwrap().values.len(), 5901);
         assert!(error(["X.a=1", "x.A=2"]).contains("twice"));
     }

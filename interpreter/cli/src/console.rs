@@ -1,6 +1,6 @@
-//! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if it is a terminal.
+//! Output: results to stdout, messages to stderr, a progress bar to stderr if it is a terminal.
 //!
-//! One console for a whole command, which ends with [`Console::finish`].
+//! A command uses one console, and ends with [`Console::finish`].
 //!
 //! ```
 //! use kontur::console::Console;
@@ -38,7 +38,8 @@ impl std::fmt::Debug for Console {
 }
 
 impl Console {
-    /// The process' own stdout and stderr; progress if stderr is a terminal, colours too unless `NO_COLOR` is set.
+    /// The stdout and stderr of the process; with progress if stderr is a terminal, and with colours unless `NO_COLOR`
+    /// is set.
     pub(crate) fn of_process() -> Self {
         let terminal = std::io::stderr().is_terminal();
         let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
@@ -67,7 +68,7 @@ impl Console {
         self.out.clone()
     }
 
-    /// Form of every message from now on.
+    /// Sets the form of all messages from now on.
     pub const fn speak(&mut self, form: MessageForm) {
         self.form = form;
     }
@@ -93,7 +94,7 @@ impl Console {
         self.error_text(&line);
     }
 
-    /// Writes a result, with a line end if it has none. A closed pipe ends the output silently.
+    /// Writes a result, with a line end if it has none. If the pipe is closed, output ends silently.
     ///
     /// # Errors
     /// [`Error::Io`] if stdout cannot be written.
@@ -108,7 +109,7 @@ impl Console {
     /// Writes a message to stderr, with a line end if it has none.
     pub(crate) fn error_text(&mut self, text: &str) {
         let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
-        // if stderr itself fails, there is nowhere left to report it
+        // there is no way to report a failure of stderr
         let _ = write!(self.err, "{text}{end}").and_then(|()| self.err.flush());
     }
 
@@ -116,7 +117,7 @@ impl Console {
     pub fn finish(&mut self, done: Result<Exit, Error>) -> Exit {
         match done {
             Ok(exit) => exit,
-            // the reader of a pipe has seen enough
+            // the reader of the pipe needs no more
             Err(e @ Error::ClosedPipe) => e.exit(),
             Err(e) => {
                 self.say(Severity::Error, &e.to_string());
@@ -125,7 +126,7 @@ impl Console {
         }
     }
 
-    /// A progress display; it stays invisible for the first second and off the terminal.
+    /// A progress display, which shows nothing during the first second or without a terminal.
     pub fn progress(&self) -> Progress {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
@@ -161,7 +162,7 @@ impl Write for Output {
     }
 }
 
-/// The progress of a long run on a terminal.
+/// The progress display of a long run on a terminal.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
@@ -170,10 +171,10 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Work that is shorter than this needs no display.
+    /// Work that is shorter than this is not displayed.
     const QUIET: Duration = Duration::from_secs(1);
 
-    /// Shows how far the work is; the text is made only if it will be seen.
+    /// Shows the progress; the text is only made if it is displayed.
     pub fn show(&mut self, text: impl FnOnce() -> String) {
         if !self.wanted || (!self.shown && self.bar.elapsed() < Self::QUIET) {
             return;
@@ -186,20 +187,20 @@ impl Progress {
         self.bar.tick();
     }
 
-    /// Shows how many of all runs are done, and the time that the others will take if they are like those done since the
-    /// beginning of this work (`now`).
+    /// Shows how many of all runs are done, and the time for the remaining ones if they take as long as those done
+    /// since the beginning of this work (`now`).
     pub(crate) fn show_rest(&mut self, done: usize, all: usize, now: usize) {
         let left = rest(self.bar.elapsed(), now, all.saturating_sub(done));
         self.show(|| format!("{done} of {all} runs, {left} left"));
     }
 
-    /// Does something else on the terminal (prints a message) while the display steps aside.
+    /// Hides the display while something else is printed on the terminal.
     pub(crate) fn suspend<R>(&self, f: impl FnOnce() -> R) -> R {
         if self.shown { self.bar.suspend(f) } else { f() }
     }
 }
 
-/// Remaining time in words, from the share done and the time it took.
+/// Remaining time in words, from the share of work done and the time it took.
 fn rest(elapsed: Duration, done: usize, left: usize) -> String {
     let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
     let whole = libm::ceil(seconds) as u64;

@@ -1,6 +1,6 @@
 //! `kontur diff`: two traces, or a trace and a fresh run, row by row.
 //!
-//! Positions may differ by 1e-6 mm, a hundredth of the vendor's increment of 0.1 um; a speed by that divided by 1 ms,
+//! Positions may differ by 1e-6 mm, a hundredth of the vendor's increment of 0.1 um; speeds by that divided by 1 ms,
 //! and so on for every further derivative. Neither trace is ever held in memory.
 //!
 //! With `--map` B is a recording of a machine ([`recording`]).
@@ -51,7 +51,7 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
         let done = Done { names: &names, outcome: &outcome, equal: outcome.equal };
         return done.report(args.format, words, verdict, console);
     }
-    // a fresh run gives the columns of the trace that it is compared with
+    // a fresh run produces the columns of the trace that it is compared with
     let is_b = table::is_trace(&args.b)?;
     let (mut a, mut b) = if is_a || !is_b {
         let a = open(&args.a, is_a, None)?;
@@ -79,7 +79,7 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
     done.report(args.format, || text(&names, &outcome), verdict, console)
 }
 
-/// A comparison that has ended.
+/// A completed comparison.
 struct Done<'a, O> {
     names: &'a [String; 2],
     outcome: &'a O,

@@ -1,4 +1,4 @@
-//! How commands end, and why they cannot do their work.
+//! How commands end, and their errors.
 
 use kontur_interpreter::diag::Diagnostic;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ pub enum Exit {
     Io = 3,
 }
 
-/// Why a command could not do its work.
+/// Reasons why a command could not do its work.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// Wrong usage: the message names the option and the choices.
@@ -28,7 +28,7 @@ pub enum Error {
     /// A file of real-time inputs is wrong; its diagnostics have been printed.
     #[error("the file of real-time inputs was refused")]
     Inputs,
-    /// Ctrl-C stopped the run; what was computed up to then is written.
+    /// Ctrl-C stopped the run; everything computed so far is written.
     #[error("interrupted at t = {time_s:.6} s")]
     Interrupted {
         /// Program time of the last row in seconds.
@@ -37,7 +37,7 @@ pub enum Error {
     /// Ctrl-C stopped a sweep; finished rows are kept in its journal.
     #[error("interrupted; the same sweep continues after its finished rows")]
     Stopped,
-    /// Stdout is no longer read; nothing is left to say.
+    /// Stdout is no longer read; there is nothing to report.
     #[error("stdout is closed")]
     ClosedPipe,
     /// A file could not be read or written.
@@ -51,7 +51,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// An input or output error that names what was read or written.
+    /// An input or output error with the name of the file.
     pub fn io(what: impl Into<String>, source: std::io::Error) -> Self {
         Self::Io { what: what.into(), source }
     }
@@ -66,7 +66,7 @@ impl Error {
     }
 }
 
-/// Why a program could not be opened.
+/// Reasons why a program could not be opened.
 #[derive(Debug)]
 pub enum OpenError {
     /// A setting or option is wrong.

@@ -1,6 +1,6 @@
 //! `kontur explain`: an error ID, a parameter, a command.
 //!
-//! Order of calls: none, questions are independent.
+//! Order of calls: none, the functions are independent.
 //!
 //! ```
 //! let text = kontur::explain::text("P-AXIS-00099")?;
@@ -13,7 +13,7 @@ use crate::args::ExplainArgs;
 use crate::console::Console;
 use crate::{Error, Exit};
 
-/// Explains the thing that the words name together (`#VIB GUARD` is two words to a shell).
+/// Explains the term formed by the words (`#VIB GUARD` is two words in a shell).
 ///
 /// # Errors
 /// [`Error::Usage`] if it is unknown, with similar words.
@@ -22,7 +22,7 @@ pub fn explain(args: &ExplainArgs, console: &mut Console) -> Result<Exit, Error>
     Ok(Exit::Finished)
 }
 
-/// What is known about a thing.
+/// The explanation of a term.
 ///
 /// # Errors
 /// As [`explain`].

@@ -8,36 +8,36 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// The name that stands for standard input or output instead of a file.
+/// The name for standard input or output instead of a file.
 pub(crate) const STANDARD: &str = "-";
 /// The name in messages of a program from standard input.
 pub(crate) const STANDARD_INPUT: &str = "<stdin>";
 
-/// Bytes of a program at most that comes through a pipe, 256 MiB (about ten million blocks): it is copied to a temporary
-/// file, where a program in a file is not.
+/// Largest program from a pipe, in bytes: 256 MiB (about ten million blocks), since it is copied to a temporary file,
+/// unlike a program in a file.
 const MOST_PIPED_BYTES: u64 = 1 << 28;
-/// Bytes of a program at most that is held in memory to replace its words, 64 MiB.
+/// Largest program, in bytes, that is held in memory to replace its words: 64 MiB.
 const MOST_HELD_BYTES: u64 = 1 << 26;
 
 /// NC programs in files: subroutines relative to the caller, then in the folders given; the program `-` is standard input.
 ///
-/// Copies share what they have opened.
+/// Clones share the files they have opened.
 #[derive(Clone, Debug)]
 pub(crate) struct ProgramFiles {
     /// The main program.
     program: PathBuf,
-    /// Its folder: no subroutine lies outside it and `folders`.
+    /// Its folder: every subroutine has to be inside it or `folders`.
     home: PathBuf,
     /// Folders of global subroutines, in the order of search.
     folders: Vec<PathBuf>,
-    /// Subroutines may lie anywhere.
+    /// Whether subroutines may be anywhere.
     anywhere: bool,
-    /// Text that replaces that of the main program.
+    /// Text that replaces the main program.
     text: Option<Arc<[u8]>>,
     opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }
 
-/// What shows that a file is not the one it was before.
+/// Properties that show whether a file has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct State {
     length: u64,
@@ -69,7 +69,7 @@ impl Source for ProgramFile {
         }
         let count = self.file.read(buffer)?;
         self.at = offset + count as u64;
-        // what was read last may be of the new file already
+        // the last bytes read may already come from the new file
         if State::of(&self.file.metadata()?) == self.state { Ok(count) } else { Err(changed()) }
     }
 }
@@ -78,7 +78,7 @@ fn changed() -> io::Error {
     io::Error::other("the file was changed while it was read")
 }
 
-/// A program that came through a pipe.
+/// A program from a pipe.
 struct PipedProgram {
     name: Arc<str>,
     copy: Arc<Mutex<File>>,
@@ -96,7 +96,7 @@ impl Source for PipedProgram {
     }
 }
 
-/// A program whose text was changed.
+/// A program with a modified text.
 struct TextProgram {
     name: Arc<str>,
     text: Arc<[u8]>,
@@ -113,11 +113,11 @@ impl Source for TextProgram {
     }
 }
 
-/// The copy of a program that can be read only once (standard input, a FIFO), while a program is read again and again: by
-/// the check, by the run, and by every run of a sweep.
+/// Copies a program that can be read only once (standard input, a FIFO), because it is read repeatedly: by the check,
+/// by the run, and by every run of a sweep.
 ///
 /// # Errors
-/// The system's, and more than 256 MiB.
+/// The system's, and for more than 256 MiB.
 fn piped(path: &Path) -> io::Result<Arc<Mutex<File>>> {
     static COPIES: Mutex<BTreeMap<PathBuf, Arc<Mutex<File>>>> = Mutex::new(BTreeMap::new());
     let mut copies = COPIES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -137,32 +137,32 @@ fn piped(path: &Path) -> io::Result<Arc<Mutex<File>>> {
     Ok(copy)
 }
 
-/// True for `-`, standard input or output.
+/// Whether the path is `-`, standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == STANDARD
 }
 
-/// True for what is read like a pipe: once, from the beginning.
+/// Whether the path can only be read once, from the beginning, like a pipe.
 fn is_pipe(path: &Path) -> bool {
     is_standard(path) || path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
-/// Opens a file that is not a pipe, which would let a reader wait, and no device.
+/// Opens a regular file; a pipe would make a reader wait, and devices are refused too.
 ///
 /// # Errors
-/// The system's, and anything else than a file.
+/// The system's, and for anything except a regular file.
 pub(crate) fn regular(path: &Path) -> io::Result<File> {
-    // before it is opened: that waits already
+    // checked before opening, which may already wait
     if !path.metadata()?.is_file() {
         return Err(io::Error::other("not a regular file"));
     }
     File::open(path)
 }
 
-/// A program on the command line that must be readable, or the command fails before it decodes anything.
+/// Checks that a program on the command line is readable, so that the command fails before it decodes anything.
 ///
 /// # Errors
-/// The system's, and more than 256 MiB from a pipe.
+/// The system's, and for more than 256 MiB from a pipe.
 pub(crate) fn readable(program: &Path) -> io::Result<()> {
     if is_pipe(program) {
         return piped(program).map(|_| ());
@@ -191,7 +191,7 @@ impl ProgramFiles {
     /// The text of the main program.
     ///
     /// # Errors
-    /// The system's, and more than 64 MiB.
+    /// The system's, and for more than 64 MiB.
     pub(crate) fn text(&self) -> io::Result<Vec<u8>> {
         let name = self.program.display().to_string();
         let mut source = self.main(&name).map_err(|e| io::Error::other(e.reason))?;
@@ -207,7 +207,7 @@ impl ProgramFiles {
         }
     }
 
-    /// The same files with another text of the main program.
+    /// The same files with a different text of the main program.
     pub(crate) fn with_text(mut self, text: Vec<u8>) -> Self {
         self.text = Some(text.into());
         self
@@ -220,7 +220,7 @@ impl ProgramFiles {
 
     /// The main program.
     fn main(&self, name: &str) -> Result<Box<dyn Source>, OpenError> {
-        // its name in messages need not lead to it: names of files may hold what is not text
+        // its name in messages need not be a path: file names may contain bytes that are not text
         let path = &self.program;
         let name = if is_standard(path) { STANDARD_INPUT } else { name };
         let error = |e: io::Error| OpenError {
@@ -253,8 +253,8 @@ impl ProgramFiles {
         Ok(Box::new(ProgramFile { name: path.display().to_string().into(), file, state, at: 0 }))
     }
 
-    /// True if a subroutine may lie there: in or below the folder of the main program, or one of `--path`. What does not
-    /// exist is judged by its name alone, so that nothing about other folders is revealed.
+    /// Whether a subroutine may be at this place: in or below the folder of the main program, or one of `--path`. For a
+    /// place that does not exist only the name is checked, so that nothing about other folders is revealed.
     fn is_inside(&self, place: &Path) -> bool {
         if self.anywhere {
             return true;
@@ -266,7 +266,7 @@ impl ProgramFiles {
         }) {
             return false;
         }
-        // links may lead elsewhere
+        // links may point elsewhere
         match place.canonicalize() {
             Ok(real) => folders().any(|folder| {
                 let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -277,7 +277,7 @@ impl ProgramFiles {
     }
 }
 
-/// A path from the root, without `.` and `..`; `None` if there is no such path.
+/// An absolute path without `.` and `..`; `None` if there is no such path.
 fn plain(path: &Path) -> Option<PathBuf> {
     let mut plain = PathBuf::new();
     for part in std::path::absolute(path).ok()?.components() {
@@ -295,7 +295,7 @@ fn plain(path: &Path) -> Option<PathBuf> {
 impl Sources for ProgramFiles {
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
         let Some(caller) = caller else { return self.main(name) };
-        // programs written on Windows name their subroutines with backslashes
+        // programs written on Windows use backslashes in the names of subroutines
         let wanted = PathBuf::from(name.replace('\\', "/"));
         let beside = Path::new(caller).parent().map(|folder| folder.join(&wanted));
         let mut searched = Vec::new();
@@ -332,10 +332,9 @@ impl Sources for ProgramFiles {
     }
 }
 
-/// The file whose name, and those of its folders, differ from the wanted ones in capital letters only; of several in a folder the
-/// first by name.
+/// The file whose name and folders differ from the wanted ones in case only; of several in a folder the first by name.
 pub(crate) fn in_other_case(place: &Path) -> Option<PathBuf> {
-    /// Files of a folder that are looked at.
+    /// Largest number of files in a folder that are examined.
     const LOOKED_AT: usize = 100_000;
     let wanted = place.file_name()?.to_str()?;
     let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -356,7 +355,7 @@ mod tests {
     use super::in_other_case;
     use std::path::{Path, PathBuf};
 
-    /// Tests run in the folder of the crate.
+    /// Tests are executed in the folder of the crate.
     #[test]
     fn names_in_other_capital_letters_are_found_in_the_current_folder_too() {
         let found = |place: &str| in_other_case(Path::new(place));

@@ -1,18 +1,19 @@
-//! Ctrl-C: a run stops after the present cycle, so that traces and summary are complete up to there.
+//! Ctrl-C: a run stops after the present cycle, so that traces and summary are complete up to that cycle.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// Nothing that has to be brought to an end.
+/// Nothing is running that would have to be completed.
 const IDLE: u8 = 0;
 const RUNNING: u8 = 1;
 const REQUESTED: u8 = 2;
 
 static STATE: AtomicU8 = AtomicU8::new(IDLE);
 
-/// Exit code of a process that Ctrl-C ended at once, as shells have it: 128 + SIGINT.
+/// Exit code of a process that Ctrl-C ended at once, as in shells: 128 + SIGINT.
 const ENDED: i32 = 130;
 
-/// Listens to Ctrl-C. The first one stops a run in order; without a run, and the second time, it ends the process.
+/// Installs the handler of Ctrl-C. The first Ctrl-C stops a run in an orderly way; without a run, and the second time,
+/// it ends the process.
 pub(crate) fn listen() {
     let listening = ctrlc::set_handler(|| {
         let asked =
@@ -21,11 +22,11 @@ pub(crate) fn listen() {
             std::process::exit(ENDED);
         }
     });
-    // without a handler Ctrl-C ends the process at once, as everywhere
+    // without a handler Ctrl-C ends the process at once, as usual
     drop(listening);
 }
 
-/// A run that is under way; over when dropped.
+/// A run in progress; it ends when this is dropped.
 #[derive(Debug)]
 pub(crate) struct Running;
 
@@ -35,7 +36,7 @@ impl Running {
         Self
     }
 
-    /// Ctrl-C was pressed.
+    /// Whether Ctrl-C was pressed.
     pub(crate) fn is_interrupted() -> bool {
         STATE.load(Ordering::Relaxed) == REQUESTED
     }

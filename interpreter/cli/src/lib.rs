@@ -1,11 +1,11 @@
 //! The `kontur` command line: arguments, files, terminal and pictures.
 //!
-//! One file per subcommand. Each of them is a function of its arguments and a [`console::Console`] (where text goes), so
-//! that tests call it without a process and without a terminal. What computes is the library's
-//! [`Job`](kontur_interpreter::job::Job), which [`request`] makes from files and options.
+//! One file per subcommand. Each subcommand is a function of its arguments and a [`console::Console`] (its output), so
+//! that tests can call it without a process or a terminal. The computation is done by a
+//! [`Job`](kontur_interpreter::job::Job) of the library, which [`request`] makes from files and options.
 //!
-//! The order of calls: [`main_with`] is the whole program; [`run_with`] the same on a console of the caller. Both read [`args`] and
-//! call the function of the subcommand.
+//! Order of calls: [`main_with`] is the whole program; [`run_with`] does the same on a console of the caller. Both
+//! parse [`args`] and call the function of the subcommand.
 //!
 //! ```
 //! use kontur::console::Console;
@@ -50,7 +50,7 @@ pub use error::{Error, Exit};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Runs one command on the process' own stdout and stderr.
+/// Runs one command on the stdout and stderr of the process.
 pub fn main_with(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     interrupt::listen();
     let mut console = Console::of_process();

@@ -7,9 +7,9 @@ use std::cell::RefCell;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Bytes of a list at most, 16 MiB.
+/// Largest list, in bytes: 16 MiB.
 const MOST_LIST_BYTES: u64 = 1 << 24;
-/// Most bytes of a file of a project, which holds far more than lists.
+/// Largest file of a project, in bytes; it contains far more than lists.
 const MOST_PROJECT_BYTES: u64 = 1 << 26;
 
 /// Parameter lists in files.
@@ -24,10 +24,10 @@ impl Lists {
         self.read.into_inner()
     }
 
-    /// The text of a file of a project, whose lines may have any length.
+    /// The text of a file of a project; its lines may have any length.
     ///
     /// # Errors
-    /// The system's, a file of more than 64 MiB, and text that is no UTF-8.
+    /// The system's, and for a file of more than 64 MiB or text that is not UTF-8.
     pub(crate) fn project(&self, path: &Path) -> io::Result<String> {
         let file = regular(path)?;
         self.read.borrow_mut().push(path.into());

@@ -1,4 +1,4 @@
-//! `-m` names a TwinCAT project: which files belong to it.
+//! The files of a TwinCAT project given by `-m`.
 
 use crate::error::OpenError;
 use crate::files::in_other_case;
@@ -12,16 +12,16 @@ use walkdir::WalkDir;
 
 /// Name of the start-up list of a folder of lists.
 const START_UP: &str = "hochlauf.lis";
-/// Folder next to a project with the parts that are in separate files.
+/// Folder next to a project that contains its parts in separate files.
 const CONFIGURATION: &str = "_Config";
-/// Levels from the folder of a solution to its projects.
+/// Number of folder levels from a solution to its projects.
 const SOLUTION_LEVELS: usize = 3;
 
-/// Where the lists of a machine are.
+/// Location of the lists of a machine.
 pub(crate) enum Place {
     /// A start-up list.
     StartUp(PathBuf),
-    /// A project, and the files that hold it.
+    /// A project, and its files.
     Project {
         /// Its name in messages.
         name: PathBuf,
@@ -31,7 +31,7 @@ pub(crate) enum Place {
 }
 
 impl Place {
-    /// What `-m` names: a start-up list, a project, or a folder with one of them or with exported items.
+    /// What `-m` refers to: a start-up list, a project, or a folder with one of them or with exported items.
     ///
     /// # Errors
     /// A folder with several projects, or one that cannot be read.
@@ -52,7 +52,7 @@ impl Place {
         }
         let mut projects = files(named, 1, "tsproj")?;
         if projects.is_empty() {
-            // the folder of a solution, whose projects are in subfolders
+            // the folder of a solution, with projects in subfolders
             projects = files(named, SOLUTION_LEVELS, "tsproj")?;
         }
         if projects.len() > 1 {
@@ -98,7 +98,7 @@ fn files(folder: &Path, depth: usize, wanted: &str) -> Result<Vec<PathBuf>, Open
     Ok(found)
 }
 
-/// A key that sorts by the value of numbers: they are written with as many digits as any number has.
+/// A key that sorts numbers by value: all are padded to the same number of digits.
 fn natural(text: &str) -> String {
     let mut key = String::new();
     let mut digits = String::new();
@@ -116,10 +116,10 @@ fn natural(text: &str) -> String {
     key
 }
 
-/// The texts of the files of a project, which count as read through `lists`.
+/// The texts of the files of a project, registered in `lists` as read.
 ///
 /// # Errors
-/// A file that cannot be read, is too long or is no UTF-8.
+/// For a file that cannot be read, is too long or is not UTF-8.
 pub(crate) fn parts(paths: Vec<PathBuf>, lists: &Lists) -> Result<Vec<Part>, OpenError> {
     let of = |path: PathBuf| {
         let text = lists.project(&path).map_err(|e| match e.kind() {

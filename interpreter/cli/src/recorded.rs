@@ -1,10 +1,10 @@
-//! Recorded signals out of CSV files as they come from measuring systems and from TwinCAT Scope.
+//! Recorded signals from CSV files, as written by measuring systems and TwinCAT Scope.
 //!
-//! Separators are tab, semicolon or comma; numbers have a point or, unless the comma separates, a decimal comma. Above the
-//! numbers there may be any number of header lines. In an export of TwinCAT Scope every line of the header repeats its
-//! key before each group of channels (`Name`, `SymbolName`, `SampleTime[ms]`, ..): where the key is, the group
-//! has its column of times, so that channels with different sampling times keep their own. Times are counted in
-//! milliseconds or in ticks of 100 ns there; `SampleTime[ms]` shows which.
+//! Separators are tab, semicolon or comma; numbers have a point or, unless the comma separates, a decimal comma. There
+//! may be any number of header lines above the numbers. In an export of TwinCAT Scope every header line repeats its key
+//! before each group of channels (`Name`, `SymbolName`, `SampleTime[ms]`, ..). The column of the key contains the times
+//! of the group, so that channels with different sampling times keep their own. These times are in milliseconds or in
+//! ticks of 100 ns; `SampleTime[ms]` shows which.
 //!
 //! Source: TE13xx TC3 Scope View, export in csv.
 
@@ -21,7 +21,7 @@ use std::path::Path;
 
 /// Largest file that is read, in bytes: two minutes of many channels at 4 kHz.
 const MOST_BYTES: u64 = 1 << 28;
-/// Header keys whose cells are names, the better one first.
+/// Header keys with channel names in their cells, the better one first.
 const NAME_KEYS: [&str; 2] = ["SymbolName", "Name"];
 /// Header key of the sampling time in ms.
 const SAMPLE_TIME: &str = "SampleTime[ms]";
@@ -36,7 +36,7 @@ const TIME_NAMES: [(&str, f64); 8] = [
     ("t_us", 1e-6),
     ("time_us", 1e-6),
 ];
-/// Units of times in s; both signs for micro, and what is left of it where the text is not UTF-8.
+/// Units of times in s; both signs for micro, and the bytes that remain of it if the text is not UTF-8.
 const TIME_UNITS: [(&str, f64); 10] = [
     ("s", 1.0),
     ("sec", 1.0),
@@ -59,14 +59,14 @@ pub(crate) struct Channel {
     pub(crate) name: String,
     /// Times in s from the first time of the file; empty without a column of times.
     pub(crate) times_s: Vec<f64>,
-    /// Values as the file has them.
+    /// Values as written in the file.
     pub(crate) values: Vec<f64>,
 }
 
 /// Reads every channel of a file.
 ///
 /// # Errors
-/// [`Error`] if the file cannot be read or holds no table of numbers.
+/// [`Error`] if the file cannot be read or contains no table of numbers.
 pub(crate) fn read(path: &Path) -> Result<Vec<Channel>, Error> {
     let name = path.display().to_string();
     let io = |e| Error::io(name.clone(), e);
@@ -94,7 +94,7 @@ fn cells(line: &str, separator: char) -> Vec<&str> {
     line.split(separator).map(|c| c.trim().trim_matches('"')).collect()
 }
 
-/// A row of the table: it begins with a number, and most of what it holds are numbers.
+/// Whether a row belongs to the table: it begins with a number, and most of its cells are numbers.
 fn numeric(cells: &[&str], separator: char) -> bool {
     let filled: Vec<bool> =
         cells.iter().filter(|c| !c.is_empty()).map(|c| number(c, separator).is_some()).collect();
@@ -102,7 +102,7 @@ fn numeric(cells: &[&str], separator: char) -> bool {
     filled.first() == Some(&true) && 2 * numbers >= filled.len()
 }
 
-/// The separator that makes the most of the lines with numbers.
+/// The separator with which most lines contain numbers.
 fn separator(lines: &[&str]) -> char {
     let score = |s: &char| {
         let rows = lines.iter().rev().take(50);
@@ -112,7 +112,7 @@ fn separator(lines: &[&str]) -> char {
         })
         .count()
     };
-    // a decimal comma looks like a separator: the others come first
+    // a decimal comma looks like a separator, so the others come first
     ['\t', ';', ',']
         .into_iter()
         .reduce(|a, b| if score(&b) > score(&a) { b } else { a })
@@ -125,7 +125,7 @@ fn parse(text: &str) -> Result<Vec<Channel>, String> {
         text.lines().filter(|l| !l.trim().is_empty() && l.trim() != "EOF").collect();
     let separator = separator(&lines);
     let rows: Vec<Vec<&str>> = lines.iter().map(|l| cells(l, separator)).collect();
-    // the header may hold single numbers
+    // the header may contain single numbers
     let widest = rows.iter().map(Vec::len).max().unwrap_or(0);
     let table = |row: &Vec<&str>| numeric(row, separator) && (row.len() > 1 || widest == 1);
     let start = rows.iter().position(table).ok_or_else(|| "no table of numbers".to_owned())?;
@@ -143,9 +143,9 @@ fn parse(text: &str) -> Result<Vec<Channel>, String> {
     }
 }
 
-/// Values of a column, with the times of another one; rows in which one of them is missing are left out, and rows that
-/// repeat time and value (a slow channel among faster ones). Another value at the same time is refused: the times have too
-/// few decimals.
+/// Values of a column with the times of another one. Rows in which one of them is missing are left out, and so are rows
+/// that repeat time and value (a slow channel among faster ones). A different value at the same time is refused: the
+/// times have too few decimals.
 fn column(
     data: &[Vec<&str>],
     time: Option<usize>,
@@ -183,7 +183,7 @@ fn column(
     Ok((times, values))
 }
 
-/// A table whose header repeats its key before every group of channels.
+/// Reads a table whose header repeats its key before every group of channels.
 fn scope(
     key: &str,
     names: &[&str],
@@ -206,7 +206,7 @@ fn scope(
         let (times, values) = column(data, time, i, separator, header.len() + 1, name)?;
         channels.push(scope_channel(name, times, values, step_s)?);
     }
-    // one zero for all channels, that of the earliest
+    // a common zero for all channels, the earliest time
     for unit_s in SCOPE_UNITS {
         let of_unit = |c: &&mut (f64, Channel)| (c.0 - unit_s).abs() <= 0.0;
         let begins =
@@ -220,11 +220,11 @@ fn scope(
     if channels.is_empty() { Err("no channel".to_owned()) } else { Ok(channels) }
 }
 
-/// A channel of TwinCAT Scope with its times as they are in the file, and their unit in s: milliseconds, or ticks of file
-/// times where steps are that large. `step_s` is the sampling time of the header.
+/// A channel of TwinCAT Scope with its times as in the file, and their unit in s: milliseconds, or ticks of file times
+/// if the steps are that large. `step_s` is the sampling time of the header.
 ///
-/// A slow channel may share the times of a fast one; its samples are repeated until the next one then, and the first of each
-/// counts. What the header says otherwise contradicts the times.
+/// A slow channel may share the times of a fast one; its samples are then repeated until the next one, and the first of
+/// each counts. Any other value in the header contradicts the times.
 ///
 /// Source: TE13xx TC3 Scope View, export to csv.
 fn scope_channel(
@@ -264,7 +264,8 @@ fn scope_channel(
     ))
 }
 
-/// A table with column names in the last header line that is wide enough, units in another or in the names.
+/// Reads a table with column names in the last header line that is wide enough, and units in another line or in the
+/// names.
 fn plain(
     header: &[Vec<&str>],
     data: &[Vec<&str>],
@@ -304,7 +305,7 @@ fn plain(
         if time.is_some_and(|(t, _)| t == i) {
             continue;
         }
-        // a column of words (the line, what limits) is not a signal
+        // a column of words (the line, the speed reason) is not a signal
         let word = |row: &&Vec<&str>| {
             row.get(i).is_some_and(|c| !c.is_empty() && number(c, separator).is_none())
         };
@@ -315,7 +316,7 @@ fn plain(
             column(data, time.map(|t| t.0), i, separator, header.len() + 1, name)?;
         channels.push(Channel { name: name.clone(), times_s: times, values });
     }
-    // one zero for all channels, that of the earliest
+    // a common zero for all channels, the earliest time
     let begins = channels.iter().filter_map(|c| c.times_s.first().copied());
     let zero = begins.fold(f64::INFINITY, f64::min);
     for channel in &mut channels {
@@ -328,7 +329,7 @@ fn plain(
     }
 }
 
-/// The channel of a name: as written, then without regard to case, then as the end of a name with dots.
+/// The channel of a name: as written, otherwise ignoring case, otherwise as the end of a dotted name.
 pub(crate) fn find<'a>(channels: &'a [Channel], name: &str) -> Option<&'a Channel> {
     let same = |c: &&Channel| c.name == name;
     let alike = |c: &&Channel| c.name.eq_ignore_ascii_case(name);

@@ -1,7 +1,8 @@
-//! `kontur report`: runs programs and draws them, as one interactive page or one still picture.
+//! `kontur report`: runs programs and draws them as one interactive page or one static picture.
 //!
-//! Both show the same [`views`]. The page holds its own script: a plotting library would weigh more than the data, and
-//! none links a point of the contour to its moment in time. With `--signals` the picture shows columns of the trace over time, and their spectra.
+//! Both show the same [`views`]. The page contains its own script: a plotting library would be larger than the data,
+//! and none links a point of the contour to its time. With `--signals` the picture shows columns of the trace over
+//! time, and their spectra.
 
 mod drawn;
 mod page;
@@ -33,7 +34,7 @@ use std::collections::BTreeSet;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// Bytes and lines of a program that a page shows at most.
+/// Largest program, in bytes and lines, that a page shows.
 const MOST_TEXT_BYTES: u64 = 1 << 19;
 const MOST_TEXT_LINES: usize = 5000;
 
@@ -97,7 +98,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             files.iter().map(|f| read_texts.insert(f.clone()).then(|| lines_of(f)).flatten());
         let texts = texts.collect();
         beside.push(Beside { times: times.finish(), texts, window: args.window });
-        // runs of one program are distinguished by what they vary
+        // runs of one program are distinguished by the varied values
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
         runs.push(Drawn {
             recording,
@@ -105,7 +106,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             guards: totals.guards,
         });
     }
-    // there is nothing to draw of refused programs
+    // refused programs cannot be drawn
     if runs.iter().any(|r| r.summary.cycles > 0) {
         let drawn = match form {
             Form::Picture => picture::draw(&runs),
@@ -138,7 +139,7 @@ fn form(output: &Path) -> Result<Form, Error> {
     }
 }
 
-/// The lines of a program, if it is a file and not longer than a page should hold.
+/// The lines of a program, if it is a file and short enough for a page.
 fn lines_of(file: &str) -> Option<Vec<String>> {
     let file = crate::files::regular(Path::new(file)).ok()?;
     let mut bytes = Vec::new();

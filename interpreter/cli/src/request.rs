@@ -1,6 +1,7 @@
-//! A request of the command line, and the library's job that carries it out: files, lists, options.
+//! A request of the command line, and the job of the library that executes it: files, lists, options.
 //!
-//! The order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], which read everything again.
+//! Order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], each of which reads all
+//! files again.
 //!
 //! ```
 //! use kontur::request::Request;
@@ -39,13 +40,13 @@ use std::path::{Path, PathBuf};
 pub struct Request {
     /// The NC program.
     pub program: PathBuf,
-    /// Folder or start-up list of the machine, or a TwinCAT project; none: the built-in `xyz`.
+    /// Folder or start-up list of the machine, or a TwinCAT project; `None`: the built-in `xyz`.
     pub machine: Option<PathBuf>,
     /// `AXIS.key=value` or `channel.key=value`, in the order given.
     pub settings: Vec<String>,
     /// Folders of global subroutines, in the order of search.
     pub path: Vec<PathBuf>,
-    /// Subroutines may lie outside the program's folder and those.
+    /// Whether subroutines may be outside the program's folder and `path`.
     pub allow_outside: bool,
     /// Files of real-time inputs.
     pub inputs: Vec<PathBuf>,
@@ -59,19 +60,19 @@ pub struct Request {
     pub max_time_s: f64,
     /// Number of decoded blocks after which a run is stopped.
     pub max_blocks: u64,
-    /// Keys of a list that are not modelled are refused.
+    /// Whether keys of a list that are not modelled are refused.
     pub strict: bool,
-    /// Transformations of the kinematics are taken as identity.
+    /// Whether kinematic transformations are treated as identity.
     pub identity_trafo: bool,
-    /// Declared durations of M, H and S functions are waited for.
+    /// Whether declared durations of M, H and S functions are waited for.
     pub techno_times: bool,
-    /// External variables by their name after `V.E.`: a number, or else a text.
+    /// External variables by their name after `V.E.`: a number, otherwise a text.
     pub external: Vec<(String, String)>,
-    /// Numbers of the program instead of those that are there.
+    /// Numbers that replace those in the program.
     pub words: Vec<Word>,
-    /// Vibration Guard instead of that of lists and program.
+    /// Vibration Guard that replaces the one of lists and program.
     pub guard: Option<ForcedGuard>,
-    /// Ends it from another thread.
+    /// Stops it from another thread.
     pub stop: Stop,
 }
 
@@ -106,7 +107,7 @@ impl SimulationArgs {
 pub struct Opened {
     /// The run.
     pub run: Run,
-    /// What it reads.
+    /// The files that it reads.
     pub reads: Reads,
 }
 
@@ -118,14 +119,14 @@ pub struct Reads {
 }
 
 impl Reads {
-    /// Every file that was read so far: what only the moving machine decides may call subroutines that the check ahead has not
-    /// seen.
+    /// Every file that was read so far. Code that depends on the moving machine may call subroutines that the preceding
+    /// check has not reached.
     pub(crate) fn so_far(&self) -> Vec<PathBuf> {
         self.others.iter().cloned().chain(self.programs.opened()).collect()
     }
 }
 
-/// A job with what it is made from.
+/// A job with its sources.
 struct Prepared {
     job: Job,
     sources: ProgramFiles,
@@ -182,7 +183,7 @@ impl Request {
         Ok(Prepared { job, sources, lists: lists.read_so_far(), changes })
     }
 
-    /// The files with the program's own numbers replaced.
+    /// The files with numbers of the program replaced.
     fn with_words(&self, sources: ProgramFiles) -> Result<ProgramFiles, OpenError> {
         if self.words.is_empty() {
             return Ok(sources);
@@ -210,7 +211,7 @@ impl Request {
         Ok(self.job()?.check())
     }
 
-    /// Opens the program. One that is refused opens too: it has diagnostics, no cycles, and is aborted.
+    /// Opens the program. A refused program is opened as well: it has diagnostics, no cycles, and is aborted.
     ///
     /// # Errors
     /// [`OpenError`] if options, lists or files are wrong.
@@ -228,7 +229,7 @@ fn utf8(path: &Path) -> Result<&str, OpenError> {
     path.to_str().ok_or_else(|| OpenError::Io(path.to_owned(), std::io::Error::other(reason)))
 }
 
-/// Folders of subroutines that do not exist would only be missed much later.
+/// Checks that the folders of subroutines exist; otherwise the error would appear much later.
 fn folders(request: &Request) -> Result<(), OpenError> {
     match request.path.iter().find(|folder| !folder.is_dir()) {
         Some(folder) => {
@@ -301,7 +302,7 @@ fn changes(paths: &[PathBuf], machine: &Machine) -> Result<Changes, OpenError> {
     })
 }
 
-/// A program that must be readable, or the command fails before it decodes anything.
+/// Checks that a program is readable, so that the command fails before it decodes anything.
 fn readable(program: &Path) -> Result<(), OpenError> {
     let name = if is_standard(program) { Path::new("standard input") } else { program };
     files::readable(program).map_err(|e| OpenError::Io(name.to_path_buf(), e))

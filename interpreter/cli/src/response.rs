@@ -1,9 +1,9 @@
-//! `kontur response`: what filters, shapers and whole axis chains do to a signal, as table and picture.
+//! `kontur response`: the effect of filters, shapers and whole axis chains on a signal, as table and picture.
 //!
 //! Four views: frequency response (magnitude, phase, group delay), step response, residual vibration of a machine
 //! driven through a shaper, and the contour at a 90 degree corner.
 //!
-//! Order of calls: arguments and a console, the table, then its picture.
+//! Order of calls: arguments and a console, then the table, then its picture.
 //!
 //! ```
 //! use clap::Parser as _;
@@ -74,7 +74,7 @@ fn answer(args: &ResponseArgs, console: &mut Console) -> Result<Answer, Error> {
     view::view(args, &curves, cycle)
 }
 
-/// What an output file holds.
+/// Content of an output file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Table,

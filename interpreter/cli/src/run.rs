@@ -1,4 +1,4 @@
-//! `kontur run`: a program goes in, traces and a summary come out.
+//! `kontur run`: executes a program and writes traces and a summary.
 
 use crate::args::{RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
@@ -52,9 +52,9 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     };
     let take = takes.then_some((asked, take));
     let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), take);
-    // a subroutine that it reached may be one of the outputs
+    // a subroutine reached by the run may be one of the outputs
     keep_apart(&reads.so_far(), &outputs)?;
-    // every trace is brought to its file even if another one failed
+    // every trace is completed even if another one failed
     let finish = |t: Trace| go_on_without(t.finish(&run), alone);
     let finished: Vec<_> = traces.into_iter().map(finish).collect();
     let interrupted = match written {
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
         }
     });
     match text {
-        // stdout belongs to the trace
+        // stdout is used by the trace
         Some(text) if args.output.iter().any(|o| is_standard(o)) => console.error_text(&text),
         Some(text) => console.print(&text)?,
         None => {}
@@ -101,7 +101,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     })
 }
 
-/// Where stdout is no longer read, the other outputs continue.
+/// Continues with the other outputs where stdout is no longer read.
 fn go_on_without(written: Result<(), Error>, alone: bool) -> Result<(), Error> {
     match written {
         Err(Error::ClosedPipe) if !alone => Ok(()),
@@ -112,22 +112,22 @@ fn go_on_without(written: Result<(), Error>, alone: bool) -> Result<(), Error> {
 /// The progress of a run on the terminal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
-    /// What distinguishes it from others, before its progress.
+    /// Label that distinguishes it from others, before its progress.
     pub label: &'a str,
-    /// Other messages are not printed.
+    /// Whether only errors are printed.
     pub errors_only: bool,
 }
 
 impl Shown<'_> {
-    /// A run that is the only one.
+    /// A single run.
     pub(crate) const ALONE: Self = Self { label: "", errors_only: false };
 }
 
-/// Drives a run to its end: all cycles to the summary and to `take`, with the columns that it asks for, as far as there are
-/// any; every message to the console.
+/// Runs to the end: passes all cycles to the summary and to `take` if given, with the columns it needs, and every
+/// message to the console.
 ///
 /// # Errors
-/// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
+/// The first error of `take`, or [`Error::Interrupted`]; messages raised before it have been printed.
 pub(crate) fn drive(
     run: &mut Run,
     shown: Shown<'_>,
@@ -145,7 +145,7 @@ pub(crate) fn drive(
     }
 }
 
-/// Starts a thread that does some work, if it can.
+/// Starts a thread for some work, if possible.
 fn on_thread(name: &str, work: Work) -> bool {
     Builder::new().name(name.to_owned()).spawn(work).is_ok()
 }
@@ -156,7 +156,7 @@ struct Watch<'a, F> {
     console: &'a mut Console,
     progress: Progress,
     summary: Option<&'a mut Collector>,
-    /// With what it asks for.
+    /// The observer, and the columns it needs.
     take: Option<(Asked, F)>,
 }
 
@@ -199,7 +199,7 @@ impl<F: FnMut(&Rows<'_>) -> Result<(), Error>> Sink for Watch<'_, F> {
     }
 }
 
-/// Prints the messages of refused lists or inputs and turns the rest into an error.
+/// Prints the messages of refused lists or inputs and converts the rest into an error.
 pub(crate) fn announce_lists(e: OpenError, console: &mut Console) -> Error {
     if let OpenError::Lists(messages) | OpenError::Inputs(messages) = &e {
         for message in messages {

@@ -2,13 +2,13 @@
 
 use realfft::RealFftPlanner;
 
-/// Longest record, in samples: four minutes at 1 ms, and 60 MB while it is transformed.
+/// Longest recording in samples: four minutes at 1 ms, and 60 MB during the transformation.
 pub(crate) const MOST_SAMPLES: usize = 1 << 18;
-/// Lines per resolution of the record, so that a peak between two lines keeps its height.
+/// Lines per resolution of the recording, so that a peak between two lines keeps its height.
 const PADDING: usize = 8;
 
-/// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 that lasts the whole record has the height
-/// 1. The mean of the windowed record is taken out before.
+/// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 over the whole recording has the height
+/// 1; the mean of the windowed recording is removed first.
 #[derive(Clone, Debug)]
 pub(crate) struct AmplitudeSpectrum {
     step_hz: f64,
@@ -21,7 +21,7 @@ impl AmplitudeSpectrum {
         let n = samples.len().max(1);
         let window =
             |i: usize| 0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64);
-        // under the window, so that unfinished waves leave nothing behind
+        // weighted by the window, so that incomplete waves leave no offset
         let mean =
             samples.iter().enumerate().map(|(i, x)| x * window(i)).sum::<f64>() / (0.5 * n as f64);
         let length = (PADDING * n).next_power_of_two();
@@ -30,7 +30,7 @@ impl AmplitudeSpectrum {
         padded.resize(length, 0.0);
         let transform = RealFftPlanner::new().plan_fft_forward(length);
         let mut values = transform.make_output_vec();
-        // both buffers have the lengths that the plan asks for
+        // both buffers have the lengths required by the plan
         let done = transform.process(&mut padded, &mut values);
         debug_assert!(done.is_ok());
         let scale = 2.0 / (0.5 * n as f64);

@@ -1,9 +1,10 @@
 //! `kontur sweep`: one program under every combination of parameters, one row per run.
 //!
-//! The runs share nothing and use all cores; rows are in the order of the combinations, whichever run finishes first. A
-//! run that an error ends has its row, with the ID of the error.
+//! The runs are independent and use all cores; the rows are in the order of the combinations, whichever run ends first.
+//! A run that ends with an error has a row with the ID of the error.
 //!
-//! On the command line [`sweep()`]; where the caller distributes the runs, a [`Plan`] and its rows in any order.
+//! The command line calls [`sweep()`]; a caller that distributes the runs uses a [`Plan`] and computes its rows in any
+//! order.
 //!
 //! ```
 //! use clap::Parser as _;
@@ -48,13 +49,13 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
-/// The column that names the parameters without effect, where there are any; a shard always has it.
+/// The column with the parameters without effect, if there are any; a shard always has it.
 pub const WITHOUT_EFFECT: &str = "without_effect";
 /// The message about such a parameter.
 pub const NO_DIFFERENCE: &str =
     "every value gives the same results; the program sets its own, or nothing uses it";
 
-/// Why there is no row.
+/// Reasons for a missing row.
 enum Failure {
     Open(OpenError),
     Interrupted,
@@ -68,9 +69,9 @@ impl Failure {
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
 ///
-/// A sweep that was stopped continues where it stopped: finished rows are kept in a journal next to the first `-o`.
+/// A stopped sweep continues where it stopped: finished rows are kept in a journal next to the first `-o`.
 ///
-/// Without any run that came to its end the exit is [`Exit::Aborted`], but for a shard: its job has been done.
+/// If no run finishes the exit code is [`Exit::Aborted`], except for a shard, whose job is then done.
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or an output cannot be written.
@@ -99,7 +100,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
     let without = idle(&args.vary, &combinations, &rows.cells);
-    // a shard does not know the rows of the others
+    // a shard does not have the rows of the others
     let part = if args.shard.is_some() { "in this part " } else { "" };
     for name in unmeasured(args, &rows) {
         let text = format!("--amplitude {name}: no run lasts until the end of this window");
@@ -108,7 +109,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     for key in &without {
         console.say(Severity::Note, &format!("{key}: {part}{NO_DIFFERENCE}"));
     }
-    // shards have the column even if it is empty: all of them have one header
+    // all shards have this column, even if it is empty, so that their headers are equal
     let rows = if without.is_empty() && args.shard.is_none() {
         rows
     } else {
@@ -130,18 +131,18 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
 }
 
-/// The run of a row came to its end.
+/// Whether the run of a row finished.
 fn is_finished(vary: &[Vary], row: &[Cell]) -> bool {
     matches!(&row[vary.len()], Cell::Word(state) if state == State::Finished.name())
 }
 
-/// Keys of parameters that make no difference to any row. None where every run has ended with an error: those are alike
-/// because of it.
+/// Keys of parameters without influence on any row. Empty if every run has ended with an error, since such rows are
+/// alike for that reason.
 fn idle<'v>(vary: &'v [Vary], combinations: &[Vec<usize>], rows: &[Vec<Cell>]) -> Vec<&'v str> {
     if !rows.iter().any(|row| is_finished(vary, row)) {
         return Vec::new();
     }
-    // what is missing in every row says nothing; in some rows it is a result like any other
+    // a result that is missing in every row is not informative; missing in some rows it is a result like any other
     let first = vary.len() + columns::STATE.len();
     let told: Vec<usize> =
         (first..rows[0].len()).filter(|c| rows.iter().any(|row| is_there(&row[*c]))).collect();
@@ -159,12 +160,12 @@ fn idle<'v>(vary: &'v [Vary], combinations: &[Vec<usize>], rows: &[Vec<Cell>]) -
     without_effect(vary, combinations, &results).iter().map(|v| v.key.as_str()).collect()
 }
 
-/// A result that a run has: text, or a number.
+/// Whether a run has this result: a text, or a number.
 fn is_there(cell: &Cell) -> bool {
     cell.number().is_none_or(f64::is_finite)
 }
 
-/// Amplitudes whose window no run reaches.
+/// Amplitudes with a window that no run reaches.
 fn unmeasured<'a>(args: &'a SweepArgs, rows: &Rows) -> Vec<&'a str> {
     let missing = |name: &str| {
         let column = rows.header.iter().position(|header| header == name);
@@ -174,12 +175,12 @@ fn unmeasured<'a>(args: &'a SweepArgs, rows: &Rows) -> Vec<&'a str> {
     names.filter(|name| !rows.cells.is_empty() && missing(name)).collect()
 }
 
-/// The file has this ending.
+/// Whether the file name has this extension.
 fn is(path: &Path, end: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end))
 }
 
-/// Program and machine of the first combination, and the files that its run reads.
+/// Program and machine of the first combination, and the files read by its run.
 fn first(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
@@ -233,8 +234,8 @@ fn write(
     target.show().map_err(to_error)
 }
 
-/// Runs what the journal does not contain, with progress on the terminal; returns all rows, and the files that were
-/// read for them.
+/// Runs the combinations that are not in the journal, with progress on the terminal; returns all rows, and the files
+/// that were read for them.
 fn run_all(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
@@ -267,7 +268,7 @@ fn run_all(
                     return;
                 }
                 let row = row(args, &combinations[i]);
-                // the receiver lives until the last sender is gone
+                // the receiver exists until the last sender is dropped
                 let _ = send.send((i, row));
             });
         });
@@ -281,7 +282,7 @@ fn run_all(
                     }
                     done[i] = Some(row);
                 }
-                // the first combination that fails, not the first to say so
+                // the first combination that fails, not the first one to report it
                 Err(e) if failed.as_ref().is_none_or(|(first, _)| i < *first) => {
                     failed = Some((i, e));
                 }

@@ -1,6 +1,6 @@
 //! Tables of results, and their form as CSV: one header line, decimal points, an empty cell where there is no number.
 //!
-//! Made by [`response`](crate::response::table) and [`tune`](crate::tune::answer), read by rows.
+//! Returned by [`response`](crate::response::table) and [`tune`](crate::tune::answer), read row by row.
 //!
 //! ```
 //! use clap::Parser as _;
@@ -21,9 +21,9 @@ use serde::{Deserialize, Serialize};
 /// A value of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Cell {
-    /// With its decimals in a text table; not finite: nothing.
+    /// With its decimals in a text table; empty if not finite.
     Number(#[serde(with = "bits")] f64, usize),
-    /// A number that was given: with the digits that it has.
+    /// A number as given, with its digits.
     Given(#[serde(with = "bits")] f64),
     /// A text.
     Word(String),
@@ -63,7 +63,7 @@ impl From<String> for Cell {
     }
 }
 
-/// A number by its bits: the text of a number need not give the same one again.
+/// A number as its bits, because its text need not give the same number again.
 mod bits {
     use serde::{Deserialize as _, Deserializer, Serializer};
 
@@ -112,7 +112,7 @@ impl Table {
         self.rows.iter().map(|row| row.iter().map(Cell::text).collect()).collect()
     }
 
-    /// The file: cells that hold commas or quotes are quoted.
+    /// The table as CSV; cells with commas or quotes are quoted.
     pub(crate) fn csv(&self) -> String {
         self.write().unwrap_or_default()
     }
@@ -128,7 +128,7 @@ impl Table {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// The readable form: columns of numbers aligned at their right ends, the others at their left.
+    /// The table as text: columns of numbers are right-aligned, the others left-aligned.
     pub(crate) fn text(&self) -> String {
         let rows = self.texts();
         let width = |i: usize| {
@@ -154,7 +154,7 @@ impl Table {
     }
 }
 
-/// A number with so many decimals; nothing if it is not finite, and no minus before a zero.
+/// A number with this number of decimals; empty if it is not finite, and without a minus before zero.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return String::new();

@@ -1,8 +1,8 @@
 //! Files that commands write.
 //!
-//! A file is written under a temporary name next to its target (`.NAME.*.part`) and renamed when it is complete enough:
-//! until then, and if the command fails, an existing file stays as it was. The temporary file is created with the first byte, so
-//! that a killed run leaves none that is empty.
+//! A file is written under a temporary name next to its target (`.NAME.*.part`) and renamed when it is complete enough;
+//! until then, and if the command fails, an existing file stays as it was. The temporary file is created with the first
+//! byte, so that a killed run does not leave an empty one.
 
 use crate::Error;
 use crate::files::is_standard;
@@ -20,13 +20,13 @@ pub(crate) struct Target {
 
 #[derive(Debug)]
 enum Place {
-    /// Not begun; with the permissions of the file that it replaces.
+    /// Not begun, with the permissions of the file that it replaces.
     Planned(Option<Permissions>),
     /// Under its temporary name.
     Hidden(NamedTempFile),
-    /// Under its own name; a device or pipe always is.
+    /// Under its own name, as a device or pipe always is.
     Shown(File),
-    /// On the way from one to the other.
+    /// Changing from one to the other.
     Between,
 }
 
@@ -34,9 +34,9 @@ impl Target {
     /// Begins a file.
     ///
     /// # Errors
-    /// The system's; also if an existing file of this name may not be written.
+    /// The system's; also if an existing file of this name must not be written.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
-        // a link stays, and what it leads to is replaced
+        // a link is kept, and its target is replaced
         let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let existing = match path.metadata() {
             Ok(metadata) if !metadata.is_file() => {
@@ -49,7 +49,7 @@ impl Target {
             }
             Err(_) => None,
         };
-        // what can be begun now can be begun later
+        // a file that can be created now can be created later
         drop(hidden(&path, None)?);
         Ok(Self { path, place: Place::Planned(existing) })
     }
@@ -69,8 +69,8 @@ impl Target {
         }
     }
 
-    /// Gives the file its name while it still grows, if nothing is lost by that: there is none of that name, or one that
-    /// begins alike. Any other one might still be read.
+    /// Gives the file its name while it still grows, if nothing is lost: there is no file of that name, or it begins
+    /// alike. Any other one might still be read.
     ///
     /// # Errors
     /// As [`Target::show`].
@@ -87,10 +87,10 @@ impl Target {
         if begins == start { self.show() } else { Ok(()) }
     }
 
-    /// Gives the file its name, replacing an existing one; one that was not begun gets none.
+    /// Gives the file its name, replacing an existing one; a file that was not begun gets none.
     ///
     /// # Errors
-    /// The system's; the existing file is as it was then.
+    /// The system's; the existing file is unchanged in that case.
     pub(crate) fn show(&mut self) -> io::Result<()> {
         match std::mem::replace(&mut self.place, Place::Between) {
             Place::Hidden(hidden) => {
@@ -111,14 +111,14 @@ fn hidden(path: &Path, permissions: Option<Permissions>) -> io::Result<NamedTemp
     #[cfg(unix)]
     let permissions = {
         use std::os::unix::fs::PermissionsExt as _;
-        // as usual, not as temporary files are
+        // the usual permissions, not those of temporary files
         permissions.or_else(|| Some(Permissions::from_mode(0o666)))
     };
     if let Some(permissions) = permissions {
         builder.permissions(permissions);
     }
     builder.tempfile_in(folder_of(path)).map_err(|e| {
-        // the temporary name means nothing to a user; `tempfile` keeps the cause for its message
+        // the temporary name means nothing to a user; `tempfile` adds it to the message
         let text = e.to_string();
         let cause = text.split(" at path ").next().unwrap_or_default();
         io::Error::new(e.kind(), cause)
@@ -130,7 +130,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."))
 }
 
-/// Writes whole files: all of them, or every existing one stays as it was.
+/// Writes whole files: either all of them, or every existing one stays as it was.
 ///
 /// # Errors
 /// [`Error::Io`], e.g. a full disk.
@@ -157,7 +157,7 @@ pub(crate) fn create_all<'a>(
     paths.into_iter().map(create).collect()
 }
 
-/// Refuses to write over what is read, or two outputs into one file, whatever the names.
+/// Refuses to overwrite a file that is read, or to write two outputs into one file, under any name.
 ///
 /// # Errors
 /// [`Error::Usage`] that names the file.
@@ -185,7 +185,7 @@ pub(crate) fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Er
 /// The identity of a file with several names.
 #[derive(PartialEq)]
 enum Identity {
-    /// An existing file, by whatever link.
+    /// An existing file, whatever its links.
     File(same_file::Handle),
     /// One that does not exist yet: its folder and name.
     Name(PathBuf),
@@ -226,7 +226,7 @@ mod tests {
         let mut target = Target::create(&path).unwrap();
         target.file().unwrap().write_all(b"new").unwrap();
         assert_eq!(names().len(), 2);
-        // a file that is not a trace stays until the end
+        // a file that is not a trace is kept until the end
         target.show_over(b"t_s,").unwrap();
         assert_eq!((names().len(), fs::read(&path).unwrap()), (2, b"old".to_vec()));
         drop(target);
@@ -239,7 +239,7 @@ mod tests {
             (names(), fs::read(&path).unwrap()),
             (vec!["a.csv".to_owned()], b"new".to_vec())
         );
-        // and continues after the name
+        // and writing continues under the final name
         let mut target = Target::create(&path).unwrap();
         assert_eq!(names().len(), 1, "nothing was written");
         target.file().unwrap().write_all(b"1").unwrap();

@@ -1,9 +1,9 @@
-//! `kontur run --times`: where the time of a run goes, by line and by what held the speed down.
+//! `kontur run --times`: the time of a run by line and by the reason for its speed.
 //!
-//! Every cycle has one [`Reason`] and belongs to one line, so the times add up to the duration to the cycle. While the
-//! speed changes, it is the change that takes the time: with constant acceleration an axis is at its limit, else the
-//! acceleration is being built up or taken away by the form of the slope. What the speed changes *for* is the limit of the
-//! trace column `v_limit`.
+//! Every cycle has one [`Reason`] and belongs to one line, so the times add up to the duration exactly. While the speed
+//! changes, the time is attributed to the change: with constant acceleration an axis is at its limit, otherwise the
+//! slope builds the acceleration up or reduces it. The limit *for* which the speed changes is that of the trace column
+//! `v_limit`.
 
 mod proposals;
 mod reason;
@@ -17,10 +17,10 @@ use std::collections::{BTreeMap, HashMap};
 pub(crate) use proposals::{Proposal, try_out};
 pub(crate) use reason::Reason;
 
-/// Lines of the readable form and of the summary.
+/// Number of lines in the readable form and in the summary.
 const MOST_EXPENSIVE: usize = 10;
 
-/// Why, which axis (of [`Reason::AxisV`] and [`Reason::AxisA`]), and what the speed changes for.
+/// Reason, axis (of [`Reason::AxisV`] and [`Reason::AxisA`]), and the limit for which the speed changes.
 type Key = (Reason, Option<u8>, SpeedLimit);
 
 /// Cycles of a line.
@@ -32,14 +32,14 @@ struct Line {
     cycles: Vec<(Key, u64)>,
 }
 
-/// Least and greatest value of something.
+/// Smallest and largest value.
 type Range = (f64, f64);
 
 fn widen(range: &mut Range, value: f64) {
     *range = (range.0.min(value), range.1.max(value));
 }
 
-/// The peaks of one axis.
+/// The extremes of one axis.
 #[derive(Clone, Copy, Debug)]
 struct Reached {
     position: Range,
@@ -68,7 +68,7 @@ pub(crate) struct Collector {
     facts: Facts,
     lines: Vec<Line>,
     index: HashMap<(u32, u32), usize>,
-    /// Index of the line of the cycle before.
+    /// Index of the line of the previous cycle.
     current: usize,
     reached: Vec<Reached>,
     /// Interpolated positions of the last two cycles.
@@ -102,7 +102,7 @@ impl Collector {
                 Reason::AxisA => self.nearest_to_its_limit(record, true),
                 _ => None,
             };
-            // what a speed is held by is its reason already
+            // the limit of a constant speed is its reason already
             let changes = matches!(reason, Reason::AxisA | Reason::Slope);
             let towards = if changes { record.path.limit } else { SpeedLimit::Feed };
             let key = (reason, axis, towards);
@@ -135,7 +135,7 @@ impl Collector {
         }
     }
 
-    /// The path axis whose speed, or acceleration, is the largest share of its limit; in tapping this may be the spindle.
+    /// The path axis with the largest share of its velocity or acceleration limit; in tapping this may be the spindle.
     fn nearest_to_its_limit(&self, record: &CycleRecord, acceleration: bool) -> Option<u8> {
         let [newer, older] = &self.before;
         let axes = self.facts.axes.iter().zip(&record.axes).enumerate();
@@ -221,16 +221,16 @@ impl Collector {
     }
 }
 
-/// Seconds of one reason.
+/// Time of one reason.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct TimeByReason {
-    /// Why.
+    /// The reason.
     pub reason: Reason,
-    /// Axis at its limit (`axis_v`, `axis_a`): of several, the one that uses the largest share of its velocity (P-AXIS-00212) or
-    /// acceleration (P-AXIS-00008).
+    /// Axis at its limit (`axis_v`, `axis_a`): of several, the one with the largest share of its velocity
+    /// (P-AXIS-00212) or acceleration (P-AXIS-00008).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<String>,
-    /// What the speed changes for (`axis_a`, `slope`): a value of the trace column `v_limit`.
+    /// Limit for which the speed changes (`axis_a`, `slope`): a value of the trace column `v_limit`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub towards: Option<&'static str>,
     /// Time in s.
@@ -261,16 +261,16 @@ pub(crate) struct TimeOfLine {
     pub helps: Option<Help>,
 }
 
-/// What a proposal does for one line.
+/// The effect of a proposal on one line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Help {
     /// The proposal, as in the list of proposals.
     pub what: String,
-    /// Time in s that the line becomes shorter.
+    /// Time in s by which the line becomes shorter.
     pub saves_s: f64,
 }
 
-/// Least and greatest values of one axis in mm (deg) and s.
+/// Smallest and largest values of one axis in mm (deg) and s.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct AxisRange {
     /// Name in the NC program.
@@ -287,7 +287,7 @@ pub(crate) struct AxisRange {
     pub torque_n_m: Range,
 }
 
-/// Where the time of a run went.
+/// The time of a run by reason and by line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Times {
     /// Duration in s.
@@ -296,9 +296,9 @@ pub(crate) struct Times {
     pub reasons: Vec<TimeByReason>,
     /// By line, the longest first.
     pub lines: Vec<TimeOfLine>,
-    /// The peaks of the axes.
+    /// The extremes of the axes.
     pub axes: Vec<AxisRange>,
-    /// What would help, if it was tried out; the largest saving first.
+    /// Proposals, if they were tried; the largest saving first.
     pub proposals: Vec<Proposal>,
     files: FileNames,
 }

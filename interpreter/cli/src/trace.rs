@@ -1,4 +1,4 @@
-//! The trace: columns, and the files they go to.
+//! The trace: columns and their files.
 
 mod background;
 pub(crate) mod batch;
@@ -29,14 +29,14 @@ pub(crate) struct Trace {
     asked: Asked,
 }
 
-/// The route of the records to their file.
+/// The path of the records to their file.
 #[derive(Debug)]
 enum Way {
     /// By a separate thread.
     Thread(Background),
-    /// Not any more: the thread has ended with an error.
+    /// The thread has ended with an error.
     Ended(Writer),
-    /// Its reader has gone.
+    /// The reader is gone.
     Closed,
 }
 
@@ -57,7 +57,7 @@ impl Writer {
         }
     }
 
-    /// Hands over what waits, as far as that is possible before the end.
+    /// Hands over waiting rows, as far as possible before the end.
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Self::Csv(w) => w.flush(),
@@ -67,7 +67,7 @@ impl Writer {
     }
 
     fn finish(self, run: &Run) -> io::Result<()> {
-        // only Parquet has a place for what is known at the end
+        // only Parquet stores values that are known at the end
         #[cfg(not(feature = "parquet"))]
         let _ = run;
         match self {
@@ -79,7 +79,7 @@ impl Writer {
 }
 
 impl Trace {
-    /// Begins the file, `-` is stdout; it gets its name with its first rows (CSV) or when it is finished (Parquet).
+    /// Begins the file, `-` is stdout; it gets its name with its first rows (CSV) or when it is complete (Parquet).
     ///
     /// # Errors
     /// [`Error::Usage`] for an unknown signal, [`Error::Io`] if the file cannot be created.
@@ -131,12 +131,12 @@ impl Trace {
         Ok(Self { path: name, way, decimate: decimate.max(1), shows_deviation, asked })
     }
 
-    /// A column of it needs the deviation from the contour.
+    /// Whether a column needs the deviation from the contour.
     pub(crate) const fn shows_deviation(&self) -> bool {
         self.shows_deviation
     }
 
-    /// What its columns need of the axes.
+    /// Axis quantities that its columns need.
     pub(crate) const fn asked(&self) -> Asked {
         self.asked
     }
@@ -144,7 +144,7 @@ impl Trace {
     /// Adds one of every `decimate` cycles.
     ///
     /// # Errors
-    /// [`Error::Io`], e.g. a full disk: of these cycles, or of some before.
+    /// [`Error::Io`], e.g. for a full disk, about these or earlier cycles.
     pub(crate) fn write(&mut self, rows: &Rows<'_>) -> Result<(), Error> {
         let Way::Thread(thread) = &mut self.way else { return Ok(()) };
         let shown = |k: u64| k.is_multiple_of(self.decimate);
@@ -167,7 +167,7 @@ impl Trace {
         ended.map_err(|e| error(&self.path, e))
     }
 
-    /// Brings everything to the file; without a record none is written.
+    /// Completes the file; without a record it is not written.
     ///
     /// # Errors
     /// As [`Trace::write`].
@@ -181,7 +181,7 @@ impl Trace {
     }
 }
 
-/// The columns that `--signals` asks for.
+/// The columns selected by `--signals`.
 ///
 /// # Errors
 /// [`Error::Usage`] for an unknown word.

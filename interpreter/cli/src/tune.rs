@@ -1,10 +1,10 @@
-//! `kontur tune`: from measurements at a machine to the settings that do not excite its vibration.
+//! `kontur tune`: from measurements on a machine to settings that do not excite its vibration.
 //!
-//! Residual vibration is computed for the kernels of the cycle time, never looked up: the vendor's table of permitted
-//! deviations normalises the set frequency by the real one, its worked example the other way round. Every
-//! answer gives both.
+//! Residual vibration is computed for the kernels of the cycle time, never taken from a table: the vendor's table of
+//! permitted deviations normalises the set frequency by the real one, its worked example the other way round. Every
+//! answer contains both.
 //!
-//! Order of calls: arguments and a console, then the answer, of which the command line prints every part.
+//! Order of calls: arguments and a console, then the answer; the command line prints all of it.
 //!
 //! ```
 //! use clap::Parser as _;
@@ -43,10 +43,10 @@ use vibration::Estimate;
 
 pub use task::Answer;
 
-/// Answers the question that the arguments ask.
+/// Answers the question in the arguments.
 ///
 /// # Errors
-/// [`Error`] if lists or files are wrong, or if nothing can be said about them.
+/// [`Error`] if lists or files are wrong, or no answer is possible.
 pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
     Ok(answer(args, console)?.exit)
 }
@@ -71,13 +71,13 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
         } else {
             recording::measured(args, console)?
         };
-    // the evaluated settings are those of the command to paste
+    // the evaluated settings are those of the proposed command
     let damping = args.damping.or(measured_damping.map(rounded));
     let damping = damping.unwrap_or(VibGuardSettings::default().damping);
     let bands_hz: Vec<(f64, f64)> =
         freqs.iter().map(|f| (f.value - f.half_width, f.value + f.half_width)).collect();
     let ends: Vec<f64> = bands_hz.iter().flat_map(|(low, high)| [*low, *high]).collect();
-    // the proposal holds for the whole interval of every measured frequency
+    // the proposal is valid for the whole interval of every measured frequency
     let band = VibrationBand::of(&ends, damping)
         .ok_or_else(|| Error::Usage("no natural frequency to tune for".to_owned()))?;
     let freqs_hz: Vec<f64> = freqs.iter().map(|f| f.value).collect();
@@ -98,18 +98,18 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
         (Some(file), Some(max_dev_mm)) => program::answer(&task, args, file, max_dev_mm, console)?,
         _ => task.answer(&rows, console)?,
     };
-    // last: what the program reads is known now
+    // last, because the files read by the program are known now
     if let Some(output) = &args.output {
         write(&[(output, picture::draw(&recordings).as_bytes())])?;
     }
     Ok(answer)
 }
 
-/// The cycle of the machine, if one is named, else that of the option.
+/// The cycle of the machine, if one is given, otherwise that of the option.
 fn cycle(args: &TuneArgs, lists: &Lists, console: &mut Console) -> Result<CycleTime, Error> {
     let loaded = args.simulation.request("").machine(lists);
     let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, console))?;
-    // with a program the run repeats them
+    // with a program, its run repeats them
     if args.program.is_none() {
         for message in &messages {
             console.announce(message);
@@ -118,7 +118,7 @@ fn cycle(args: &TuneArgs, lists: &Lists, console: &mut Console) -> Result<CycleT
     Ok(machine.cycle)
 }
 
-/// A damping ratio as it is written: no measurement gives more digits.
+/// A damping ratio as written: measurements give no more digits.
 fn rounded(damping: f64) -> f64 {
     (damping * 1e4).round() / 1e4
 }

@@ -1,8 +1,9 @@
-//! Numbers in a program and their replacements: values set by the program itself can vary without another program.
+//! Numbers in a program and their replacements: values that the program sets can be varied without editing it.
 //!
-//! A word is a name, `=` and a number: `P1=10`, `V.P.R=2.5`, `FREQ=40` of a guard command. Remarks and texts have none.
+//! A word is a name, `=` and a number: `P1=10`, `V.P.R=2.5`, `FREQ=40` of a guard command. Remarks and texts are
+//! skipped.
 //!
-//! A word is put into a [`Request`](crate::request::Request), which is opened and run afterwards.
+//! Add words to a [`Request`](crate::request::Request) before it is opened and run.
 //!
 //! ```
 //! use kontur::request::Request;
@@ -15,7 +16,7 @@
 //! assert!(request.open().is_err(), "there is no such word in line 8");
 //! ```
 
-/// A number of the program instead of the one that is there.
+/// A number that replaces one in the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
     /// The line that contains it; without one the word must occur exactly once.
@@ -29,7 +30,7 @@ pub struct Word {
 /// The text with the values of the words.
 ///
 /// # Errors
-/// The mistake, if there is no such word, several of them, or one that is not a number.
+/// A description of the error, if there is no such word, several of them, or one that is not a number.
 pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
     let mut text = text.to_vec();
     for word in words {
@@ -66,7 +67,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
     Ok(text)
 }
 
-/// Where a word is.
+/// Position of a word.
 struct Place {
     line: u32,
     /// Its number, as bytes of the text.
@@ -118,14 +119,14 @@ fn skip_spaces(text: &[u8], from: usize) -> usize {
     from + text[from..].iter().take_while(|c| matches!(c, b' ' | b'\t')).count()
 }
 
-/// Where the value begins, if `=` follows.
+/// Position of the value, if `=` follows.
 fn behind_equals(text: &[u8], from: usize) -> Option<usize> {
     let at = skip_spaces(text, from);
     let next = text.get(at + 1);
     (text.get(at) == Some(&b'=') && next != Some(&b'=')).then(|| skip_spaces(text, at + 1))
 }
 
-/// The number at a place, if nothing is calculated with it.
+/// The number at a position, unless it is part of an expression.
 fn number(text: &[u8], from: usize) -> Option<(usize, usize)> {
     let sign = usize::from(matches!(text.get(from), Some(b'+' | b'-')));
     let digits = from + sign;

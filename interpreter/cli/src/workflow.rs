@@ -1,4 +1,4 @@
-//! Messages as commands of GitHub's workflow log, which shows them at the line they are about.
+//! Messages as commands of GitHub's workflow log, which shows them at the lines they refer to.
 //!
 //! Source: GitHub documentation, "Workflow commands for GitHub Actions" (`error`, `warning`, `notice`; percent sign and line
 //! end escaped, in properties colon and comma, too).
@@ -6,10 +6,10 @@
 use kontur_interpreter::diag::render::printable;
 use kontur_interpreter::diag::{Diagnostic, Severity};
 
-/// The place that a command is shown at.
+/// The position at which a command is shown.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
-    /// The file as it is named; backslashes become slashes.
+    /// The file as given; backslashes become slashes.
     pub(crate) file: &'a str,
     /// Line, from 1.
     pub(crate) line: u32,

@@ -15,7 +15,7 @@ use pyo3::types::PyDict;
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Every diagnostic of a program.
+/// All diagnostics of a program.
 #[pyfunction]
 pub(crate) fn check(py: Python<'_>, words: Vec<String>) -> PyResult<Vec<Said>> {
     let mut args = arguments::program(py, words)?;
@@ -25,13 +25,13 @@ pub(crate) fn check(py: Python<'_>, words: Vec<String>) -> PyResult<Vec<Said>> {
     Ok(said(&checked.map_err(|e| errors::open(py, e))?.diagnostics))
 }
 
-/// What is known about an ID, a parameter or a command.
+/// The explanation of an ID, a parameter or a command.
 #[pyfunction]
 pub(crate) fn explain(py: Python<'_>, thing: &str) -> PyResult<String> {
     kontur::explain::text(thing).map_err(|e| errors::command(py, &e, ""))
 }
 
-/// What a command writes.
+/// Output of a command.
 #[derive(Clone, Default)]
 struct Text(Arc<Mutex<Vec<u8>>>);
 
@@ -55,7 +55,7 @@ impl Text {
     }
 }
 
-/// A command with what it says on stdout and stderr.
+/// Runs a command and returns its stdout and stderr.
 struct Spoken<T> {
     answer: Result<T, kontur::Error>,
     out: String,
@@ -70,7 +70,7 @@ fn speak<T>(command: impl FnOnce(&mut Console) -> Result<T, kontur::Error>) -> S
     Spoken { answer, out: out.take(), err: err.take() }
 }
 
-/// Columns by their names: an array of numbers, or a list of words.
+/// Columns by name: an array of numbers, or a list of words.
 fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     for (i, name) in table.header().iter().enumerate() {
@@ -84,7 +84,7 @@ fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> 
     Ok(all)
 }
 
-/// The table of a response, and what was said about it.
+/// The table of a response, and the messages about it.
 #[pyfunction]
 pub(crate) fn response(
     py: Python<'_>,
@@ -142,7 +142,7 @@ impl SweepPlan {
         self.plan.len()
     }
 
-    /// Names of what varies.
+    /// Names of the varied parameters.
     fn keys(&self) -> Vec<String> {
         self.plan.keys().map(str::to_owned).collect()
     }
@@ -169,7 +169,7 @@ impl SweepPlan {
         self.plan.without_effect(&rows).into_iter().map(str::to_owned).collect()
     }
 
-    /// Ends the runs that are under way in other threads.
+    /// Stops the runs in other threads.
     fn stop(&self) {
         self.stop.set();
     }

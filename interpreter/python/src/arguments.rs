@@ -6,7 +6,7 @@ use kontur::args::SimulationArgs;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
-/// A program and how it is simulated.
+/// A program and the options of its simulation.
 #[derive(Debug, Parser)]
 #[command(name = "kontur", no_binary_name = true)]
 pub(crate) struct ProgramArgs {
@@ -15,7 +15,7 @@ pub(crate) struct ProgramArgs {
     pub(crate) simulation: SimulationArgs,
 }
 
-/// Arguments of a command as a whole line.
+/// Arguments of a command as a complete line.
 #[derive(Debug, Parser)]
 #[command(name = "kontur", no_binary_name = true)]
 struct Line<A: Args> {
@@ -31,7 +31,7 @@ pub(crate) fn of_command<A: Args>(py: Python<'_>, words: Vec<String>) -> PyResul
     Line::<A>::try_parse_from(words).map(|line| line.args).map_err(|e| wrong(py, &e))
 }
 
-/// What clap says, without the help for a shell.
+/// The message of clap, without the help for a shell.
 fn wrong(py: Python<'_>, e: &clap::Error) -> PyErr {
     let text = e.to_string();
     let text = text.split("\n\nUsage:").next().unwrap_or_default();

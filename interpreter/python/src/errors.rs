@@ -36,7 +36,7 @@ pub(crate) fn lists(py: Python<'_>, diagnostics: &[Diagnostic]) -> PyErr {
 
 fn system(what: &str, e: &io::Error) -> PyErr {
     match e.raw_os_error() {
-        // of three arguments Python makes FileNotFoundError, PermissionError, ...
+        // from three arguments Python makes FileNotFoundError, PermissionError, ...
         Some(code) => PyOSError::new_err((code, e.to_string(), what.to_owned())),
         None => PyOSError::new_err(format!("{what}: {e}")),
     }
@@ -51,7 +51,7 @@ pub(crate) fn open(py: Python<'_>, e: OpenError) -> PyErr {
     }
 }
 
-/// An error of a command; `messages` is what it has said about it.
+/// An error of a command; `messages` is the output of the command about it.
 pub(crate) fn command(py: Python<'_>, e: &Error, messages: &str) -> PyErr {
     match e {
         Error::Io { what, source } => system(what, source),

@@ -1,6 +1,6 @@
-//! The native half of the Python module `kontur`: thin functions over the library; what Python shows is made in Python.
+//! The native half of the Python module `kontur`: thin functions over the library; the interface that Python shows is written in Python.
 //!
-//! Options are the words of the command line, so that each means and is refused the same in both.
+//! Options are the words of the command line, so that each has the same meaning and the same errors in both.
 
 mod answers;
 mod arguments;
@@ -16,13 +16,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// A signal is met within this time.
+/// A signal is handled within this time.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Stack of the thread that works, that of a main thread.
+/// Stack size of the working thread, that of a main thread.
 const STACK_BYTES: usize = 8 << 20;
 
-/// Works in another thread, without the interpreter lock, while this one listens for signals: Ctrl-C stops the work and is
+/// Works in another thread, without the interpreter lock, while this one waits for signals: Ctrl-C stops the work and is
 /// raised when it has ended.
 fn interruptible<T: Send>(
     py: Python<'_>,
@@ -43,7 +43,7 @@ fn interruptible<T: Send>(
             .spawn_scoped(scope, work)
             .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
         let mut raised = None;
-        // a panic ends the worker without a word
+        // a panic ends the worker without a message
         while !done.load(Ordering::Acquire) && !worker.is_finished() {
             py.detach(|| thread::park_timeout(PATIENCE));
             if let Err(signal) = py.check_signals() {

@@ -1,5 +1,5 @@
-//! SHA-256 of what programs give on the built-in machine, to compare bits between machines:
-//! `cargo run -p kontur-release -- [--signals NAMES] [--set KEY=VALUE]... PROGRAM...` prints a line per program.
+//! SHA-256 of the results of programs on the built-in machine, to compare bits between computers:
+//! `cargo run -p kontur-release -- [--signals NAMES] [--set KEY=VALUE]... PROGRAM...` prints one line per program.
 //!
 //! The canonical form of columns is, for each of them, its name in UTF-8, a zero byte, and its values as little-endian f64.
 

@@ -1,18 +1,18 @@
-//! The one table of conditions: what can be said to a user, and what the control does about it.
+//! The one table of conditions: all messages to a user, and the reaction of the control to each.
 //!
-//! A row of [`raised`] makes a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter are there and
-//! nowhere else, and a condition without a row cannot be raised. IDs that the documents print and nothing here raises
-//! are data only ([`documented`]), for `explain` and for readers of a real control's messages.
+//! A row of [`raised`] defines a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter are
+//! stated there and nowhere else, and a condition without a row cannot be raised. IDs that the documents print but that
+//! are not raised here are data only ([`documented`]), for `explain` and for readers of the messages of a real control.
 //!
 //! Source: TF5200 diagnosis manual and the function manuals; the texts are kontur's own. Rows are ordered by number;
 //! K numbers are appended and never reused.
 //!
-//! Order of calls: none; code that raises a condition names it, and [`row`] returns its row of the table.
+//! Order of calls: none; code raises a condition by its name, and [`row`] returns its row of the table.
 //!
 //! ```
 //! use kontur_interpreter::diag::condition::{Condition, row, rows};
 //!
-//! // what is raised has its row, and so has what is only documented
+//! // conditions that are raised have a row, and so have those that are only documented
 //! let feed = row(Condition::FeedZero.id());
 //! assert!(feed.hint.is_some_and(|hint| hint.contains('F')));
 //! assert!(rows().any(|row| row.id == feed.id));
@@ -40,7 +40,7 @@ impl PartialEq<Condition> for Id {
     }
 }
 
-/// What is true of every number that a program raises itself with `#ERROR` (1 to 1000).
+/// The properties of every number that a program raises itself with `#ERROR` (1 to 1000).
 const PROGRAMMED: Row = Row {
     id: Id::Vendor(0),
     name: "",
@@ -54,7 +54,7 @@ const PROGRAMMED: Row = Row {
     parameter: None,
 };
 
-/// The row of an ID; numbers that no row knows are those of `#ERROR`.
+/// The row of an ID; numbers without a row are those of `#ERROR`.
 pub fn row(id: Id) -> &'static Row {
     rows().find(|row| row.id == id).unwrap_or(&PROGRAMMED)
 }

@@ -20,11 +20,11 @@ impl std::fmt::Display for Id {
     }
 }
 
-/// How serious a diagnostic is.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Worth knowing.
+    /// Informative.
     Note,
     /// The run continues; something was corrected, ignored or is not simulated.
     Warning,

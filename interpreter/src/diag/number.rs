@@ -2,7 +2,7 @@
 
 /// A number with at most five significant digits, without trailing zeros: `92.222`, `0.00005`, `12000`, `1.2346e-9`.
 ///
-/// Messages carry the exact number among their values.
+/// The values of a message contain the exact number.
 pub fn rounded(x: f64) -> String {
     if !x.is_finite() || x.abs() <= 0.0 {
         return format!("{x}");

@@ -1,9 +1,9 @@
 //! Diagnostics as text and as JSON.
 //!
-//! The text form is a compiler's: severity, ID and message, the source line with carets, then values, reaction and
-//! hint. A diagnostic of the running machine has a time instead of a source line.
+//! The text form is that of a compiler: severity, ID and message, the source line with carets, then values, reaction
+//! and hint. A diagnostic of the running machine has a time instead of a source line.
 //!
-//! Order of calls: the last step of a diagnostic; nothing is kept between two of them.
+//! Order of calls: rendering is the last step of a diagnostic; it keeps no state.
 //!
 //! ```
 //! use kontur_interpreter::diag::{Condition, Diagnostic, render};
@@ -23,7 +23,7 @@ pub fn json(d: &Diagnostic) -> String {
     serde_json::to_string(d).unwrap_or_default()
 }
 
-/// The readable form of several, without colours, a line for each end.
+/// The readable form of several diagnostics, without colours, each ending with a line end.
 pub fn all(diagnostics: &[Diagnostic]) -> String {
     diagnostics.iter().map(|d| text(d, false) + "\n").collect()
 }
@@ -100,7 +100,7 @@ fn notes(d: &Diagnostic) -> Vec<Message<'static>> {
         notes.push(note(format!("corrected to {}", datum(corrected, "-"))));
     }
     let row = condition::row(d.id);
-    // a warning that is an error here ends what its caller does, of which its row knows nothing
+    // a warning that is treated as an error here ends the operation of its caller, which its row does not cover
     if d.severity == Severity::Error
         && (row.severity == Severity::Error || row.reaction != condition::Reaction::None)
     {
@@ -133,7 +133,7 @@ fn value(kind: ValueKind, data: &Datum, unit: &str) -> String {
     format!("{name} {}", datum(data, unit))
 }
 
-/// A value with its unit; the vendor's increments as mm and deg.
+/// A value with its unit; the vendor's increments are converted to mm and deg.
 fn datum(data: &Datum, unit: &str) -> String {
     match (data, unit) {
         (Datum::Text(t), _) => printable(t),
@@ -149,7 +149,7 @@ fn number(v: f64) -> String {
     if v.fract().abs() > 0.0 { rounded(v) } else { v.to_string() }
 }
 
-/// A user's file may hold anything: what would move a terminal's cursor is shown as a replacement character.
+/// Replaces characters that would move the cursor of a terminal, since a user's file may contain anything.
 pub fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { '\u{FFFD}' } else { c }).collect()
 }

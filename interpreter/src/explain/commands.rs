@@ -87,7 +87,7 @@ pub(super) fn all() -> impl Iterator<Item = Explanation> {
     commands::explained().map(of_row).chain(functions().map(Command::explained))
 }
 
-/// The command with a name; blanks and case do not count, what follows the name is ignored (`#VIB GUARD ON`).
+/// The command with a name; blanks and case do not matter, and text after the name is ignored (`#VIB GUARD ON`).
 pub(super) fn find(thing: &str) -> Option<Explanation> {
     let words: Vec<String> = thing.split_whitespace().map(str::to_ascii_uppercase).collect();
     let wanted = words.join(" ");
@@ -105,7 +105,7 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     named.map(of_row).or_else(|| family(wanted)).or_else(|| state(wanted))
 }
 
-/// Commands and G functions of which there is nothing to say but what becomes of them.
+/// Commands and G functions with nothing to explain except their state.
 fn state(wanted: &str) -> Option<Explanation> {
     let (title, state) = if let Some(name) = wanted.strip_prefix('#') {
         let (name, state) = commands::state_of(name)?;

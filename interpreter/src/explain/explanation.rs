@@ -1,6 +1,6 @@
-//! What is known about one thing.
+//! The explanation of one term.
 
-/// What a thing is.
+/// Kind of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// An ID of a message.
@@ -15,10 +15,10 @@ pub enum Kind {
     Word,
 }
 
-/// Everything that is known about one thing, in the order of printing.
+/// The explanation of a term, in the order of printing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// Name: `P-AXIS-00212  getriebe[i].dynamik.vb_max`.
     pub title: String,
@@ -30,7 +30,7 @@ pub struct Explanation {
     pub notes: Vec<String>,
     /// A line for a list or program.
     pub example: Option<String>,
-    /// Further things to explain.
+    /// Related terms.
     pub related: Vec<String>,
 }
 

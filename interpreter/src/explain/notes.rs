@@ -2,7 +2,7 @@
 
 use crate::diag::Id;
 
-/// ID, remark, example value (empty: from the row), related things.
+/// ID, remark, example value (empty: from the row), related terms.
 struct Note(&'static str, &'static str, &'static str, &'static [&'static str]);
 
 /// Source: TF5200 manuals of the functions named in the rows of the table.
@@ -76,7 +76,7 @@ pub(super) fn example(id: &str) -> Option<&'static str> {
     note(id).map(|n| n.2).filter(|s| !s.is_empty())
 }
 
-/// Related things.
+/// Related terms.
 pub(super) fn related(id: &str) -> Vec<String> {
     note(id).map(|n| n.3).unwrap_or_default().iter().map(|s| (*s).to_owned()).collect()
 }

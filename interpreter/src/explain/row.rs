@@ -2,7 +2,7 @@
 
 /// One command.
 pub(super) struct Command {
-    /// Names by which it is found, the first one is printed.
+    /// Names by which it is found; the first one is printed.
     pub(super) names: &'static [&'static str],
     pub(super) syntax: &'static str,
     pub(super) meaning: &'static str,
@@ -13,7 +13,7 @@ pub(super) struct Command {
     pub(super) related: &'static [&'static str],
 }
 
-/// Reads a row as a table line.
+/// Defines a row in the form of a table line.
 pub(super) const fn row(
     names: &'static [&'static str],
     syntax: &'static str,

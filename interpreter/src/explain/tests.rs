@@ -33,7 +33,7 @@ fn the_language_is_explained() {
         let e = explain(thing).unwrap();
         assert_eq!(e.kind, Kind::Command, "{thing}");
     }
-    // every function and operator of the grammar, and the form that says how many values it takes
+    // every function and operator of the grammar, and the form that states its number of values
     for thing in "SQRT SQR EXP DEXP LN LOG SIN COS TAN COT ASIN ACOS ATAN ACOT ATAN2 ABS SIGN INT FRACT ROUND FLOOR CEIL MIN MAX \
                   MOD AND OR XOR NOT INV PI LEN LEFT RIGHT MID FIND INSERT DELETE REPLACE ORD INT_TO_STR REAL_TO_STR STR_TO_INT \
                   STR_TO_REAL IS_STRING IS_NUMBER EXIST SIZEOF MACRO_CONTENT MACRO_LENGTH"
@@ -140,7 +140,7 @@ fn unknown_things_get_suggestions() {
     assert!(explain("22061").is_err());
 }
 
-/// Every value that a trace or the times of a run show is explained, and what it refers to.
+/// Every value in a trace or in the times of a run is explained, and so are the terms that the explanation refers to.
 #[test]
 fn limits_and_rests_are_explained() {
     use crate::record::{Rest, SpeedLimit};

@@ -8,7 +8,7 @@ pub(super) fn all() -> impl Iterator<Item = Explanation> {
     meanings().map(explained)
 }
 
-/// The variable that a text names, with any axis, spindle or index.
+/// The variable in a text, with any axis, spindle or index.
 pub(super) fn find(thing: &str) -> Option<Explanation> {
     meaning_of(thing).map(explained)
 }

@@ -45,7 +45,7 @@ const WORDS: &[Word] = &[
         related: &["70351", "antr.sercos.mdt[i].nc_ref", "P-AXIS-00223"] },
 ];
 
-/// What holds the path speed down and what a path waits for: values of the trace column `v_limit` and of `run --times`.
+/// Reasons for the path speed and for waits: values of the trace column `v_limit` and of `run --times`.
 #[rustfmt::skip]
 const LIMITS: &[Word] = &[
     Word { name: "v_limit",
@@ -120,7 +120,7 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     all().find(|w| w.name.eq_ignore_ascii_case(&wanted)).map(explained)
 }
 
-/// What is known about a word.
+/// The explanation of a word.
 pub(super) fn explained(word: &Word) -> Explanation {
     Explanation {
         kind: Kind::Word,

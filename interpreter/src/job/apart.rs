@@ -1,6 +1,6 @@
-//! A run on two threads: cycles are computed here in stretches, and measured against the contour on the other one.
+//! A run on two threads: one computes stretches of cycles, the other measures them against the contour.
 //!
-//! While one stretch is measured the next one is computed, so a run is ahead of what its sink has seen by two at most.
+//! While one stretch is measured the next one is computed, so a run is at most two stretches ahead of its sink.
 
 use super::stretch::Stretch;
 use crate::record::Asked;
@@ -11,26 +11,26 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 /// Work for another thread, see [`Run::to_end_on_threads`](super::Run::to_end_on_threads).
 pub type Work = Box<dyn FnOnce() + Send>;
 
-/// Stretches that are measured or wait for it.
+/// Number of stretches that are being measured or waiting for it.
 const AHEAD: usize = 2;
 
-/// See the module.
+/// A run on two threads, see the module.
 pub(super) struct Apart {
     to_measure: SyncSender<Samples>,
     measured: Receiver<Samples>,
     /// What the sink reads.
     asked: Option<Asked>,
-    /// Computed stretches, whose samples are on the other thread.
+    /// Computed stretches whose samples are on the other thread.
     computed: VecDeque<Stretch>,
-    /// Memory that is used again.
+    /// Memory for reuse.
     free: Option<Stretch>,
     over: bool,
-    /// Raised after the last cycle.
+    /// Messages raised after the last cycle.
     closing: Option<Messages>,
 }
 
 impl Apart {
-    /// Has cycles measured on another thread from here on, if `start` can start one.
+    /// Measures the cycles on another thread from here on, if `start` can start one.
     pub(super) fn begin(
         asked: Option<Asked>,
         measuring: &mut Measuring,
@@ -61,8 +61,8 @@ impl Apart {
         })
     }
 
-    /// Computes ahead, and takes the next stretch that is measured in the place of `current`. It has no cycle, but possibly
-    /// messages, when there are no more.
+    /// Computes ahead, and replaces `current` by the next measured stretch. When there are no more it has no cycles,
+    /// but possibly messages.
     pub(super) fn next_stretch(&mut self, current: &mut Stretch, simulation: &mut Simulation) {
         let mut samples = std::mem::take(&mut current.samples);
         while !self.over && self.computed.len() < AHEAD {
@@ -70,7 +70,7 @@ impl Apart {
             stretch.samples = std::mem::take(&mut samples);
             self.over = !stretch.compute(simulation, Stretch::ROOM, self.asked);
             if stretch.count > 0 {
-                // a thread that is gone is noticed below
+                // a missing thread is noticed below
                 let _ = self.to_measure.send(std::mem::take(&mut stretch.samples));
                 self.computed.push_back(stretch);
             } else {

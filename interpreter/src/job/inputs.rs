@@ -1,8 +1,8 @@
 //! Real-time inputs of a run from time-stamped texts.
 //!
-//! CSV with a header `t_s,<signal>,...` and rows whose times rise; a value holds until the next one of its column, an
-//! empty cell changes nothing. Every file is read through once before the run, so that a mistake at its end refuses the
-//! run before its first cycle; then it is read again, line by line, as the run continues.
+//! CSV with a header `t_s,<signal>,...` and rows with increasing times. A value holds until the next one in its column;
+//! an empty cell changes nothing. Every file is read completely before the run, so that an error at its end refuses the
+//! run before its first cycle; during the run it is read again line by line.
 //!
 //! ```
 //! use kontur_interpreter::job::{Change, Signal, inputs};
@@ -24,11 +24,10 @@ use std::collections::VecDeque;
 use std::io::{self, BufRead, BufReader, Read};
 use std::sync::Arc;
 
-/// Changes of all files in the order of time. A file has a name for messages, and can be opened from its beginning as often
-/// as asked: it is read twice.
+/// Changes of all files in the order of time. A file has a name for messages, and is opened twice from its beginning.
 ///
 /// # Errors
-/// [`Problem`] if a file cannot be read or has a mistake, or if two columns carry the same signal.
+/// [`Problem`] if a file cannot be read or has an error, or if two columns have the same signal.
 pub fn open<R, F>(files: &[(&str, F)], machine: &Machine) -> Result<Changes, Problem>
 where
     R: Read + Send + 'static,
@@ -51,10 +50,10 @@ where
     Ok(Box::new(Merged { files: opened }))
 }
 
-/// What can go wrong with a file.
+/// Errors of a file.
 #[derive(Debug)]
 pub enum Problem {
-    /// K-0076, with its place.
+    /// K-0076, with its position.
     Wrong(Box<Diagnostic>),
     /// The file of this name cannot be read.
     Io(String, io::Error),
@@ -78,12 +77,12 @@ struct InputFile<R> {
     /// Signal of every column after the time.
     columns: Vec<Signal>,
     line: u32,
-    /// Bytes before the current line, and up to its end.
+    /// Offset of the current line in bytes, and that of its end.
     offset: u64,
     end: u64,
     text: Arc<str>,
     time_s: Option<f64>,
-    /// Of the row read last.
+    /// Changes of the row read last.
     changes: VecDeque<Change>,
 }
 
@@ -202,7 +201,7 @@ impl<R: Read> InputFile<R> {
         number.ok_or_else(|| self.wrong(at, field, &format!("`{field}` is not a number")))
     }
 
-    /// A mistake in the current line, `at` characters from its start.
+    /// An error in the current line, `at` characters from its start.
     fn wrong(&self, at: usize, marked: &str, text: &str) -> Problem {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let diagnostic = Diagnostic::new(Condition::InputFile, text).at(Location {
@@ -237,7 +236,8 @@ impl Problem {
     }
 }
 
-/// Fields of a line without the blanks and quotes around them, with the characters before each. No field holds a comma.
+/// Fields of a line without surrounding blanks and quotes, each with the number of characters before it. A field cannot
+/// contain a comma.
 fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut at = 0;
     line.split(',').map(move |field| {
@@ -320,7 +320,7 @@ mod tests {
         assert_eq!(changes(&[b, a]).unwrap(), expected);
     }
 
-    /// Line and column of the first mistake.
+    /// Line and column of the first error.
     #[test]
     fn mistakes_have_a_place() {
         for (text, line, column, marked) in [

@@ -4,7 +4,7 @@ use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::{ListFiles, Machine, Override, leaves_out};
 use std::fmt;
 
-/// The lists of a machine, and what a user puts over them. Without files: the built-in machine `xyz`.
+/// The lists of a machine with the settings of a user on top. Without files: the built-in machine `xyz`.
 ///
 /// ```
 /// use kontur_interpreter::job::MachineLists;
@@ -16,13 +16,13 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Default)]
 pub struct MachineLists<'a> {
-    /// Where lists are read, and the name of the start-up list.
+    /// Source of the lists, and the name of the start-up list.
     pub files: Option<(&'a dyn ListFiles, &'a str)>,
     /// `AXIS.key=value` or `channel.key=value`, in the order given.
     pub settings: &'a [String],
-    /// Cycle time in microseconds instead of the machine's.
+    /// Cycle time in microseconds that replaces the machine's.
     pub cycle_us: Option<u32>,
-    /// Keys that are not modelled and parts that cannot be built are refused.
+    /// Whether keys that are not modelled and parts that cannot be built are refused.
     pub strict: bool,
 }
 
@@ -38,7 +38,7 @@ impl fmt::Debug for MachineLists<'_> {
 }
 
 impl MachineLists<'_> {
-    /// The settings or `cycle_us` give the cycle, whatever the lists say.
+    /// Whether the settings or `cycle_us` set the cycle, whatever the lists say.
     pub fn sets_cycle(&self) -> bool {
         let mut settings = self.settings.iter().filter_map(|text| Override::parse(text).ok());
         self.cycle_us.is_some() || settings.any(|setting| setting.sets_cycle())
@@ -75,7 +75,7 @@ impl MachineLists<'_> {
             });
             return Err(strict.collect());
         }
-        // a filter or a controller that the list describes and that cannot be: the axis would move without it
+        // a filter or controller that the list describes but that cannot be built: the axis would move without it
         let chains = machine.chains().1;
         let left_out = |d: &Diagnostic| self.strict && leaves_out(d);
         if chains.iter().any(|d| d.is_error() || left_out(d)) {

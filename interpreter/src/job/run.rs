@@ -34,7 +34,7 @@ impl Reads {
 
 /// Takes the cycles of a run, in order: one at a time or as columns. A closure that takes a [`CycleRecord`] is one.
 pub trait Sink {
-    /// Why it takes no more.
+    /// The reason why it stops the run.
     type Stop;
 
     /// What it reads, the same until the run ends.
@@ -60,8 +60,8 @@ pub trait Sink {
         Ok(())
     }
 
-    /// Looks at the run between two stretches of at most [`Run::STRETCH`] cycles and at its end: the moment to take its
-    /// messages, to look at a clock, or to stop it. Messages that are not taken wait.
+    /// Called between two stretches of at most [`Run::STRETCH`] cycles and at the end of the run, to take its messages,
+    /// check a clock, or stop the run. Messages that are not taken are kept.
     ///
     /// # Errors
     /// Ends the loop.
@@ -80,24 +80,24 @@ impl<F: FnMut(&CycleRecord)> Sink for F {
     }
 }
 
-/// A program that runs, or that was refused before its first cycle.
+/// A running program, or one that was refused before its first cycle.
 pub struct Run {
     facts: Facts,
     simulation: Simulation,
     measuring: Measuring,
-    /// While another thread measures.
+    /// Used while another thread measures.
     apart: Option<Apart>,
     /// Computed cycles that the sink takes.
     stretch: Stretch,
     /// The cycle taken last.
     shown: CycleRecord,
     sources: Arc<dyn Sources>,
-    /// Messages of the lists and of the check; then those of the simulation.
+    /// Messages of the lists and of the check, then those of the simulation.
     messages: Vec<Diagnostic>,
     raised: Messages,
     refused: bool,
     over: bool,
-    /// A program is no longer what was run.
+    /// Whether a program file has changed since it was started.
     changed: bool,
     stop: Stop,
 }
@@ -142,20 +142,20 @@ impl Run {
         }
     }
 
-    /// Connects the real-time inputs, before the first cycle. Changes come in the order of time; an error among them ends
-    /// the run, [`Totals::input_failed`] says so.
+    /// Connects the real-time inputs, before the first cycle. Changes have to come in the order of time; an error among
+    /// them ends the run, see [`Totals::input_failed`].
     #[must_use]
     pub fn with_inputs(mut self, changes: Changes) -> Self {
         if self.simulation.connect(changes) {
-            // one of them may be an error of an encoder
+            // one of them may be an encoder error
             self.facts.axes.iter_mut().for_each(|axis| axis.apart.load = true);
         }
         self
     }
 
-    /// For records whose deviation from the contour is not read ([`AxisRecord::dev`], [`AxisRecord::dev_both_ways`],
-    /// [`CycleRecord::contour_err_mm`]): they hold not a number (NaN) in its place, until a block demands `AX_DEV`. Measuring
-    /// it is a third of the work of a run.
+    /// Leaves out the deviation from the contour ([`AxisRecord::dev`], [`AxisRecord::dev_both_ways`],
+    /// [`CycleRecord::contour_err_mm`]), a third of the work of a run: the values are NaN until a block requires
+    /// `AX_DEV`.
     ///
     /// [`AxisRecord::dev`]: crate::record::AxisRecord::dev
     /// [`AxisRecord::dev_both_ways`]: crate::record::AxisRecord::dev_both_ways
@@ -166,8 +166,8 @@ impl Run {
         self
     }
 
-    /// For records whose [`AxisRecord::dev_both_ways`] is not read: from the first cycle on it is not a number (NaN) until a
-    /// block demands `AX_DEV`. The deviation of the set points alone costs a third.
+    /// Leaves out [`AxisRecord::dev_both_ways`]: from the first cycle on it is NaN until a block requires `AX_DEV`. The
+    /// deviation of the set points alone costs a third.
     ///
     /// [`AxisRecord::dev_both_ways`]: crate::record::AxisRecord::dev_both_ways
     #[must_use]
@@ -186,15 +186,15 @@ impl Run {
         &self.shown
     }
 
-    /// True if there are no more cycles.
+    /// Whether there are no more cycles.
     pub const fn is_over(&self) -> bool {
         self.over
     }
 
-    /// Computes all cycles that are left.
+    /// Computes all remaining cycles.
     ///
     /// # Errors
-    /// What the sink stops with.
+    /// The reason why the sink stops.
     pub fn to_end<S: Sink>(&mut self, sink: &mut S) -> Result<(), S::Stop> {
         loop {
             let taken = self.advance(Self::STRETCH, sink);
@@ -207,10 +207,10 @@ impl Run {
         }
     }
 
-    /// The same on two threads: a second one measures the cycles against the contour. Cycles and messages are the same, bit by
-    /// bit.
+    /// The same on two threads: a second one measures the cycles against the contour. Cycles and messages are the same
+    /// bit for bit.
     ///
-    /// `start` starts a thread with a name; where it cannot, the work is done here.
+    /// `start` starts a thread with a name; if it fails, the work is done on this thread.
     ///
     /// ```
     /// use kontur_interpreter::job::{Job, MachineLists};
@@ -230,7 +230,7 @@ impl Run {
     /// ```
     ///
     /// # Errors
-    /// What the sink stops with; such a run has no more cycles.
+    /// The reason why the sink stops; the run then has no more cycles.
     pub fn to_end_on_threads<S: Sink>(
         &mut self,
         start: impl FnOnce(&'static str, Work) -> bool,
@@ -245,11 +245,11 @@ impl Run {
         ended
     }
 
-    /// Computes up to so many cycles, for callers that compare runs row by row or show them while they continue. A run that was
-    /// stopped ([`Stop`]) has no more.
+    /// Computes up to `cycles` cycles, for callers that compare runs row by row or show them while they continue. A
+    /// stopped run ([`Stop`]) has no more cycles.
     ///
     /// # Errors
-    /// What the sink stops with.
+    /// The reason why the sink stops.
     pub fn advance<S: Sink>(&mut self, cycles: u64, sink: &mut S) -> Result<(), S::Stop> {
         self.over |= self.stop.is_set();
         let mut left = cycles;
@@ -269,7 +269,7 @@ impl Run {
         Ok(())
     }
 
-    /// Computes the next cycles, `most` at the most, and measures them; false if there are no more.
+    /// Computes up to `most` cycles and measures them; false if there are no more.
     fn next_stretch(&mut self, most: usize, asked: Option<Asked>) -> bool {
         let Self { simulation, stretch, .. } = self;
         if let Some(apart) = &mut self.apart {
@@ -286,7 +286,7 @@ impl Run {
         self.stretch.count > 0
     }
 
-    /// Hands the next of the computed cycles, `most` at the most, to a sink.
+    /// Passes up to `most` of the computed cycles to a sink.
     fn hand_over<S: Sink>(&mut self, most: usize, sink: &mut S) -> Result<(), S::Stop> {
         let Self { stretch: Stretch { rows, count, taken, last, .. }, shown, .. } = self;
         let (first, end) = (*taken, (*count).min(taken.saturating_add(most)));
@@ -308,7 +308,7 @@ impl Run {
         if matches!(reads, Reads::Columns(_)) { sink.rows(&rows.part(first..end)) } else { Ok(()) }
     }
 
-    /// Takes the messages up to the cycle taken last.
+    /// Takes the messages up to the last cycle that was taken.
     fn hear(&mut self) {
         let Self { simulation, stretch, raised, .. } = self;
         let Stretch { samples, messages, taken, .. } = stretch;
@@ -327,12 +327,13 @@ impl Run {
         }
     }
 
-    /// A program that was changed while it ran, also after what was read of it, is another one than the cycles show.
+    /// Reports a program that was changed during the run, even after the part that was read: the cycles no longer
+    /// belong to it.
     fn look_for_changes(&mut self) {
         if let Some((name, e)) = self.sources.changed() {
             let text = format!("{name}: {e}");
             self.messages.extend(self.raised.take());
-            // the reader may have met it already
+            // the reader may already have noticed it
             if self.messages.iter().all(|d| d.text != text) {
                 let hint = "the trace does not belong to the program as it is now: run it again";
                 self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
@@ -344,14 +345,14 @@ impl Run {
     /// The diagnostics raised since the last call: those of the lists first, then in the order of raising.
     pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.messages);
-        // of a refused program the check has said everything
+        // the check has reported everything about a refused program
         if !self.refused {
             found.extend(self.raised.take());
         }
         found
     }
 
-    /// What no record holds; complete when there are no more cycles.
+    /// Results that are not part of any record; complete when there are no more cycles.
     pub fn totals(&self) -> Totals {
         let totals = self.simulation.totals();
         let aborted = self.refused || self.changed || self.stop.is_set() || totals.aborted;

@@ -3,19 +3,20 @@
 use crate::record::{Asked, CycleRecord, RowBuffer};
 use crate::sim::{Messages, Samples, Simulation};
 
-/// Consecutive cycles. It ends with a cycle that raises messages, so that these come when the sink has read it.
+/// Consecutive cycles. A stretch ends with a cycle that raises messages, which are passed on after the sink has read
+/// that cycle.
 #[derive(Debug, Default)]
 pub(super) struct Stretch {
-    /// What the sink reads; nothing if it does not read and nothing was measured.
+    /// The cycles for the sink; empty if it does not read and nothing was measured.
     pub(super) rows: RowBuffer,
-    /// What is measured against the contour, as long as no other thread has it.
+    /// Samples to be measured against the contour, unless another thread has them.
     pub(super) samples: Samples,
-    /// Number of cycles, and of those that were taken.
+    /// Number of cycles, and number of those that were taken.
     pub(super) count: usize,
     pub(super) taken: usize,
     /// The last cycle.
     pub(super) last: CycleRecord,
-    /// Raised in the last cycle or, if no more cycles follow, after it.
+    /// Messages raised in the last cycle or, if no more cycles follow, after it.
     pub(super) messages: Option<Messages>,
 }
 
@@ -23,7 +24,7 @@ impl Stretch {
     /// Most cycles.
     pub(super) const ROOM: usize = RowBuffer::ROOM;
 
-    /// Computes up to `most` cycles; false if there are no more after them. `asked`: none if nobody reads them.
+    /// Computes up to `most` cycles; false if there are no more after them. `asked`: `None` if nobody reads them.
     pub(super) fn compute(
         &mut self,
         simulation: &mut Simulation,
@@ -53,13 +54,13 @@ impl Stretch {
         more
     }
 
-    /// Takes what was measured.
+    /// Applies the measured results.
     pub(super) fn fill(&mut self) {
         self.samples.fill(&mut self.rows);
         self.samples.fill_last(&mut self.last);
     }
 
-    /// All cycles have been taken.
+    /// Whether all cycles have been taken.
     pub(super) const fn is_over(&self) -> bool {
         self.taken == self.count
     }

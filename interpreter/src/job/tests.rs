@@ -21,7 +21,7 @@ fn forced(settings: Option<VibGuardSettings>, ax_dev_mm: Option<f64>) -> Options
     Options { guard: Some(ForcedGuard { settings, ax_dev_mm }), ..Options::default() }
 }
 
-/// A job or its run may go to another thread.
+/// A job and its run can be sent to another thread.
 #[test]
 fn jobs_and_runs_are_sent() {
     const fn sent<T: Send>() {}
@@ -29,7 +29,7 @@ fn jobs_and_runs_are_sent() {
     sent::<Run>();
 }
 
-/// A sink sees every cycle once, in order, pauses within bounds, and stops the run where it wants.
+/// A sink receives every cycle once, in order, with pauses in between, and can stop the run.
 #[test]
 fn one_loop_however_it_is_cut() {
     struct Stops {
@@ -68,8 +68,9 @@ fn one_loop_however_it_is_cut() {
     });
 }
 
-/// On two threads a run gives the same bits and messages: with a tolerance from some block on, replanned by an override, with
-/// messages in many blocks, ended by an error or by a standstill without end, and where no thread can be had.
+/// A run on two threads gives the same bits and messages: with a tolerance from some block on, replanned by an
+/// override, with messages in many blocks, ended by an error or by a permanent standstill, and where no thread can be
+/// started.
 #[test]
 fn a_second_thread_changes_nothing() {
     let guard = "#VIB GUARD ON [MODE=2 FREQ=20]\n";
@@ -115,8 +116,9 @@ fn a_second_thread_changes_nothing() {
     }
 }
 
-/// A run whose cycles are not read is at each pause where the others are, raises the same messages and ends alike: under inputs,
-/// with faults of the axes among cycles in a row, with a tolerance from some block on, and cut into any number of cycles.
+/// A run whose cycles are not read is at the same state at each pause, raises the same messages and ends alike: under
+/// inputs, with faults of the axes among cycles in a row, with a tolerance from some block on, and divided into any
+/// number of cycles.
 #[test]
 fn cycles_that_nobody_reads_are_driven_alike() {
     struct Pauses {
@@ -145,7 +147,7 @@ fn cycles_that_nobody_reads_are_driven_alike() {
             None,
         ),
         (format!("{guard}G01 F6000 G261\n{talk}G60 X0\nM19 S.POS 30\nM30\n"), &[], None),
-        // lags and accelerations above what is permitted
+        // lags and accelerations above the permitted values
         (
             format!("{square}G00 X300 Y-200\nX0\nM30\n"),
             &[
@@ -189,8 +191,8 @@ fn cycles_that_nobody_reads_are_driven_alike() {
     }
 }
 
-/// Columns hold, bit by bit, what the records of their cycles hold, on one thread and on two, whichever of them are asked for and
-/// however the run is cut; what was not asked for is not a number in a record.
+/// Columns equal the records of their cycles bit for bit, on one thread and on two, whichever of them are requested and
+/// however the run is divided; values that were not requested are NaN in a record.
 #[test]
 fn columns_are_the_records_of_their_cycles() {
     struct Columns(Asked, Vec<CycleRecord>, Vec<Vec<Vec<f64>>>);
@@ -263,7 +265,7 @@ fn columns_are_the_records_of_their_cycles() {
     }
 }
 
-/// Columns that a trace leaves out by default say in no cycle what the others do not; where they would, they are there.
+/// Columns that a trace leaves out by default repeat others in every cycle; where they would not, they are present.
 #[test]
 fn columns_that_repeat_others_do_so_in_every_cycle() {
     let two_masses = "kontur.axis[1].plant.model=TWO_MASS";
@@ -305,7 +307,7 @@ fn columns_that_repeat_others_do_so_in_every_cycle() {
     }
 }
 
-/// What is left out is not a number, everything else stays; where a block demands a tolerance nothing is left out.
+/// Values that are left out are NaN, all others stay; where a block requires a tolerance nothing is left out.
 #[test]
 fn the_deviation_is_left_out_until_a_block_demands_a_tolerance() {
     let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nG01 X5 F3000\nY5\nX0 Y0\n#VIB GUARD OFF\n\
@@ -337,7 +339,8 @@ fn the_deviation_is_left_out_until_a_block_demands_a_tolerance() {
     assert!(left_out > 100 && largest > 0.01, "{left_out} {largest}");
 }
 
-/// Without both ways the set points are measured as ever, and from the first block with a tolerance on everything is.
+/// Without the deviation in both directions the set points are still measured, and from the first block with a
+/// tolerance on both are.
 #[test]
 fn the_set_points_are_measured_alone_until_a_block_demands_a_tolerance() {
     let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nG01 X5 F3000\nY5\nG03 X0 Y0 I-2.5 J-2.5\n#VIB GUARD OFF\n\
@@ -358,7 +361,8 @@ fn the_set_points_are_measured_alone_until_a_block_demands_a_tolerance() {
     assert!(left_out > 100, "{left_out}");
 }
 
-/// Stopped from elsewhere a check comes back at once where the program has no end, and a run has no more cycles.
+/// A check that is stopped from elsewhere returns at once even if the program has no end; a stopped run has no more
+/// cycles.
 #[test]
 fn a_stop_ends_check_and_run() {
     let stop = Stop::default();
@@ -376,7 +380,7 @@ fn a_stop_ends_check_and_run() {
     assert!(run.is_over() && run.totals().aborted);
 }
 
-/// A refused program has what the check says, no cycle, and is aborted; the warnings of the lists come first.
+/// A refused program has the diagnostics of the check, no cycles, and is aborted; the warnings of the lists come first.
 #[test]
 fn a_refused_program_does_not_move() {
     let settings = ["X.getriebe[0].kv=3000", "X.getriebe[0].kv=2000"];
@@ -390,7 +394,7 @@ fn a_refused_program_does_not_move() {
     assert!(said.iter().any(Diagnostic::is_error));
 }
 
-/// A forced guard is the guard of the lists under a program whose commands name none of its words.
+/// A forced guard acts like the guard of the lists under a program that does not command one.
 #[test]
 fn a_forced_guard_takes_the_place_of_lists_and_words() {
     let settings = VibGuardSettings { mode: 2, freq_hz: 38.0, damping: 0.05 };
@@ -424,13 +428,13 @@ fn a_forced_guard_takes_the_place_of_lists_and_words() {
         let same = if same.contains("AX_DEV") { same } else { "#VIB GUARD ON [AX_DEV=0.03]" };
         assert!(tolerant == run(&square(same), &listed, none()), "{program} within 0.03 mm");
     }
-    // off: whatever the lists say
+    // off, whatever the lists say
     let plain = "G01 X1 F4000\nY1\nM30\n";
     assert!(run(plain, &listed, forced(None, None)) == run(plain, &[], none()));
     assert!(run(plain, &listed, none()) != run(plain, &[], none()));
 }
 
-/// Settings without a kernel refuse the run: without a guard it would be another one than asked for.
+/// Settings without a kernel refuse the run, which would otherwise run without the requested guard.
 #[test]
 fn a_forced_guard_that_cannot_be_is_an_error() {
     for (mode, freq_hz, id) in [(5, 40.0, Condition::GuardMode), (2, 0.1, Condition::GuardRange)] {
@@ -442,7 +446,8 @@ fn a_forced_guard_that_cannot_be_is_an_error() {
     }
 }
 
-/// First commands of each kind in the order of execution, with their places; what does not run says nothing.
+/// First commands of each kind in the order of execution, with their positions; commands that are not reached are
+/// absent.
 #[test]
 fn a_check_tells_what_the_program_says_about_the_guard() {
     let guard = |text: &str| job(text, &[], Options::default()).check().guard;

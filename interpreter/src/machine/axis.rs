@@ -23,7 +23,7 @@ pub struct Axis {
     kind: AxisKind,
     parameters: Parameters,
     own: Parameters,
-    /// Worked out when the parameters change: every motion asks for them.
+    /// Computed when the parameters change, since every motion needs them.
     software_limits_mm: Option<(f64, f64)>,
 }
 
@@ -60,12 +60,12 @@ impl Axis {
         self.kind
     }
 
-    /// The axis counts modulo 360 degrees (P-AXIS-00015, bit 0x4).
+    /// Whether the axis counts modulo 360 degrees (P-AXIS-00015, bit 0x4).
     pub fn is_modulo(&self) -> bool {
         self.kind != AxisKind::Linear && self.mode_bits() & mode::MODULO != 0
     }
 
-    /// Its words may be diameters (P-AXIS-00015, bit 0x40).
+    /// Whether its words may be diameters (P-AXIS-00015, bit 0x40).
     pub(crate) fn is_face_turning(&self) -> bool {
         self.mode_bits() & mode::FACE_TURNING != 0
     }
@@ -75,7 +75,7 @@ impl Axis {
         self.get(axis_general::MODE)
     }
 
-    /// Under G51 its words are diameters, with G90 (P-AXIS-00058) or with G91 (P-AXIS-00059).
+    /// Whether its words are diameters under G51, with G90 (P-AXIS-00058) or with G91 (P-AXIS-00059).
     pub(crate) fn takes_diameters(&self, absolute: bool) -> bool {
         let parameter = if absolute {
             axis_general::DIAMETER_ABSOLUTE
@@ -85,8 +85,9 @@ impl Axis {
         self.get(parameter)
     }
 
-    /// The part of an override of the channel that acts on the axis where it moves independently (P-AXIS-00491): all of it, up to 100 % (the
-    /// interface of the axis stays at that), or nothing; no more than P-AXIS-00109 where the list gives it.
+    /// The part of an override of the channel that applies to independent motions of the axis (P-AXIS-00491): all of it
+    /// up to 100 % (the interface of the axis stays at that value), or none; limited by P-AXIS-00109 if the list states
+    /// it.
     pub(crate) fn independent_ratios(&self, channel: OverrideRatios) -> OverrideRatios {
         let most = axis_general::MOST_OVERRIDE;
         let most = self.parameters.set_by(most).map_or(f64::INFINITY, |_| self.get(most));
@@ -98,23 +99,23 @@ impl Axis {
         OverrideRatios { feed: of(channel.feed), rapid: of(channel.rapid) }
     }
 
-    /// The feedhold of the channel holds the axis where it moves independently (P-AXIS-00540).
+    /// Whether the feedhold of the channel holds independent motions of the axis (P-AXIS-00540).
     pub(crate) fn holds_independent(&self) -> bool {
         !self.get(axis_general::INDEPENDENT_FEEDHOLD)
     }
 
-    /// It takes part in measuring runs (P-AXIS-00118).
+    /// Whether it takes part in measuring runs (P-AXIS-00118).
     pub fn measures(&self) -> bool {
         self.get(axis_general::MEASURES)
     }
 
-    /// It takes part in edge banding (P-AXIS-00098).
+    /// Whether it takes part in edge banding (P-AXIS-00098).
     pub(crate) fn bands(&self) -> bool {
         self.get(axis_general::BANDS)
     }
 
-    /// Lag in mm (deg) beyond which a measuring run of type 7 takes the axis to be at a fixed stop (P-AXIS-00330, and the
-    /// first of P-AXIS-00774, 00769 and 00331 that is not negative); `None`: it never is.
+    /// Lag in mm (deg) from which on a measuring run of type 7 considers the axis to be at a fixed stop (P-AXIS-00330,
+    /// and the first of P-AXIS-00774, 00769 and 00331 that is not negative); `None`: never.
     pub(crate) fn fixed_stop_lag_mm(&self) -> Option<f64> {
         let limits = [axis_general::STOP_LAG_OF_RUN, axis_general::STOP_LAG_OF_DRIVE];
         let limits = limits.into_iter().chain([axis_general::STOP_LAG]);
@@ -137,10 +138,10 @@ impl Axis {
         &self.parameters
     }
 
-    /// Number of a key (`getriebe[0].kv`) in the units of the list; `None` for an unknown key, a text, and a
-    /// parameter without default that no list names.
+    /// Number of a key (`getriebe[0].kv`) in the units of the list; `None` for an unknown key, for a text, and for a
+    /// parameter without default that no list states.
     ///
-    /// For keys that a user names; what the code itself reads is a [`Param`].
+    /// For keys given by a user; the code itself reads a [`Param`].
     pub fn raw(&self, key: &str) -> Option<f64> {
         self.parameters.raw(key)?.number()
     }
@@ -162,7 +163,7 @@ impl Axis {
         self.parameters.listed(param).unwrap_or_default()
     }
 
-    /// What set a parameter of the axis list or one of this axis in `kontur.lis`, `None` if nothing did.
+    /// The setting of a parameter of the axis list or of this axis in `kontur.lis`, `None` if it is not set.
     pub(super) fn set_by(&self, param: impl Into<Place>) -> Option<&Setting> {
         let place = param.into();
         match place.row.list {
@@ -171,18 +172,18 @@ impl Axis {
         }
     }
 
-    /// Everything that `kontur.lis` sets for this axis.
+    /// All settings of this axis in `kontur.lis`.
     pub(super) fn own_settings(&self) -> impl Iterator<Item = (Indices, &Setting)> {
         self.own.settings()
     }
 
-    /// A number; 0 means another value.
+    /// A number; `other` if it is 0.
     fn get_or(&self, param: Param<Number>, other: f64) -> f64 {
         let value = self.get(param);
         if value > 0.0 { value } else { other }
     }
 
-    /// Dynamic limits as the lists state them, weighted by 100 %.
+    /// Dynamic limits as stated in the lists, with weights of 100 %.
     pub fn dynamics(&self) -> AxisDynamics {
         use axis_dynamics as of;
         let a_max_mm_s2 = self.get(of::ACC_MAX);
@@ -234,29 +235,30 @@ impl Axis {
         }
     }
 
-    /// Ceiling of accelerations under G130 and G131 in mm/s2 (P-AXIS-00292).
+    /// Upper bound of accelerations under G130 and G131 in mm/s2 (P-AXIS-00292).
     ///
-    /// Assumption: without an entry the ceiling is `a_max`; the table prints no default.
+    /// Assumption: without an entry the bound is `a_max`; the table does not print a default.
     pub(crate) fn a_w_max_mm_s2(&self) -> f64 {
         self.get(axis_dynamics::WEIGHTED_ACC_MAX)
     }
 
-    /// Floor of ramp times under G132 and G133 in s: P-AXIS-00293, never below the shortest ramp time P-AXIS-00201.
+    /// Lower bound of ramp times under G132 and G133 in s: P-AXIS-00293, but not below the shortest ramp time
+    /// P-AXIS-00201.
     pub(crate) fn tr_w_min_s(&self) -> f64 {
         self.get(axis_dynamics::WEIGHTED_RAMP_MIN).max(self.tr_min_s())
     }
 
-    /// Shortest ramp time in s (P-AXIS-00201): with `a_max` the jerk limit of the monitor.
+    /// Shortest ramp time in s (P-AXIS-00201); together with `a_max` it gives the jerk limit of the monitor.
     pub(crate) fn tr_min_s(&self) -> f64 {
         self.get(axis_dynamics::SHORTEST_RAMP)
     }
 
-    /// A speed that the tool does not allow is an error (P-AXIS-00474).
+    /// Whether a speed that the tool does not permit is an error (P-AXIS-00474).
     pub(crate) fn checks_tool_speed(&self) -> bool {
         self.get(axis_general::TOOL_SPEED_CHECKED)
     }
 
-    /// The list names something to feed forward (P-AXIS-00223).
+    /// Whether the list configures any feedforward (P-AXIS-00223).
     pub(crate) fn has_feedforward(&self) -> bool {
         self.get(axis_drive::FEEDFORWARD) > 0
     }
@@ -283,12 +285,12 @@ impl Axis {
         self.get(axis_control::WINDOW)
     }
 
-    /// A position outside the software limits is a warning (P-AXIS-00554).
+    /// Whether a position outside the software limits is only a warning (P-AXIS-00554).
     pub(crate) fn software_limits_only_warn(&self) -> bool {
         self.get(axis_general::LIMIT_BEHAVIOUR).as_deref() == Some("WARNING")
     }
 
-    /// The additional interface accepts external positions (`lr_param.add_interface.enable`).
+    /// Whether the additional interface accepts external positions (`lr_param.add_interface.enable`).
     pub(crate) fn has_additional_interface(&self) -> bool {
         self.get(axis_filters::ADDITIONAL_INTERFACE)
     }
@@ -298,9 +300,10 @@ impl Axis {
         self.get(axis_filters::SETTLED_WINDOW)
     }
 
-    /// What an axis is does not change while a program runs: its number, name, kind, drive and master.
+    /// Whether a parameter is fixed while a program runs: number, name, kind, drive and master of the axis.
     ///
-    /// Assumption: `#MACHINE DATA` [TF5200] names no parameters, and neither does the documentation of these.
+    /// Assumption: neither the page on `#MACHINE DATA` [TF5200] nor the documentation of these parameters says which
+    /// ones they are.
     pub(crate) fn is_read_at_start(key: &str) -> bool {
         const KEYS: [&str; 5] = [
             "kopf.",
@@ -314,11 +317,11 @@ impl Axis {
         })
     }
 
-    /// Puts a value over the list, as `#MACHINE DATA` at the place `at` does; the executor owns the machine it changes. Ranges are those
-    /// of the list: what is corrected with the new value, and was not before, is returned.
+    /// Overrides a value of the list, as `#MACHINE DATA` at the place `at` does; the executor owns the machine it
+    /// changes. The ranges are those of the list. Returns the corrections that the new value causes.
     ///
     /// # Errors
-    /// What is wrong with key or value; the axis is unchanged.
+    /// A description of the error in key or value; the axis is unchanged.
     pub(crate) fn change(
         &mut self,
         key: &str,
@@ -336,7 +339,7 @@ impl Axis {
             plausible::check(parameters, cycle, Some(&axis), &mut found);
             found
         };
-        // what switches a function off is found again, and was reported with the list
+        // a function that is off is found again, but was reported with the list
         let known = check(&mut self.parameters.clone());
         self.parameters.set(row, indices, value, at);
         let mut found = check(&mut self.parameters);

@@ -30,7 +30,8 @@ impl Machine {
     /// The built-in machine `xyz` with overrides: X, Y, Z and a spindle S, cycle 1 ms.
     ///
     /// # Errors
-    /// The diagnostics of overrides that fit no parameter or leave no runnable machine; see [`Machine::load`].
+    /// The diagnostics of overrides that match no parameter or make the machine impossible to run; see
+    /// [`Machine::load`].
     pub fn builtin(overrides: &[Override]) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         Self::load(&Builtin, "xyz/hochlauf.lis", overrides)
     }

@@ -13,15 +13,15 @@ use super::{Machine, hints, inert, link};
 use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
-/// What separates the folders of a path, on either system.
+/// Separators of the folders in a path, on either system.
 pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
-/// What helps where a list exists and cannot be read.
+/// Hint for a list that exists but cannot be read.
 const UNREADABLE: &str = "a list is a text file in UTF-8 or Latin-1 that you may read";
 /// Name of kontur's list, next to the start-up list.
 pub(super) const OWN_LIST: &str = "kontur.lis";
 
 impl Machine {
-    /// Loads a machine from its start-up list and applies overrides. Beside the machine come all warnings.
+    /// Loads a machine from its start-up list and applies overrides. Returns the machine with all warnings.
     ///
     /// # Errors
     /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 numbers that do
@@ -66,8 +66,8 @@ fn unreadable(path: &str, reason: &str, hint: &str) -> Diagnostic {
     Diagnostic::new(Condition::NoFile, text).hint(hint)
 }
 
-/// What begins a path that Windows takes as it is: with backslashes alone, and without `.` and `..`. Programs that resolve a
-/// path hand over such ones.
+/// Prefix of a path that Windows does not interpret: with backslashes only, and without `.` and `..`. Programs that
+/// resolve paths return such ones.
 const VERBATIM: &str = r"\\?\";
 
 fn verbatim(folder: &str, named: &str) -> String {
@@ -128,7 +128,7 @@ impl Chain<'_> {
         None
     }
 
-    /// The list in a file, with a note where the file has the name in other letters: not every file system finds it.
+    /// The list in a file, with a note if the case of its name differs, because not every file system finds it then.
     fn list(&mut self, kind: ListKind, path: &str, found: &Found, at: Option<Location>) -> List {
         let Some(other) = &found.other_case else {
             return lists::read(kind, path, &found.bytes, &mut self.diagnostics);
@@ -215,7 +215,7 @@ impl Chain<'_> {
         Some(Settled { start_up, channel, axes, own, tools, zero })
     }
 
-    /// A list of data of the channel, which may be absent, and what `--set` changes in it.
+    /// A list of channel data, which may be absent, with the changes made by `--set`.
     fn data(
         &mut self,
         start_up: &Parameters,

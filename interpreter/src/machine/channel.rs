@@ -14,7 +14,7 @@ use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimit
 use kontur_motion::realtime::OverrideMode;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How many blocks the planner looks ahead (P-STUP-00070, P-STUP-00071).
+/// Number of blocks in the look-ahead of the planner (P-STUP-00070, P-STUP-00071).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LookAhead {
     /// Blocks, 10 to 10 000; default 120.
@@ -29,11 +29,11 @@ pub enum RapidOverride {
     NotUsed,
     /// The smaller of the two.
     Minimum,
-    /// Its own.
+    /// A separate override for G00.
     Active,
 }
 
-/// What becomes of a message to the diagnosis receiver (P-CHAN-00518).
+/// Handling of a message to the diagnosis receiver (P-CHAN-00518).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum DiagnosisMessages {
     /// It is written.
@@ -47,7 +47,7 @@ pub enum DiagnosisMessages {
     Error,
 }
 
-/// Limits of arcs whose centre and end do not fit.
+/// Limits of arcs whose centre and end point do not match.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcCentre {
     /// G165: largest shift of the centre in mm (P-CHAN-00059), default 2.
@@ -68,19 +68,20 @@ pub struct Channel {
     pub slope: SlopeKind,
     /// Constant ramp time instead of constant jerk (P-CHAN-00349).
     pub constant_ramp_time: bool,
-    /// Which ramp times G132 and G133 weight (P-CHAN-00073): 0 all, 1 to 4 one of `ramps_s`.
+    /// The ramp times weighted by G132 and G133 (P-CHAN-00073): 0 all, 1 to 4 one of `ramps_s`.
     pub ramp_selection: u32,
-    /// Which accelerations G130 and G131 weight (P-CHAN-00001): 0 both, 1 acceleration, 2 deceleration.
+    /// The accelerations weighted by G130 and G131 (P-CHAN-00001): 0 both, 1 acceleration, 2 deceleration.
     pub acc_selection: u32,
-    /// Feed before the first F word in mm/s (P-CHAN-00099), `None` = F must be programmed (20008).
+    /// Feed rate before the first F word in mm/s (P-CHAN-00099), `None` = F must be programmed (20008).
     pub feed_mm_s: Option<f64>,
     /// Length unit of an F word in mm/min (P-CHAN-00108 = 100: 1; 0.1: 1000).
     pub feed_unit_mm_min: f64,
     /// Members of the feed group (P-CHAN-00011), one flag per path axis.
     ///
-    /// Source: TF5200 channel parameters; no axis marked: the main axes, at program start the first three.
+    /// Source: TF5200 channel parameters; if no axis is marked: the main axes, the first three at program start.
     pub feed_axes: Vec<bool>,
-    /// The list marks members of the feed group; otherwise the group follows the main axes in an axis exchange (149140491).
+    /// Whether the list marks members of the feed group; otherwise the group follows the main axes in an axis exchange
+    /// (149140491).
     pub lists_feed_axes: bool,
     /// Limit the jerk at tangential transitions (P-CHAN-00009).
     pub limit_tangential_jerk: bool,
@@ -88,17 +89,17 @@ pub struct Channel {
     pub transition_jerk: TransitionJerkMode,
     /// Extra limit between lines (P-CHAN-00245), 0 to 3.
     pub curvature_estimate: u8,
-    /// Which ramp time bounds the jerk on polynomials (P-CHAN-00110).
+    /// The ramp time that limits the jerk on polynomials (P-CHAN-00110).
     pub curve_jerk: CurveJerk,
-    /// Values of `#VECTOR LIMIT ON` before the program gives others (P-CHAN-00002, 00090, 00208, 00361).
+    /// Values of `#VECTOR LIMIT ON` until the program sets others (P-CHAN-00002, 00090, 00208, 00361).
     pub vector: VectorLimits,
     /// Unit of time in s of ACC, DEC, RADIAL_ACC and RADIAL_JERK in `#VECTOR LIMIT` (P-CHAN-00351): 60 or 1.
     pub vector_time_s: f64,
-    /// The path acceleration limit also bounds arcs (P-CHAN-00350).
+    /// The path acceleration limit also applies to arcs (P-CHAN-00350).
     pub vector_acc_on_arcs: bool,
-    /// Limits of arcs whose centre and end do not fit.
+    /// Limits of arcs whose centre and end point do not match.
     pub arc_centre: ArcCentre,
-    /// Axes of the channel, bit by bit, whose positions outside the software limits are a warning (P-CHAN-00147).
+    /// Axes of the channel, one bit each, whose positions outside the software limits are a warning (P-CHAN-00147).
     pub limit_warnings: u32,
     /// Look-ahead.
     pub look_ahead: LookAhead,
@@ -108,46 +109,46 @@ pub struct Channel {
     pub contouring_consider_inch: bool,
     /// Implicit G60 after G00 (P-CHAN-00235).
     pub exact_stop_after_g00: bool,
-    /// Feed hold uses its own parameters (P-CHAN-00097).
+    /// Feedhold uses separate parameters (P-CHAN-00097).
     pub own_feed_hold: bool,
-    /// Several G90 and G91 in a block, each acting from its place on (P-CHAN-00116).
+    /// Several G90 and G91 in a block, each effective from its position on (P-CHAN-00116).
     pub several_dimensions: bool,
     /// Several words of an axis in a motion block (P-CHAN-00148, with P-CHAN-00116).
     pub several_words: bool,
-    /// Absolute words of modulo axes always go the shortest way (P-CHAN-00346).
+    /// Absolute words of modulo axes always take the shortest way (P-CHAN-00346).
     pub shortest_way: bool,
-    /// Cycles give no modal state back at their ends (P-CHAN-00210).
+    /// Cycles do not restore modal states at their end (P-CHAN-00210).
     pub cycle_changes_stay: bool,
-    /// There are no chamfers and roundings (P-CHAN-00273).
+    /// Chamfers and roundings are not available (P-CHAN-00273).
     pub no_chamfers: bool,
-    /// I, J and K of arcs hold until the next ones (P-CHAN-00159).
+    /// I, J and K of arcs are modal (P-CHAN-00159).
     pub modal_centres: bool,
-    /// Edge banding leaves out the rest of the block after its M function (P-CHAN-00149).
+    /// Edge banding skips the rest of the block after its M function (P-CHAN-00149).
     pub banding_rejects_rest: bool,
-    /// The path waits for independent axes that a block names, not only for those that it moves (P-CHAN-00451).
+    /// The path waits for all independent axes in a block, not only for those that it moves (P-CHAN-00451).
     pub joins_named: bool,
     /// Reading a `@P` parameter that was not passed creates it (P-CHAN-00463).
     pub creates_cycle_parameters: bool,
     /// Offsets of axes that are not main axes belong to their coordinate system (P-CHAN-00397).
     pub offsets_in_systems: bool,
-    /// The offsets of a tool move with its D word (P-CHAN-00100).
+    /// The offsets of a tool are moved with its D word (P-CHAN-00100).
     pub tool_offsets_at_once: bool,
     /// The limits of the axis lists bound those of G98 and G99 (P-CHAN-00498).
     pub limits_bounded: bool,
-    /// Most characters of the name of a macro (P-CHAN-00511).
+    /// Maximum number of characters in the name of a macro (P-CHAN-00511).
     pub macro_name_length: u32,
-    /// Most characters of the text of a macro (P-CHAN-00512).
+    /// Maximum number of characters in the text of a macro (P-CHAN-00512).
     pub macro_text_length: u32,
     /// P parameters survive program start (P-CHAN-00067).
     pub keep_p_parameters: bool,
-    /// What the override multiplies (P-CHAN-00066).
+    /// The velocity that the override multiplies (P-CHAN-00066).
     pub override_mode: OverrideMode,
     /// Override in G00 (P-CHAN-00181).
     pub rapid_override: RapidOverride,
-    /// Largest ratio of the external override (P-CHAN-00056), where the list gives it.
+    /// Largest ratio of the external override (P-CHAN-00056), if the list states it.
     ///
-    /// Assumption: without an entry nothing is limited, although the vendor's default is 1: an override above 100 % is
-    /// asked for in the inputs of a run, and a message names the default.
+    /// Assumption: without an entry nothing is limited, although the vendor's default is 1: the inputs of a run may
+    /// contain an override above 100 %, and a message names the default.
     pub most_override: Option<f64>,
     /// Start values of G groups (P-CHAN-00063): group and G number; a preset of group 21 (feedforward) has no effect.
     pub g_groups: BTreeMap<u32, u32>,
@@ -155,7 +156,7 @@ pub struct Channel {
     pub m_durations_s: BTreeMap<u32, f64>,
     /// When the path waits for M functions, where the list says so (P-CHAN-00041).
     pub m_waits: BTreeMap<u32, Acknowledged>,
-    /// The same for H functions (P-CHAN-00027).
+    /// When the path waits for H functions, if the list states it (P-CHAN-00027).
     pub h_waits: BTreeMap<u32, Acknowledged>,
     /// M functions that wait for the signal of edge banding (P-CHAN-00041 with MNE_SNS).
     pub m_at_signal: BTreeSet<u32>,
@@ -163,29 +164,29 @@ pub struct Channel {
     pub h_durations_s: BTreeMap<u32, f64>,
     /// Durations of the functions of each spindle in s, in the order of the list.
     pub spindle_durations_s: Vec<SpindleDurations>,
-    /// For which functions of each spindle the path waits, in the order of the list.
+    /// The functions of each spindle for which the path waits, in the order of the list.
     pub spindle_waits: Vec<SpindleWaits>,
-    /// Macros of every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
+    /// Macros available in every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
     pub macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169) and G800 to G839 (P-CHAN-00187), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
     /// Offsets of a face turning axis are diameters (P-CHAN-00091).
     pub offsets_in_diameters: bool,
-    /// T takes the tool data of its number too (P-CHAN-00014).
+    /// T also selects the tool data of its number (P-CHAN-00014).
     pub tool_data_with_tool: bool,
     /// `#WAIT INDP` waits for the windows of all axes (P-CHAN-00297 = 2).
     pub joins_in_windows: bool,
-    /// G60 and G360 wait for independent axes too (P-CHAN-00297 = 1).
+    /// G60 and G360 also wait for independent axes (P-CHAN-00297 = 1).
     pub stops_join: bool,
     /// Measuring type at program start, 1 to 7 (P-CHAN-00057).
     pub measuring_type: u32,
-    /// Measuring type 1: a run without a signal of the probe is an error (P-CHAN-00176).
+    /// Measuring type 1: a run without a probe signal is an error (P-CHAN-00176).
     pub missing_signal_is_error: bool,
     /// Way after the signal in edge banding in mm (P-CHAN-00030).
     pub residual_path_mm: f64,
-    /// Edge banding lasts over several blocks (P-CHAN-00029).
+    /// Edge banding extends over several blocks (P-CHAN-00029).
     pub banding_over_blocks: bool,
-    /// The override does not act on G33 (P-CHAN-00836).
+    /// The override has no effect on G33 (P-CHAN-00836).
     pub thread_ignores_override: bool,
     /// Consecutive blocks of G33 are one thread (P-CHAN-00837).
     pub thread_chain: bool,
@@ -195,7 +196,7 @@ pub struct Channel {
     pub start_program: Option<String>,
     /// Subroutine called before the end of every program (P-CHAN-00252).
     pub end_program: Option<String>,
-    /// Subroutine called by M06 (P-CHAN-00118); `None`: M06 is a function like any other.
+    /// Subroutine called by M06 (P-CHAN-00118); `None`: M06 is an ordinary function.
     pub tool_change_program: Option<String>,
     /// Subroutine called by D words (P-CHAN-00429).
     pub tool_data_program: Option<String>,
@@ -203,7 +204,7 @@ pub struct Channel {
     pub main_spindle: Option<u32>,
     /// Name that addresses the main spindle in the NC program (P-CHAN-00053).
     pub main_spindle_name: String,
-    /// Coupling group 0, which the list defines (P-CHAN-00037, P-CHAN-00038).
+    /// Coupling group 0 as defined by the list (P-CHAN-00037, P-CHAN-00038).
     pub default_couplings: Vec<DefaultCoupling>,
     parameters: Parameters,
     start_up: Parameters,
@@ -223,7 +224,7 @@ const CYCLE_PROGRAMS: [Param<Text>; 10] = [
     of::G89_PROGRAM,
 ];
 
-/// Spindles of a channel list.
+/// Number of spindles in a channel list.
 const SPINDLES: u32 = 16;
 
 impl Channel {
@@ -351,7 +352,7 @@ impl Channel {
             tool_change_program: program(of::TOOL_CHANGE_PROGRAM),
             tool_data_program: program(of::TOOL_DATA_PROGRAM),
             main_spindle: Some(choice(of::MAIN_SPINDLE)).filter(|n| *n != 0),
-            // another first letter is replaced (20971)
+            // a different first letter is replaced (20971)
             main_spindle_name: p
                 .get(of::MAIN_SPINDLE_NAME)
                 .filter(|name| name.starts_with(['S', 's']))

@@ -1,6 +1,6 @@
-//! What the documents recommend and a list does differently: notes, never errors, once per machine.
+//! Deviations of a list from the recommendations of the documents: notes, never errors, once per machine.
 //!
-//! Only what a list states is judged; the vendor's defaults are not.
+//! Only entries of a list are judged; the vendor's defaults are not.
 
 use super::kind::{AxisKind, mode};
 use super::table::param::{Number, Param, Place};
@@ -8,11 +8,11 @@ use super::table::{axis_control, axis_drive, axis_dynamics, axis_filters, axis_g
 use super::{Axis, Machine, issues};
 use crate::diag::{Condition, Diagnostic, rounded};
 
-/// Global weight of the feedforward that is recommended (P-AXIS-00228 / P-AXIS-00229).
+/// Recommended range of the global feedforward weight (P-AXIS-00228 / P-AXIS-00229).
 const WEIGHT_RATIO: (f64, f64) = (0.7, 1.0);
-/// Settling time that is recommended in us (P-AXIS-00532).
+/// Recommended settling time in us (P-AXIS-00532).
 const SETTLING_US: (f64, f64) = (10_000.0, 200_000.0);
-/// The exact-stop window is to be at least this many times the lag at standstill (P-AXIS-00236).
+/// Recommended ratio of the exact-stop window to the lag at standstill, at least (P-AXIS-00236).
 const WINDOW_LAGS: f64 = 3.0;
 
 /// Notes about every axis.
@@ -27,7 +27,7 @@ pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Bits of the axis mode that change nothing here.
+/// Bits of the axis mode that have no effect here.
 ///
 /// Source: P-AXIS-00015 (TF5200 axis parameters, 117192331): 0x4 counts modulo for rotary axes and spindles, 0x400 for linear axes.
 fn unused_mode(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
@@ -71,7 +71,7 @@ fn low_passes(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// 0 is a legal weight: no feedforward. Source: TF5200 feedforward control.
+/// 0 is a permitted weight that switches feedforward off. Source: TF5200 feedforward control.
 fn weight(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let weight = [axis_drive::FF_WEIGHT_NUM, axis_drive::FF_WEIGHT_DENOM];
     let ratio = axis.listed(weight[0]) / axis.listed(weight[1]);
@@ -96,10 +96,10 @@ fn settling_time(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The lag that an axis may keep at standstill is the dead band of its controller.
+/// The lag that can remain at standstill is the dead band of the controller.
 ///
-/// Source: TF5200 position monitoring (three times the lag). Assumption: the lag at standstill; what friction adds to it
-/// is in no list.
+/// Source: TF5200 position monitoring (three times the lag). Assumption: the lag at standstill; the contribution of
+/// friction is not part of any list.
 fn window(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let param = axis_control::WINDOW;
     let lag = axis.listed(axis_control::DEAD_BAND);
@@ -144,9 +144,10 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Feedforward that only one side of a bridge has, and limits of the slave, which no program asks.
+/// Feedforward that only one side of a bridge has, and limits of the slave, which are never checked.
 ///
-/// Source: TF5200 gantry operation, page 285697291: dynamics that have to be the same. Assumption: a slave has the software limits of its master (the pages say that it takes its set positions).
+/// Source: TF5200 gantry operation, page 285697291: dynamics that have to be the same. Assumption: a slave has the
+/// software limits of its master (according to the documents it takes its set positions).
 fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let speed_mm_s = master.dynamics().v_max_mm_s;
     let lags = |on: bool| {

@@ -1,5 +1,5 @@
-//! Parameters that change what a control does and are not simulated: a list that sets one to a value other than its default gets
-//! a message, so that the trace is not mistaken for that of the control.
+//! Parameters that change the behaviour of a control but are not simulated: if a list sets one to a value other than
+//! its default, a message says so, lest the trace be mistaken for that of the control.
 
 use super::parameters::Parameters;
 use super::plausible::finish;
@@ -7,7 +7,7 @@ use super::table::{axis_general, with_indices};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic};
 
-/// ID, and what happens in its place.
+/// ID, and what is done instead.
 ///
 /// Source: TF5200 axis, channel, start-up and tool parameters, axis compensation, friction compensation.
 const INERT: &[(&str, &str)] = &[
@@ -43,7 +43,7 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00261", "there is one path"),
 ];
 
-/// What happens in the place of what a parameter describes, if it is not simulated.
+/// What is done instead of the function of a parameter that is not simulated.
 pub(crate) fn instead_of(id: &str) -> Option<&'static str> {
     INERT.iter().find(|(inert, _)| *inert == id).map(|(_, instead)| *instead)
 }
@@ -57,7 +57,7 @@ pub(super) fn check(
     for (indices, setting) in parameters.settings() {
         let row = setting.row;
         let Some(instead) = instead_of(row.id) else { continue };
-        // what is refused has its message already
+        // a refused value has already been reported
         let is_refused =
             |d: &Diagnostic| d.is_error() && d.parameter == Some(row.id) && d.source == setting.at;
         if !setting.is_changed() || diagnostics.iter().any(is_refused) {

@@ -1,6 +1,6 @@
-//! Issues of the configuration of filters and controller, as diagnostics with axis, parameter and place.
+//! Issues of the configuration of filters and controller, as diagnostics with axis, parameter and position.
 //!
-//! The text has the order quantity, value, limit, axis, parameter; then what becomes of it.
+//! The text has the order quantity, value, limit, axis, parameter; then the effect.
 
 mod control;
 
@@ -18,7 +18,7 @@ use kontur_filters::{
     vib_guard::{VibGuardError, VibGuardSettings},
 };
 
-/// A diagnostic about one parameter of an axis: what was found, what becomes of it.
+/// A diagnostic about one parameter of an axis: what was found, and its effect.
 pub(super) fn about(
     axis: &Axis,
     condition: Condition,
@@ -36,7 +36,7 @@ pub(super) fn about(
     diagnostic
 }
 
-/// [`about`] a parameter of the list; `None` is for the words of a program, whose place is known to who runs it.
+/// [`about`] a parameter of the list; `None` for the words of a program, whose position is added by the executor.
 fn listed_or_programmed(
     axis: &Axis,
     condition: Condition,
@@ -74,7 +74,7 @@ pub const fn filter_condition(issue: &FilterIssue) -> Condition {
     }
 }
 
-/// The condition of settings that give no Vibration Guard.
+/// The condition of settings without a Vibration Guard kernel.
 const fn guard_condition(error: &VibGuardError) -> Condition {
     match error {
         VibGuardError::Mode { .. } => Condition::GuardMode,
@@ -86,7 +86,7 @@ const fn guard_condition(error: &VibGuardError) -> Condition {
 /// A condition of a filter's settings, with its values; `keys` of the list, `None` for the words of a program.
 pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue) -> Diagnostic {
     let condition = match filter_condition(issue) {
-        // spindles have a separate number for the same
+        // spindles have a separate number for this condition
         Condition::FilterTime if axis.kind() == AxisKind::Spindle => Condition::SpindleFilterTime,
         condition => condition,
     };
@@ -141,7 +141,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
     };
     match (keys, effect) {
         (None, Effect::Note) => diagnostic.severity(Severity::Note),
-        // of a list, as the documents say: that part is off, the run continues
+        // in a list, as documented: that part is off, and the run continues
         (None, Effect::Corrected) | (Some(_), Effect::Off) => {
             diagnostic.severity(Severity::Warning)
         }
@@ -149,7 +149,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
     }
 }
 
-/// A filter, or Improved Position Control, that a list describes and that is off because it cannot be built.
+/// Whether a filter, or Improved Position Control, is off although a list describes it, because it cannot be built.
 pub(crate) fn leaves_out(diagnostic: &Diagnostic) -> bool {
     [
         Condition::FilterType,
@@ -173,7 +173,8 @@ pub(crate) fn leaves_out(diagnostic: &Diagnostic) -> bool {
     .any(|condition| diagnostic.id == *condition)
 }
 
-/// Why an axis has no Vibration Guard, with the values; `listed` by the axis list or by words of a program.
+/// Why an axis has no Vibration Guard, with the values; `listed`: configured by the axis list, otherwise by words of a
+/// program.
 pub(crate) fn vib_guard(
     axis: &Axis,
     listed: bool,
@@ -201,7 +202,7 @@ pub(crate) fn vib_guard(
         VibGuardError::NotRealisable { freq_hz, damping: given } => {
             let place = if given > VibGuardSettings::MAX_DAMPING { damping } else { frequency };
             let about = about(place);
-            // what a list describes and cannot be built is left out, the machine runs without it; a command is refused
+            // an entry of a list that cannot be built is left out and the machine runs without it; a command is refused
             let about = if listed { about.severity(Severity::Warning) } else { about };
             about.value(ValueKind::Wrong, freq_hz, "Hz").value(ValueKind::Wrong, given, "-").value(
                 ValueKind::Limit,

@@ -1,6 +1,6 @@
 //! Keys of list entries: dotted names with indices, `getriebe[0].dynamik.vb_max`.
 //!
-//! Order of calls: a line's key is parsed, then looked up by its shape in the parameter [table].
+//! Order of calls: parse the key of a line, then look it up by its shape in the parameter [table].
 //!
 //! ```
 //! use kontur_interpreter::machine::key::Key;
@@ -12,19 +12,19 @@
 
 use super::table::{self, Indices, ListKind, Row};
 
-/// A key as it was written, taken apart.
+/// A key as written, divided into its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     /// In lower case, `[]` for every index.
     pub shape: String,
     /// Indices from left to right.
     pub indices: Vec<u32>,
-    /// At least one index was left empty (`getriebe[].kv`) and reads as 0.
+    /// Whether at least one index was left empty (`getriebe[].kv`) and reads as 0.
     pub empty_index: bool,
 }
 
 impl Key {
-    /// Takes a key apart; `None` if it is none.
+    /// Parses a key; `None` if the text is not one.
     pub fn parse(text: &str) -> Option<Self> {
         let mut key = Self {
             shape: String::with_capacity(text.len()),
@@ -67,7 +67,7 @@ impl Key {
         beyond(row.key, indices).is_none().then_some((row, indices))
     }
 
-    /// Its indices, 0 where it has fewer than two.
+    /// Its indices, 0 for missing ones.
     fn two_indices(&self) -> Indices {
         let mut indices = [0; 2];
         for (slot, index) in indices.iter_mut().zip(&self.indices) {
@@ -76,7 +76,7 @@ impl Key {
         indices
     }
 
-    /// What is wrong with a known key whose index lies beyond its array: `index 4 of getriebe is outside 0 to 3`.
+    /// Description of a known key with an index outside its array: `index 4 of getriebe is outside 0 to 3`.
     pub(crate) fn beyond(&self, list: ListKind) -> Option<String> {
         let row = table::by_key(list, &self.shape)?;
         let (array, index, size) = beyond(row.key, self.two_indices())?;
@@ -87,10 +87,10 @@ impl Key {
     }
 }
 
-/// Sizes of arrays by the part of the key before the index; arrays not named here are not limited.
+/// Sizes of arrays by the part of the key before the index; arrays that are not listed are not limited.
 ///
-/// Source: the lists' manuals; four gear stages and two measuring systems are an assumption (no document read gives
-/// the number).
+/// Source: the manuals of the lists. Assumption: four gear stages and two measuring systems; the documents do not state
+/// these numbers.
 const SIZES: &[(&str, u32)] = &[
     ("getriebe", 4),
     ("filter", 3),
@@ -110,7 +110,7 @@ const SIZES: &[(&str, u32)] = &[
     ("configuration.channel", 12),
 ];
 
-/// The first array of a key whose index lies beyond its end: its name, the index, its size.
+/// The first array of a key with an index outside its size: its name, the index, its size.
 fn beyond(key: &str, indices: Indices) -> Option<(&str, u32, u32)> {
     let brackets = key.char_indices().filter(|(_, c)| *c == '[').map(|(at, _)| at);
     brackets.zip(indices).find_map(|(at, index)| {

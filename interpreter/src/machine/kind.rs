@@ -1,4 +1,4 @@
-//! Kind and number of an axis, as its list states them.
+//! Kind and number of an axis as stated in its list.
 
 use super::parameters::Parameters;
 use super::table::axis_general;

@@ -1,10 +1,10 @@
-//! Groups of axis parameters that make a run shorter together; `kontur run --times` tries them out.
+//! Groups of axis parameters that shorten a run together; `kontur run --times` varies them.
 
 use super::axis::Axis;
 use super::table::axis_dynamics as dynamics;
 use super::table::param::{Number, Param};
 
-/// A group of parameters of one kind. Those that a list leaves at 0 follow others and are left alone.
+/// A group of parameters of one kind. Those that a list leaves at 0 follow others and are not varied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lever {
     /// Highest speed and rapid speed.
@@ -49,8 +49,8 @@ impl Lever {
         format!("P-AXIS-{}", numbers.join(", "))
     }
 
-    /// Settings as for `--set` that multiply what the lists of an axis say by `factor`, in whole units of the list and
-    /// at least 1.
+    /// Settings as for `--set` that multiply the list values of an axis by `factor`, in whole units of the list and at
+    /// least 1.
     pub fn settings(self, axis: &Axis, factor: f64) -> Vec<String> {
         let listed = self.parameters().iter().map(|p| (p.place(), axis.listed(*p)));
         listed

@@ -1,4 +1,4 @@
-//! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
+//! Links the channel list and the axis lists: `log_achs_nr` = `kopf.achs_nr`.
 
 mod gantry;
 
@@ -77,14 +77,14 @@ struct EntryKeys {
     number: Place,
 }
 
-/// Most characters of a name. Source: P-CHAN-00006, P-CHAN-00010.
+/// Maximum number of characters in a name. Source: P-CHAN-00006, P-CHAN-00010.
 const NAME_MAX: usize = 16;
 
 /// An array of names in the channel list.
 struct GroupKeys {
     /// Its key in messages.
     array: &'static str,
-    /// Most entries.
+    /// Maximum number of entries.
     size: u32,
     spindles: bool,
     count: Place,
@@ -113,7 +113,7 @@ const SPINDLES: GroupKeys = GroupKeys {
     },
 };
 
-/// One array of names. The count of the list decides; Assumption: without a count all named entries are taken.
+/// One array of names. The count in the list applies; Assumption: without a count all named entries are used.
 fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnostic>) -> Vec<Named> {
     let GroupKeys { array, size, spindles, .. } = *group;
     let (count, entry) = (group.count, group.entry);
@@ -158,8 +158,8 @@ fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnost
 
 /// Names of path axes begin with A B C U V W X Y Z Q, names of spindles with S; then letters, digits and `_`.
 ///
-/// A wrong first letter, and an axis name that is too long, are replaced as the control does it: 20425, 20971
-/// (251585675, 253130635). No document has a number for other wrong characters, nor a name in their place.
+/// A wrong first letter, and an axis name that is too long, are replaced as in the control: 20425, 20971 (251585675,
+/// 253130635). For other wrong characters the documents give neither a number nor a replacement.
 fn usable_name(
     name: &str,
     number: u32,
@@ -199,7 +199,7 @@ fn error(condition: Condition, message: String, at: Option<Location>) -> Diagnos
     diagnostic
 }
 
-/// Builds the machine; `None` if numbers or names do not fit together (K-0031).
+/// Builds the machine; `None` if numbers or names are inconsistent (K-0031).
 pub(super) fn machine(
     name: &str,
     cycle: CycleTime,
@@ -243,7 +243,7 @@ pub(super) fn machine(
         gantry_slaves.push(Axis::new(name.clone(), kind, parameters, own_of(&own, *number)));
     }
     let left: Vec<String> = lists.iter().flatten().map(called).collect();
-    // what is wrong with the names may be why a list has none
+    // an error in the names may be the reason why a list has none
     if !left.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
         let message =
             format!("axis lists that no channel names, not simulated: {}", left.join(", "));
@@ -283,7 +283,7 @@ fn own_of(own: &Parameters, number: u32) -> Parameters {
     part
 }
 
-/// The channel list decides what is a spindle; 21238, 110304 if the axis list says otherwise.
+/// The channel list determines what is a spindle; 21238, 110304 if the axis list disagrees.
 fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic>) -> AxisKind {
     let kind = kind_of(parameters);
     if (kind == AxisKind::Spindle) != named.spindle {
@@ -373,8 +373,8 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
     gantry::check(settled, names, diagnostics);
 }
 
-/// 21045: the main spindle must not have the name of another one; K-0031: it is a spindle of the channel; 20971: its name begins
-/// with S.
+/// 21045: the main spindle must not have the name of another one; K-0031: it must be a spindle of the channel; 20971:
+/// its name must begin with S.
 ///
 /// Source: P-CHAN-00051, P-CHAN-00053 (TF5200 channel parameters).
 fn check_main_spindle(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
@@ -391,7 +391,7 @@ fn check_main_spindle(settled: &Settled, names: &Names, diagnostics: &mut Vec<Di
         return;
     }
     let named = channel.set_by(name);
-    // a list that names neither has the first spindle under its own name
+    // a list that states neither uses the first spindle with its own name
     if named.is_none() && listed.is_none() {
         return;
     }

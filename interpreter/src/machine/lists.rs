@@ -1,10 +1,10 @@
 //! Reader and writer of parameter lists in the vendor's text format.
 //!
 //! One entry per line, key and value separated by blanks; `#` at the start of a line and any text after a value are
-//! comments. Nothing in a list stops the reading: what cannot be used is reported and left out.
+//! comments. Errors never stop the reader: unusable entries are reported and left out.
 //! Source: examples of the TF5200 manuals, rules of the start-up and parameter manuals.
 //!
-//! Order of calls: text is read into entries, their keys are looked up and their values read, and a list is written from
+//! Order of calls: read a text into entries, whose keys are looked up and whose values are read; write a list from
 //! entries again.
 //!
 //! ```
@@ -27,30 +27,30 @@ use crate::diag::{Condition, Diagnostic, Id, Location, Severity, ValueKind};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Where the texts of lists come from; the library itself opens no file.
+/// Source of the texts of lists; the library itself does not open files.
 pub trait ListFiles {
-    /// The bytes of a file, `None` if there is no such file. Paths use `/` and start where the caller's path to the
-    /// start-up list starts.
+    /// The bytes of a file, `None` if there is no such file. Paths use `/` and are relative to the same folder as the
+    /// caller's path to the start-up list.
     ///
     /// # Errors
     /// The reason in words if the file exists but cannot be read.
     fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String>;
 
-    /// The path of a file whose name differs from that of `path` in capital letters only; called where there is no file
-    /// `path`. Without such names nothing is found.
+    /// The path of a file whose name differs from `path` in case only; called if there is no file `path`. By default
+    /// there is none.
     fn in_other_case(&self, _path: &str) -> Option<String> {
         None
     }
 }
 
-/// A file as [`ListFiles`] has it, under the name of its path or else one in other capital letters.
+/// A file from [`ListFiles`], found under its path or under one that differs in case.
 pub(super) struct Found {
     pub(super) bytes: Vec<u8>,
-    /// The path under which it was found, if that is not the one that was asked for.
+    /// The path under which it was found, if that differs from the requested one.
     pub(super) other_case: Option<String>,
 }
 
-/// Reads a file of the control, whose file system does not distinguish capital letters.
+/// Reads a file of the control, whose file system is not case-sensitive.
 ///
 /// # Errors
 /// As [`ListFiles::read`].
@@ -71,7 +71,7 @@ pub struct Entry {
     pub indices: Indices,
     /// Value in the units of the list.
     pub value: Value,
-    /// Place of the entry: the key and the value.
+    /// Position of the entry: the key and the value.
     pub at: Location,
 }
 
@@ -91,13 +91,13 @@ pub struct List {
     pub entries: Vec<Entry>,
 }
 
-/// Messages of one kind about a list that are shown; more are only counted.
+/// Number of messages of one kind that are shown for a list; more are only counted.
 const SAID_MAX: u32 = 20;
 
-/// Number of unknown keys that are named in one message; of more, the structures are named.
+/// Number of unknown keys that are listed in one message; beyond that their structures are listed.
 const NAMED_UNKNOWN: usize = 12;
 
-/// Number of structures that are named after them; more are only counted.
+/// Number of structures that are listed; more are only counted.
 const NAMED_STRUCTURES: usize = 30;
 
 /// Reads a list. Diagnostics: 1001119 unknown element, 1030 index of a start-up list beyond its array, 1001138 bad number, K-0028 key twice, K-0029 empty index,
@@ -145,7 +145,7 @@ struct Reader<'a> {
     diagnostics: &'a mut Vec<Diagnostic>,
 }
 
-/// Messages of one kind so far.
+/// Number of messages of one kind so far.
 #[derive(Default)]
 struct Said {
     shown: u32,
@@ -154,7 +154,7 @@ struct Said {
 }
 
 impl Reader<'_> {
-    /// Shows a message as long as there are few of its kind.
+    /// Shows a message unless there are too many of its kind.
     fn say(&mut self, message: Diagnostic) {
         let said = self.said.entry(message.id).or_default();
         if said.shown < SAID_MAX {
@@ -166,7 +166,7 @@ impl Reader<'_> {
         }
     }
 
-    /// How many messages were not shown.
+    /// Reports the number of messages that were not shown.
     fn count_hidden(&mut self) {
         for (_, said) in std::mem::take(&mut self.said) {
             if let Some(mut message) = said.first_hidden {
@@ -240,7 +240,7 @@ impl Reader<'_> {
             }
         };
         let mut at = value_at;
-        // the entry is marked from its key to the end of its value
+        // the mark extends from the key to the end of the value
         at.length = at.column + at.length - key_at.column;
         (at.column, at.offset) = (key_at.column, key_at.offset);
         let entry = Entry { row, indices, value, at };
@@ -311,7 +311,7 @@ fn structures(shapes: &[&str]) -> String {
     named.join(", ")
 }
 
-/// Names the parameter of a row, if it has an ID.
+/// Adds the parameter of a row, if it has an ID.
 pub(super) fn parameter(diagnostic: Diagnostic, row: &Row) -> Diagnostic {
     if row.id.is_empty() { diagnostic } else { diagnostic.parameter(row.id) }
 }

@@ -1,4 +1,4 @@
-//! Values with which the command line overrides the lists (`--set X.getriebe[0].kv=5000`).
+//! Values by which the command line overrides the lists (`--set X.getriebe[0].kv=5000`).
 
 use super::key::Key;
 use super::lists::parameter;
@@ -7,11 +7,11 @@ use super::table::{self, Indices, ListKind, Row, kontur};
 use super::value;
 use crate::diag::{Condition, Diagnostic, Location};
 
-/// What messages name instead of a file.
+/// Shown in messages in place of a file.
 pub(super) const OVERRIDE: &str = "--set";
 
-/// One override: target, key and value. Targets are an axis or spindle name, several with commas (`X,Y`), every path axis
-/// (`*`), `channel`, `start_up` and `kontur` (whose keys begin with `kontur.` themselves).
+/// One override: target, key and value. Targets are an axis or spindle name, several with commas (`X,Y`), all path axes
+/// (`*`), `channel`, `start_up` and `kontur` (with keys that begin with `kontur.`).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Override {
     text: String,
@@ -21,13 +21,13 @@ pub struct Override {
 }
 
 impl Override {
-    /// Target that means every path axis.
+    /// Target for all path axes.
     pub(super) const EVERY_AXIS: &str = "*";
 
-    /// Takes `TARGET.key=value` apart.
+    /// Parses `TARGET.key=value`.
     ///
     /// # Errors
-    /// K-0073 if it has not this form.
+    /// K-0073 if it does not have this form.
     pub fn parse(text: &str) -> Result<Self, Box<Diagnostic>> {
         let form = || {
             let hint = "write AXIS.key=value, channel.key=value or kontur.key=value";
@@ -52,7 +52,7 @@ impl Override {
         &self.target
     }
 
-    /// Puts the value over the lists.
+    /// Overrides the value of the lists.
     ///
     /// # Errors
     /// K-0073 for a key or value that does not exist.
@@ -76,7 +76,7 @@ impl Override {
         is_empty.then(|| Diagnostic::new(Condition::ListIndex, text).at(self.location(&self.key)))
     }
 
-    /// The parameter that is set, if the key is one.
+    /// The parameter that is set, if the key is valid.
     pub fn parameter(&self) -> Option<&'static Row> {
         let kind = match self.target.to_ascii_lowercase().as_str() {
             "channel" => ListKind::Channel,
@@ -89,7 +89,7 @@ impl Override {
         self.resolve(kind).ok().map(|(row, _)| row)
     }
 
-    /// It sets the cycle (`kontur.cycle_time_us`).
+    /// Whether it sets the cycle (`kontur.cycle_time_us`).
     pub(crate) fn sets_cycle(&self) -> bool {
         self.parameter() == Some(kontur::CYCLE_TIME.place().row)
     }

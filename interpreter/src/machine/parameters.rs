@@ -15,12 +15,12 @@ pub struct Setting {
     pub row: &'static Row,
     /// Value in the units of the list.
     pub value: Value,
-    /// Where it was set; `None` for a correction of a default.
+    /// Where it was set; `None` for the correction of a default.
     pub at: Option<Location>,
 }
 
 impl Setting {
-    /// It differs from the default of its row; a switch without a printed default is off.
+    /// Whether it differs from the default of its row; a switch without a printed default is off.
     pub(super) fn is_changed(&self) -> bool {
         let default = match self.row.default {
             Default::Number(x) => x,
@@ -30,7 +30,7 @@ impl Setting {
     }
 }
 
-/// Parameters of one list kind; what no list names has the default of its row.
+/// Parameters of one kind of list; those that no list states have the default of their row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
     kind: ListKind,
@@ -38,17 +38,17 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Nothing set: every parameter has its default.
+    /// Without settings: every parameter has its default.
     pub fn new(kind: ListKind) -> Self {
         Self { kind, settings: BTreeMap::new() }
     }
 
-    /// Which list they belong to.
+    /// The kind of list.
     pub fn kind(&self) -> ListKind {
         self.kind
     }
 
-    /// Takes over what a list names; the rest keeps its earlier value.
+    /// Applies the entries of a list; all other values stay.
     pub(crate) fn apply(&mut self, list: &List) {
         for entry in &list.entries {
             let setting =
@@ -67,16 +67,16 @@ impl Parameters {
         self.settings.iter().map(|((_, indices), setting)| (*indices, setting))
     }
 
-    /// Value of a key such as `getriebe[0].kv` in the units of the list: what was set, else the default; `None` for
-    /// an unknown key and for a parameter without default that nothing set.
+    /// Value of a key such as `getriebe[0].kv` in the units of the list: the setting, otherwise the default; `None` for
+    /// an unknown key and for a parameter with neither.
     ///
-    /// For keys that a user names; what the code itself reads is a [`Param`].
+    /// For keys given by a user; the code itself reads a [`Param`].
     pub fn raw(&self, key: &str) -> Option<Value> {
         let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
         self.of(row, indices)
     }
 
-    /// The setting of a key such as `getriebe[0].kv`, `None` if nothing set it.
+    /// The setting of a key such as `getriebe[0].kv`, `None` if it is not set.
     pub fn setting(&self, key: &str) -> Option<&Setting> {
         let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
         self.settings.get(&(row.key, indices))
@@ -93,7 +93,7 @@ impl Parameters {
         self.of(at.row, at.indices)?.number()
     }
 
-    /// What set a parameter, `None` if nothing did.
+    /// The setting of a parameter, `None` if it is not set.
     pub(crate) fn set_by(&self, at: impl Into<Place>) -> Option<&Setting> {
         let at = at.into();
         self.settings.get(&(at.row.key, at.indices))
@@ -123,9 +123,9 @@ impl Parameters {
     }
 }
 
-/// How the values of a kind are read.
+/// How values of a kind are read.
 pub(crate) trait Kind: Copy {
-    /// What the code gets.
+    /// The type that the code receives.
     type Value;
 
     /// The value in force.
@@ -175,7 +175,7 @@ impl Kind for Text {
 
 /// A number of a list in internal units.
 ///
-/// Divisors and not reciprocal factors: the result is the double nearest to the decimal value.
+/// Division is used instead of reciprocal factors, so that the result is the double nearest to the decimal value.
 fn convert(row: &Row, x: f64) -> f64 {
     match row.unit {
         "0.1um" | "0.0001mm" => x / 1e4,

@@ -1,7 +1,7 @@
-//! Range checks after the last step of the chain, with the documented IDs and corrections.
+//! Range checks after all lists and overrides are applied, with the documented IDs and corrections.
 //!
-//! Rows whose range depends on other words of a function (filters, Improved Position Control) are checked where that
-//! function is set up.
+//! Rows with a range that depends on other words of a function (filters, Improved Position Control) are checked where
+//! that function is set up.
 
 pub(super) mod channel;
 
@@ -17,21 +17,21 @@ use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
 
-/// An end of a range in numbers: the value and whether it is allowed itself.
+/// An end of a numeric range: the value, and whether the value itself is permitted.
 #[derive(Clone, Copy, Debug)]
 struct End {
     value: f64,
     allowed: bool,
 }
 
-/// Checks one set of parameters and puts corrected values into it.
+/// Checks one set of parameters and applies corrections to it.
 pub(super) fn check(
     parameters: &mut Parameters,
     cycle: CycleTime,
     axis: Option<&AxisRef>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    // ranges in numbers first: the ranges that name other parameters then see corrected values
+    // numeric ranges first, so that ranges that refer to other parameters use corrected values
     let rows = || table::rows().filter(|r| !r.key.is_empty() && !r.at_setup);
     let named = |b: Bound| {
         !matches!(b, Bound::None | Bound::At(_) | Bound::Beyond(_) | Bound::BeyondCycles(_))
@@ -48,7 +48,7 @@ pub(super) fn check(
             if second && !places.contains(&[0; 2]) {
                 places.push([0; 2]);
             }
-            // of several gear stages only the first one is used
+            // only the first of several gear stages is used
             let used = |i: &Indices| !row.key.starts_with("getriebe[i]") || i[0] == 0;
             for indices in places.into_iter().filter(used) {
                 check_value(parameters, row, indices, cycle, axis, diagnostics);
@@ -57,7 +57,7 @@ pub(super) fn check(
     }
     if kind == ListKind::Axis {
         check_together(parameters, axis, diagnostics);
-        // P-AXIS-00515: if one of the two velocity weights is 0, both become 1
+        // P-AXIS-00515: if one of the two velocity weights is 0, both are set to 1
         let weights = [axis_drive::FF_SPEED_NUM, axis_drive::FF_SPEED_DENOM];
         let wrong = |d: &Diagnostic| matches!(d.parameter, Some("P-AXIS-00514" | "P-AXIS-00515"));
         if diagnostics.iter().skip(first).any(wrong) {
@@ -111,7 +111,7 @@ fn check_value(
     }
     let severity = match reaction.correction {
         Correction::Refuse => Severity::Error,
-        // the value was not written: a limit set elsewhere governs it
+        // the value is not from a list: a limit set elsewhere applies
         _ if at.is_none() => Severity::Note,
         _ => Severity::Warning,
     };
@@ -222,7 +222,7 @@ fn check_together(
     };
     let number = |p: &Parameters, param: Param<Number>| p.listed(param).unwrap_or_default();
 
-    // P-AXIS-00177, P-AXIS-00178: a range without length
+    // P-AXIS-00177, P-AXIS-00178: an empty range
     let (lower, upper) = (axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT);
     let (low, high) = (number(parameters, lower), number(parameters, upper));
     if low >= high {
@@ -233,7 +233,7 @@ fn check_together(
         put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
     }
 
-    // P-AXIS-00015: modes of spindles, and modes that do not exist
+    // P-AXIS-00015: modes of spindles, and undefined modes
     let (mode, is_linear) =
         (parameters.get(axis_general::MODE), kind_of(parameters) == AxisKind::Linear);
     let wrong = if parameters.set_by(axis_general::MODE).is_none() {
@@ -250,7 +250,7 @@ fn check_together(
         put(parameters, condition, axis_general::MODE.place(), text, f64::from(used));
     }
 
-    // P-AXIS-00566 allows velocity feedforward only
+    // P-AXIS-00566 permits velocity feedforward only
     let flags = parameters.get(axis_drive::FEEDFORWARD);
     if parameters.get(axis_drive::FF_WITHOUT_DELAY) && flags & 0x6 != 0 {
         let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
@@ -277,8 +277,8 @@ fn check_together(
     }
 }
 
-/// K-0032: the sampling time written for the simulated drive (P-AXIS-00239 / P-AXIS-00238) is not the cycle, which is
-/// used instead.
+/// K-0032: the sampling time in the list for the simulated drive (P-AXIS-00239 / P-AXIS-00238) differs from the cycle,
+/// which is used instead.
 pub(super) fn check_sampling(
     parameters: &Parameters,
     own: &Parameters,

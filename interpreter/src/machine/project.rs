@@ -1,13 +1,15 @@
 //! The lists inside a TwinCAT project: `.tsproj`, and `.xti` files of its parts or of exported axes and channels.
 //!
-//! The engineering tool keeps every list of the CNC as text inside XML. They are taken out as they are, each at its place in
-//! the file, so that messages name lines of the project; what the tool itself enters when it activates a configuration
-//! (names, numbers and count of the axes, cycle of the GEO task) is entered here too, and said in one note.
+//! The engineering tool keeps every list of the CNC as text inside XML. The texts are extracted unchanged, each with
+//! its position in the file, so that messages refer to lines of the project. Values that the tool itself enters when it
+//! activates a configuration (names, numbers and count of the axes, cycle of the GEO task) are entered here as well,
+//! and reported in one note.
 //!
-//! The vendor does not describe the files. Assumption: elements as public tools that edit such projects find them. An axis
-//! holds `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; beside the list of an axis are `ItemName` and the
-//! fields of its dialog `DefaultChannel` (from 1), `DefaultIndex` (from 0) and `DefaultProgName`. A text with keys of a
-//! start-up list is one, whatever its element is called; lists of defaults are called `DefaultAchsMds`, `DefaultSdaMds`.
+//! The vendor does not document these files. Assumption: the elements are those that public tools for such projects
+//! use. An axis contains `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; next to the list of an axis
+//! are `ItemName` and the fields of its dialog `DefaultChannel` (from 1), `DefaultIndex` (from 0) and
+//! `DefaultProgName`. A text with keys of a start-up list is treated as one, whatever its element is called; lists of
+//! defaults are called `DefaultAchsMds`, `DefaultSdaMds`.
 //!
 //! Order of calls: the files of a project, the lists inside them, then the same readers as for lists in files.
 //!
@@ -49,7 +51,7 @@ use kontur_filters::time::CycleTime;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
 
-/// The lists of a project as files: those that the XML holds, and real ones for the rest.
+/// The lists of a project as files: those in the XML, and real files for the rest.
 pub struct Project<'a> {
     files: &'a dyn ListFiles,
     start_up: String,
@@ -77,12 +79,13 @@ impl ListFiles for Project<'_> {
 }
 
 impl<'a> Project<'a> {
-    /// Takes the lists out of the parts. `name` is the path by which messages call the project; beside it `files` may have a
-    /// `kontur.lis`. `cycle_given`: the cycle is set over all lists, so that the project need not have one.
+    /// Extracts the lists from the parts. `name` is the path of the project in messages; `files` may have a
+    /// `kontur.lis` next to it. `cycle_given`: the cycle is set above all lists, so that the project need not state
+    /// one.
     ///
     /// # Errors
-    /// K-0141 for a part that is not XML, for a project without axes or channel of a CNC or without a name of an axis, and for
-    /// axis lists of which some but not all have the same number.
+    /// K-0141 for a part that is not XML, for a project without axes or channel of a CNC or without the name of an
+    /// axis, and for axis lists of which some but not all have the same number.
     pub fn read(
         files: &'a dyn ListFiles,
         name: &str,
@@ -135,12 +138,12 @@ impl<'a> Project<'a> {
         &self.start_up
     }
 
-    /// What was taken out of the project: K-0140.
+    /// What was extracted from the project: K-0140.
     pub fn said(&self) -> &[Diagnostic] {
         &self.said
     }
 
-    /// Keeps a list and returns the name by which the start-up list calls it.
+    /// Stores a list and returns its name for the start-up list.
     fn keep(&mut self, list: &ListText) -> String {
         let folder = self.start_up.rfind(SEPARATORS).map_or("", |at| &self.start_up[..=at]);
         let inside = list.file.strip_prefix(folder).unwrap_or(&list.file);
@@ -189,7 +192,7 @@ impl<'a> Project<'a> {
             return Err(vec![same_number(&content, &numbers)]);
         }
         if different < numbers.len() {
-            // lists of one prototype, which the tool numbers
+            // lists from one prototype, which the tool numbers
             numbers = (1..).take(axes.len()).collect();
             for (axis, number) in content.axes.iter_mut().zip(&numbers) {
                 axis.list.replace(&["kopf.achs_nr"], &format!("kopf.achs_nr {number}\n"));
@@ -286,14 +289,14 @@ impl<'a> Project<'a> {
         Ok(())
     }
 
-    /// Enters the cycle of the project, in units of 100 ns, into `kontur.lis`, unless the file next to the project has one;
-    /// returns what becomes of it, and warns where the run would use a cycle that was not named.
+    /// Enters the cycle of the project, in units of 100 ns, into `kontur.lis`, unless the file next to the project has
+    /// one. Returns a description for the note, and warns if the run would use a cycle that is not stated anywhere.
     fn cycle(&mut self, units_100ns: Option<u32>, given: bool) -> String {
         let path = self.path(OWN_LIST);
         let real = match lists::find(self.files, &path) {
             Ok(Some(found)) => String::from_utf8_lossy(&found.bytes).into_owned(),
             Ok(None) => String::new(),
-            // the chain reads it again and says why it cannot be read
+            // it is read again with the other lists, which report why it cannot be read
             Err(_) => return String::new(),
         };
         let mut list = ListText::of(&real);
@@ -325,7 +328,7 @@ impl<'a> Project<'a> {
     }
 }
 
-/// The parameters of texts, without their messages: the lists are read once more as files.
+/// The parameters of texts, without messages: the lists are read again as files.
 fn parameters(kind: ListKind, texts: &[&ListText]) -> Parameters {
     let mut all = Parameters::new(kind);
     for text in texts {

@@ -1,4 +1,4 @@
-//! What the lists of a machine say after defaults, default lists, specific lists and overrides.
+//! The parameters of a machine after defaults, default lists, specific lists and overrides.
 
 use super::parameters::Parameters;
 

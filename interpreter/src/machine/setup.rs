@@ -1,7 +1,7 @@
-//! From the parameters of a machine to the configuration of each axis after the planner.
+//! From the parameters of a machine to the configuration of each axis downstream of the planner.
 //!
-//! Ranges are checked while the lists are loaded; what only shows when several values meet (a filter that cannot be
-//! designed, feedforward to an input that the drive does not have) is found here.
+//! Ranges are checked while the lists are loaded; problems that only result from several values (a filter that cannot
+//! be designed, feedforward to an input that the drive does not have) are found here.
 
 mod control;
 mod filters;
@@ -21,10 +21,10 @@ use kontur_filters::{
     time::CycleTime,
 };
 
-/// What the chain of one axis is made from.
+/// Configuration of the chain of one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainSetup {
-    /// Standard filters that are on, in their order (`filter[i]`).
+    /// Standard filters that are on, in order (`filter[i]`).
     pub filters: Vec<AxisFilter>,
     /// Additional interface, `None` if it is off.
     pub additional: Option<AdditionalInterface>,
@@ -36,18 +36,17 @@ pub struct ChainSetup {
 
 impl Machine {
     /// The chains of the path axes, then of the spindles, then of the gantry slaves (the order of
-    /// [`all_axes`](Self::all_axes)), and what there is to say about them.
+    /// [`all_axes`](Self::all_axes)), and their diagnostics.
     ///
-    /// A gantry slave has its own standard filters and controller; FIR filter, HSC filter and Vibration Guard are those of its
-    /// master ([`shaped_as`](Self::shaped_as)), and so is Improved Position Control. All chains
-    /// get the delay of the axis that needs the longest one, so that they stay in step; spindles too, because threads
-    /// tie them to the path.
+    /// A gantry slave has its own standard filters and controller; FIR filter, HSC filter and Vibration Guard are those
+    /// of its master ([`shaped_as`](Self::shaped_as)), and so is Improved Position Control. All chains get the longest
+    /// delay that any axis needs, so that they stay synchronous; spindles too, because threads couple them to the path.
     ///
-    /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
-    /// 110361, K-0033, K-0036 to K-0041 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
-    /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063, K-0066 (Improved Position
-    /// Control); K-0070 (numbers that mean nothing); K-0075 (kernels in the list of a gantry slave,
-    /// feedforward without delay beside an axis with delay).
+    /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911,
+    /// 50989, 110361, K-0033, K-0036 to K-0041 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023,
+    /// K-0024, K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063, K-0066 (Improved
+    /// Position Control); K-0070 (meaningless numbers); K-0075 (kernels in the list of a gantry slave, feedforward
+    /// without delay together with an axis with delay).
     pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
         let mut diagnostics = Vec::new();
         let mut chains: Vec<ChainSetup> =
@@ -60,7 +59,7 @@ impl Machine {
         (chains, diagnostics)
     }
 
-    /// Axes that are to do without the long buffer and get it because of another one.
+    /// Reports axes that are configured without the long buffer but get it because of another axis.
     fn shared_delay(&self, chains: &[ChainSetup], delay: usize, diagnostics: &mut Vec<Diagnostic>) {
         let own = |chain: &ChainSetup| chain.control.feedforward.delay_cycles();
         let axes = || self.all_axes().zip(chains);
@@ -78,7 +77,7 @@ impl Machine {
         }
     }
 
-    /// What there is to say about the chain of an axis, but for the kernels, which are worked out with what the program has set.
+    /// Diagnostics of the chain of an axis, without the kernels, which depend on the settings of the program.
     pub(crate) fn chain_issues(&self, axis: usize) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
         let axis = &self.axes[axis];
@@ -97,13 +96,13 @@ impl Machine {
         self.unshaped(axis, diagnostics)
     }
 
-    /// The chain, without a look at the kernels.
+    /// The chain, without checking the kernels.
     fn unshaped(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
         let cascade = filters::cascade(axis, self.cycle, diagnostics);
         let mut config = control::config(axis, diagnostics);
         config.ipc = self.ipc(axis, diagnostics);
         let (control, found) = config.checked(self.cycle);
-        // loading has reported the denominator 0 already, whether or not torque is output
+        // a denominator of 0 was reported on loading, whether or not torque is output
         let new = |issue: &&Issue| !matches!(issue, Issue::TorqueScaleDenominatorZero);
         diagnostics
             .extend(found.iter().filter(new).map(|issue| issues::control(axis, issue, self.cycle)));
@@ -115,7 +114,7 @@ impl Machine {
         }
     }
 
-    /// Improved Position Control of an axis; of a gantry slave that of its master, without effect if there is none.
+    /// Improved Position Control of an axis; for a gantry slave that of its master, off if there is none.
     fn ipc(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> IpcConfig {
         let mut own = ipc::config(axis);
         if own.enable {
@@ -133,15 +132,15 @@ impl Machine {
 }
 
 impl Axis {
-    /// What the list says about the kernel slot: FIR filter, HSC filter and Vibration Guard.
+    /// The kernel slot as configured by the list: FIR filter, HSC filter and Vibration Guard.
     ///
-    /// [`Machine::chains`] reports what is wrong with them.
+    /// [`Machine::chains`] reports its errors.
     pub fn kernel_preset(&self, cycle: CycleTime) -> KernelPreset {
         filters::preset(self, cycle)
     }
 
-    /// Time in s by which the actual position follows the set position at a constant speed in mm/s, with feedforward in this
-    /// state of G135 and G136: the part of the speed that is not fed forward, by the gain kv.
+    /// Time in s by which the actual position lags the set position at a constant speed in mm/s, with feedforward in
+    /// this state of G135 and G136: the part of the speed that is not fed forward, divided by the gain kv.
     pub(crate) fn lag_s(&self, speed_mm_s: f64, feedforward_on: bool, weight_ratio: f64) -> f64 {
         let config = control::config(self, &mut Vec::new());
         let fed = config.feedforward.velocity_share(feedforward_on, weight_ratio);

@@ -1,9 +1,9 @@
-//! The one table of list parameters: reader, range check, `explain` and documentation come from its rows.
+//! The table of list parameters, the single source of reader, range check, `explain` and documentation.
 //!
-//! A row states what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
+//! A row reproduces what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
 //! conversion to mm and s happens once, in [`Axis`](super::Axis) and [`Channel`](super::Channel).
 //!
-//! Order of calls: a key finds its row, the row reads and checks the value.
+//! Order of calls: find the row of a key, then read and check the value with it.
 //!
 //! ```
 //! use kontur_interpreter::machine::table::{ListKind, rows};

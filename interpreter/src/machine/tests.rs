@@ -65,13 +65,13 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * b.abs().max(1.0)
 }
 
-/// The system's separator joins folder and list, and `.` and `..` are folders, too.
+/// Folder and list are joined by the separator of the system, and `.` and `..` are folders too.
 #[test]
 fn the_folder_is_found_with_either_separator() {
     for folder in ["m/", "m\\", "./m\\", "C:\\nc\\m\\", "..\\m/", "\\\\?\\C:\\m\\"] {
         let there = |(path, text): (&String, &String)| {
             let name = path.strip_prefix("m/").unwrap();
-            // a path that is taken as it is has backslashes alone
+            // a verbatim path has backslashes only
             let join = if folder.starts_with(r"\\?\") { "\\" } else { "/" };
             let joined = if name == "hochlauf.lis" { "" } else { join };
             let name = name.replace('/', join);
@@ -196,7 +196,7 @@ fn an_override_gives_the_bits_of_a_list_value() {
     files.add("m/lists/channel.lis", "prog_start.feedrate 1e3\n");
     files.add("m/lists/s.lis", "getriebe[0].dynamik.vb_max 0x1000\n");
     files.put("m/kontur.lis", "kontur.cycle_time_us 2000\nkontur.axis[1].plant.ta_us 3000\n");
-    // the listed twin warns about the key that is given twice, nothing else differs but the places
+    // the listed twin warns about the repeated key; apart from that only the positions differ
     let (listed, _) = files.load(&[]).unwrap();
     assert_eq!(set.cycle, listed.cycle);
     assert_eq!(set.channel.feed_mm_s, listed.channel.feed_mm_s);
@@ -209,8 +209,8 @@ fn an_override_gives_the_bits_of_a_list_value() {
     }
 }
 
-/// An index that is not a logical number, and what another model of the drive reads, are said to have no effect; the message names the
-/// place. What the model of the axis reads gets none.
+/// An index that is not a logical number, and keys of another drive model, are reported as having no effect; the
+/// message gives the position. Keys of the model of the axis are not reported.
 #[test]
 fn entries_of_kontur_lis_that_nothing_reads() {
     let said = |entries: &str| {
@@ -235,7 +235,7 @@ fn entries_of_kontur_lis_that_nothing_reads() {
     assert_eq!(said(&format!("{two}kontur.axis[1].plant.ta_us 5000\n")), [2]);
 }
 
-/// Several axes by name, and every path axis: the spindle is none.
+/// Several axes by name, and all path axes, which excludes the spindle.
 #[test]
 fn overrides_of_several_axes() {
     let gains = |text: &str| {
@@ -255,7 +255,7 @@ fn overrides_that_name_nothing_are_errors() {
             "Q.getriebe[0].kv=1",
             "targets are X, Y, S (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
         ),
-        // one mistake is reported once, however many axes are meant
+        // one mistake is reported once, for any number of axes
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
         ("X.vorsteuer.jerk_fact_nom=1", "did you mean `vorsteuer.jerk_fact_num`?"),
         ("X.kv=1", "did you mean `getriebe[i].kv`?"),
@@ -292,7 +292,7 @@ fn the_builtin_machine_loads_without_a_message() {
     let x = machine.axis("X").unwrap();
     assert!(close(x.kv_1_s(), 50.0) && close(x.get(kontur::TIME_CONSTANT), 0.005));
     assert_eq!(x.get(kontur::PLANT_MODEL).as_deref(), Some("PT1"));
-    // the square-corner program needs a jump of speed at kinks that does not depend on the cycle
+    // the square-corner program needs a velocity jump at kinks that does not depend on the cycle
     assert!(close(x.dynamics().a_trans_ratio, 1.0));
 }
 
@@ -319,7 +319,7 @@ fn tool_lists() {
     // one inch, and not valid
     assert_eq!((machine.tools[&8].length_mm, machine.tools[&8].is_valid), (25.4, false));
     assert!((machine.tools[&9].radius_mm - 4.5).abs() < 1e-12);
-    // the overview prints another key; a setting gives the value of a list
+    // the overview prints another key; a setting has the effect of a list entry
     let mut other = Memory::machine();
     other.add("m/hochlauf.lis", "wrkz_data[0] lists/tools.lis\n");
     other.put("m/lists/tools.lis", &files.0["m/lists/tools.lis"]);
@@ -336,7 +336,7 @@ fn tool_lists() {
     assert_eq!(missing.ids(&[]), ["K-0013"]);
 }
 
-/// A setting is read as a line of a list is: an index that is left out is 0, and is named.
+/// A setting is read like a line of a list: a missing index is 0, and is reported.
 #[test]
 fn settings_have_the_messages_of_lists() {
     let files = Memory::machine();

@@ -1,4 +1,4 @@
-//! Tool data and zero offsets that the lists of a channel hold.
+//! Tool data and zero offsets in the lists of a channel.
 //!
 //! Source: TF5200 tool data (P-TOOL), TF5200 zero offsets (P-ZERO); start-up list P-STUP-00010, P-STUP-00011.
 
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// mm in one inch.
 const INCH_MM: f64 = 25.4;
 
-/// What a tool is for (P-TOOL-00001).
+/// Purpose of a tool (P-TOOL-00001).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToolKind {
     /// 0.
@@ -26,7 +26,7 @@ pub enum ToolKind {
 }
 
 impl ToolKind {
-    /// For messages.
+    /// Name in messages.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Milling => "milling",
@@ -37,10 +37,10 @@ impl ToolKind {
     }
 }
 
-/// What a tool allows its spindle.
+/// Limits that a tool sets for its spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpindleLimits {
-    /// Least speed in deg/s while it turns (P-TOOL-00013).
+    /// Lowest speed in deg/s while it turns (P-TOOL-00013).
     pub min_deg_s: f64,
     /// Largest speed in deg/s (P-TOOL-00014).
     pub max_deg_s: f64,
@@ -49,7 +49,7 @@ pub struct SpindleLimits {
 }
 
 impl Default for SpindleLimits {
-    /// Those of a list that says nothing.
+    /// The limits of a list without entries.
     fn default() -> Self {
         Self { min_deg_s: 0.0, max_deg_s: 0.001, acc_deg_s2: 1.0 }
     }
@@ -66,17 +66,17 @@ pub struct Tool {
     pub offsets_mm: BTreeMap<usize, f64>,
     /// Free parameters (P-TOOL-00007).
     pub parameters: BTreeMap<u32, f64>,
-    /// P-TOOL-00005; data that a program writes are valid.
+    /// P-TOOL-00005; data written by a program are valid.
     pub is_valid: bool,
     /// Logical number of the spindle that the tool limits (P-TOOL-00012), 0: none.
     pub spindle: u32,
-    /// What it allows this spindle.
+    /// Limits for this spindle.
     pub limits: SpindleLimits,
     /// P-TOOL-00001.
     pub kind: ToolKind,
-    /// Wear of a grinding wheel in mm for a mm of way (P-TOOL-00030).
+    /// Wear of a grinding wheel in mm per mm of way (P-TOOL-00030).
     pub wear_ratio: f64,
-    /// Most wear that may come from outside, in mm (P-TOOL-00031).
+    /// Largest external wear in mm (P-TOOL-00031).
     pub most_infeed_mm: f64,
     /// Angle between the axis of a grinding wheel and the third main axis in deg (P-TOOL-00138).
     pub tilt_deg: f64,
@@ -107,12 +107,12 @@ pub struct ZeroOffsets {
     pub entries: BTreeMap<(u32, usize), f64>,
     /// Group that is active at program start (P-ZERO-00002).
     pub start_group: u32,
-    /// G53 has the offsets of group 0 (P-ZERO-00001); otherwise it takes offsets back.
+    /// G53 has the offsets of group 0 (P-ZERO-00001); otherwise it cancels the offsets.
     pub has_g53: bool,
 }
 
-/// An offset for an axis that the channel does not have, which is not used: K-0075 unless it is 0. The vendor's lists have entries
-/// for 32 axes.
+/// K-0075 for an offset of an axis that the channel does not have, unless it is 0. The vendor's lists have entries for
+/// 32 axes.
 fn unused(setting: &Setting, [i, j]: Indices, axes: usize) -> Option<Diagnostic> {
     if setting.value == Value::Number(0.0) {
         return None;
@@ -125,7 +125,7 @@ fn unused(setting: &Setting, [i, j]: Indices, axes: usize) -> Option<Diagnostic>
     Some(about)
 }
 
-/// Tools of a list by the number of the D word. D0 is not a tool: what a list says of it does not count. `axes`: number of axes in
+/// Tools of a list by the number of the D word. D0 is not a tool; its entries are ignored. `axes`: number of axes in
 /// the channel.
 pub(super) fn tools(
     list: &Parameters,
@@ -167,21 +167,21 @@ fn tool_of(list: &Parameters, i: u32) -> Tool {
         },
         spindle: list.get(tool::SPINDLE.at(i)),
         limits: SpindleLimits {
-            // the list has 0.001 deg/s
+            // the list is in 0.001 deg/s
             min_deg_s: list.get(tool::SPINDLE_MIN.at(i)) / 1e3,
             max_deg_s: list.get(tool::SPINDLE_MAX.at(i)) / 1e3,
             acc_deg_s2: list.get(tool::SPINDLE_ACC.at(i)),
         },
-        // 0.1 um for a metre
+        // the list is in 0.1 um per metre
         wear_ratio: list.get(tool::WEAR.at(i)) * 1e-7,
         most_infeed_mm: list.get(tool::INFEED.at(i)).abs(),
-        // the list has 0.0001 deg
+        // the list is in 0.0001 deg
         tilt_deg: list.get(tool::TILT.at(i)) / 1e4,
         ..Tool::default()
     }
 }
 
-/// mm in one unit of the tool's lengths, which the list has in steps of 0.0001.
+/// mm per unit of the tool's lengths, which the list gives in steps of 0.0001.
 fn scale(list: &Parameters, i: u32) -> f64 {
     if list.get(tool::INCH.at(i)) { INCH_MM } else { 1.0 }
 }

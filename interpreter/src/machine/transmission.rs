@@ -4,12 +4,12 @@ use super::axis::Axis;
 use super::kind::AxisKind;
 use super::table::{axis_control, axis_drive};
 
-/// A ratio or constant that scales nothing.
+/// Whether a ratio or constant scales nothing.
 pub(super) fn is_one(x: f64) -> bool {
     (x - 1.0).abs() <= 0.0
 }
 
-/// Feed constant: path in 0.1 um and the revolutions of the gear output for it.
+/// Feed constant: path in 0.1 um, and the corresponding revolutions of the gear output.
 pub(super) fn feed_constant(axis: &Axis) -> [f64; 2] {
     [axis_drive::FEED_CONSTANT_PATH, axis_drive::FEED_CONSTANT_REVS].map(|param| axis.listed(param))
 }
@@ -26,7 +26,7 @@ pub(super) fn has_rotary_motor(axis: &Axis) -> bool {
         || !feed_constant(axis).into_iter().chain(gear(axis)).all(is_one)
 }
 
-/// P-AXIS-00362 or P-AXIS-00363 is not 1: the feed constant decides the resolution.
+/// Whether P-AXIS-00362 or P-AXIS-00363 is not 1, so that the feed constant determines the resolution.
 pub(super) fn feed_constant_given(axis: &Axis) -> bool {
     !feed_constant(axis).into_iter().all(is_one)
 }

@@ -1,6 +1,6 @@
 //! Values of list entries: numbers, words and flags, read by the data type of their row.
 //!
-//! Order of calls: the row of a key gives the data type, with which [`read`] and [`write()`] convert.
+//! Order of calls: the row of a key gives the data type for [`read`] and [`write()`].
 //!
 //! ```
 //! use kontur_interpreter::machine::table::Raw;
@@ -8,7 +8,7 @@
 //!
 //! assert_eq!(read(Raw::Uns32, "5000"), Ok(Value::Number(5000.0)));
 //! assert_eq!(write(Raw::Uns32, &Value::Number(5000.0)), "5000");
-//! // what is not a number says what is taken in its place
+//! // a text that is not a number has a substitute
 //! assert_eq!(read(Raw::Uns32, "fast").unwrap_err().instead, Some(Value::Number(0.0)));
 //! ```
 
@@ -17,7 +17,7 @@ use super::table::Raw;
 /// Value of a parameter in the units of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Every number, flag set and named number.
+    /// Any number, flag set or named number.
     Number(f64),
     /// A text or word.
     Text(String),
@@ -44,10 +44,10 @@ impl Value {
 /// A value that could not be read as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BadValue {
-    /// What is taken instead: 0 if it is not a number, the nearest limit of the data type, the default (`None`) for a
-    /// word that does not exist.
+    /// The value used instead: 0 if the text is not a number, the nearest limit of the data type, or the default
+    /// (`None`) for an undefined word.
     pub instead: Option<Value>,
-    /// What is wrong.
+    /// Description of the error.
     pub reason: String,
 }
 
@@ -114,7 +114,7 @@ fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|x: &f64| digits && x.is_finite())
 }
 
-/// An integer, decimal or `0x` hexadecimal; a fraction is cut off with a warning.
+/// An integer, decimal or `0x` hexadecimal; a fraction is truncated with a warning.
 fn integer(raw: Raw, text: &str, names: Option<&[(&str, u32)]>) -> Result<Value, BadValue> {
     let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
     let value = match hex {

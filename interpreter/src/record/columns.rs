@@ -1,6 +1,6 @@
-//! Which columns a trace has: groups, names, units, and where the value of each is in a record.
+//! The columns of a trace: groups, names, units, and where the value of each is in a record.
 //!
-//! Order of calls: a started run, the columns that are asked for, then their values from each record.
+//! Order of calls: start a run, select columns, then read their values from each record.
 //!
 //! ```
 //! use kontur_interpreter::job::{Job, MachineLists};
@@ -10,7 +10,7 @@
 //! let (machine, _) = MachineLists::default().load().unwrap();
 //! let sources = MemorySources::new().with("part.nc", "N10 G01 X10 F1000\nN20 M30\n");
 //! let mut run = Job::new(machine, sources, "part.nc").start().unwrap();
-//! // the run knows its axes, and with them its columns
+//! // the columns follow from the axes of the run
 //! let column = columns::select("X_set_mm", run.facts()).unwrap().pop().unwrap();
 //! assert_eq!((column.name.as_str(), column.unit.as_str()), ("X_set_mm", "mm"));
 //! let mut x_mm = Vec::new();
@@ -22,11 +22,11 @@ use super::facts::{AxisFacts, Facts};
 use super::{Asked, Quantity, Rows};
 use crate::record::CycleRecord;
 
-/// Groups in the order of the trace; `time` is always there.
+/// Groups in the order of the trace; `time` is always present.
 pub const GROUPS: [&str; 10] =
     ["time", "path", "ipo", "set", "kin", "err", "ctrl", "drive", "axis", "spindle"];
 
-/// The columns of a trace by default: [`DEFAULT_GROUPS`] without what only repeats other columns on this machine
+/// The columns of a trace by default: [`DEFAULT_GROUPS`] without those that only repeat other columns on this machine
 /// ([`Column::repeats`]).
 pub const DEFAULT_SIGNALS: &str = "default";
 
@@ -36,7 +36,7 @@ pub const DEFAULT_GROUPS: [&str; 6] = ["time", "path", "ipo", "set", "err", "axi
 /// Decimals of positions: 0.1 nm, a thousandth of the vendor's increment of 0.1 um.
 const POSITION_DECIMALS: u8 = 7;
 
-/// What is in a column.
+/// Content of a column.
 #[derive(Clone, Copy, Debug)]
 pub enum Content {
     /// `k T` in seconds.
@@ -47,16 +47,16 @@ pub enum Content {
     Block,
     /// Name of the file.
     File,
-    /// What held the speed down.
+    /// Reason for the path speed.
     Limit,
-    /// A number of the record.
+    /// A number of the record as a whole.
     Path(fn(&CycleRecord) -> f64),
     /// A number of one axis.
     Axis(usize, Quantity),
 }
 
 impl Content {
-    /// The value of a numeric column; zero where an axis is missing in the record.
+    /// The value of a numeric column; zero if the axis is missing in the record.
     #[inline] // for every value of a trace
     pub fn number(self, record: &CycleRecord) -> Option<f64> {
         match self {
@@ -80,7 +80,7 @@ impl Content {
         }
     }
 
-    /// What it needs of the axes.
+    /// The axis quantities that it needs.
     pub fn asked(self) -> Asked {
         match self {
             Self::Axis(_, quantity) => Asked::of(&[quantity]),
@@ -88,7 +88,7 @@ impl Content {
         }
     }
 
-    /// It is a number with decimals.
+    /// Whether it is a number with decimals.
     pub const fn is_number(self) -> bool {
         matches!(self, Self::Path(_) | Self::Axis(..))
     }
@@ -97,33 +97,35 @@ impl Content {
 /// One column.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Heading, with the unit at its end.
+    /// Heading, ending with the unit.
     pub name: String,
-    /// Where the value comes from.
+    /// Source of the value.
     pub content: Content,
     /// Digits after the point.
     pub decimals: u8,
-    /// The group that brings it.
+    /// The group it belongs to.
     pub group: &'static str,
-    /// It is the actual position of a load that cannot be elsewhere, or the zero of what nothing is added to.
+    /// Whether it only repeats: the actual position of a load that cannot be elsewhere, or the zero of an unused
+    /// addition.
     pub repeats: bool,
-    /// `mm`, `deg/s2`, `Nm`, ...; empty for words, flags, counts and what is in the drive's format.
+    /// `mm`, `deg/s2`, `Nm`, ...; empty for words, flags, counts and values in the drive's format.
     pub unit: String,
 }
 
 impl Column {
-    /// It shows what a run without its measurement ([`Run::without_deviation`](crate::job::Run::without_deviation)) leaves out.
+    /// Whether it shows a value that a run without measurement
+    /// ([`Run::without_deviation`](crate::job::Run::without_deviation)) leaves out.
     pub fn shows_deviation(&self) -> bool {
         self.group == "err"
     }
 
-    /// The value of a numeric column; zero where an axis is missing in the record.
+    /// The value of a numeric column; zero if the axis is missing in the record.
     pub fn number(&self, record: &CycleRecord) -> Option<f64> {
         self.content.number(record)
     }
 }
 
-/// How the unit of an axis quantity is written after its name, and its decimals.
+/// The unit of an axis quantity as written after its name, and its decimals.
 #[derive(Clone, Copy)]
 enum Unit {
     Length,
@@ -272,16 +274,16 @@ fn quantities<'a>(
         })
 }
 
-/// What the columns need of the axes.
+/// The axis quantities that the columns need.
 pub fn asked(columns: &[Column]) -> Asked {
     columns.iter().fold(Asked::NONE, |asked, column| asked.and(column.content.asked()))
 }
 
-/// The columns that `signals` asks for: groups, column names and [`DEFAULT_SIGNALS`], separated by commas, in the order of
-/// the trace. A group that is named has all its columns.
+/// The columns selected by `signals`: groups, column names and [`DEFAULT_SIGNALS`], separated by commas, in the order
+/// of the trace. A group has all its columns.
 ///
 /// # Errors
-/// An unknown word: the message names the choices.
+/// An unknown word: the message lists the choices.
 pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
     let all = all(facts);
     let words: Vec<&str> = signals.split(',').map(str::trim).filter(|w| !w.is_empty()).collect();
@@ -377,7 +379,7 @@ mod tests {
         assert!(modal.is_err(), "only modal plants have a tool point");
     }
 
-    /// The unit is what the name ends with, in the way that it is spoken.
+    /// The unit is the end of the name, written as it is spoken.
     #[test]
     fn units_are_those_of_the_names() {
         for column in all(&facts()) {

@@ -1,8 +1,8 @@
-//! What stays the same during a run: names and units of what its records hold.
+//! Constants of a run: names and units of the values in its records.
 
 use std::sync::{Arc, PoisonError, RwLock};
 
-/// What stays the same during a run.
+/// Constants of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
     /// Name of the program as the user gave it.
@@ -24,7 +24,7 @@ impl Facts {
     }
 }
 
-/// What stays the same for one axis.
+/// Constants of one axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisFacts {
     /// Name in the NC program.
@@ -33,7 +33,7 @@ pub struct AxisFacts {
     pub rotary: bool,
     /// A spindle.
     pub spindle: bool,
-    /// Positions that are not those of the others.
+    /// Positions that differ from the others.
     pub apart: Apart,
     /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
     pub v_max: f64,
@@ -45,16 +45,16 @@ pub struct AxisFacts {
     pub settling_s: Option<f64>,
 }
 
-/// Which positions of an axis are not those of the others.
+/// Positions of an axis that can differ from the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Apart {
-    /// The plant model has a tool point (`X_tcp_mm`).
+    /// Whether the plant model has a tool point (`X_tcp_mm`).
     pub tool_point: bool,
-    /// The load can be elsewhere than the actual position says (`X_load_mm`): an elastic plant, an encoder with steps, or
-    /// inputs that may disturb it.
+    /// Whether the load can be elsewhere than the actual position (`X_load_mm`): an elastic plant, an encoder with
+    /// increments, or inputs that may disturb it.
     pub load: bool,
-    /// Positions can be added after the axis filters (`X_add_mm`): the additional interface is on, or the tool list
-    /// has a grinding tool for `#OTC`.
+    /// Whether positions can be added after the axis filters (`X_add_mm`): the additional interface is on, or the tool
+    /// list has a grinding tool for `#OTC`.
     pub additional: bool,
 }
 
@@ -68,7 +68,7 @@ impl AxisFacts {
 /// Source files of a run in the order in which it opens them; [`CycleRecord::file`](crate::record::CycleRecord::file) is an
 /// index.
 ///
-/// A subroutine is opened when it is called: copies of the list learn the names of later files too.
+/// A subroutine is opened when it is called; copies of the list also receive the names of later files.
 #[derive(Clone, Debug, Default)]
 pub struct FileNames {
     names: Arc<RwLock<Vec<String>>>,
@@ -83,7 +83,7 @@ impl FileNames {
         Self { names: Arc::new(RwLock::new(names)), known, several }
     }
 
-    /// A trace has to say which file a line belongs to.
+    /// Whether a trace has to state the file of each line.
     pub const fn several(&self) -> bool {
         self.several
     }

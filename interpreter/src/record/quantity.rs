@@ -1,11 +1,11 @@
-//! The numbers of an axis: each by its name, and sets of them.
+//! The numeric quantities of an axis, each by its name, and sets of them.
 
 use super::AxisRecord;
 
-/// Makes [`Quantity`] out of the fields of [`AxisRecord`].
+/// Makes [`Quantity`] from the fields of [`AxisRecord`].
 macro_rules! quantities {
     ($($name:ident is $field:ident,)*) => {
-        /// A number of an axis in a cycle: a field of [`AxisRecord`], which has its meaning and unit.
+        /// A quantity of an axis in a cycle: a field of [`AxisRecord`], where its meaning and unit are documented.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Quantity {
             $(
@@ -26,7 +26,7 @@ macro_rules! quantities {
                 }
             }
 
-            /// Its place in a record.
+            /// Its element in a record.
             #[inline]
             pub(crate) const fn of_mut(self, record: &mut AxisRecord) -> &mut f64 {
                 match self {
@@ -76,7 +76,7 @@ impl Quantity {
     }
 }
 
-/// A set of quantities: those that somebody reads.
+/// A set of quantities, such as those that somebody reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Asked(u32);
 
@@ -97,13 +97,13 @@ impl Asked {
         Self(self.0 | other.0)
     }
 
-    /// The quantity is one of them.
+    /// Whether the quantity is in the set.
     #[inline]
     pub const fn has(self, quantity: Quantity) -> bool {
         self.0 & quantity.bit() != 0
     }
 
-    /// At least one quantity is in both sets.
+    /// Whether both sets have a quantity in common.
     pub(crate) const fn has_any(self, other: Self) -> bool {
         self.0 & other.0 != 0
     }
@@ -111,7 +111,7 @@ impl Asked {
     /// Each of them.
     pub(crate) fn each(self) -> impl Iterator<Item = Quantity> {
         let mut left = self.0;
-        // bit by bit: mostly there are few of them
+        // bit by bit, as there are mostly few of them
         std::iter::from_fn(move || {
             let quantity = Quantity::ALL.get(left.trailing_zeros() as usize).copied()?;
             left &= left - 1;
@@ -124,7 +124,7 @@ impl Asked {
 mod tests {
     use super::*;
 
-    /// Each quantity is a place of its own in the record.
+    /// Each quantity is a different element of the record.
     #[test]
     fn every_quantity_has_its_place() {
         let mut record = AxisRecord::default();

@@ -1,8 +1,8 @@
-//! Consecutive cycles as columns: what a run computes, and what its sink reads.
+//! Consecutive cycles as columns: computed by a run and read by its sink.
 //!
-//! What belongs to a cycle as a whole lies row by row, what belongs to an axis column by column, and only in the columns that are
-//! asked for: an axis writes a column from one end to the other, and who reads it finds it as a slice. A single cycle is a view
-//! of its row ([`Rows::read`]).
+//! Values of a cycle as a whole are stored row by row, values of an axis column by column, and only in the requested
+//! columns: an axis writes a column from one end to the other, and a reader gets it as a slice. A single cycle is a
+//! view of its row ([`Rows::read`]).
 
 use super::quantity::{Asked, Quantity};
 use super::{AxisRecord, CycleRecord};
@@ -14,21 +14,22 @@ pub(crate) struct RowBuffer {
     asked: Asked,
     /// Number of axes.
     axes: usize,
-    /// What is not of an axis; without axes.
+    /// Values that do not belong to an axis; their `axes` are empty.
     cycles: Vec<CycleRecord>,
     /// Axis by axis, quantity by quantity, row by row.
     values: Vec<f64>,
 }
 
-/// Values between the beginnings of two columns. Not a power of two: columns that are written together would share few
-/// places of the nearest memory of the processor.
+/// Distance between the beginnings of two columns. Not a power of two, because columns that are written together would
+/// otherwise compete for the same cache sets.
 const STRIDE: usize = RowBuffer::ROOM + 8;
 
 impl RowBuffer {
     /// Most cycles.
     pub(crate) const ROOM: usize = 256;
 
-    /// No cycles, and columns of these quantities for the next ones; interpolated setpoint and set position have them always.
+    /// Removes all cycles and selects the columns for the next ones; interpolated setpoint and set position are always
+    /// present.
     pub(crate) fn clear(&mut self, axes: usize, asked: Asked) {
         self.cycles.clear();
         (self.axes, self.asked) = (axes, asked.and(Asked::of(&[Quantity::Ipo, Quantity::Set])));
@@ -56,17 +57,17 @@ impl RowBuffer {
         &mut self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row]
     }
 
-    /// Completes the next cycle: what of a record is not of its axes.
+    /// Completes the next cycle with the values of a record that do not belong to its axes.
     pub(crate) fn push(&mut self, record: &CycleRecord) {
         self.cycles.push(CycleRecord { axes: Vec::new(), ..*record });
     }
 
-    /// A cycle, to write what was measured.
+    /// A cycle, for writing measured results.
     pub(crate) fn cycle_mut(&mut self, row: usize) -> &mut CycleRecord {
         &mut self.cycles[row]
     }
 
-    /// Value of an axis in a cycle, to write what was measured.
+    /// Value of an axis in a cycle, for writing measured results.
     pub(crate) fn value_mut(&mut self, axis: usize, quantity: Quantity, row: usize) -> &mut f64 {
         &mut self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row]
     }
@@ -90,17 +91,17 @@ pub(crate) struct AxisColumns<'a> {
 }
 
 impl AxisColumns<'_> {
-    /// No column.
+    /// No columns.
     pub(crate) const fn none() -> AxisColumns<'static> {
         AxisColumns { asked: Asked::NONE, values: &mut [], from: 0 }
     }
 
-    /// Somebody reads one of these.
+    /// Whether somebody reads one of these.
     pub(crate) const fn has_any(&self, quantities: Asked) -> bool {
         self.asked.has_any(quantities)
     }
 
-    /// A column, if it is asked for.
+    /// A column, if it was requested.
     pub(crate) fn of(&mut self, quantity: Quantity) -> Option<&mut [f64]> {
         if !self.asked.has(quantity) {
             return None;
@@ -108,7 +109,7 @@ impl AxisColumns<'_> {
         Some(&mut self.values[quantity as usize * STRIDE + self.from..])
     }
 
-    /// Columns of several quantities in their order, if one of them is asked for.
+    /// Columns of several quantities in order, if one of them was requested.
     pub(crate) fn together<const N: usize>(
         &mut self,
         quantities: [Quantity; N],
@@ -125,12 +126,12 @@ impl AxisColumns<'_> {
         self.values.get_disjoint_mut(places).ok()
     }
 
-    /// Columns begin so many cycles later.
+    /// Skips this number of cycles.
     pub(crate) fn skip(&mut self, rows: usize) {
         self.from += rows;
     }
 
-    /// The next cycles are those of a record.
+    /// Fills the next cycles with a record.
     pub(crate) fn fill(&mut self, record: &AxisRecord, rows: usize) {
         for quantity in self.asked.each() {
             let first = quantity as usize * STRIDE + self.from;
@@ -147,7 +148,7 @@ pub struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// What of each cycle is not of an axis: records without axes.
+    /// The values of each cycle that do not belong to an axis: records without axes.
     pub fn cycles(&self) -> &'a [CycleRecord] {
         &self.buffer.cycles[self.rows.clone()]
     }
@@ -157,7 +158,7 @@ impl<'a> Rows<'a> {
         self.rows.len()
     }
 
-    /// No cycle.
+    /// Whether there are no cycles.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -174,7 +175,7 @@ impl<'a> Rows<'a> {
         self.buffer.axes
     }
 
-    /// A quantity of an axis, cycle by cycle; empty if there is no such axis, or if it was not asked for.
+    /// A quantity of an axis, cycle by cycle; empty if there is no such axis, or if it was not requested.
     pub fn column(&self, axis: usize, quantity: Quantity) -> &'a [f64] {
         let RowBuffer { asked, axes, values, .. } = self.buffer;
         if axis >= *axes || !asked.has(quantity) {
@@ -183,7 +184,7 @@ impl<'a> Rows<'a> {
         &values[(axis * Quantity::COUNT + quantity as usize) * STRIDE..][self.rows.clone()]
     }
 
-    /// Reads a single cycle; what was not asked for is not a number (NaN).
+    /// Reads a single cycle; values that were not requested are NaN.
     pub fn read(&self, i: usize, record: &mut CycleRecord) {
         let row = self.rows.start + i;
         let mut axes = std::mem::take(&mut record.axes);
@@ -202,10 +203,10 @@ impl<'a> Rows<'a> {
         *record = CycleRecord { axes, ..self.buffer.cycles[row] };
     }
 
-    /// Reads one cycle after the other.
+    /// Reads the cycles one by one.
     ///
     /// # Errors
-    /// The first one of `take`.
+    /// The first error of `take`.
     pub fn each<E>(&self, mut take: impl FnMut(&CycleRecord) -> Result<(), E>) -> Result<(), E> {
         let mut record = CycleRecord::default();
         (0..self.rows.len()).try_for_each(|i| {

@@ -1,4 +1,4 @@
-//! What the events of a block change in the running machine: kernels, feedforward, machine data.
+//! Effects of the events of a block on the running machine: kernels, feedforward, machine data.
 
 use super::Simulation;
 use super::axes::Driver;
@@ -10,11 +10,11 @@ use crate::machine::ChainSetup;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
-/// Jumps of a speed command in mm/s (deg/s) up to this are those of filters that end their motion.
+/// Jumps of a speed command in mm/s (deg/s) up to this value are those of filters at the end of their motion.
 const LEAST_JUMP_MM_S: f64 = 1e-3;
 
 impl Simulation {
-    /// Something happens in cycle `k`.
+    /// Executes an event in cycle `k`.
     pub(super) fn act(&mut self, event: Event, k: u64) {
         match event {
             Event::Independent { axis, motion } => {
@@ -91,7 +91,7 @@ impl Simulation {
         }
     }
 
-    /// The wear from outside; K-0138 once it is more than the tool allows.
+    /// Applies the external wear; K-0138 if it exceeds what the tool permits.
     pub(super) fn take_wear(&mut self, k: u64) {
         let wear_mm = self.inputs.wear_mm;
         if self.wear.take_outside(wear_mm) && self.inputs.tells_wear_limit() {
@@ -109,7 +109,7 @@ impl Simulation {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
                 let gain = chain.feedforward_gain(on, weight);
                 let step = std::mem::replace(&mut self.gains[i], gain) - gain;
-                // the record is that of the cycle before, whose speed may be that of a last step
+                // the record is that of the previous cycle, whose speed may come from a last step
                 let jump = |(i, step): (usize, f64)| (step * self.record.axes[i].vel).abs();
                 let moves = self.record.path.v_mm_s > 0.0
                     || self.independent.is_moving(p)
@@ -132,7 +132,8 @@ impl Simulation {
         }
     }
 
-    /// Puts new kernels into the path axes and their gantry slaves; they are flushed. Those of spindles never change.
+    /// Replaces the kernels of the path axes and their gantry slaves, which must be flushed. Those of spindles never
+    /// change.
     pub(super) fn swap_kernels(&mut self, setup: &ShapingSetup) {
         for i in 0..self.chains.len() {
             if !matches!(self.drivers[i], Driver::Spindle(_)) {
@@ -149,15 +150,15 @@ impl Simulation {
         }
     }
 
-    /// Puts the kernel of a setup into a chain at rest.
+    /// Sets the kernel of a setup in a chain at rest.
     pub(super) fn set_kernel(&mut self, i: usize, setup: &ShapingSetup) {
         if self.chains[i].set_kernel(self.drivers[i].kernel(setup).cloned()).is_err() {
             self.messages.own.push(super::fault::switch_while_moving());
         }
     }
 
-    /// `#MACHINE DATA`: chains that are configured otherwise now take the place of those before. These are more than the one of the
-    /// axis: feedforward of one axis delays all of them, and gantry slaves take parameters from their master.
+    /// `#MACHINE DATA`: replaces the chains whose configuration has changed. There may be more than that of the axis:
+    /// feedforward of one axis delays all of them, and gantry slaves take parameters from their master.
     pub(super) fn machine_data(&mut self) {
         let (before, _) = self.machine.chains();
         self.machine = Arc::clone(self.executor.machine());
@@ -171,7 +172,7 @@ impl Simulation {
         self.swap_kernels(&setup);
     }
 
-    /// Another chain for an axis, where the axis is, with the kernel in force.
+    /// Replaces the chain of an axis, at the position of the axis and with the active kernel.
     fn replace(&mut self, i: usize, old: &ChainSetup, new: &ChainSetup) {
         let before = &self.chains[i];
         match AxisChain::new(new.clone(), before.set_mm(), self.inputs.axes[i], self.cycle) {
@@ -183,7 +184,7 @@ impl Simulation {
         }
     }
 
-    /// The axis and its gantry slaves get new set positions. Those of the path do not change.
+    /// Gives the axis and its gantry slaves new set positions. Those of the path do not change.
     pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64, moves: bool) {
         for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
             if *driver == Driver::Path(axis) {

@@ -8,7 +8,7 @@ use crate::record::{PathRecord, Rest, RowBuffer};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
-/// Where the setpoint of a chain comes from.
+/// Source of the setpoint of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Driver {
     /// Path axis; gantry slaves follow the path axis that is their master.
@@ -40,8 +40,8 @@ pub(super) fn drivers(machine: &Machine) -> Vec<Driver> {
 }
 
 impl Simulation {
-    /// Block that the cycle belongs to. Waits for what a motion has left to do are part of it, as long as no other block has had
-    /// cycles since.
+    /// Block that the cycle belongs to. Waits for the remainder of a motion belong to its block, as long as no other
+    /// block has had cycles since.
     fn block_of_cycle(&self) -> SourceRef {
         let is_over = self.shown != self.current || self.current.line == 0;
         match &self.phase {
@@ -52,7 +52,7 @@ impl Simulation {
         }
     }
 
-    /// Enters the blocks up to number `seq` at a path length, with everything that happens in cycle `k` before the axes move.
+    /// Enters the blocks up to number `seq` at a path length, with all events in cycle `k` before the axes move.
     pub(super) fn enter_blocks(&mut self, seq: u64, s_mm: f64, k: u64) {
         while self.underway.front().is_some_and(|u| u.seq <= seq) {
             if let Some(block) = self.underway.pop_front() {
@@ -65,7 +65,7 @@ impl Simulation {
                     }
                 }
                 self.jerk_limited = block.jerk_limited;
-                // the block began after the cycle before
+                // the block began after the previous cycle
                 for event in block.events {
                     self.act(event, k.saturating_sub(1));
                 }
@@ -73,8 +73,8 @@ impl Simulation {
         }
     }
 
-    /// Hands the setpoint of the cycle through every axis and fills the record; with it up to `most` cycles after it, as far as
-    /// nothing but the path moves, see [`super::batch`]. What is asked for of their axes goes to `rows`.
+    /// Passes the setpoint of the cycle through every axis and fills the record, together with up to `most` further
+    /// cycles as far as nothing but the path moves, see [`super::batch`]. Requested columns of the axes go to `rows`.
     pub(super) fn through_the_axes(&mut self, most: usize, rows: Option<&mut RowBuffer>) {
         let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
         self.enter_blocks(seq, self.record.path.s_mm, k);
@@ -130,12 +130,12 @@ impl Simulation {
         self.end_cycle();
     }
 
-    /// An independent axis is monitored from the end of its own motion, whatever the path does. Source: TF5200 position
+    /// An independent axis is monitored from the end of its motion, whatever the path does. Source: TF5200 position
     /// monitoring: from when the axis is no longer interpolated.
     fn expect_independent_stops(&mut self) {
         for axis in 0..self.path_position.len() {
             let Some(source) = self.independent.take_ended(axis) else { continue };
-            // what a fault stops does not arrive anywhere
+            // an axis that a fault stops does not arrive anywhere
             if matches!(self.phase, Phase::Stopping(_)) {
                 continue;
             }
@@ -188,7 +188,7 @@ impl Simulation {
         }
     }
 
-    /// The spindle that goes with the path, by its place in the record.
+    /// The spindle that follows the path, by its index in the record.
     fn tapping_spindle(&self) -> Option<u8> {
         let spindle = self.spindles.iter().position(Spindle::follows)?;
         let place = self.drivers.iter().position(|d| *d == Driver::Spindle(spindle))?;

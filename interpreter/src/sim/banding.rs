@@ -1,7 +1,7 @@
 //! Edge banding: a motion stops once after the signal of the probe, and continues.
 //!
-//! The planner asks for nothing beyond the motion until that has happened, so the path would rest at its end; after the stop
-//! it passes the end like any other.
+//! Until then the planner requests nothing beyond the motion, so that the path would rest at its end; after the stop it
+//! passes the end like any other.
 
 use super::inputs::Inputs;
 use super::wait::Wait;
@@ -14,10 +14,10 @@ use kontur_motion::axis::AxisVec;
 #[derive(Clone, Debug)]
 pub(super) struct Banding {
     run: BandingRun,
-    /// Its number.
+    /// Number of the block.
     seq: u64,
     source: SourceRef,
-    /// Actual positions in the cycle before.
+    /// Actual positions in the previous cycle.
     before_mm: AxisVec,
     signalled: bool,
 }
@@ -30,7 +30,7 @@ impl Banding {
 }
 
 impl Simulation {
-    /// The motion has begun.
+    /// Registers the start of the motion.
     pub(super) fn begin_banding(&mut self, run: BandingRun) {
         let (seq, source) = (self.planner.setpoint().seq, self.current);
         let before_mm = self.actual_mm();
@@ -41,7 +41,7 @@ impl Simulation {
         }
     }
 
-    /// Looks for the signal after a cycle; the path ends at its stop from the next one on.
+    /// Checks for the signal after a cycle; if it is present, the path ends at its stop from the next cycle on.
     pub(super) fn watch_banding(&mut self) {
         let waits = self.banding.as_ref().is_some_and(|banding| !banding.signalled);
         if !waits || !matches!(self.phase, Phase::Running | Phase::Waiting(_)) {
@@ -65,13 +65,13 @@ impl Simulation {
         }
     }
 
-    /// The path has come to rest at its stop, or at the end of the motion.
+    /// Handles the rest of the path at its stop, or at the end of the motion.
     pub(super) fn at_halt(&mut self) {
         self.expect_stops();
         self.phase = Phase::Waiting(Wait::for_halt());
     }
 
-    /// The axes are in their windows: the function is called, and the path waits for it.
+    /// Calls the function once the axes are in their windows; the path waits for it.
     pub(super) fn call_at_halt(&mut self) {
         let Some(Banding { run, signalled, source, .. }) = self.banding else { return };
         if !signalled {
@@ -85,7 +85,7 @@ impl Simulation {
         self.phase = Phase::Waiting(Wait::before_resuming(seconds, self.cycle));
     }
 
-    /// The path continues.
+    /// Lets the path continue.
     pub(super) fn resume(&mut self) {
         self.banding = None;
         self.planner.resume();

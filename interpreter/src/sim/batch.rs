@@ -6,11 +6,12 @@
 //! that somebody reads. Then the cycles are taken one by one, in their order: path and blocks are in every cycle what they
 //! would have been alone. A single cycle is a step of the chain, which does what a row of one does.
 //!
-//! A fault ends the row with the cycle that raised it. Chains that were already beyond it are put back to where they were before
-//! the row, and run once more up to that cycle.
+//! A fault ends the row with the cycle that raised it. Chains that are already beyond that cycle are restored to their
+//! state before the row and run again up to it.
 //!
-//! Alone go cycles in which something acts on the axes that changes from cycle to cycle, or that looks at them: waits, feedhold
-//! at rest, independent axes, threads, probes, wear, spindles that position or go with the path, exact stops.
+//! Cycles are computed singly while something that changes from cycle to cycle acts on the axes or depends on them:
+//! waits, feedhold at rest, independent axes, threads, probes, wear, spindles that position or follow the path, exact
+//! stops.
 
 use super::axes::Driver;
 use super::chain::{AxisChain, Mark};
@@ -21,18 +22,19 @@ use kontur_filters::control::fault::{Fault, Faults};
 use kontur_filters::ring::Ring;
 use kontur_motion::ahead::Ahead;
 
-/// Cycles of a row, at most: their columns stay in the first cache.
+/// Largest number of cycles in a row: their columns stay in the first-level cache.
 pub(super) const MOST: usize = Ring::ROOM;
-/// The same where columns are written: there are many of them.
+/// The same if columns are written, as there are many of them.
 const MOST_READ: usize = 64;
 
-/// Fewer than these after one cycle are not worth it; after a fault no more than these are tried.
+/// Rows with fewer cycles than this after the present one are not worthwhile; after a fault no more than these are
+/// tried.
 const FEW: usize = 8;
 
-/// Cycles that go alone, at most, before rows are tried again.
+/// Largest number of single cycles before rows are tried again.
 const MOST_PATIENCE: u64 = 32;
 
-/// Cycles after the current one whose axes have been computed.
+/// Cycles after the current one whose axes have already been computed.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     ahead: Ahead,
@@ -41,11 +43,11 @@ pub(super) struct Batch {
     taken: usize,
     /// How many are tried: after a fault few, because what lies after the next one is computed in vain.
     tried: usize,
-    /// Up to here cycles go alone, because too few follow.
+    /// Cycle before which cycles are computed singly, because too few follow in a row.
     single_before: u64,
-    /// So many cycles at least go alone when too few follow.
+    /// Least number of single cycles when too few follow in a row.
     patience: u64,
-    /// Faults of the last one.
+    /// Faults of the last computed cycle.
     pub(super) faults: Vec<(usize, Fault)>,
     /// The chains and their records before the row, and the spindles.
     marks: Vec<Option<Mark>>,
@@ -59,7 +61,7 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// Cycles have been computed and not been taken.
+    /// Whether computed cycles have not been taken yet.
     pub(super) const fn is_pending(&self) -> bool {
         self.taken < self.computed
     }
@@ -96,13 +98,13 @@ impl Simulation {
         self.end_cycle();
     }
 
-    /// How many of the cycles after this one, `most` at the most, follow without anything that acts on the axes but the path.
+    /// Number of cycles after this one, up to `most`, in which nothing but the path acts on the axes.
     fn count_ahead(&mut self, most: usize) -> usize {
         let k = self.planner.setpoint().k;
         if most < FEW || k < self.batch.single_before || !self.is_left_alone() {
             return 0;
         }
-        // nothing is read in vain: where something happens in every block, that would be most of it
+        // do not read in vain: with an event in every block that would be most of the reading
         let changes =
             |block: &&Underway| !block.events.is_empty() || block.jerk_limited != self.jerk_limited;
         let before = self.underway.iter().find(changes).map_or(u64::MAX, |block| block.seq);
@@ -114,7 +116,7 @@ impl Simulation {
         let read = self.batch.ahead.len();
         let count = (0..read).find(|later| waits_for_input(*later)).unwrap_or(read);
         if count < FEW {
-            // where it is in vain again and again, it is tried less often
+            // after repeated failures it is tried less often
             self.batch.patience = (2 * self.batch.patience).clamp(1, MOST_PATIENCE);
             self.batch.single_before = k + 1 + (count as u64).max(self.batch.patience);
             return 0;
@@ -123,7 +125,7 @@ impl Simulation {
         count
     }
 
-    /// Nothing acts on the axes, or looks at them, but what the next cycles bring.
+    /// Whether nothing acts on the axes or depends on them, apart from events of the next cycles.
     fn is_left_alone(&self) -> bool {
         let turns = |spindle: &Spindle| spindle.turns_freely();
         let runs = |(chain, driver): (&AxisChain, &Driver)| {
@@ -142,7 +144,8 @@ impl Simulation {
             && self.chains.iter().zip(&self.drivers).all(runs)
     }
 
-    /// Runs every chain through this cycle and up to `most` after it; their columns go to `rows`, unless nobody reads them.
+    /// Runs every chain through this cycle and up to `most` further ones; their columns go to `rows`, unless nobody
+    /// reads them.
     pub(super) fn run_chains(&mut self, most: usize, mut rows: Option<&mut RowBuffer>) {
         let most = if rows.is_some() { most.min(MOST_READ - 1) } else { most };
         self.batch.tried = (2 * self.batch.tried).clamp(FEW, MOST);
@@ -186,14 +189,14 @@ impl Simulation {
         (self.batch.computed, self.batch.taken) = (count - 1, 0);
     }
 
-    /// The actual position of a chain is inside the window of its stop.
+    /// Whether the actual position of a chain is inside the window of its stop.
     fn settled(&mut self, axis: usize) {
         let (source, settling_s) = (self.stops_at[axis], self.record.axes[axis].settling_s);
         let k = self.planner.setpoint().k;
         self.totals.stops.add(SettledStop { axis, source, k, settling_s });
     }
 
-    /// Runs one chain through this cycle and the computed ones after it, to `count` cycles; the number of them.
+    /// Runs one chain through this cycle and the following computed ones, up to `count` cycles; returns their number.
     fn run_chain(&mut self, i: usize, count: usize, rows: Option<&mut RowBuffer>) -> usize {
         let (chain, record) = (&mut self.chains[i], &mut self.record.axes[i]);
         let mut columns = rows.map_or(AxisColumns::none(), |rows| rows.axis_mut(i));
@@ -214,18 +217,18 @@ impl Simulation {
             Driver::Path(p) => {
                 ipo.push(self.path_position[p]);
                 let ahead = &self.batch.ahead.positions(p)[..count - 1];
-                // as with the ways of independent axes, which are 0
+                // as in a step, which adds the ways of independent axes: 0 here
                 ipo.extend(ahead.iter().map(|x| x + 0.0));
             }
             Driver::Spindle(s) => ipo.extend_from_slice(&self.batch.spindle_deg[s][..count]),
-            // goes alone
+            // single cycles only
             Driver::Standing => {}
         }
         let set = &mut self.batch.set;
         chain.run(ipo, self.gains[i], self.jerk_limited, set, record, columns)
     }
 
-    /// Turns the spindles through the cycles after this one, to `count` cycles.
+    /// Turns the spindles through the following cycles, up to `count` cycles.
     fn turn_spindles(&mut self, count: usize) {
         let Self { batch, spindles, spindle_deg, cycle, .. } = self;
         if count > 1 {

@@ -1,5 +1,5 @@
-//! One axis from its interpolated setpoint to its actual position: what it consists of, what acts on it, and how it is. What it does
-//! in a cycle is in [`cycle`].
+//! One axis from its interpolated setpoint to its actual position: its parts, its inputs and its state. For what it
+//! does in a cycle see [`cycle`].
 
 mod cycle;
 
@@ -20,14 +20,14 @@ use std::sync::Arc;
 /// Speed of the motor in mm/s (deg/s) below which an axis counts as at rest.
 const STANDSTILL_MM_S: f64 = 0.1;
 
-/// What an axis lacks to be where a wait wants it.
+/// Distance of an axis from what a wait requires.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Remaining {
     /// Distance in mm (deg), signed.
     pub(crate) distance_mm: f64,
     /// Half width of the window in mm (deg).
     pub(crate) window_mm: f64,
-    /// The filters have not settled (P-AXIS-00351); otherwise the actual position is outside its window.
+    /// Whether the filters have not settled (P-AXIS-00351); otherwise the actual position is outside its window.
     pub(crate) filters: bool,
 }
 
@@ -38,18 +38,18 @@ impl Remaining {
     }
 }
 
-/// Shaping and control of one axis with what the trace derives from them.
+/// Shaping and control of one axis, with the quantities that the trace derives from them.
 #[derive(Debug)]
 pub(crate) struct AxisChain {
     shaping: Shaping,
     control: AxisControl,
     additional: Option<AdditionalInterface>,
     inputs: AxisInputs,
-    /// What online tool compensation adds after the filters.
+    /// Offset of online tool compensation, added after the filters.
     wear_mm: f64,
     filter_window_mm: f64,
     delay_cycles: f64,
-    /// Whole cycles of the delay, and the rest.
+    /// Delay in whole cycles, and its fraction.
     delay: (u32, f64),
     /// Interpolated setpoints as far back as the delay reaches.
     ipo: Ring,
@@ -57,14 +57,14 @@ pub(crate) struct AxisChain {
     vel: f64,
     acc: f64,
     cycle_s: f64,
-    /// Cycles of the last row in which it did not rest.
+    /// Number of cycles in the last row in which it did not rest.
     moved: usize,
-    /// The monitors have raised something in the last cycle.
+    /// Whether the monitors raised a fault in the last cycle.
     faulty: bool,
 }
 
 impl AxisChain {
-    /// A chain at rest at a set position, under inputs that last.
+    /// A chain at rest at a set position, under constant inputs.
     pub(crate) fn new(
         setup: ChainSetup,
         x: f64,
@@ -103,8 +103,8 @@ impl AxisChain {
         Ok(chain)
     }
 
-    /// This chain, of `new`, takes the place of another one, of `old`. What is the same continues: the kernel, each filter, and
-    /// the filter of the additional interface; other filters begin at rest.
+    /// Takes over the state of the chain that this one replaces; `old` and `new` are their setups. Unchanged parts
+    /// continue: the kernel, each filter, and the filter of the additional interface; other filters begin at rest.
     pub(crate) fn take_over(&mut self, before: &Self, old: &ChainSetup, new: &ChainSetup) {
         self.shaping = before.shaping.clone();
         if old.filters == new.filters {
@@ -124,8 +124,8 @@ impl AxisChain {
         (self.set, self.vel, self.acc) = (before.set, before.vel, before.acc);
     }
 
-    /// The set position at rest becomes another one, `by_mm` further on; the axis `moves` there, or its present place gets that
-    /// position.
+    /// Shifts the set position at rest by `by_mm`; the axis either `moves` there, or its present position gets the new
+    /// coordinate.
     pub(crate) fn shift(&mut self, by_mm: f64, moves: bool) {
         self.set += by_mm;
         self.shaping.settle(self.set);
@@ -137,7 +137,7 @@ impl AxisChain {
         }
     }
 
-    /// The delay changed: the setpoints that it reaches back to are those of the present standstill.
+    /// Adjusts to a changed delay: the setpoints within its reach are those of the present standstill.
     fn align(&mut self, x: f64) {
         self.delay_cycles = self.shaping.delay_cycles();
         let whole = self.delay_cycles.floor();
@@ -145,7 +145,7 @@ impl AxisChain {
         self.ipo = Ring::new(self.delay_cycles.ceil() as u32, x);
     }
 
-    /// Takes the kernel of FIR, HSC or Vibration Guard.
+    /// Sets the kernel of FIR, HSC or Vibration Guard.
     ///
     /// # Errors
     /// [`SwitchWhileMoving`] unless [`Self::ready_for`].
@@ -158,29 +158,29 @@ impl AxisChain {
         Ok(())
     }
 
-    /// The kernel can be replaced without a jump.
+    /// Whether the kernel can be replaced without a jump.
     pub(crate) fn ready_for(&self, kernel: Option<&Kernel>) -> bool {
         self.shaping.ready_for(kernel)
     }
 
-    /// The set position has arrived at the interpolated one.
+    /// Whether the set position has arrived at the interpolated one.
     pub(crate) fn settled(&self) -> bool {
         self.shaping.settled(self.filter_window_mm)
     }
 
-    /// The kernel no longer holds anything that it has still to let go.
+    /// Whether the kernel has output everything it held.
     pub(crate) fn flushed(&self) -> bool {
         self.shaping.flushed()
     }
 
-    /// What the filters lack to have arrived.
+    /// Distance of the filters from having arrived.
     pub(crate) fn unsettled(&self) -> Option<Remaining> {
         let distance_mm = self.ipo.newest() - self.set;
         let window_mm = self.filter_window_mm;
         (!self.settled()).then_some(Remaining { distance_mm, window_mm, filters: true })
     }
 
-    /// What the actual position lacks to be inside the exact-stop window (P-AXIS-00236).
+    /// Distance of the actual position from the exact-stop window (P-AXIS-00236), if it is outside.
     pub(crate) fn out_of_position(&self) -> Option<Remaining> {
         let distance_mm = self.control.distance_mm();
         let window_mm = self.control.exact_stop().config().window_mm;
@@ -188,22 +188,22 @@ impl AxisChain {
         (remaining.excess_mm() > 0.0).then_some(remaining)
     }
 
-    /// The set position is at the target of a stop, the actual one not yet inside the window.
+    /// Whether the set position is at the target of a stop and the actual position not yet inside the window.
     pub(crate) fn settles(&self) -> bool {
         self.control.exact_stop().settles()
     }
 
-    /// No stop is awaited.
+    /// Whether no stop is awaited.
     pub(crate) fn arrived(&self) -> bool {
         self.control.exact_stop().rests()
     }
 
-    /// Time limit of the exact stop in s, none if it is not monitored.
+    /// Time limit of the exact stop in s, `None` if it is not monitored.
     pub(crate) fn settling_limit_s(&self) -> Option<f64> {
         self.control.exact_stop().config().settling_s
     }
 
-    /// Keeps the axis where it is: reaction class 5.
+    /// Holds the axis where it is: reaction class 5.
     pub(crate) fn halt(&mut self) {
         self.control.halt();
     }
@@ -213,17 +213,17 @@ impl AxisChain {
         self.control.open_loop();
     }
 
-    /// The axis itself is at rest, not only its set position.
+    /// Whether the axis is at rest, not only its set position.
     pub(crate) fn stands(&self) -> bool {
         self.control.stands(STANDSTILL_MM_S)
     }
 
-    /// The path comes to rest with this axis at `target_mm`: the exact-stop timer is armed.
+    /// Announces a stop of the path with this axis at `target_mm`, which arms the exact-stop timer.
     pub(crate) fn expect_stop(&mut self, target_mm: f64) {
         self.control.expect_stop(target_mm);
     }
 
-    /// Gain of feedforward in the state of G135, G136.
+    /// Feedforward gain for the state of G135, G136.
     pub(crate) fn feedforward_gain(&self, on: bool, weight_ratio: f64) -> f64 {
         self.control.config().feedforward.gain(on, weight_ratio)
     }
@@ -233,18 +233,18 @@ impl AxisChain {
         self.delay_cycles
     }
 
-    /// Cycles over which a setpoint acts on the set position, for the reach of the contour.
+    /// Number of cycles over which a setpoint acts on the set position, for the reach of the contour.
     pub(crate) fn reach_cycles(&self) -> u32 {
         let tail = (4.0 * (self.delay_cycles - self.shaping.kernel().delay_cycles())).ceil();
         self.shaping.flush_cycles() + tail.max(0.0) as u32
     }
 
-    /// The load is where the actual position says, as long as nothing from outside disturbs the encoder.
+    /// Whether the load position equals the actual position as long as the encoder is not disturbed externally.
     pub(crate) fn shows_load_twice(&self) -> bool {
         self.control.shows_load_twice()
     }
 
-    /// Tool point separate from the load.
+    /// Whether the tool point is separate from the load.
     pub(crate) fn has_tool_point(&self) -> bool {
         self.control.has_tool_point()
     }
@@ -254,7 +254,7 @@ impl AxisChain {
         self.set
     }
 
-    /// One cycle without motion of time: what the trace shows at the start.
+    /// The record at the start of the trace, before time advances.
     pub(crate) fn at_start(&self) -> AxisRecord {
         let x = self.set;
         AxisRecord {
@@ -268,19 +268,19 @@ impl AxisChain {
         }
     }
 
-    /// What acts from outside, from now on; the additional position before its filter.
+    /// Sets the external inputs from now on; the additional position is the one before its filter.
     pub(crate) fn set_inputs(&mut self, inputs: AxisInputs) {
         self.inputs = inputs;
     }
 
-    /// The offset of online tool compensation from the next cycle on.
+    /// Sets the offset of online tool compensation from the next cycle on.
     pub(crate) fn set_wear(&mut self, wear_mm: f64) {
         self.wear_mm = wear_mm;
     }
 }
 
-/// What each of the new filters was before. One that is changed, added or taken away lies between those that are the same at the
-/// beginning and at the end.
+/// Origin of each of the new filters. Filters that are changed, added or removed are those between the unchanged ones
+/// at the beginning and at the end.
 fn origins(old: &[AxisFilter], new: &[AxisFilter]) -> Vec<Origin> {
     let front = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let most = old.len().min(new.len()) - front;

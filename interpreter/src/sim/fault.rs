@@ -1,8 +1,8 @@
 //! Faults of the running machine: messages and reactions.
 //!
-//! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
-//! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
-//! P-AXIS-00003. The run continues until the axes themselves are at rest.
+//! Reaction classes (TF5200 diagnosis manual): 1 is a message; 4, 6, 7, 8 and 5 end the program. The axis concerned
+//! stops where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7); the others brake along the
+//! path with P-AXIS-00003. The run continues until the axes are at rest.
 
 use super::axes::Driver;
 use super::chain::Remaining;
@@ -17,24 +17,24 @@ use kontur_filters::time::CycleTime;
 use kontur_motion::contouring::NoContour;
 use kontur_motion::tolerance::Unkept;
 
-/// Cycles of standstill shown after the stop of a fault.
+/// Number of cycles of standstill shown after the stop of a fault.
 pub(super) const CYCLES_AT_REST: u32 = 5;
-/// Longest time to wait, after the stop of the set positions, for axes that do not come to rest.
+/// Longest wait in s, after the set positions have stopped, for axes that do not come to rest.
 const LONGEST_COASTING_S: f64 = 2.0;
 
-/// How far the stop of a fault has come.
+/// Progress of the stop after a fault.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Stopping {
     settled_cycles: u32,
     /// Block of the wait that was interrupted.
     pub(super) waited_at: Option<SourceRef>,
     coasting_cycles: u32,
-    /// What has been reported already: an axis that oscillates meets its limits again and again.
+    /// Conditions already reported: an oscillating axis reaches its limits again and again.
     told: Vec<(usize, Condition)>,
 }
 
 impl Stopping {
-    /// The axis has not said this since the stop began.
+    /// Whether the axis has not reported this condition since the stop began.
     fn is_new(&mut self, chain: usize, condition: Condition) -> bool {
         let new = !self.told.contains(&(chain, condition));
         if new {
@@ -43,7 +43,7 @@ impl Stopping {
         new
     }
 
-    /// One cycle: the set positions rest, the axes are at rest. True at the end of the run.
+    /// One cycle with the set positions and the axes at rest or not; true at the end of the run.
     pub(super) fn is_over(&mut self, set_rests: bool, axes_stand: bool, cycle: CycleTime) -> bool {
         self.coasting_cycles = if set_rests { self.coasting_cycles + 1 } else { 0 };
         let longest = LONGEST_COASTING_S / cycle.seconds();
@@ -54,9 +54,9 @@ impl Stopping {
 }
 
 impl Simulation {
-    /// A fault of one axis: message, and from class 4 on the end of the run.
+    /// Handles a fault of one axis: reports it and, from class 4 on, ends the run.
     pub(super) fn fault(&mut self, chain: usize, fault: &Fault) {
-        // the abrupt end of a set position is what a reaction asked for
+        // the abrupt end of a set position is the effect of a reaction
         let of_set_position =
             matches!(fault, Fault::SetpointWarning { .. } | Fault::SetpointError { .. });
         if self.frozen[chain].is_some() && of_set_position {
@@ -94,10 +94,10 @@ impl Simulation {
         }
     }
 
-    /// What the axis concerned does at once.
+    /// Immediate reaction of the axis concerned.
     ///
-    /// Both sides of a gantry bridge stop alike: kept where they are once their set position is at rest, with the limits of the
-    /// path while it moves. Stopping one of them alone would rack the bridge.
+    /// Both sides of a gantry bridge stop alike: held where they are once their set position is at rest, braked with
+    /// the limits of the path while it moves. Stopping only one of them would rack the bridge.
     fn react(&mut self, chain: usize, reaction: Reaction) {
         let driver = self.drivers[chain];
         let together =
@@ -107,7 +107,7 @@ impl Simulation {
                 (0..self.chains.len()).filter(|i| together(*i)).collect()
             }
             Reaction::AllStop => (0..self.chains.len()).collect(),
-            // the path brakes, nothing of the axis besides
+            // the path brakes; there is no other reaction of the axis
             Reaction::None
             | Reaction::ProgramAbort
             | Reaction::JobAbort
@@ -134,7 +134,7 @@ impl Simulation {
         }
     }
 
-    /// Nothing will ever bring an axis to where the program waits for it: the end of the run.
+    /// Ends the run because an axis can never reach the position for which the program waits.
     pub(super) fn never_arrives(&mut self, chain: usize, lacks: Remaining) {
         let axis = self.machine.all_axes().nth(chain);
         let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
@@ -202,7 +202,7 @@ impl Simulation {
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
         diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
-        // the next blocks may be running when a stop turns out to be late
+        // the next blocks may already be running when a stop turns out to be late
         let late = matches!(fault, Fault::SettlingTimeout { .. });
         let at = if late { self.stops_at[chain] } else { self.current };
         diagnostic.source = self.executor.locate(at);
@@ -210,7 +210,7 @@ impl Simulation {
     }
 }
 
-/// What was met, in the unit of the axis, `mm` or `deg`.
+/// Value and limit of a fault, in the unit of the axis, `mm` or `deg`.
 fn text(fault: &Fault, unit: &'static str) -> String {
     let r = rounded;
     let speed = per_s(unit, 1);
@@ -312,7 +312,7 @@ pub(super) fn internal(text: &str) -> Diagnostic {
     )
 }
 
-/// A kernel that was to be swapped while the axis still moves.
+/// A kernel was to be replaced while the axis still moves.
 pub(super) fn switch_while_moving() -> Diagnostic {
     Diagnostic::new(Condition::Internal, "filter kernel not switched: the axis still moves")
 }
@@ -327,7 +327,7 @@ pub(super) fn out_of_time(last: u64, cycle: CycleTime) -> Diagnostic {
     d
 }
 
-/// Nothing will ever release the path.
+/// The path can never be released.
 pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
     let (what, release) =
         if feedhold { ("feedhold", "feedhold 0") } else { ("override 0", "an override") };
@@ -357,7 +357,7 @@ pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagn
     d
 }
 
-/// The set path, as it is output, leaves the contour by more than the plan had promised.
+/// The set path in the output leaves the contour by more than the plan guarantees.
 pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
     let Unkept { deviation_mm, tolerance_mm, .. } = *exceeded;
     let text = format!(
@@ -371,7 +371,7 @@ pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
 }
 
 impl Simulation {
-    /// K-0022, each place once: the set position of a chain moves while its gain changes by `step`.
+    /// K-0022, once for each place: the set position of a chain moves while its gain changes by `step`.
     pub(super) fn switched_while_moving(&mut self, chain: usize, step: f64) {
         let at = self.current;
         if self.smoothing.is_new(Condition::FeedforwardSwitchedMoving, at) {
@@ -392,7 +392,7 @@ impl Simulation {
         }
     }
 
-    /// K-0143, each place once: a block that waits for every axis ends an oscillation.
+    /// K-0143, once for each place: a block that waits for every axis ends an oscillation.
     pub(super) fn oscillation_ends(&mut self, axis: usize) {
         let at = self.waits_at;
         if self.smoothing.is_new(Condition::OscillationEnded, at) {
@@ -406,7 +406,7 @@ impl Simulation {
         }
     }
 
-    /// The tolerance of a block could not be kept: an error, never a broken promise.
+    /// The tolerance of a block could not be kept: always an error, so that a violation never goes unnoticed.
     pub(super) fn unkept(&mut self, unkept: &Unkept) {
         let mut d = Diagnostic::new(
             Condition::AxDevNotKept,
@@ -424,7 +424,7 @@ impl Simulation {
         self.stop(Vec::new());
     }
 
-    /// Reports the corners that were not contoured as asked for, each place once.
+    /// Reports the corners that were not contoured as programmed, each place once.
     pub(super) fn not_contoured(&mut self) {
         for notice in self.smoothing.take_notices() {
             let (condition, text) = match notice.reason {
@@ -444,7 +444,7 @@ impl Simulation {
                 NoContour::FeedGroup => {
                     (Condition::ContouringGroupChanged, "the feed group changes after this block")
                 }
-                // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor reports the mode
+                // at a stop there is no corner to round; MAX_ANGLE is programmed; the executor reports the mode
                 NoContour::NothingFollows
                 | NoContour::AngleAboveMaximum { .. }
                 | NoContour::ModeReplaced => continue,
@@ -458,11 +458,11 @@ impl Simulation {
                 .iter()
                 .find(|u| u.seq == notice.seq)
                 .map_or(self.current, |u| u.source);
-            // a choice, of which one example is enough
+            // the result of a choice, of which one example is enough
             let chosen = condition == Condition::CornerFaster;
             let place = if chosen { SourceRef { line: 0, ..source } } else { source };
             if self.smoothing.is_new(condition, place) {
-                // Assumption: the run continues, with the corner as programmed, where the control would abort
+                // Assumption: the run continues with the corner as programmed, where the control would abort
                 let severity = if chosen { Severity::Note } else { Severity::Warning };
                 let mut d =
                     Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))

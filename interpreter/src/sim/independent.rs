@@ -1,9 +1,10 @@
-//! Independent axes: motions of single axes independently of the path, each on its own timeline.
+//! Independent axes: motions of single axes independent of the path, each with its own timeline.
 //!
-//! The path does not contain them (see [`IndependentMotion`]): the setpoint of an axis is that of the path plus its way.
-//! The override of feed (P-AXIS-00491) and the feedhold (P-AXIS-00540) of the channel act on them, unless the list gives these to the
-//! interface of the axis, which nothing moves here. Assumption: the weights of G130 to G133 do not act on them; an error stops
-//! them, and a feedhold holds them, with their own deceleration (P-AXIS-00556 is not read). Rests of oscillations continue.
+//! They are not part of the path (see [`IndependentMotion`]): the setpoint of an axis is that of the path plus its way.
+//! Feed override (P-AXIS-00491) and feedhold (P-AXIS-00540) of the channel act on them, unless the list assigns these
+//! to the interface of the axis, which has no inputs here. Assumption: the weights of G130 to G133 do not apply to
+//! them; an error stops them, and a feedhold holds them, with their normal deceleration (P-AXIS-00556 is not read).
+//! Rests of oscillations continue.
 
 use crate::exec::{IndependentMotion, OscillatingMotion, SourceRef};
 use kontur_filters::time::CycleTime;
@@ -23,19 +24,19 @@ struct Underway {
 /// An axis that oscillates.
 #[derive(Clone, Debug)]
 struct Oscillation {
-    /// From the first to the second reversal position, and back.
+    /// Motions from the first to the second reversal position, and back.
     ways: [IndependentMove; 2],
     reversal_mm: [f64; 2],
-    /// Rest at each of them in cycles.
+    /// Rest at each reversal position in cycles.
     rest_cycles: [u64; 2],
-    /// Where the motion under way ends: index of a reversal position.
+    /// Target of the present motion: index of a reversal position.
     to: usize,
-    /// Oscillations that are left; `None`: without end.
+    /// Remaining oscillations; `None`: unlimited.
     left: Option<u32>,
 }
 
 impl Oscillation {
-    /// The motion that follows one that ends in cycle `k`; `None` where it comes to its end.
+    /// The motion after one that ends in cycle `k`; `None` if the oscillation ends.
     fn next(&mut self, k: u64, steering: Steering) -> Option<Underway> {
         let at = self.to;
         if at == 1 {
@@ -52,29 +53,29 @@ impl Oscillation {
     }
 }
 
-/// An axis follows another one.
+/// Coupling of an axis to another one.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
     master: usize,
     ratio: f64,
-    /// Where the master was at the beginning.
+    /// Position of the master at the beginning in mm (deg).
     master_mm: f64,
-    /// What the axis has gone with it.
+    /// Way that the axis has followed it in mm (deg).
     way_mm: f64,
 }
 
 /// One path axis.
 #[derive(Clone, Debug, Default)]
 struct Lane {
-    /// Way of all motions that are over.
+    /// Way of all completed motions.
     done_mm: f64,
-    /// The axis that it follows.
+    /// Coupling to the axis that it follows.
     coupling: Option<Coupling>,
     /// Block of its motion.
     source: SourceRef,
-    /// Its motion ended in the last cycle.
+    /// Whether its motion ended in the last cycle.
     ended: bool,
-    /// Its way is not at rest yet after its filters.
+    /// Whether its way is not yet at rest after the filters.
     settles: bool,
     /// External influences on it.
     steering: Steering,
@@ -82,11 +83,11 @@ struct Lane {
     oscillation: Option<Box<Oscillation>>,
 }
 
-/// The path axes as far as they move alone.
+/// The independent motions of the path axes.
 #[derive(Clone, Debug)]
 pub(super) struct IndependentAxes {
     lanes: Vec<Lane>,
-    /// One of them has moved or was coupled.
+    /// Whether any axis has moved or was coupled.
     used: bool,
 }
 
@@ -95,7 +96,7 @@ impl IndependentAxes {
         Self { lanes: vec![Lane::default(); axes], used: false }
     }
 
-    /// No axis has ever moved independently of the path: all ways are 0.
+    /// Whether no axis has ever moved independently of the path: all ways are 0.
     pub(super) fn is_unused(&self) -> bool {
         !self.used
     }
@@ -120,7 +121,7 @@ impl IndependentAxes {
         Ok(())
     }
 
-    /// Starts an oscillation in cycle `k`: to the first reversal position, and then back and forth.
+    /// Starts an oscillation in cycle `k`: to the first reversal position, then back and forth.
     pub(super) fn oscillate(
         &mut self,
         axis: usize,
@@ -158,7 +159,8 @@ impl IndependentAxes {
         }
     }
 
-    /// The motions under way take over what acts on them from cycle `k` on; asked in every cycle, because not every state has a way.
+    /// Applies external influences to the motions under way from cycle `k` on; called in every cycle, because not every
+    /// state permits a change.
     pub(super) fn take_over(&mut self, k: u64) {
         for lane in &mut self.lanes {
             if let Some(underway) = &mut lane.underway {
@@ -167,13 +169,13 @@ impl IndependentAxes {
         }
     }
 
-    /// Feedhold or override 0 keeps the motion of an axis at rest in cycle `k`.
+    /// Whether feedhold or override 0 keeps the motion of an axis at rest in cycle `k`.
     pub(super) fn is_held(&self, axis: usize, k: u64) -> bool {
         let held = |u: &Underway| u.motion.is_held(k.saturating_sub(u.k));
         self.lanes.get(axis).is_some_and(|lane| lane.underway.as_ref().is_some_and(held))
     }
 
-    /// An oscillation ends when the axis comes to its second position; all of them if no axis is named.
+    /// Ends oscillations when the axes reach their second position; all of them if no axes are given.
     pub(super) fn end_oscillations(&mut self, axes: Option<&[usize]>) -> Vec<usize> {
         let mut ended = Vec::new();
         for (axis, lane) in self.lanes.iter_mut().enumerate() {
@@ -189,13 +191,13 @@ impl IndependentAxes {
         ended
     }
 
-    /// The block of a motion that has ended, once.
+    /// The block of a motion that has ended, returned once.
     pub(super) fn take_ended(&mut self, axis: usize) -> Option<SourceRef> {
         let lane = self.lanes.get_mut(axis)?;
         std::mem::take(&mut lane.ended).then_some(lane.source)
     }
 
-    /// Way of an axis in cycle `k`; cycles do not fall.
+    /// Way of an axis in cycle `k`; cycles must not decrease.
     pub(super) fn way_mm(&mut self, axis: usize, k: u64) -> f64 {
         let Some(lane) = self.lanes.get_mut(axis) else { return 0.0 };
         let Some(underway) = &lane.underway else { return lane.done_mm };
@@ -213,7 +215,7 @@ impl IndependentAxes {
         way_mm
     }
 
-    /// The position of an axis at rest changes without a motion.
+    /// Changes the position of an axis at rest without a motion.
     pub(super) fn shift(&mut self, axis: usize, offset_mm: f64) {
         if let Some(lane) = self.lanes.get_mut(axis) {
             lane.done_mm += offset_mm;
@@ -221,7 +223,7 @@ impl IndependentAxes {
         }
     }
 
-    /// An axis follows another one from now on.
+    /// Couples an axis to another one from now on.
     pub(super) fn couple(&mut self, slave: usize, master: usize, ratio: f64, master_mm: f64) {
         if let Some(lane) = self.lanes.get_mut(slave) {
             lane.coupling = Some(Coupling { master, ratio, master_mm, way_mm: 0.0 });
@@ -229,7 +231,7 @@ impl IndependentAxes {
         }
     }
 
-    /// An axis stays at the position it has reached.
+    /// Uncouples an axis, which stays at its present position.
     pub(super) fn uncouple(&mut self, slave: usize) {
         if let Some(lane) = self.lanes.get_mut(slave)
             && let Some(coupling) = lane.coupling.take()
@@ -238,7 +240,7 @@ impl IndependentAxes {
         }
     }
 
-    /// Adds to the positions of slaves what they go with their masters; everything else is in them.
+    /// Adds the way of the masters to the positions of their slaves; `positions` already contain everything else.
     pub(super) fn follow(&mut self, positions: &mut [f64]) {
         for (axis, lane) in self.lanes.iter_mut().enumerate() {
             let Some(coupling) = &mut lane.coupling else { continue };
@@ -249,8 +251,8 @@ impl IndependentAxes {
         }
     }
 
-    /// The set position of an axis contains a way that is still changing, after its filters too; `settled`: its set
-    /// position has arrived.
+    /// Whether the set position of an axis contains a way that is still changing, before or after its filters;
+    /// `settled`: its set position has arrived.
     pub(super) fn is_on_its_way(&mut self, axis: usize, settled: bool) -> bool {
         let Some(lane) = self.lanes.get_mut(axis) else { return false };
         lane.settles = lane.underway.is_some() || lane.settles && !settled;
@@ -272,12 +274,12 @@ impl IndependentAxes {
         self.lanes.get(axis).is_some_and(|lane| lane.underway.is_some())
     }
 
-    /// It goes to and fro.
+    /// Whether the axis oscillates.
     pub(super) fn oscillates(&self, axis: usize) -> bool {
         self.lanes.get(axis).is_some_and(|lane| lane.oscillation.is_some())
     }
 
-    /// One is on its way to a target.
+    /// Whether any axis is moving to a target.
     pub(super) fn any_moving_once(&self) -> bool {
         self.lanes.iter().any(|lane| lane.underway.is_some() && lane.oscillation.is_none())
     }
@@ -286,7 +288,7 @@ impl IndependentAxes {
         self.lanes.iter().any(|lane| lane.underway.is_some())
     }
 
-    /// Brings all of them to a stop from cycle `k` on.
+    /// Stops all motions from cycle `k` on.
     pub(super) fn stop(&mut self, k: u64) -> Result<(), Infeasible> {
         for lane in &mut self.lanes {
             lane.oscillation = None;

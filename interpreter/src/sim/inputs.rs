@@ -1,7 +1,7 @@
 //! Real-time inputs of a run: override, feedhold, and external influences on single axes.
 //!
 //! A value holds until the next one of its signal. It acts on an axis from the first cycle on that is not earlier than
-//! its time; the path follows its contour unchanged up to that cycle and bends from there.
+//! its time; the path follows its contour unchanged up to that cycle and changes from there.
 
 use crate::diag::{Condition, Diagnostic, rounded};
 use crate::machine::{Axis, AxisKind, Machine, RapidOverride};
@@ -15,21 +15,21 @@ use std::fmt;
 /// One input of a run. Axes are numbered as in [`Machine::all_axes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Signal {
-    /// `override_percent`: real-time override of feed blocks, 0 to 200 %, default 100; of rapid blocks too unless
-    /// P-CHAN-00181 says otherwise. What it is a percentage of is P-CHAN-00066.
+    /// `override_percent`: real-time override of feed blocks, 0 to 200 %, default 100; also of rapid blocks unless
+    /// P-CHAN-00181 says otherwise. P-CHAN-00066 selects the value that it is a percentage of.
     Override,
     /// `rapid_override_percent`: real-time override of rapid blocks (P-CHAN-00181), 0 to 200 %, default 100.
     RapidOverride,
-    /// `feedhold`: 1 holds the path, 0 releases it; default 0. How it brakes is P-CHAN-00097.
+    /// `feedhold`: 1 holds the path, 0 releases it; default 0. P-CHAN-00097 selects the deceleration.
     ///
     /// Assumption: dwells and waits continue under feedhold; it holds the path, and independent axes (P-AXIS-00540).
     Feedhold,
     /// `probe`: 1 is the signal of the probe in measuring runs (G100, G310); default 0.
     Probe,
-    /// `X_probe_mm`: position of an axis in mm (deg) where the probe signals, if the actual position passes it in a
+    /// `X_probe_mm`: position of an axis in mm (deg) at which the probe signals, if the actual position passes it in a
     /// measuring run.
     Surface(usize),
-    /// `wear_mm`: wear of a grinding wheel that the PLC would give (`#OTC` with DISC or AUTO); default 0.
+    /// `wear_mm`: wear of a grinding wheel that the PLC would provide (`#OTC` with DISC or AUTO); default 0.
     Wear,
     /// `X_add_mm`: position of the additional interface of an axis in mm (deg), before its filter.
     Additional(usize),
@@ -74,7 +74,7 @@ impl Signal {
         }
     }
 
-    /// Why the signal changes nothing on this machine.
+    /// The reason why the signal has no effect on this machine.
     fn without_effect(self, machine: &Machine) -> Option<Diagnostic> {
         let warning = |text: String| Diagnostic::new(Condition::InputNoEffect, text);
         match self {
@@ -119,10 +119,10 @@ pub struct Change {
 }
 
 impl Change {
-    /// A value from a program time in s on.
+    /// A value that holds from a program time in s on.
     ///
     /// # Errors
-    /// What is wrong with the value; feedhold and probe are 0 or 1.
+    /// A description of the error; feedhold and probe are 0 or 1.
     pub fn new(time_s: f64, signal: Signal, value: f64) -> Result<Self, String> {
         let (low, high) = signal.range();
         let switch = matches!(signal, Signal::Feedhold | Signal::Probe);
@@ -165,13 +165,13 @@ pub(super) struct Inputs {
     feed_ratio: f64,
     rapid_ratio: f64,
     pub(super) feedhold: bool,
-    /// The probe signals.
+    /// Whether the probe signals.
     pub(super) probe: bool,
     /// External wear of a grinding wheel.
     pub(super) wear_mm: f64,
-    /// What is said once.
+    /// Conditions that are reported once.
     told: BTreeSet<Condition>,
-    /// Where it signals, for each path axis.
+    /// Position at which the probe signals, for each path axis.
     pub(super) surfaces_mm: Vec<Option<f64>>,
     pub(super) axes: Vec<AxisInputs>,
     seen: BTreeSet<Signal>,
@@ -184,7 +184,7 @@ impl fmt::Debug for Inputs {
 }
 
 impl Inputs {
-    /// No input at all for so many axes.
+    /// No inputs, for this number of axes.
     pub(super) fn none(axes: usize) -> Self {
         Self {
             changes: Box::new(std::iter::empty()),
@@ -213,22 +213,22 @@ impl Inputs {
         Ok(())
     }
 
-    /// No value will ever change any more.
+    /// Whether no value will ever change any more.
     pub(super) const fn is_over(&self) -> bool {
         self.next.is_none()
     }
 
-    /// The next change is due at a time.
+    /// Whether the next change is due at a time.
     pub(super) fn is_due(&self, time_s: f64, cycle: CycleTime) -> bool {
-        // a billionth of a cycle: times are decimal numbers, cycles binary ones
+        // a margin of a billionth of a cycle: times are decimal numbers, cycles binary ones
         let late = time_s + 1e-9 * cycle.seconds();
         self.next.is_some_and(|c| c.time_s <= late)
     }
 
-    /// Takes over what is due at a time; true if there was something.
+    /// Applies the changes due at a time; true if there were any.
     ///
     /// # Errors
-    /// What the source of the changes says; the values stay.
+    /// The error of the source of the changes; the values stay.
     pub(super) fn take_due(
         &mut self,
         time_s: f64,
@@ -267,12 +267,13 @@ impl Inputs {
         Ok(any)
     }
 
-    /// True once: that the wear from outside is limited has not been said yet.
+    /// Whether the limit of the external wear has not been reported yet; true once.
     pub(super) fn tells_wear_limit(&mut self) -> bool {
         self.told.insert(Condition::WearLimited)
     }
 
-    /// Once: that an override is limited (P-CHAN-00056), or would be on a control without an entry in its list.
+    /// The message, once, that an override is limited (P-CHAN-00056), or would be on a control without an entry in its
+    /// list.
     fn tells_largest_override(&mut self, ratio: f64, machine: &Machine) -> Option<Diagnostic> {
         let listed = machine.channel.most_override;
         if ratio <= listed.unwrap_or(1.0) || !self.told.insert(Condition::OverrideLimited) {
@@ -295,12 +296,12 @@ impl Inputs {
         &mut self.axes[i]
     }
 
-    /// They keep a thread from beginning; `full_override`: the override does not act on it.
+    /// Whether the inputs keep a thread from beginning; `full_override`: the override does not act on it.
     pub(super) fn bar(&self, full_override: bool) -> bool {
         self.feedhold || (self.feed_ratio <= 0.0 && !full_override)
     }
 
-    /// Reasons why the path does not have the speed that a thread needs.
+    /// The input because of which the path does not have the speed that a thread needs.
     pub(super) fn changes_speed(&self, full_override: bool) -> Option<SpeedChange> {
         if self.feedhold {
             return Some(SpeedChange::Feedhold);

@@ -1,6 +1,6 @@
-//! What leaves the simulation: its cycles as rows, points of them to be measured against the contour, and messages.
+//! The output of the simulation: its cycles as rows, points to be measured against the contour, and messages.
 //!
-//! The simulation never looks at the deviation of its output, so it may be measured later, on another thread.
+//! The simulation never uses the deviation of its output, so it can be measured later, on another thread.
 
 use super::{Simulation, fault};
 use crate::diag::{Condition, Diagnostic, Severity};
@@ -10,19 +10,20 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::deviation::{Change, Meter};
 use kontur_motion::tolerance::Unkept;
 
-/// Messages of the program that are kept until they are taken: without motion a loop gives millions at once.
+/// Largest number of messages of the program that are kept until they are taken: a loop without motion raises millions
+/// at once.
 pub(super) const MESSAGES_MAX: usize = 10_000;
 
-/// Points of consecutive cycles, and what they are measured to be.
+/// Points of consecutive cycles, and their measured deviation.
 #[derive(Debug, Default)]
 pub(crate) struct Samples {
-    /// Path axes.
+    /// Number of path axes.
     axes: usize,
     cycles: Vec<Sample>,
-    /// Of each cycle, axis by axis: the set points without the ways of independent axes, then the interpolated ones. What is
-    /// measured takes their place: the shortest vector to the contour, then the larger of both ways.
+    /// For each cycle, axis by axis: the set points without the ways of independent axes, then the interpolated points.
+    /// The results replace them: the shortest vector to the contour, then the larger deviation of both directions.
     values: Vec<f64>,
-    /// Of the contour, each with the number of the first sample that knows it.
+    /// Changes of the contour, each with the number of the first sample after it.
     changes: Vec<(usize, Change)>,
     /// The first excess of a run, and the number of its sample.
     exceeded: Option<(usize, Unkept)>,
@@ -41,18 +42,18 @@ struct Sample {
     length_mm: f64,
 }
 
-/// What is to be measured of a cycle.
+/// The measurement that a cycle requires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wanted {
     Nothing,
     /// The set point is the interpolated one, bit for bit.
     Unshaped,
-    /// Filters have moved the set point away from it.
+    /// Filters have moved the set point away from the interpolated one.
     Shaped,
 }
 
 impl Samples {
-    /// No samples, keeping the memory.
+    /// Removes all samples but keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.cycles.clear();
         self.values.clear();
@@ -60,7 +61,7 @@ impl Samples {
         (self.exceeded, self.said_at) = (None, None);
     }
 
-    /// Writes what was measured into the rows of its cycles.
+    /// Writes the results into the rows of their cycles.
     pub(crate) fn fill(&self, rows: &mut RowBuffer) {
         let n = self.axes;
         let measured = || self.cycles.iter().enumerate().filter(|s| s.1.wanted != Wanted::Nothing);
@@ -79,7 +80,7 @@ impl Samples {
         }
     }
 
-    /// Writes what was measured in the last cycle into its record.
+    /// Writes the results of the last cycle into its record.
     pub(crate) fn fill_last(&self, record: &mut CycleRecord) {
         let Some((i, sample)) = self.cycles.iter().enumerate().next_back() else { return };
         if sample.wanted == Wanted::Nothing {
@@ -123,7 +124,7 @@ impl Simulation {
         into.axes = n;
         let number = into.cycles.len();
         into.changes.extend(self.planner.take_changes().map(|change| (number, change)));
-        // what is measured against the contour: the set position without the ways of independent axes; while one of them
+        // the set position without the ways of independent axes is measured against the contour; while one of them
         // moves, it does not count
         let alone = !self.independent.is_unused();
         let position = &self.planner.setpoint().position[..n];
@@ -141,7 +142,7 @@ impl Simulation {
         }
         into.values.extend_from_slice(position);
         let wanted = match is_measured {
-            // nothing was output yet
+            // before the first output
             _ if self.record.k == 0 => Wanted::Nothing,
             false => Wanted::Nothing,
             true if shaped => Wanted::Shaped,
@@ -154,7 +155,7 @@ impl Simulation {
         rows.push(&self.record);
     }
 
-    /// What the deviation of the first sample that exceeds a tolerance says, once.
+    /// The message about the first sample that exceeds a tolerance, returned once.
     pub(crate) fn exceeded(&mut self, samples: &mut Samples) -> Option<Diagnostic> {
         let (i, exceeded) = samples.exceeded.take()?;
         let mut d = fault::exceeded(&exceeded);
@@ -163,7 +164,7 @@ impl Simulation {
     }
 }
 
-/// Measures the cycles of a run against the contour, in their order, from the first one on.
+/// Measures the cycles of a run against the contour, in order, from the first one on.
 #[derive(Debug, Default)]
 pub(crate) struct Measuring {
     meter: Meter,
@@ -171,7 +172,8 @@ pub(crate) struct Measuring {
 }
 
 impl Measuring {
-    /// Measures nothing but the set points until a block demands a tolerance; not a number (NaN) instead of both ways.
+    /// Measures only the set points until a block requires a tolerance; the deviation in both directions is NaN until
+    /// then.
     pub(crate) fn set_points_only(&mut self) {
         self.meter.set_points_only();
     }
@@ -215,11 +217,11 @@ impl Measuring {
 /// Messages of a run that have not been taken yet.
 #[derive(Debug, Default)]
 pub(crate) struct Messages {
-    /// Of the simulation, in the order of raising.
+    /// Messages of the simulation, in the order they were raised.
     pub(super) own: Vec<Diagnostic>,
-    /// Messages of the program (`#MSG`) that are not among them.
+    /// Number of messages of the program (`#MSG`) that were dropped.
     pub(super) unshown: u64,
-    /// Of the executor, in the order of raising.
+    /// Messages of the executor, in the order they were raised.
     pub(super) program: Vec<Diagnostic>,
 }
 
@@ -237,14 +239,14 @@ impl Messages {
         }
     }
 
-    /// Adds one, if there is one.
+    /// Adds a message, if there is one.
     pub(crate) fn extend(&mut self, message: Option<Diagnostic>) {
         if let Some(message) = message {
             self.push(message);
         }
     }
 
-    /// Adds later ones, if there are any.
+    /// Adds later messages, if there are any.
     pub(crate) fn absorb(&mut self, later: Option<Self>) {
         let Some(Self { own, unshown, program }) = later else { return };
         for message in own {
@@ -254,7 +256,7 @@ impl Messages {
         self.program.extend(program);
     }
 
-    /// All of them, as a list.
+    /// Takes all messages as a list.
     pub(crate) fn take(&mut self) -> Vec<Diagnostic> {
         let Self { mut own, unshown, program } = std::mem::take(self);
         if unshown > 0 {

@@ -1,19 +1,19 @@
 //! Detects waits for axes that cannot end: the loop is at rest, or oscillates without decaying.
 //!
-//! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
-//! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
-//! of less than a thousandth means a standstill, unless it grows: a slow filter has only begun to move then. A vibration that settles loses more than a thousandth of its
-//! amplitude in one of ten periods.
+//! The loop is linear and its input is constant. A settling distance decreases by at least the share `P / tau` in a
+//! period `P`. The slowest loop that a list can describe (kv = 0.01/s) has `tau` = 100 s, so a change of less than a
+//! thousandth means a standstill, unless the change increases: then a slow filter has only just begun to move. A
+//! decaying vibration loses more than a thousandth of its amplitude in one of ten periods.
 
 use kontur_filters::time::CycleTime;
 
 /// Shortest and longest period in s for detecting a standstill.
 const PERIOD_S: (f64, f64) = (0.2, 1.0);
-/// Period in s over which vibrations are compared: slower ones than 1 Hz are not vibrations of a machine.
+/// Period in s over which vibrations are compared; machines do not vibrate at less than 1 Hz.
 const SWING_S: f64 = 1.0;
-/// Relative change in a period below which nothing changes any more.
+/// Relative change in a period below which the distance counts as constant.
 const CHANGE: f64 = 1e-3;
-/// Periods without a smaller amplitude after which a vibration is lasting.
+/// Number of periods without a smaller amplitude after which a vibration counts as permanent.
 const SWINGS: u32 = 10;
 
 /// Distances of one period.
@@ -27,7 +27,7 @@ struct Period {
 impl Period {
     const EMPTY: Self = Self { cycles: 0, low_mm: f64::INFINITY, high_mm: f64::NEG_INFINITY };
 
-    /// Takes one cycle; the range of the distances at the end of the period.
+    /// Adds one cycle; returns the range of the distances at the end of the period.
     fn add(&mut self, distance_mm: f64, length_s: f64, cycle: CycleTime) -> Option<(f64, f64)> {
         self.cycles += 1;
         self.low_mm = self.low_mm.min(distance_mm);
@@ -41,14 +41,14 @@ impl Period {
     }
 }
 
-/// What was seen of an axis that does not arrive.
+/// Observations of an axis that does not arrive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     still: Period,
-    /// Way of the period before.
+    /// Way in the previous period.
     way_mm: f64,
     swing: Period,
-    /// Range of the period before of the vibration.
+    /// Range in the previous period of the vibration.
     before_mm: (f64, f64),
     swings: u32,
 }
@@ -62,8 +62,8 @@ impl Default for Patience {
 }
 
 impl Patience {
-    /// One cycle at a distance from where the axis should be (signed); true when it will not get there. A standstill is
-    /// watched over the settling time, 1 s without one.
+    /// One cycle at a distance from the required position (signed); true when the axis will not get there. A standstill
+    /// is observed over the settling time, or 1 s without one.
     pub(super) fn is_over(
         &mut self,
         distance_mm: f64,
@@ -73,7 +73,7 @@ impl Patience {
         let length_s = settling_s.unwrap_or(PERIOD_S.1).clamp(PERIOD_S.0, PERIOD_S.1);
         let peak = |(low, high): (f64, f64)| low.abs().max(high.abs());
         if let Some(range) = self.swing.add(distance_mm, SWING_S, cycle) {
-            // what moves one way leaves the range of the period before
+            // a motion in one direction leaves the range of the previous period
             let returns = range.0 < self.before_mm.1 && range.1 > self.before_mm.0;
             let lasts = peak(range) >= (1.0 - CHANGE) * peak(self.before_mm);
             self.swings = if returns && lasts { self.swings + 1 } else { 0 };
@@ -92,7 +92,7 @@ impl Patience {
 mod tests {
     use super::*;
 
-    /// Cycles until the patience ends, at most 100 s.
+    /// Number of cycles until the wait is given up, at most 100 s.
     fn ends(settling_s: Option<f64>, distance_mm: impl Fn(f64) -> f64) -> Option<u32> {
         let mut patience = Patience::default();
         (0..100_000_u32).find(|k| {
@@ -104,7 +104,7 @@ mod tests {
     fn standing_still_is_seen_within_a_settling_time() {
         assert_eq!(ends(Some(0.3), |_| 0.02), Some(299));
         assert_eq!(ends(None, |_| -0.02), Some(999));
-        // settles at 0.02 mm with 20 ms: at rest after some 0.2 s
+        // settles at 0.02 mm with 20 ms: at rest after about 0.2 s
         let settles = |t: f64| 0.02 + 2.0 * libm::exp(-t / 0.02);
         let k = ends(Some(0.2), settles).unwrap();
         assert!((399..800).contains(&k), "{k}");
@@ -112,7 +112,8 @@ mod tests {
 
     #[test]
     fn what_still_settles_is_waited_for() {
-        // what gets faster, as a filter of higher order at first, the slowest gain of a list, and vibrations down to a damping of 0.001
+        // an accelerating motion, like the start of a filter of higher order; the lowest gain of a list; vibrations
+        // with a damping down to 0.001
         assert_eq!(ends(Some(0.2), |t| 2.0 - libm::pow(t / 100.0, 3.0)), None);
         assert_eq!(ends(Some(0.2), |t| 2.0 * libm::exp(-t / 100.0)), None);
         for (f, d) in [(1.0, 0.001), (11.0, 0.02), (53.0, 0.001)] {

@@ -1,9 +1,9 @@
 //! The probe of measuring runs: it signals at a time or where an axis passes a position, and the path stops.
 //!
-//! Assumption: the signal of `probe` latches the actual positions of the cycle in which it acts, that of `X_probe_mm` the
-//! positions at which the actual position of the axis passes it, with a straight line between two cycles. The path brakes
-//! as under feedhold, with the slope of its block. Measuring type 7 has no probe: its signal is the lag of an axis, which
-//! is at a fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
+//! Assumption: the signal of `probe` latches the actual positions of the cycle in which it acts, that of `X_probe_mm`
+//! those at which the actual position of the axis passes it, interpolated linearly between two cycles. The path brakes
+//! as under feedhold, with the slope of its block. Measuring type 7 has no probe: its signal is the lag of an axis at a
+//! fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
 
 use super::inputs::Inputs;
 use super::{Phase, Simulation};
@@ -15,18 +15,18 @@ use kontur_motion::axis::AxisVec;
 /// A measuring run.
 #[derive(Clone, Debug)]
 pub(super) struct Probing {
-    /// The signal does not stop the path.
+    /// Whether the path continues through the signal.
     through: bool,
-    /// Axes whose lag is the signal, with the lag in mm (deg); without any it is the probe.
+    /// Axes whose lag is the signal, with that lag in mm (deg); if empty, the signal is that of the probe.
     stops: Vec<(usize, f64)>,
-    /// Actual positions in the cycle before.
+    /// Actual positions in the previous cycle.
     before_mm: AxisVec,
     /// Actual positions at the signal.
     signal_mm: Option<AxisVec>,
 }
 
 impl Probing {
-    /// The path is to stop, or has stopped.
+    /// Whether the path is to stop, or has stopped.
     pub(super) fn holds(&self) -> bool {
         self.signal_mm.is_some() && !self.through
     }
@@ -61,7 +61,7 @@ pub(super) fn signal(inputs: &Inputs, before_mm: &[f64], now_mm: &[f64]) -> Opti
 }
 
 impl Simulation {
-    /// The next motion is a measuring run: nothing of it has been driven yet.
+    /// Makes the next motion a measuring run, before any of it has been executed.
     pub(super) fn begin_probing(&mut self, through: bool, stops: &[usize]) {
         let before_mm = self.actual_mm();
         let limit =
@@ -81,7 +81,7 @@ impl Simulation {
         }
     }
 
-    /// What the program has to know about the machine, unless it has been given this cycle: many steps in a row ask for it.
+    /// The state of the machine that the program needs, once per cycle: many successive steps request it.
     pub(super) fn feedback(&mut self) -> Option<Feedback> {
         let k = self.planner.setpoint().k;
         let measured = self.end_probing();
@@ -112,7 +112,7 @@ impl Simulation {
         values
     }
 
-    /// Looks for the signal after a cycle; the path bends from the next one on.
+    /// Checks for the signal after a cycle; the path brakes from the next one on.
     pub(super) fn watch_probe(&mut self) {
         if self.probing.is_none() || !matches!(self.phase, Phase::Running) {
             return;
@@ -128,7 +128,7 @@ impl Simulation {
         }
     }
 
-    /// The path is where the signal has stopped it: what is left of the run is dropped.
+    /// Drops the rest of the run once the path is where the signal has stopped it.
     pub(super) fn drop_rest_of_run(&mut self) -> bool {
         let stopped = self.probing.as_ref().is_some_and(Probing::holds);
         if stopped {
@@ -137,7 +137,7 @@ impl Simulation {
         stopped
     }
 
-    /// What a run has found, when it is over.
+    /// The result of a run when it is over.
     pub(super) fn end_probing(&mut self) -> Option<Box<Probed>> {
         let Probing { signal_mm, .. } = self.probing.take()?;
         self.hold_path();

@@ -1,4 +1,5 @@
-//! What the inputs of a run do to the path and to everything that moves independently of it: override, feedhold, and a hold without end.
+//! Effects of the inputs of a run on the path and on all independent motions: override, feedhold, and a hold without
+//! end.
 
 use super::{Phase, Probing, Simulation, fault};
 use crate::diag::Diagnostic;
@@ -6,7 +7,7 @@ use kontur_motion::independent::Steering;
 use kontur_motion::realtime::FeedholdBraking;
 
 impl Simulation {
-    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends after the cycle.
+    /// Applies the inputs that are due in cycle `k`: to the axes at once, to the path after the cycle.
     pub(super) fn take_inputs(&mut self, k: u64) {
         let time_s = self.cycle.time_of(k);
         match self.inputs.take_due(time_s, &self.machine, &mut self.messages.own) {
@@ -24,7 +25,7 @@ impl Simulation {
         self.hold_path();
     }
 
-    /// Feedhold and the signal of the probe brake the path, or let it continue.
+    /// Brakes the path because of feedhold or the probe signal, or lets it continue.
     pub(super) fn hold_path(&mut self) {
         let own = self.machine.channel.own_feed_hold && self.inputs.feedhold;
         let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
@@ -53,7 +54,7 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    /// Notes whether feedhold or override 0 keeps the path at rest in this cycle; a hold without end ends the run.
+    /// Notes whether feedhold or override 0 keeps the path at rest in this cycle; a permanent hold ends the run.
     pub(super) fn look_for_hold(&mut self) {
         self.is_held = false;
         let setpoint = self.planner.setpoint();
@@ -70,7 +71,7 @@ impl Simulation {
         }
     }
 
-    /// K-0083: nothing will release the path any more.
+    /// K-0083: the path can never be released.
     pub(super) fn held_for_ever(&mut self) {
         let k = self.planner.setpoint().k;
         self.messages.own.push(fault::held(k, self.cycle, self.inputs.feedhold));
@@ -78,7 +79,7 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    /// Gives override and feedhold to the axes that move, or will move, independently of the path.
+    /// Passes override and feedhold to the axes that move, or will move, independently of the path.
     fn steer_independent(&mut self) {
         let channel = &self.machine.channel;
         let ratios = self.inputs.ratios(channel.rapid_override);

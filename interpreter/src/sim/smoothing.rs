@@ -9,23 +9,23 @@ use kontur_motion::planner::Planner;
 use kontur_motion::spline::Splining;
 use std::collections::BTreeSet;
 
-/// The two stages in their order.
+/// The two stages in order.
 #[derive(Debug)]
 pub(super) struct Smoothing {
     splining: Splining,
     contouring: Contouring,
-    /// Places of the messages given: number, file, line.
+    /// Places already reported: condition, file, line.
     said: BTreeSet<(Condition, u32, u32)>,
 }
 
 impl Smoothing {
-    /// Stages that hold nothing.
+    /// Empty stages.
     pub(super) fn new(cycle: CycleTime) -> Self {
         let (splining, contouring) = (Splining::new(cycle), Contouring::new(cycle));
         Self { splining, contouring, said: BTreeSet::new() }
     }
 
-    /// Takes a programmed motion; what is final goes to the planner.
+    /// Takes a programmed motion; final blocks go to the planner.
     pub(super) fn push(&mut self, block: Box<Block>, planner: &mut Planner) {
         if self.splining.passes(&block) && self.contouring.passes(&block) {
             planner.push(block);
@@ -38,7 +38,7 @@ impl Smoothing {
         }
     }
 
-    /// The path stops after the last motion: everything goes to the planner.
+    /// Passes everything to the planner, where the path stops after the last motion.
     pub(super) fn flush(&mut self, planner: &mut Planner) {
         for block in self.splining.flush(planner.has_kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
@@ -50,14 +50,14 @@ impl Smoothing {
         }
     }
 
-    /// Corners that were not contoured as asked for, since the last call.
+    /// The corners since the last call that were not contoured as programmed.
     pub(super) fn take_notices(&mut self) -> Vec<Notice> {
         let mut notices = self.splining.take_notices();
         notices.append(&mut self.contouring.take_notices());
         notices
     }
 
-    /// True for the first message of this condition about a place.
+    /// Whether this is the first message of this condition about a place.
     pub(super) fn is_new(&mut self, condition: Condition, source: SourceRef) -> bool {
         self.said.insert((condition, source.file, source.line))
     }

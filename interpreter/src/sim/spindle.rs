@@ -1,4 +1,4 @@
-//! Set position of a spindle: turning, positioning, going with the path.
+//! Set position of a spindle: turning, positioning, following the path.
 
 mod turning;
 
@@ -9,7 +9,7 @@ use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::profile::Profile;
 use turning::Turning;
 
-/// Positioning after M19: the profile, where it began, cycles since.
+/// Positioning after M19: the profile, its start, and the cycles since.
 #[derive(Clone, Debug)]
 struct Positioning {
     profile: Profile,
@@ -27,13 +27,13 @@ pub(super) struct Spindle {
     /// Weight of the acceleration (G130).
     acc_ratio: f64,
     v_max_deg_s: f64,
-    /// What its tool allows.
+    /// Limits of its tool.
     tool: Option<SpindleLimits>,
     position_deg: f64,
     turning: Turning,
     wanted: SpindleMotion,
     positioning: Option<Positioning>,
-    /// Where a positioning that has just begun will end.
+    /// Target of a positioning that has just begun.
     target_deg: Option<f64>,
     /// Tapping.
     following: Option<Following>,
@@ -41,7 +41,7 @@ pub(super) struct Spindle {
     cutting: Option<CuttingSpeed>,
 }
 
-/// A spindle that turns with the way of a path axis.
+/// A spindle that follows the way of a path axis.
 #[derive(Clone, Copy, Debug)]
 struct Following {
     axis: usize,
@@ -67,7 +67,7 @@ impl Spindle {
         }
     }
 
-    /// Goes with the way of a path axis from its present position on, or comes to rest again.
+    /// Follows the way of a path axis from the present position on, or comes to rest again.
     pub(super) fn follow(&mut self, way: Option<(usize, f64)>, position: &[f64]) {
         self.following = way.map(|(axis, deg_per_mm)| Following {
             axis,
@@ -80,7 +80,7 @@ impl Spindle {
         self.turning = Turning::default();
     }
 
-    /// Keeps a cutting speed from now on, or the speed that it has.
+    /// Keeps a cutting speed from now on, or the present speed.
     pub(super) fn keep_cutting_speed(&mut self, cutting: Option<CuttingSpeed>) {
         self.cutting = cutting;
     }
@@ -97,7 +97,8 @@ impl Spindle {
         }
     }
 
-    /// It turns with its speed and passes an angle between this cycle and the next one: the share of the cycle until then.
+    /// The share of a cycle until the spindle, at its commanded speed, passes an angle, if that is before the next
+    /// cycle.
     pub(super) fn mark_ahead(&self, deg: f64, cycle: CycleTime) -> Option<f64> {
         let way = self.turning.speed_deg_s() * cycle.seconds();
         if !self.is_as_told() || way.abs() <= 0.0 {
@@ -107,7 +108,7 @@ impl Spindle {
         (ahead < 1.0).then_some(ahead)
     }
 
-    /// A new motion; what turned continues from its present speed.
+    /// Starts a new motion; a turning spindle continues from its present speed.
     pub(super) fn command(&mut self, motion: SpindleMotion) {
         self.wanted = motion;
         if let SpindleMotion::Position { approach: approach @ Approach::Free, .. } =
@@ -122,22 +123,23 @@ impl Spindle {
         self.positioning = None;
     }
 
-    /// G130: the acceleration of motions and changes of speed that begin from now on.
+    /// G130: weights the acceleration of motions and changes of speed that begin from now on.
     pub(super) fn weigh_acceleration(&mut self, ratio: f64) {
         self.acc_ratio = ratio;
     }
 
-    /// What its tool allows, for motions and changes of speed that begin from now on.
+    /// Sets the limits of the tool for motions and changes of speed that begin from now on.
     pub(super) fn limit(&mut self, tool: Option<SpindleLimits>) {
         self.tool = tool;
     }
 
-    /// Its own largest speed, or that of its tool.
+    /// Maximum speed of the spindle or of its tool in deg/s.
     fn most_deg_s(&self) -> f64 {
         self.tool.map_or(self.v_max_deg_s, |tool| self.v_max_deg_s.min(tool.max_deg_s))
     }
 
-    /// Accelerations and ramp times before the weight, so that the weighted acceleration is not above that of the tool.
+    /// Accelerations and ramp times before the weight, such that the weighted acceleration does not exceed that of the
+    /// tool.
     fn limited_slope(&self) -> FeedSlope {
         let Some(tool) = self.tool else { return self.slope };
         let most = tool.acc_deg_s2 / self.acc_ratio;
@@ -145,22 +147,22 @@ impl Spindle {
         FeedSlope { acc_mm_s2: acc_mm_s2.min(most), dec_mm_s2: dec_mm_s2.min(most), ..self.slope }
     }
 
-    /// It goes with the way of a path axis (tapping).
+    /// Whether it follows the way of a path axis (tapping).
     pub(super) fn follows(&self) -> bool {
         self.following.is_some()
     }
 
-    /// It has been ordered to an angle.
+    /// Whether it is positioned at a commanded angle.
     pub(super) fn positions(&self) -> bool {
         matches!(self.wanted, SpindleMotion::Position { .. })
     }
 
-    /// The set position is still on its way to an angle.
+    /// Whether the set position is still moving to an angle.
     pub(super) fn approaches(&self) -> bool {
         self.positions() && self.positioning.as_ref().is_none_or(|p| !p.arrived)
     }
 
-    /// It turns with its speed, or rests, also at a position it was sent to.
+    /// Whether it turns at its commanded speed or rests, including at a commanded position.
     pub(super) fn is_as_told(&self) -> bool {
         if self.positions() {
             return !self.approaches();
@@ -169,17 +171,17 @@ impl Spindle {
         self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits()
     }
 
-    /// Neither the path nor an angle decides where it is.
+    /// Whether neither the path nor an angle determines its position.
     pub(super) fn turns_freely(&self) -> bool {
         self.following.is_none() && self.cutting.is_none() && !self.positions()
     }
 
-    /// The set position is at rest.
+    /// Whether the set position is at rest.
     pub(super) fn rests(&self) -> bool {
         self.turning.speed_deg_s().abs() <= 0.0 && !self.approaches()
     }
 
-    /// Where the positioning that began in the last cycle will end, once.
+    /// Target of the positioning that began in the last cycle, returned once.
     pub(super) fn take_target(&mut self) -> Option<f64> {
         self.target_deg.take()
     }
@@ -198,7 +200,7 @@ impl Spindle {
         }
     }
 
-    /// Set position of the next cycle in deg, counted on over the turns; `position`: that of the path axes.
+    /// Set position of the next cycle in deg, counted over all turns; `position`: that of the path axes.
     pub(super) fn step(&mut self, position: &[f64], cycle: CycleTime) -> f64 {
         if let Some(Following { axis, deg_per_mm, from_mm, from_deg }) = self.following {
             let way_mm = position.get(axis).map_or(0.0, |x| x - from_mm);
@@ -219,7 +221,8 @@ impl Spindle {
         let most = slope.acc_mm_s2.min(slope.dec_mm_s2) * self.acc_ratio;
         let follows = self.cutting.is_some() && self.turning.is_steady();
         let change = (target - self.turning.speed_deg_s()).abs();
-        // Assumption: under G96 a spindle that has its speed follows the radius, whose changes are those of the path, without ramps
+        // Assumption: under G96 a spindle at its speed follows the radius without ramps; the changes of the radius are
+        // those of the path
         self.position_deg += if follows && change <= most * cycle.seconds() {
             self.turning.set_speed(target, cycle)
         } else {
@@ -228,9 +231,9 @@ impl Spindle {
         self.position_deg
     }
 
-    /// One cycle of the way from rest to an angle.
+    /// One cycle of the motion from rest to an angle.
     ///
-    /// Source: TF5200 spindle, positioning: in the direction that is programmed, in that of the rotation it comes from,
+    /// Source: TF5200 spindle, positioning: in the programmed direction, otherwise in that of the previous rotation,
     /// from rest the shorter way. Assumption: half a turn is clockwise.
     fn approach(&mut self, deg: f64, rpm: Option<f64>, approach: Approach, cycle: CycleTime) {
         if self.positioning.is_none() {

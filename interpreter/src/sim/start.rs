@@ -112,13 +112,13 @@ impl Simulation {
     }
 }
 
-/// Whole cycles in a time in s: one of 0.286 s has 286 of 1 ms, although the quotient of the two is a little less.
+/// Number of whole cycles in a time in s: 286 cycles of 1 ms for 0.286 s, although the quotient is slightly lower.
 fn cycles_in(time_s: f64, cycle: CycleTime) -> u64 {
     const ROUNDING: f64 = 1e-6;
     (time_s / cycle.seconds() + ROUNDING) as u64
 }
 
-/// What keeps the axes of a machine from being simulated: plants that are not physical, or cannot be discretised.
+/// Reasons why axes of a machine cannot be simulated: plants that are not physical, or cannot be discretised.
 pub(crate) fn impossible_axes(machine: &Machine) -> Vec<Diagnostic> {
     let chains = machine.chains().0.into_iter().enumerate();
     let error = |(i, setup)| {

@@ -1,4 +1,4 @@
-//! What a run adds up in addition to its records.
+//! Totals of a run in addition to its records.
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{Event, ShapingSettings, ShapingSetup, SourceRef};
@@ -12,9 +12,9 @@ use std::collections::BTreeMap;
 pub struct SettledStop {
     /// Index into the axes of a record.
     pub axis: usize,
-    /// Block whose stop it was.
+    /// Block of the stop.
     pub source: SourceRef,
-    /// Cycle of t2: the actual position is inside the window.
+    /// Cycle of t2, in which the actual position is inside the window.
     pub k: u64,
     /// t2 - t1 in s.
     pub settling_s: f64,
@@ -23,14 +23,14 @@ pub struct SettledStop {
 /// The exact stops of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stops {
-    /// The first of them, at most [`Self::KEPT`].
+    /// The first stops, at most [`Self::KEPT`].
     pub first: Vec<SettledStop>,
-    /// Per axis: how many, and the slowest.
+    /// Per axis: the number of stops, and the slowest.
     pub axes: BTreeMap<usize, (u64, SettledStop)>,
 }
 
 impl Stops {
-    /// Stops that are kept one by one; a program may stop without end.
+    /// Number of stops that are kept individually, since a program may stop without end.
     pub const KEPT: usize = 1000;
 
     /// Adds a stop.
@@ -46,7 +46,7 @@ impl Stops {
     }
 }
 
-/// A motion as it was programmed, for what is counted of it.
+/// A programmed motion, with the values that count towards the totals.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Programmed {
     length_mm: f64,
@@ -56,7 +56,7 @@ pub(super) struct Programmed {
 }
 
 impl Programmed {
-    /// A motion that comes from the program as the last of so many blocks.
+    /// A motion that is the last of this number of blocks.
     pub(super) fn new(block: &Block, blocks: u64) -> Self {
         let length_mm = block.path.length();
         let ideal_s = match block.feed {
@@ -69,26 +69,25 @@ impl Programmed {
     }
 }
 
-/// How far the path has come in what was programmed: the look-ahead takes more from the program than a run that is stopped
-/// drives.
+/// Progress of the path in the program: the look-ahead takes more from the program than a stopped run executes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Progress {
     /// Ideal time of the motions before the current one.
     done_s: f64,
-    /// The current one; after a stop nothing but the blocks up to there.
+    /// The current motion; after a stop only the number of blocks up to it.
     current: Programmed,
-    /// Path length at which the current one began.
+    /// Path length at which the current motion began.
     from_mm: f64,
 }
 
 impl Progress {
-    /// A motion begins at a path length; the ones before it are complete.
+    /// Begins a motion at a path length; earlier ones are complete.
     pub(super) fn begin(&mut self, motion: Programmed, s_mm: f64) {
         self.complete(self.current.blocks);
         (self.current, self.from_mm) = (motion, s_mm);
     }
 
-    /// Everything up to so many blocks of the program has been executed.
+    /// Marks this number of blocks of the program as executed.
     pub(super) fn complete(&mut self, blocks: u64) {
         self.done_s += self.current.ideal_s;
         self.current = Programmed { blocks, ..Programmed::default() };
@@ -103,7 +102,7 @@ impl Progress {
     }
 }
 
-/// What is known when the last cycle has been computed and what no record holds.
+/// Results that are known when the last cycle has been computed and are not part of any record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Totals {
     /// The program was refused or stopped by an error.
@@ -112,26 +111,26 @@ pub struct Totals {
     pub input_failed: bool,
     /// Exact stops.
     pub stops: Stops,
-    /// Blocks executed, in a run that was stopped those up to the motion in which it was.
+    /// Number of blocks executed; in a stopped run those up to the motion in which it stopped.
     pub blocks: u64,
-    /// Path length / programmed feed of the feed blocks, the way of the slowest axis at its rapid speed of the rapid ones,
-    /// in s: without ramps, corners and limits. Dwells and technology times are not in it. Of a motion in which the run was
-    /// stopped its share of the path counts.
+    /// Path length / programmed feed rate for feed blocks, and the way of the slowest axis at its rapid velocity for
+    /// rapid blocks, in s: without ramps, corners and limits. Dwells and technology times are not included. A motion in
+    /// which the run was stopped counts by its share of the path.
     pub ideal_duration_s: f64,
-    /// What the duration does not contain (M functions, tool changes, spindle run-up).
+    /// Parts that the duration does not include (M functions, tool changes, spindle run-up).
     pub not_counted: Vec<String>,
     /// Largest mean delay of the shaping of each axis in cycles.
     pub filter_delay_cycles: Vec<f64>,
-    /// Settings that the Vibration Guard of an axis (index into the axes of a record) worked with, in the order in which they came up, at most
-    /// [`Self::GUARDS_KEPT`].
+    /// Settings used by the Vibration Guard of an axis (index into the axes of a record), in order of occurrence, at
+    /// most [`Self::GUARDS_KEPT`].
     pub guards: Vec<(usize, VibGuardSettings)>,
 }
 
 impl Totals {
-    /// Different settings of the Vibration Guard that are kept; a program may change them without end.
+    /// Number of different settings of the Vibration Guard that are kept, since a program may change them without end.
     pub(crate) const GUARDS_KEPT: usize = 100;
 
-    /// Notes what the kernels are made from.
+    /// Notes the settings of the kernels.
     pub(super) fn shaped(&mut self, setup: &ShapingSetup) {
         for (axis, shaping) in setup.axes.iter().enumerate() {
             if let ShapingSettings::VibGuard(settings) = shaping.settings
@@ -144,7 +143,7 @@ impl Totals {
         }
     }
 
-    /// Notes an event that moves nothing; a message of the program comes back as a note for the log.
+    /// Notes an event without motion; returns a message of the program as a note for the log.
     pub(super) fn note(&mut self, event: Event, time_s: f64) -> Option<Diagnostic> {
         match event {
             Event::Uncounted { function } => {
@@ -179,7 +178,7 @@ impl Totals {
     }
 }
 
-/// Time that the axis that needs longest takes for its way at a speed.
+/// Time in s of the axis that takes longest for its way at a speed.
 fn slowest_s(block: &Block, speed_mm_s: impl Fn(&AxisDynamics) -> f64) -> f64 {
     let ways = block.path.start().iter().zip(block.path.end().iter()).zip(&block.dynamics.axes);
     let times = ways.map(|((from, to), axis)| (to - from).abs() / speed_mm_s(axis));

@@ -1,4 +1,4 @@
-//! What the machine waits for while the path is at rest, and what happens then.
+//! Waits of the machine while the path is at rest, and what follows them.
 
 use super::axes::Driver;
 use super::chain::{AxisChain, Remaining};
@@ -9,13 +9,13 @@ use crate::exec::{EndReason, ShapingSetup, SpindleState, Sync};
 use crate::record::Rest;
 use kontur_filters::time::CycleTime;
 
-/// What happens when the wait is over.
+/// Action at the end of a wait.
 #[derive(Debug)]
 pub(super) enum Action {
     None,
     Shaping(Box<ShapingSetup>),
     MachineData,
-    /// A path axis has another position.
+    /// A path axis gets another position.
     SetPosition {
         axis: usize,
         offset_mm: f64,
@@ -30,11 +30,11 @@ pub(super) enum Action {
     End(EndReason),
 }
 
-/// When the wait is over.
+/// Condition that ends the wait.
 #[derive(Clone, Debug, PartialEq)]
 enum Until {
     Now,
-    /// Cycles left, of a dwell or of functions of the machine.
+    /// Cycles left of a dwell or of technology functions.
     Cycles(u64, Rest),
     /// Independent axes at their targets, kernels and filters flushed.
     Flushed,
@@ -44,15 +44,15 @@ enum Until {
     Spindle(usize, SpindleState),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition {
-        /// Independent axes on their way too, until they are at their targets; those that oscillate never are.
+        /// Whether it also waits for independent axes to reach their targets; oscillating axes never do.
         alone: bool,
     },
-    /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
-    /// monitors: the last row of the trace shows the axes inside their windows.
+    /// The same for everything that moves, including independent axes and spindles on their way to a position, and as
+    /// seen by the monitors: the last row of the trace shows the axes inside their windows.
     AllInPosition,
 }
 
-/// The moving parts that a wait looks at.
+/// The moving parts that a wait depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts<'a> {
     /// Path axes, spindles, gantry slaves.
@@ -67,7 +67,7 @@ pub(super) struct Parts<'a> {
     pub(super) cycle: CycleTime,
 }
 
-/// A wait with what follows it.
+/// A wait with its action.
 #[derive(Debug)]
 pub(super) struct Wait {
     until: Until,
@@ -93,7 +93,7 @@ impl Wait {
         let (until, action) = match sync {
             Sync::ExactStop { alone } => (Until::InPosition { alone }, Action::None),
             Sync::Spindle { spindle, state } => (Until::Spindle(spindle, state), Action::None),
-            // the delay of the axes runs out in the first cycle of rest
+            // the axis delay expires in the first cycle of rest
             Sync::ThreadEnd => (Until::Cycles(1, Rest::Spindle), Action::ThreadEnd),
             Sync::Stop | Sync::ProgramStop { .. } => (Until::Now, Action::None),
             Sync::Dwell { seconds } => (cycles(seconds, Rest::Dwell), Action::None),
@@ -113,13 +113,13 @@ impl Wait {
         Self { until, action, patience: Patience::default() }
     }
 
-    /// One cycle of rest, so that the trace shows what has changed, also where the program ends.
+    /// One cycle of rest, so that the trace shows the change even where the program ends.
     pub(super) fn for_a_cycle() -> Self {
         let until = Until::Cycles(1, Rest::Flush);
         Self { until, action: Action::None, patience: Patience::default() }
     }
 
-    /// The path has halted: the axes come into their windows.
+    /// Wait at a halt of the path until the axes are in their windows.
     pub(super) fn for_halt() -> Self {
         Self {
             until: Until::InPosition { alone: false },
@@ -128,19 +128,20 @@ impl Wait {
         }
     }
 
-    /// What was called at a halt takes so many seconds.
+    /// Wait for the duration in s of the function called at a halt.
     pub(super) fn before_resuming(seconds: f64, cycle: CycleTime) -> Self {
         let until = Until::Cycles((seconds / cycle.seconds()).round() as u64, Rest::Technology);
         Self { until, action: Action::Resume, patience: Patience::default() }
     }
 
-    /// The end of the program: every axis has arrived.
+    /// Wait at the end of the program until every axis has arrived.
     pub(super) fn for_end(reason: EndReason) -> Self {
         let action = Action::End(reason);
         Self { until: Until::AllInPosition, action, patience: Patience::default() }
     }
 
-    /// Axes that it waits for no longer oscillate; returns those for which neither the program nor its end says so.
+    /// Ends the oscillations of the axes it waits for; returns those for which neither the program nor its end requires
+    /// that.
     pub(super) fn end_oscillations(&self, independent: &mut IndependentAxes) -> Vec<usize> {
         match &self.until {
             Until::Arrived(axes) => {
@@ -157,14 +158,14 @@ impl Wait {
         }
     }
 
-    /// The chains that the wait looks at, with their numbers.
+    /// The chains that the wait depends on, with their indices.
     fn awaited<'a>(
         &'a self,
         parts: Parts<'a>,
     ) -> impl Iterator<Item = (usize, &'a AxisChain)> + 'a {
         let concerns = move |driver: Driver| match (&self.until, driver) {
             (Until::Arrived(axes), Driver::Path(p)) => axes.contains(&p),
-            // axes on their way alone have no exact stop here
+            // independently moving axes have no exact stop here
             (Until::InPosition { alone: true }, Driver::Path(p)) => {
                 !parts.independent.oscillates(p)
             }
@@ -180,7 +181,7 @@ impl Wait {
         chains.filter(move |(_, (_, driver))| concerns(**driver)).map(|(i, (chain, _))| (i, chain))
     }
 
-    /// Something that the wait depends on is still moving.
+    /// Whether something that the wait depends on is still moving.
     fn under_way(&self, parts: Parts<'_>) -> bool {
         match &self.until {
             Until::Now | Until::Cycles(..) | Until::InPosition { alone: false } => false,
@@ -200,7 +201,7 @@ impl Wait {
         }
     }
 
-    /// Every independent axis that it waits for is held in cycle `k`.
+    /// Whether every independent axis that it waits for is held in cycle `k`.
     pub(super) fn is_held(&self, independent: &IndependentAxes, k: u64) -> bool {
         let awaited = |axis: &usize| match &self.until {
             Until::Arrived(axes) => axes.contains(axis),
@@ -214,7 +215,7 @@ impl Wait {
         moving.next().is_some_and(held) && moving.all(held)
     }
 
-    /// What keeps a chain from being where the wait wants it.
+    /// What a chain lacks for the wait to be over.
     fn remaining(&self, chain: &AxisChain) -> Option<Remaining> {
         let position = matches!(self.until, Until::InPosition { .. } | Until::AllInPosition);
         chain.unsettled().or_else(|| position.then(|| chain.out_of_position()).flatten())
@@ -240,8 +241,8 @@ impl Wait {
                 || self.awaited(parts).all(|(_, c)| !c.settles()))
     }
 
-    /// One cycle in which the wait is not over and no input will change any more: the chain that will never arrive, and
-    /// what it lacks.
+    /// One cycle in which the wait is not over and no input will change any more; returns the chain that will never
+    /// arrive, and what it lacks.
     pub(super) fn hopeless(
         &mut self,
         parts: Parts<'_>,
@@ -258,14 +259,15 @@ impl Wait {
         self.patience.is_over(worst.distance_mm, settling_s, cycle).then_some((i, worst))
     }
 
-    /// Its cycles belong to its own block, not to the motion before; in the one at the end of a thread the axes complete that.
+    /// Whether its cycles belong to its own block rather than to the motion before; in the cycle at the end of a thread
+    /// the axes complete the thread.
     pub(super) fn is_of_its_own_block(&self) -> bool {
         let waits =
             matches!(self.until, Until::Cycles(..) | Until::Spindle(..) | Until::Arrived(_));
         waits && !matches!(self.action, Action::ThreadEnd)
     }
 
-    /// The mark that the wait is for.
+    /// The spindle mark that is awaited.
     pub(super) fn mark(&self) -> Option<AwaitedMark> {
         match self.until {
             Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {
@@ -275,7 +277,7 @@ impl Wait {
         }
     }
 
-    /// What the path rests for.
+    /// The reason why the path rests.
     pub(super) fn rest(&self) -> Rest {
         match self.until {
             Until::Cycles(_, rest) => rest,
@@ -286,7 +288,7 @@ impl Wait {
         }
     }
 
-    /// One cycle goes by.
+    /// Counts one cycle.
     pub(super) fn count(&mut self) {
         if let Until::Cycles(n, _) = &mut self.until {
             *n = n.saturating_sub(1);

@@ -2,15 +2,16 @@
 //!
 //! Source: TF5200 online tool compensation (213655947, 213664139, 213718539).
 //!
-//! Assumptions, where the pages are silent: the way counts from `#OTC ON` on, with RADIUS only what is driven along the
+//! Assumptions, where the documents are silent: the way counts from `#OTC ON` on, with RADIUS only the way along the
 //! contour of G41 or G42; a change of the wear, or of the direction at a corner, is followed with the acceleration
-//! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, after the filters.
+//! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, after the
+//! filters.
 
 use crate::exec::{WearSetting, WornPart};
 use kontur_motion::axis::AxisVec;
 use smallvec::SmallVec;
 
-/// The offset of one axis on its way to where it should be.
+/// The offset of one axis on its way to its target.
 #[derive(Clone, Copy, Debug, Default)]
 struct Follower {
     x_mm: f64,
@@ -18,7 +19,7 @@ struct Follower {
 }
 
 impl Follower {
-    /// One cycle of `t` s towards a target, with an acceleration of `a` mm/s2 at most.
+    /// One cycle of `t` s towards a target, with an acceleration of at most `a` mm/s2.
     fn step(&mut self, target_mm: f64, a: f64, t: f64) {
         let way = target_mm - self.x_mm;
         let change = a * t;
@@ -27,7 +28,7 @@ impl Follower {
             (self.x_mm, self.v_mm_s) = (target_mm, arrival);
             return;
         }
-        // the speed that is braked to rest in whole cycles within the way
+        // the speed from which braking in whole cycles takes exactly this way
         let speed = (0.25 * change * change + 2.0 * a * way.abs()).sqrt() - 0.5 * change;
         let wanted = speed.copysign(way);
         self.v_mm_s += (wanted - self.v_mm_s).clamp(-change, change);
@@ -35,17 +36,17 @@ impl Follower {
     }
 }
 
-/// What the simulation knows of the wear.
+/// State of online tool compensation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wear {
     setting: Option<WearSetting>,
-    /// ACC_WEIGHT, which still holds while the offset goes back to 0.
+    /// ACC_WEIGHT, which stays in effect while the offset returns to 0.
     acceleration_ratio: f64,
-    /// Axes of the plane, and whether the tool is to the left of the contour that it follows.
+    /// Axes of the plane, and whether the tool is to the left of the contour.
     engaged: Option<([usize; 2], bool)>,
     /// Direction of the contour in the plane.
     along: Option<[f64; 2]>,
-    /// Way that has counted.
+    /// Way in mm that counts.
     way_mm: f64,
     /// External wear.
     outside_mm: f64,
@@ -63,18 +64,18 @@ impl Wear {
         self.followers.resize(axes, Follower::default());
     }
 
-    /// The tool has reached the contour, changes sides, or leaves it.
+    /// Notes that the tool has reached the contour, changed sides, or left it.
     pub(super) fn engage(&mut self, engaged: Option<([usize; 2], bool)>) {
         self.engaged = engaged;
     }
 
-    /// What the wear from outside would have to be; true if more than the tool allows.
+    /// Sets the external wear; true if it exceeds what the tool permits.
     pub(super) fn take_outside(&mut self, wear_mm: f64) -> bool {
         self.outside_mm = wear_mm;
         self.setting.is_some_and(|s| s.from_outside && wear_mm.abs() > s.most_mm)
     }
 
-    /// `#OTC` has never been on.
+    /// Whether `#OTC` has never been on.
     pub(super) fn is_unused(&self) -> bool {
         self.followers.is_empty()
     }
@@ -110,7 +111,7 @@ impl Wear {
             let wear_mm = setting.ratio * self.way_mm + outside;
             match (setting.part, self.engaged, self.along) {
                 (WornPart::Length { axis }, _, _) => targets[axis] = -wear_mm,
-                // the wheel comes nearer to the contour, which is to its right if it is to the left of the contour
+                // the wheel approaches the contour, which is on its right if the wheel is to the left of the contour
                 (WornPart::Radius, Some(([x, y], left)), Some([u, v])) => {
                     let to_contour = if left { [v, -u] } else { [-v, u] };
                     (targets[x], targets[y]) = (wear_mm * to_contour[0], wear_mm * to_contour[1]);

@@ -1,4 +1,4 @@
-//! Programs held in memory: tests, the browser, programs built on the fly.
+//! Programs in memory: for tests, the browser, and generated programs.
 
 use super::{OpenError, Source, Sources};
 use std::collections::BTreeMap;
@@ -26,7 +26,7 @@ impl MemorySources {
 }
 
 impl Sources for MemorySources {
-    /// A name is tried in the caller's folder first, then as written.
+    /// The name is tried in the caller's folder first, then as written.
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
         let plain = normalize(name);
         let mut searched = Vec::new();

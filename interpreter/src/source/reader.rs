@@ -7,14 +7,14 @@ use std::io;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Bytes read at once; also more than the longest line that is kept.
+/// Number of bytes read at once; more than the longest line that is kept.
 const WINDOW: usize = 64 * 1024;
 
-/// Bytes of a line that are kept: the longest block in characters of up to four bytes, and one character to notice
-/// that there was more.
+/// Number of bytes of a line that are kept: the longest block in characters of up to four bytes, and one more character
+/// to detect longer ones.
 const LINE_BYTES: usize = (BLOCK_LENGTH_MAX as usize + 1) * 4;
 
-/// Bytes of lines that are looked at together when lines are gone over.
+/// Number of bytes of lines that are examined together when lines are skipped.
 const STRETCH: usize = 1024;
 
 /// Byte order mark of UTF-8.
@@ -22,9 +22,9 @@ const BOM: &[u8] = b"\xEF\xBB\xBF";
 
 /// Reads a program block by block.
 ///
-/// A block ends with CRLF, LF, CR, NUL, ETX or the end of the program. A line whose last character outside comments
-/// is `\` is continued by the next one, whose own block number is dropped; while a bracket is open, empty lines and
-/// lines that begin with `;` may come between.
+/// A block ends with CRLF, LF, CR, NUL, ETX or the end of the program. A line whose last character outside comments is
+/// `\` is continued by the next one, whose block number is dropped; while a bracket is open, there may be empty lines
+/// and lines that begin with `;` in between.
 pub struct BlockReader {
     source: Box<dyn Source>,
     /// Bytes of the program from `base` on.
@@ -35,7 +35,7 @@ pub struct BlockReader {
     base: u64,
     /// Next byte in `window`.
     at: usize,
-    /// The source gave 0 bytes after the window.
+    /// Whether the source returned 0 bytes after the window.
     ended: bool,
     /// Number of the next line.
     line: u32,
@@ -56,7 +56,7 @@ impl fmt::Debug for BlockReader {
 /// One physical line in the window.
 struct Line {
     range: Range<usize>,
-    /// Bytes that did not fit.
+    /// Number of bytes that did not fit.
     cut: u64,
 }
 
@@ -81,12 +81,12 @@ impl BlockReader {
         self.source.name()
     }
 
-    /// Place of the next block.
+    /// Position of the next block.
     pub fn position(&self) -> Position {
         Position { offset: self.base + self.at as u64, line: self.line }
     }
 
-    /// Goes to a place that [`position`](Self::position) or a block gave.
+    /// Moves to a position returned by [`position`](Self::position) or contained in a block.
     pub fn seek(&mut self, position: Position) {
         self.line = position.line;
         let inside = position.offset.checked_sub(self.base);
@@ -104,7 +104,7 @@ impl BlockReader {
     /// The next block, `None` at the end of the program.
     ///
     /// # Errors
-    /// What the source met with.
+    /// The error of the source.
     pub fn next_block(&mut self) -> io::Result<Option<RawBlock<'_>>> {
         if self.base + self.at as u64 == 0 {
             self.skip_bom()?;
@@ -118,22 +118,22 @@ impl BlockReader {
         if !plain || (!ascii && std::str::from_utf8(bytes).is_err()) {
             return self.assemble(position, line).map(Some);
         }
-        // The borrow of the window has to begin after the other path: valid text is looked at once more.
+        // The borrow of the window has to begin after the other path, so valid text is validated again.
         let text = std::str::from_utf8(&self.window[line.range]).unwrap_or_default();
         let characters = if ascii { text.len() } else { text.chars().count() };
         let characters = u32::try_from(characters).unwrap_or(u32::MAX);
         Ok(Some(RawBlock { text, position, characters, pieces: &[] }))
     }
 
-    /// Goes over lines for as long as `skip` accepts them, the window holds them as a whole, and none of the `rare` bytes is
-    /// in them. Each of them has to be a complete block.
+    /// Skips lines for as long as `skip` accepts them, the window contains them as a whole, and they contain none of
+    /// the `rare` bytes. Each of them has to be a complete block.
     pub(crate) fn skip_lines(&mut self, rare: [u8; 3], skip: impl Fn(&[u8]) -> bool) {
         while self.skip_stretch(rare, &skip) {}
     }
 
-    /// The lines of one stretch; true if all of them were gone over.
+    /// Skips the lines of one stretch; true if all of them were skipped.
     ///
-    /// What ends the stretch is looked for once and not line by line.
+    /// The end of the stretch is searched once rather than line by line.
     fn skip_stretch(&mut self, rare: [u8; 3], skip: &impl Fn(&[u8]) -> bool) -> bool {
         let rest = &self.window[self.at..self.filled];
         let stretch = &rest[..rest.len().min(STRETCH)];
@@ -146,7 +146,7 @@ impl BlockReader {
             let end = at + length;
             let mut line = &stretch[at..end];
             if next_cr < end {
-                // a single CR ends a block, too
+                // a single CR ends a block as well
                 if next_cr + 1 < end {
                     return false;
                 }
@@ -160,12 +160,12 @@ impl BlockReader {
             self.at += length + 1;
             self.line = self.line.saturating_add(1);
         }
-        // a line that goes beyond the stretch is looked at again from its beginning
+        // a line that extends beyond the stretch is examined again from its beginning
         until == stretch.len() && at > 0
     }
 
-    /// Offers the next line if the window holds it with its LF, and moves past it if something is made of it. `take` has to
-    /// refuse what is not a complete block: a line with CR, NUL or ETX in it, or one that the next line continues.
+    /// Offers the next line if the window contains it with its LF, and moves past it if it is accepted. `take` has to
+    /// refuse incomplete blocks: a line with CR, NUL or ETX in it, or one that the next line continues.
     #[inline]
     pub(crate) fn take_line<T>(&mut self, take: impl FnOnce(&[u8]) -> Option<T>) -> Option<T> {
         // `take` does not handle a byte order mark
@@ -215,7 +215,7 @@ impl BlockReader {
     /// Decodes one line and appends it to the block.
     fn append(&mut self, position: Position, line: &Line) -> Appended {
         let bytes = &self.window[line.range.clone()];
-        // A cut may go through a character: what is left of it must not turn the line into Latin-1.
+        // A cut may split a character: its remaining bytes must not turn the line into Latin-1.
         let (decoded, latin1) = match std::str::from_utf8(bytes) {
             Ok(text) => (text.to_owned(), false),
             Err(e) if line.cut > 0 && e.error_len().is_none() => {
@@ -228,7 +228,7 @@ impl BlockReader {
         let mut part = &decoded[from..];
         let mut characters = part.chars().count() as u64 + line.cut;
         let room = (BLOCK_LENGTH_MAX as usize).saturating_sub(self.text.chars().count());
-        // In a block that is full already nothing is looked at any more.
+        // When a block is full, further text is not examined.
         let stripped = part.trim_ascii_end().strip_suffix('\\').filter(|rest| {
             line.cut == 0 && (room == 0 || !ends_in_comment(&format!("{}{rest}", self.text)))
         });
@@ -241,7 +241,7 @@ impl BlockReader {
             part = &part[..end];
         }
         let start = to_u32(self.text.len());
-        // Lines that no longer fit leave no piece: the number of pieces is bounded as the text is.
+        // Lines that no longer fit add no piece: the number of pieces is bounded like the text.
         if room > 0 {
             self.text.push_str(part);
             let end = to_u32(self.text.len());
@@ -278,7 +278,7 @@ impl BlockReader {
         Ok(())
     }
 
-    /// The next line in the window, without its end; longer than [`LINE_BYTES`] it is cut.
+    /// The next line in the window, without its end; cut off if it is longer than [`LINE_BYTES`].
     fn next_line(&mut self) -> io::Result<Option<Line>> {
         let mut searched = 0;
         loop {
@@ -314,7 +314,7 @@ impl BlockReader {
         }
     }
 
-    /// A line that does not end within the limit: keeps its beginning in the window and reads over the rest.
+    /// A line that does not end within the limit: keeps its beginning in the window and skips the rest.
     fn long_line(&mut self) -> io::Result<Line> {
         let kept = self.window[self.at..self.at + LINE_BYTES].to_vec();
         self.at += LINE_BYTES;
@@ -336,7 +336,7 @@ impl BlockReader {
                 break;
             }
         }
-        // The kept bytes go before the rest; the window then begins earlier in memory, not in the program.
+        // The kept bytes are moved in front of the rest; the window then begins earlier in memory, not in the program.
         let tail = self.window[self.at..self.filled].to_vec();
         self.base += self.at as u64;
         self.base -= LINE_BYTES as u64;
@@ -349,7 +349,7 @@ impl BlockReader {
         Ok(Line { range: 0..LINE_BYTES, cut })
     }
 
-    /// Drops what was used and reads more; false at the end of the program.
+    /// Drops used bytes and reads more; false at the end of the program.
     fn fill(&mut self) -> io::Result<bool> {
         if self.ended {
             return Ok(false);

@@ -1,12 +1,12 @@
-//! Code, strings and comments of a block: where lines continue, and what the grammar must not see, depends on them.
+//! Code, strings and comments of a block, which decide where lines continue and what the grammar must not see.
 
 use std::ops::Range;
 
-/// What a stretch of text is.
+/// Kind of a part of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Region {
     Code,
-    /// `"..."`, quotes included; a quote that is never closed is code.
+    /// `"..."`, quotes included; a quote without an end is code.
     Text,
     /// `(...)`, nested, or everything after `;` or an unclosed `(`.
     Comment {
@@ -14,11 +14,11 @@ pub(crate) enum Region {
     },
 }
 
-/// Cuts a text into regions.
+/// Divides a text into regions.
 pub(crate) struct Regions<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// A quote was never closed: no later one is either, and the search is skipped.
+    /// Whether a quote without an end was found: later ones have none either, and the search is skipped.
     unclosed: bool,
 }
 
@@ -86,22 +86,22 @@ pub(crate) fn string(bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// True if what is written after `text` would be part of a comment.
+/// Whether text appended to `text` would be part of a comment.
 pub(crate) fn ends_in_comment(text: &str) -> bool {
     regions(text).last().is_some_and(|(region, _)| region == Region::Comment { closed: false })
 }
 
-/// True if a square bracket is open at the end of `text`.
+/// Whether a square bracket is open at the end of `text`.
 pub(crate) fn bracket_is_open(text: &str) -> bool {
     brackets(text).open > 0
 }
 
-/// True if every square bracket of `text` has its partner in it.
+/// Whether every square bracket of `text` has its counterpart in it.
 pub(crate) fn brackets_are_complete(text: &str) -> bool {
     brackets(text) == Brackets { open: 0, closed_too_often: false }
 }
 
-/// Square brackets of the code in a text that have no partner in it.
+/// Square brackets of the code in a text without a counterpart in it.
 #[derive(Default, PartialEq, Eq)]
 struct Brackets {
     open: usize,
@@ -122,13 +122,13 @@ fn brackets(text: &str) -> Brackets {
     found
 }
 
-/// True if a text contains a character outside of its strings and comments.
+/// Whether a text contains a character outside its strings and comments.
 pub(crate) fn code_has(text: &str, byte: u8) -> bool {
     regions(text)
         .any(|(region, range)| region == Region::Code && text.as_bytes()[range].contains(&byte))
 }
 
-/// Places of the strings of a block, quotes included.
+/// Positions of the strings of a block, quotes included.
 pub(crate) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
     regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
 }

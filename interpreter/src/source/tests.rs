@@ -140,7 +140,7 @@ fn seeking_gives_the_same_blocks_again() {
 }
 
 proptest! {
-    /// How the bytes arrive makes no difference, and every block can be found again by its place.
+    /// The result does not depend on how the bytes arrive, and every block can be found again by its position.
     #[test]
     fn blocks_do_not_depend_on_the_way_of_reading(
         parts in prop::collection::vec("[A-C\\\\\u{e4}(\"; \\[]{0,6}|\\r\\n|\\n|\\r|\\x00", 0..30),
@@ -161,7 +161,7 @@ proptest! {
     }
 }
 
-/// Lines that are skipped, or taken unchanged, are the blocks that are read one by one.
+/// Lines that are skipped, or taken unchanged, are the same blocks as those read one by one.
 #[test]
 fn lines_gone_over_are_blocks() {
     const PARTS: &[&str] = &[

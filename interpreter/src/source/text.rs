@@ -1,9 +1,9 @@
 //! Text files of users: lists, recordings, inputs, traces to compare.
 //!
-//! One reader with one limit for all of them. What is not text, or has a line without end, is refused in plain words
-//! before it fills the memory.
+//! One reader with one limit for all of them. Files that are not text, or have an endless line, are refused with a
+//! plain message before they fill the memory.
 //!
-//! Order of calls: a file is opened, then read line by line to its end or first error.
+//! Order of calls: open a file, then read it line by line to its end or first error.
 //!
 //! ```
 //! use kontur_interpreter::source::text::{Text, beginning};
@@ -22,16 +22,16 @@
 use crate::diag::QUOTED_MAX;
 use std::io::{self, BufRead, BufReader, Read};
 
-/// Bytes of a line; a longer one is not a line of a table or a list.
+/// Largest number of bytes of a line; a longer one is not a line of a table or a list.
 pub(crate) const LINE_MAX: usize = 65_536;
 
-/// Bytes of a text file as they are.
+/// Bytes of a text file, unchanged.
 ///
 /// Errors: UTF-16, characters with code 0, and a line longer than [`LINE_MAX`].
 #[derive(Debug)]
 pub struct Text<R> {
     reader: BufReader<R>,
-    /// Number of the line in work, from 1.
+    /// Number of the present line, from 1.
     line: u64,
     /// Its bytes so far.
     length: usize,
@@ -41,7 +41,7 @@ impl<R: Read> Text<R> {
     /// A text from its beginning.
     ///
     /// # Errors
-    /// The system's, and a text in UTF-16.
+    /// The system's, and for a text in UTF-16.
     pub fn new(inner: R) -> io::Result<Self> {
         let mut reader = BufReader::with_capacity(1 << 16, inner);
         if let [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] = reader.fill_buf()? {
@@ -51,7 +51,7 @@ impl<R: Read> Text<R> {
     }
 }
 
-/// A line, or what can be shown of a long one: at most [`QUOTED_MAX`] characters.
+/// A line, or the beginning of a long one: at most [`QUOTED_MAX`] characters.
 pub fn beginning(text: &str) -> String {
     let mut characters = text.chars();
     let mut shown: String = characters.by_ref().take(QUOTED_MAX).collect();
@@ -121,7 +121,7 @@ mod tests {
         ] {
             assert!(read(bytes).unwrap_err().contains(reason), "{reason}");
         }
-        // what has no end is refused at once
+        // an endless line is refused at once
         let mut endless = Text::new(std::io::repeat(b'7')).unwrap();
         assert!(endless.read_to_end(&mut Vec::new()).is_err());
     }

@@ -1,4 +1,4 @@
-//! The summary as numbers with a name each: one row of a table of runs.
+//! The summary as named numbers: one row of a table of runs.
 
 use super::{AxisSummary, Summary};
 use crate::diag::{Id, Severity};
@@ -6,9 +6,9 @@ use crate::diag::{Id, Severity};
 /// A result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
-    /// Name, with the unit at its end.
+    /// Name, ending with the unit.
     pub name: String,
-    /// Value; not a number if the run has none.
+    /// Value; NaN if the run has none.
     pub value: f64,
     /// Digits after the point in a text table.
     pub decimals: usize,
@@ -27,7 +27,7 @@ const OF_AXIS: [OfAxis; 6] = [
 ];
 
 impl Summary {
-    /// Every number of a run that a table of runs shows, always the same ones for a machine.
+    /// All numbers of a run in a table of runs, the same set for every run of a machine.
     pub fn results(&self) -> Vec<Measure> {
         let measure =
             |name: &str, value, decimals| Measure { name: name.to_owned(), value, decimals };

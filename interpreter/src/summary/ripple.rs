@@ -1,21 +1,22 @@
-//! Ripple of the path speed: how far the speed dips where the path runs on without a corner.
+//! Ripple of the path speed: how far the speed dips where the path continues without a corner.
 //!
-//! A corner slows the path down because it is a corner, a lower F word because it is programmed. What a surface shows are
-//! the dips between: at the small kinks of a polygon, at block limits, where a tolerance or the look-ahead takes speed.
+//! A corner and a lower F word slow the path down by design. What matters on a surface are the dips in between: at the
+//! small kinks of a polygon, at block boundaries, where a tolerance or the look-ahead reduces the speed.
 
 use crate::job::{Facts, FileNames};
 use crate::record::{CycleRecord, SpeedLimit};
 use serde::Serialize;
 
-/// Speeds closer together than this share of the larger one are equal: below it lies the rounding of the profiles.
+/// Speeds closer together than this share of the larger one count as equal: the rounding of the profiles is below it.
 const SAME: f64 = 1e-9;
 
-/// A path that turns by more than this on the way through a dip has a corner there, in degrees.
+/// A path that turns by more than this angle in degrees during a dip has a corner there.
 ///
-/// Assumption: between the kinks of usual polygons (below 15 degrees) and the corners of a drawing (from 45 degrees on).
+/// Assumption: between the kinks of usual polygons (below 15 degrees) and the corners of a drawing (45 degrees and
+/// more).
 pub(super) const CORNER_DEG: f64 = 30.0;
 
-/// More than any axis turns in a cycle.
+/// More than the rotation of any axis in a cycle.
 const HALF_TURN_DEG: f64 = 180.0;
 
 /// Steps in mm (deg) that are too short to have a direction.
@@ -23,8 +24,8 @@ const NO_STEP_MM: f64 = 1e-9;
 
 /// The deepest dip of the path speed without a corner.
 ///
-/// A dip lies between two local maxima of the speed; of smaller dips inside a larger one each counts for itself. Left
-/// out are rests, dips on whose way the path turns by more than 30 degrees, and dips down to the programmed feed.
+/// A dip is between two local maxima of the speed; smaller dips inside a larger one count separately. Excluded are
+/// rests, dips during which the path turns by more than 30 degrees, and dips down to the programmed feed rate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpeedRipple {
     /// `(v_max - v_min) / v_max`, 0 to 1.
@@ -48,9 +49,9 @@ struct Extreme {
     k: u64,
     file: u32,
     line: u32,
-    /// The programmed feed is reached.
+    /// Whether the programmed feed rate is reached.
     fed: bool,
-    /// Angle in radians by which the path had turned at its first and at its last cycle.
+    /// Angle in radians by which the path had turned at the first and at the last cycle of the extreme.
     turned: [f64; 2],
 }
 
@@ -59,15 +60,15 @@ struct Extreme {
 pub(super) struct Collector {
     /// Axes of the path, and whether they are rotary.
     axes: Vec<(usize, bool)>,
-    /// Position of these axes in the last cycle, none before the first one.
+    /// Position of these axes in the last cycle, empty before the first one.
     position: Vec<f64>,
-    /// The last step, and the direction of the last one that has a direction; none before it.
+    /// The last step, and the direction of the last one that has a direction; empty before it.
     step: Vec<f64>,
     direction: Vec<f64>,
     turned: f64,
-    /// Extremes since the last rest that belong to no complete dip yet, minima and maxima in turn.
+    /// Extremes since the last rest that are not part of a complete dip yet, minima and maxima alternating.
     open: Vec<Extreme>,
-    /// The extreme that the speed is at or runs towards, and whether it rises.
+    /// The extreme that the speed is at or approaches, and whether it rises.
     at: Extreme,
     rising: bool,
     worst: Option<SpeedRipple>,
@@ -127,7 +128,7 @@ impl Collector {
         }
     }
 
-    /// Adds up by how much the path turns: the linear axes, or the rotary ones where no other moves.
+    /// Accumulates the angle by which the path turns: of the linear axes, or of the rotary ones if no others move.
     fn turn(&mut self, ipo: impl Fn(usize) -> Option<f64>) {
         let here = self.axes.iter().filter_map(|(i, _)| ipo(*i));
         if self.position.is_empty() {
@@ -168,7 +169,8 @@ impl Collector {
         self.turned += 2.0 * libm::asin((0.5 * f64::sqrt(chord)).min(1.0));
     }
 
-    /// Takes out every dip that lies between two extremes at least as far apart as its own: a larger dip around it stays.
+    /// Removes every dip between two extremes that are at least as far apart as the dip is deep; a larger dip around it
+    /// stays.
     fn close(&mut self, cycle_us: u32) {
         while let [.., a, b, c, d] = self.open[..] {
             let inner = (b.v - c.v).abs();
@@ -224,8 +226,8 @@ mod tests {
         of_axes([false; 2], speeds, kinks, fed)
     }
 
-    /// Ripple of two axes that move at these speeds, beside one at rest; the path turns by an angle in degrees in the
-    /// cycles given.
+    /// Ripple of two axes that move at these speeds, next to one at rest; the path turns by an angle in degrees in the
+    /// given cycles.
     fn of_axes(
         rotary: [bool; 2],
         speeds: &[f64],
@@ -276,7 +278,7 @@ mod tests {
             line: 9,
         };
         assert_eq!(turning(&speeds, &[], &[]), Some(want));
-        // still under way at the end
+        // still moving at the end
         assert_eq!(ratio(&[0.0, 8.0, 6.0, 8.0], &[], &[]), Some(0.25));
     }
 
@@ -288,21 +290,21 @@ mod tests {
 
     #[test]
     fn corners_are_no_ripple_and_kinks_are() {
-        // a square that slows down at its corners, with a small dip at a joint of a side
+        // a square with lower speed at its corners and a small dip at a joint of a side
         let speeds = [0.0, 10.0, 10.0, 1.0, 10.0, 9.0, 10.0, 1.0, 10.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(3, 90.0), (7, 90.0)], &[]), Some(0.1));
-        // a polygon: three kinks of 20 degrees, which a circle of them adds up to more than a corner
+        // a polygon: three kinks of 20 degrees, whose sum is more than a corner
         let speeds = [0.0, 10.0, 8.0, 10.0, 10.0, 8.0, 10.0, 10.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 20.0), (5, 20.0), (8, 20.0)], &[]), Some(0.2));
         // a curve at constant speed before the dip does not make it a corner
         let speeds = [0.0, 10.0, 10.0, 10.0, 10.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 5.0)], &[]), Some(0.2));
-        // round a corner in small steps
+        // around a corner in small steps
         let speeds = [0.0, 10.0, 8.0, 6.0, 6.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 25.0)], &[]), None);
     }
 
-    /// Turning back is a corner, beginning a turn anew is none.
+    /// Turning back is a corner, starting a new turn is not.
     #[test]
     fn rotary_axes_turn_too() {
         let ratio = |speeds: &[f64], kinks: &[(usize, f64)]| {

@@ -7,7 +7,7 @@ use crate::record::{Rest, SpeedLimit};
 use kontur_motion::deviation::HARDLY_LONGER;
 use std::fmt::Write as _;
 
-/// Differences in mm (deg) below this one are not seen in the text.
+/// Differences in mm (deg) below this value are not visible in the text.
 const LEAST_SHOWN: f64 = 5e-7;
 
 fn many(n: usize, what: &str) -> String {
@@ -64,8 +64,8 @@ impl Summary {
             } else {
                 writeln!(out, "  contour error  none")?;
             }
-            // the set points may keep to a contour of which they leave something out; a component is larger than the shortest
-            // vector also where it belongs to another one that is hardly longer
+            // the set points may follow a contour of which they leave out a part; and a component can exceed the
+            // shortest vector if it belongs to a slightly longer one
             let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
             if deviation > worst.mm * (1.0 + HARDLY_LONGER) * (1.0 + HARDLY_LONGER) + LEAST_SHOWN {
                 writeln!(out, "  missed         up to {deviation:.6} of the contour, see |dev|")?;

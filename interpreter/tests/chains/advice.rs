@@ -8,7 +8,7 @@ fn advice(name: &str, set: &str) -> Vec<(String, &'static str, String)> {
     let (machine, found) = load(name, &set, &Disk("", String::new()));
     let advice = |d: &&Diagnostic| d.id.to_string() == "K-0078";
     assert!(found.iter().filter(advice).all(|d| d.severity == Severity::Note), "{found:?}");
-    // once: not again when the chains are made
+    // only once: not repeated when the chains are built
     assert_eq!(machine.chains().1.iter().filter(advice).count(), 0);
     found
         .iter()
@@ -17,7 +17,7 @@ fn advice(name: &str, set: &str) -> Vec<(String, &'static str, String)> {
         .collect()
 }
 
-/// What the documents recommend, just inside and just outside. Conformance: A027, A029, F009, P013, P014.
+/// The recommendations of the documents, just inside and just outside the limit. Conformance: A027, A029, F009, P013, P014.
 #[test]
 fn recommendations_are_notes() {
     let low_pass = |rest: &str| {

@@ -33,7 +33,7 @@ fn velocity_listing_of_the_manual() {
         let drive = c.feedforward_format.counts_per_mm_s(1e-3) * 100.0;
         assert!((drive - counts).abs() < 0.5, "{drive}");
     }
-    // without the value in the telegram that part is off
+    // without the value in the telegram this part is off
     let (c, _, found) = with_listing(&listing("3333"));
     assert_eq!(ids(&found), ["70350"]);
     assert!(c.feedforward.mode.is_empty());
@@ -75,7 +75,7 @@ fn torque_listing_of_the_manual() {
     assert_eq!(ids(&found), ["70351"]);
     assert_eq!(found[0].severity, Severity::Warning);
     assert!(c.feedforward.mode.is_empty());
-    // its last page writes the gear ratio with the keys of older builds
+    // the last page of the document writes the gear ratio with the keys of older builds
     let old = "getriebe[].incr_per_rev 1048576\ngetriebe[].wegaufz 3 #gearbox ratio\n\
                getriebe[].wegaufn 1\nantr.feed_const_num 50000\nantr.feed_const_denom 1 #\n";
     let (_, loading, found) = with_listing(old);
@@ -84,7 +84,7 @@ fn torque_listing_of_the_manual() {
     assert_eq!(found[0].parameter, Some("P-AXIS-00234"));
 }
 
-/// Settings of `xyz` and the one message that they give while loading or converting, once, with its parameter.
+/// Settings of `xyz` and the one message that each gives on loading or conversion, once, with its parameter.
 /// Conformance: F062, F080, F082, F086, F088.
 #[test]
 #[rustfmt::skip]
@@ -135,7 +135,7 @@ fn corrections_name_axis_parameter_and_place() {
         ("K-0026", "P-AXIS-00757", format!("{stage} {ipc}.v_add_max_fact=0")),
         ("K-0027", "P-AXIS-00754", format!("{stage} {ipc}.stage[0].weight_fact_num=8")),
     ];
-    // what was not written has no place: the default that does not fit
+    // a value that was not written has no place: it is the default that does not fit
     let unwritten = ["K-0037", "50989", "50663", "60311"];
     for (id, parameter, settings) in cases {
         let settings: Vec<&str> = settings.split_whitespace().collect();

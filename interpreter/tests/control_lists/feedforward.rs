@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// P-AXIS-00223 allows, the program selects; P-AXIS-00255 selects always. Conformance: F001, F005, F006, F008, F078.
+/// P-AXIS-00223 permits, the program selects; P-AXIS-00255 always selects. Conformance: F001, F005, F006, F008, F078.
 #[test]
 fn feedforward_of_an_axis() {
     let mode = |names: &str| format!("X.vorsteuer.vorsteuerung={names}");
@@ -11,7 +11,7 @@ fn feedforward_of_an_axis() {
     near(last(&mode("VEL"), 1.0).lag_mm, 0.0, 1e-6);
     let weighted = format!("{} X.vorsteuer.vs_v_faktor=9 X.vorsteuer.vs_v_nenner=10", mode("VEL"));
     near(last(&weighted, 1.0).lag_mm, 0.2, 1e-6);
-    // acceleration and jerk alone: nothing at constant speed, something while accelerating
+    // acceleration and jerk alone: nothing at constant speed, something during acceleration
     for names in ["ACC", "JERK", "VEL|JERK", "3"] {
         let settings = format!("{} X.vorsteuer.vs_a_faktor=5000", mode(names));
         assert_eq!(ids(&settings), [""; 0], "{names}");
@@ -55,7 +55,7 @@ fn feedforward_flags() {
     assert_ne!(mode("VEL"), mode("ADD_VEL"));
 }
 
-/// Velocity-only weight, and a weight above 1 that leads. Conformance: F007, F012.
+/// Weight of the velocity alone, and a weight above 1 that makes the axis lead. Conformance: F007, F012.
 #[test]
 fn weights_of_feedforward() {
     let over = last("X.vorsteuer.vs_v_faktor=12 X.vorsteuer.vs_v_nenner=10", 1.0);
@@ -67,7 +67,7 @@ fn weights_of_feedforward() {
     let fewer = "X.vorsteuer.feedforward_v_add_num=8 X.vorsteuer.feedforward_v_add_denom=10";
     // constant speed: the velocity part alone
     near(fed(fewer, 999), 0.8 * fed("", 999), 1e-9);
-    // accelerating: the acceleration part, 5 mm/s, is left as it is
+    // during acceleration: the acceleration part, 5 mm/s, is unchanged
     near(fed("", 50) - fed(fewer, 50), 0.2 * (fed("", 50) - 5.0), 1e-9);
 }
 
@@ -88,7 +88,7 @@ fn additive_feedforward() {
     near(whole[50].feedforward.additive_acc_mm_s2, 1000.0, 1e-6);
 }
 
-/// Feedforward delays the position path by five cycles, used or not. Conformance: F043.
+/// Feedforward delays the position path by five cycles, whether it is used or not. Conformance: F043.
 #[test]
 fn the_buffer_of_feedforward() {
     for gain in [0.0, 1.0] {
@@ -106,7 +106,7 @@ fn the_buffer_of_feedforward() {
     }
 }
 
-/// PROFIdrive takes the feedforward before its setpoint (P-AXIS-00165). Conformance: F018, F070.
+/// PROFIdrive takes the feedforward before its setpoint is formed (P-AXIS-00165). Conformance: F018, F070.
 #[test]
 fn shift_of_profidrive() {
     let begins = |settings: &str| {
@@ -123,7 +123,7 @@ fn shift_of_profidrive() {
     assert_eq!(ids(&profidrive(5)), ["K-0070", "K-0079"]);
 }
 
-/// What is out of range, and the values used. Conformance: F055, F065, F079, F080, F082, F086, F087, F088.
+/// Values out of range, and the values used instead. Conformance: F055, F065, F079, F080, F082, F086, F087, F088.
 #[test]
 fn corrections_of_feedforward() {
     let torque = "X.vorsteuer.vorsteuerung=ADD_ACC kontur.axis[1].additive.torque=1";

@@ -64,7 +64,7 @@ fn ranges_of_the_stages() {
     ] {
         assert_eq!(ids(&stage(&more)).join(" "), id, "{more}");
     }
-    // the limit 0 leaves nothing of the additive speed
+    // the limit 0 removes the additive speed altogether
     let shaken = |settings: &str| {
         let mut axis = axis(settings);
         let at = |k: u32| 0.1 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
@@ -74,13 +74,14 @@ fn ranges_of_the_stages() {
     assert!(shaken(&stage(&format!("{IPC}.v_add_max_fact=0"))) <= 0.0);
 }
 
-/// Of X alone; limit P-AXIS-00757 of P-AXIS-00212; disabled, the axis is one without. Conformance: I003, I044, I045, I047.
+/// Of X alone; the limit P-AXIS-00757 is a share of P-AXIS-00212; disabled, the axis is like one without.
+/// Conformance: I003, I044, I045, I047.
 #[test]
 fn limit_and_switch_of_the_additive_speed() {
     let (machine, _) = machine(&split(&stage("")));
     let enabled: Vec<bool> = machine.chains().0.iter().map(|c| c.control.ipc.enable).collect();
     assert_eq!(enabled, [true, false, false, false]);
-    // a vibration of the set position that the stage answers at its limit: 1 % of 500 mm/s
+    // a vibration of the set position to which the stage responds at its limit: 1 % of 500 mm/s
     let swing = |settings: &str| {
         let mut axis = axis(settings);
         let at = |k: u32| 0.5 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
@@ -99,7 +100,7 @@ fn limit_and_switch_of_the_additive_speed() {
     assert!(none.iter().all(|o| o.additive_speed_mm_s.abs() <= 0.0));
 }
 
-/// Additive speed of a bus drive in the drive's format, and with the sampling interval as time base.
+/// Additive speed of a bus drive in the format of the drive, and with the sampling interval as time base.
 /// Conformance: I022, I023, I050.
 #[test]
 fn drive_format_of_the_additive_speed() {
@@ -157,7 +158,7 @@ fn additive_speed_and_the_place_of_the_loop() {
             assert_eq!(ids(&stage(&settings)), told, "{settings}");
             assert!(swinging(&settings) > 0.1, "{settings}");
         }
-        // without Improved Position Control only the loop itself is worth a note
+        // without Improved Position Control only the loop itself gives a note
         assert_eq!(ids(&sercos), ["K-0079"]);
     }
     // simulated and analogue drives take speed commands only

@@ -2,7 +2,7 @@
 
 use super::CurveJerk;
 
-/// Which points of the blocks the curve connects.
+/// The points of the blocks that the curve connects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContourMode {
     /// DEV: the interim point is at most this far from the corner.
@@ -23,23 +23,23 @@ pub enum ContourMode {
         pre_mm: f64,
         /// `POST_DIST` in mm, default 1, 0 is allowed.
         post_mm: f64,
-        /// Coordinates in the three main axes (the first three of the channel); the corner's where not given.
+        /// Coordinates in the three main axes (the first three of the channel); where not given, those of the corner.
         point_mm: [Option<f64>; 3],
     },
-    /// PTP: as DEV, the corner distance bounded as well. Assumption: the documents describe the task of this mode but not
-    /// its curve.
+    /// PTP: as DEV, with the corner distance bounded as well. Assumption: the documents describe the purpose of this
+    /// mode, not its curve.
     Ptp {
         /// `PATH_DEV` in mm, default 1.
         path_dev_mm: f64,
         /// `PATH_DIST` in mm, default 1.
         path_dist_mm: f64,
     },
-    /// `DIST_SOFT`; not published, falls back to [`Self::Ptp`] with `PATH_DEV` 1 mm and a notice.
+    /// `DIST_SOFT`; not published, replaced by [`Self::Ptp`] with `PATH_DEV` 1 mm and a notice.
     DistSoft {
         /// `PATH_DIST` in mm, default 1; negative: not bounded.
         path_dist_mm: f64,
     },
-    /// `DIST_MASTER`; falls back as [`Self::DistSoft`].
+    /// `DIST_MASTER`; replaced as [`Self::DistSoft`].
     DistMaster {
         /// `PATH_DIST` in mm, default 1; negative: not bounded.
         path_dist_mm: f64,
@@ -59,15 +59,15 @@ pub struct ContourSettings {
     pub mode: ContourMode,
     /// `RELEVANT_PATH` in mm, default 0: shorter blocks are bridged.
     pub relevant_path_mm: f64,
-    /// `TRACK_DEV` in deg, default 0 = not monitored: deviation of the axes outside the feed group.
+    /// `TRACK_DEV` in deg, default 0 = not monitored: permitted deviation of the axes outside the feed group.
     pub track_dev_deg: f64,
-    /// `RELEVANT_TRACK` in deg, default 0: a block that moves such an axis further is relevant.
+    /// `RELEVANT_TRACK` in deg, default 0: a block that moves such an axis by more is relevant.
     pub relevant_track_deg: f64,
-    /// `REMAIN_PART` as a ratio 0..1, default 0: part of each block that stays.
+    /// `REMAIN_PART` as a ratio 0..1, default 0: part of each block that is kept.
     pub remain_ratio: f64,
-    /// `MAX_ANGLE` in deg, default 180: corners that turn by more stay.
+    /// `MAX_ANGLE` in deg, default 180: corners that turn by more are kept.
     pub max_angle_deg: f64,
-    /// `CONST_VEL`, default off: one speed over the whole curve.
+    /// `CONST_VEL`, default off: constant speed over the whole curve.
     pub constant_velocity: bool,
     /// `CHECK_JERK`; `None`: as P-CHAN-00110.
     pub curve_jerk: Option<CurveJerk>,

@@ -3,8 +3,8 @@
 /// Parameters of `#HSC [BSPLINE]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplineSettings {
-    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored. Below `c^2 / (6 r)` on chords
-    /// `c` of an arc it costs speed.
+    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored. On chords `c` of an arc of
+    /// radius `r`, values below `c^2 / (6 r)` cost speed.
     pub path_dev_mm: f64,
     /// `TRACK_DEV` in deg, default 5: largest deviation of the axes outside the feed group; 0 = not monitored.
     pub track_dev_deg: f64,
@@ -14,7 +14,7 @@ pub struct SplineSettings {
     pub off_at_track_dev: bool,
     /// `AUTO_OFF_G00`, default on: rapid blocks are not part of the spline (Assumption: default).
     pub off_at_rapid: bool,
-    /// `MAX_PATH_LENGTH` in mm, default 0 = any: longer blocks are not part of the spline.
+    /// `MAX_PATH_LENGTH` in mm, default 0 = unlimited: longer blocks are not part of the spline.
     pub max_length_mm: f64,
     /// `MAX_ANGLE` in deg, default 180: the spline ends at corners that turn by more.
     pub max_angle_deg: f64,

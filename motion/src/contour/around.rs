@@ -8,11 +8,12 @@ use smallvec::SmallVec;
 use std::ops::Range;
 
 impl Contour {
-    /// The blocks that can be the nearest one of those interpolated between two moments (cycles) to a point of the line
-    /// between two points, or be taken for it; also of those interpolated up to `slack` cycles before and after. Half the
-    /// length of the line from its middle a block is nearer, or further, by that much at most.
+    /// The blocks that can be nearest to a point on the line between two points, or may count as such, out of those
+    /// interpolated between two moments (cycles), and of those interpolated up to `slack` cycles before and after. The
+    /// distance of a block from any point on the line differs from that to the midpoint by at most half the length of
+    /// the line.
     ///
-    /// `sight` is what earlier lines have shown; which blocks are found does not depend on it.
+    /// `sight` holds the distances known from earlier lines; it has no influence on which blocks are found.
     pub(crate) fn around(
         &self,
         line: (&[f64], &[f64]),
@@ -34,7 +35,7 @@ impl Contour {
         let mut around = Around { blocks: SmallVec::new(), half };
         let vector = &mut AxisVec::zeros(n)[..];
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
-        // a filter takes the set point half of its length back as a rule: that block leaves few of the others
+        // a filter usually delays the set point by half its length: the block there rules out most of the others
         let last = sight.nearest.and_then(|number| self.index(number));
         let guess = last
             .filter(|i| among.contains(i))
@@ -53,7 +54,7 @@ impl Contour {
             let distance = if is_guess {
                 guessed
             } else {
-                // a straight block is measured as fast as its ball
+                // measuring a straight block costs as little as its ball
                 let ball = &passed.queued.ball;
                 let bound = if passed.is_bent() { ball.distance_from(middle) } else { 0.0 };
                 if bound > most + ROUNDING_MM {
@@ -80,7 +81,7 @@ impl Contour {
         around
     }
 
-    /// As [`Contour::nearest`], with what earlier points have shown; the length of the vector in mm.
+    /// As [`Contour::nearest`], using the distances known from earlier points; returns the length of the vector in mm.
     pub(crate) fn nearest_in_sight(
         &self,
         point: &[f64],
@@ -94,7 +95,7 @@ impl Contour {
             out.fill(0.0);
             return None;
         }
-        // the block that was nearest leaves few of the others
+        // the block that was nearest rules out most of the others
         let last = sight.nearest.and_then(|number| self.index(number));
         let guess = last.filter(|i| among.contains(i)).unwrap_or(among.start.midpoint(among.end));
         let mut best = (self.blocks[guess].vector_to(point, out), guess);
@@ -106,7 +107,7 @@ impl Contour {
                 *clear = way + least;
             } else if *clear <= way + least + ROUNDING_MM {
                 let passed = &self.blocks[i];
-                // a straight block is measured as fast as its ball
+                // measuring a straight block costs as little as its ball
                 let ball = &passed.queued.ball;
                 let bound = if passed.is_bent() { ball.distance_from(point) } else { 0.0 };
                 if bound > least + ROUNDING_MM {
@@ -116,7 +117,7 @@ impl Contour {
                 let square = passed.vector_to(point, vector);
                 let distance = square.sqrt();
                 *clear = way + distance;
-                // of equal ones the first
+                // of equally near blocks the first
                 if (square, i) < best {
                     (best, least) = ((square, i), distance);
                     out.copy_from_slice(vector);
@@ -168,9 +169,9 @@ struct Candidate<'a> {
     passed: &'a Passed,
     /// Number of the block.
     block: u64,
-    /// From the middle of the line in mm.
+    /// Distance from the midpoint of the line in mm.
     distance: f64,
-    /// Within reach of the second moment without slack.
+    /// Whether it is within reach without the slack.
     counts: bool,
 }
 
@@ -185,13 +186,13 @@ impl<'a> Around<'a> {
         nearest(self.blocks.iter().map(|b| b.passed), point, out)
     }
 
-    /// True if the slack adds no block: [`Self::nearest`] and [`Self::nearest_of_all`] are the same.
+    /// Whether the slack adds no block, so that [`Self::nearest`] and [`Self::nearest_of_all`] are the same.
     pub(crate) fn all_count(&self) -> bool {
         self.blocks.iter().all(|b| b.counts)
     }
 
-    /// True if some other block can be nearer somewhere on the line: on the way of half the line, one comes nearer and the other
-    /// goes away by that much at most.
+    /// Whether another block can be nearer somewhere on the line. Over half the line the two distances can change by at
+    /// most half its length each.
     pub(crate) fn may_be_nearer_than(&self, nearest: &Nearest<'_>) -> bool {
         let (mut own, mut other) = (f64::INFINITY, f64::INFINITY);
         for b in &self.blocks {
@@ -201,9 +202,9 @@ impl<'a> Around<'a> {
         other.is_finite() && other <= own + 2.0 * self.half
     }
 
-    /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
-    /// longer by at most `WARY` than the shortest one without slack. Between points that are looked at, and with another
-    /// idea of what is within reach, another block may be the nearest.
+    /// Largest component of all vectors to a point that may count as the shortest: those from any block that are longer
+    /// than the shortest one without slack by at most `WARY`. Between the examined points, and with a different
+    /// definition of reach, another block may be the nearest.
     pub(crate) fn worst_component(&self, point: &[f64]) -> f64 {
         let mut vector = AxisVec::zeros(point.len());
         let mut least = f64::INFINITY;
@@ -223,12 +224,12 @@ impl<'a> Around<'a> {
     }
 }
 
-/// The block that the shortest vector starts on.
+/// The block from which the shortest vector starts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest<'a> {
     /// Length of the vector in mm.
     pub(crate) distance: f64,
-    /// Programmed block, the same for all parts of it.
+    /// Programmed block; all its parts have the same number.
     pub(crate) block: u64,
     passed: &'a Passed,
 }
@@ -262,7 +263,7 @@ pub(super) fn nearest<'a>(
     let mut before = first;
     let vector = &mut AxisVec::zeros(point.len())[..];
     for passed in blocks {
-        // every path is searched over its whole length, so once is enough for its parts
+        // every path is searched over its whole length, so one search covers all its parts
         if before.is_part_of_the_same(passed) {
             continue;
         }
@@ -286,7 +287,7 @@ mod tests {
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 
-    /// One block in three cycles: each turns by an angle in rad and has a length in mm; some are arcs.
+    /// One block per three cycles; each turns by an angle in rad and has a length in mm; some are arcs.
     fn contour(turns: &[(f64, f64, bool)]) -> (Contour, Vec<Path>) {
         let (mut contour, mut paths) = (Contour::default(), Vec::new());
         let (mut at, mut heading, mut s_mm) = ([0.0, 0.0], 0.0, 0.0);
@@ -316,7 +317,7 @@ mod tests {
         (contour, paths)
     }
 
-    /// Distance of a point from 400 points of each path, and how far apart they are.
+    /// Distance of a point from 400 points on each path, and the spacing of these points.
     fn of_many_points(paths: &[Path], point: [f64; 2]) -> (f64, f64) {
         let (mut least, mut apart, mut q) = (f64::INFINITY, 0.0_f64, [0.0; 2]);
         for path in paths {
@@ -332,8 +333,9 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
-        /// Set points that trail a contour, with jumps: on every line between two of them the nearest block is found, by
-        /// what earlier lines have shown as by a fresh search, while blocks are forgotten.
+        /// Set points that trail a contour, with jumps. On every line between two of them the nearest block is found,
+        /// and the result with the distances from earlier lines is that of a fresh search, also while blocks are
+        /// forgotten.
         #[test]
         fn what_is_known_from_earlier_lines_hides_no_block(
             turns in prop::collection::vec((-2.5..2.5f64, 0.02..3.0f64, prop::bool::weighted(0.2)), 3..30),

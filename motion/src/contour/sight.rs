@@ -1,36 +1,38 @@
-//! What is known of the distances of blocks from a point that moves.
+//! Lower bounds of the distances between blocks and a moving point.
 //!
-//! On its way from one place to another a point comes nearer to a block by the length of that way at most. So a distance that
-//! was measured once is a lower bound later, and of the blocks within reach of a filter most need not be measured again in
-//! the next cycle: a block is looked at once more when the point has come as far as it was away.
+//! A point that moves from one place to another comes nearer to a block by the distance travelled at most. A distance
+//! that was measured once therefore gives a lower bound later, and most of the blocks within reach of a filter need not
+//! be measured again in the next cycle: a block is measured again once the point has travelled as far as the block was
+//! away.
 
 use crate::axis::AxisVec;
 use std::collections::VecDeque;
 use std::ops::Range;
 
-/// Steps after which distances are measured again: what rounding adds to the way stays far below what it is allowed to be.
+/// Number of steps after which distances are measured again, so that rounding errors of the travelled distance stay far
+/// below the allowance.
 const STEPS: u32 = 256;
 
-/// See the module.
+/// Lower bounds of distances, see the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sight {
-    /// Where the point is.
+    /// Position of the point.
     at: AxisVec,
-    /// How far it has gone in mm, by steps so many.
+    /// Distance travelled in mm, and the number of steps.
     way: f64,
     steps: u32,
     /// Number of the block of the first bound.
     first: u64,
-    /// Way in mm before which the point cannot be at a block, block by block.
+    /// For each block the travelled distance in mm below which the point cannot have reached it.
     clear: VecDeque<f64>,
     /// Number of the block that was nearest.
     pub(super) nearest: Option<u64>,
-    /// Numbers of the blocks that the search within reach ended at.
+    /// Numbers of the blocks at which the search within reach ended.
     pub(super) entered: Option<(u64, u64)>,
 }
 
 impl Sight {
-    /// Moves the point; bounds are kept of the blocks with some numbers.
+    /// Moves the point and keeps the bounds of the blocks with these numbers.
     pub(super) fn look_from(&mut self, point: &[f64], blocks: Range<u64>) {
         self.steps += 1;
         if self.at.len() == point.len() && self.steps < STEPS {
@@ -61,12 +63,13 @@ impl Sight {
         self.first + self.clear.len() as u64
     }
 
-    /// How far the point has gone in mm.
+    /// Distance in mm that the point has travelled.
     pub(super) const fn way(&self) -> f64 {
         self.way
     }
 
-    /// Of each block, from the first one that is looked at: the way in mm before which the point cannot be there.
+    /// For each block, from the first examined one: the travelled distance in mm below which the point cannot have
+    /// reached it.
     pub(super) fn clear(&mut self) -> impl Iterator<Item = &mut f64> {
         self.clear.iter_mut()
     }

@@ -1,10 +1,10 @@
 //! The contouring curve: two polynomials of fourth order per axis that meet at the interim point.
 //!
-//! Position, tangent and curvature at both ends are those of the blocks; at the interim point position and the first
-//! three derivatives by the parameter agree. That are ten conditions for ten coefficients, so the curve is unique once
-//! the speed of the parameter at the ends is chosen: the corner distances. Between two lines with equal corner
-//! distance `d` it is the curve with `P = C - d alpha u1 + d beta u2`, `alpha = 1 - x + x^3/4 - x^4/16`,
-//! `beta = x^3/4 - x^4/16`: its interim point is `3/8 d sin(theta/2)` away from the corner.
+//! Position, tangent and curvature at both ends are those of the blocks; at the interim point the position and the
+//! first three derivatives with respect to the parameter agree. These are ten conditions for ten coefficients, so the
+//! curve is unique once the parameter speeds at the ends are chosen: the corner distances. Between two lines with equal
+//! corner distance `d` it is the curve `P = C - d alpha u1 + d beta u2` with `alpha = 1 - x + x^3/4 - x^4/16` and
+//! `beta = x^3/4 - x^4/16`, and its interim point is `3/8 d sin(theta/2)` away from the corner.
 //!
 //! Source: TF5200, polynomial contouring (two polynomials of fourth order, tangent and curvature continuous).
 //! Assumption: C3 at the interim point; the documents do not give the coefficients.
@@ -13,7 +13,7 @@ use crate::axis::AxisVec;
 use crate::path::piece::section;
 use crate::path::{Coefficients, Path, PolyPiece};
 
-/// Where the curve leaves or meets a block: position, first and second derivative by path length.
+/// Where the curve leaves or meets a block: position, first and second derivative with respect to path length.
 #[derive(Clone, Debug)]
 pub(super) struct End {
     pub(super) point: AxisVec,
@@ -33,15 +33,15 @@ impl End {
     }
 }
 
-/// Both halves of a curve, the second one in its own direction of travel.
+/// Both halves of a curve, the second one in its direction of travel.
 #[derive(Clone, Debug)]
 pub(super) struct Blend {
     pub(super) halves: [PolyPiece; 2],
 }
 
 impl Blend {
-    /// The curve from `a` to `b`; `rate_a`, `rate_b`: speeds of the parameter there in mm. Axes with an `interim`
-    /// coordinate pass through it with two continuous derivatives instead of three.
+    /// The curve from `a` to `b`; `rate_a`, `rate_b`: parameter speeds there in mm. Axes with an `interim` coordinate
+    /// pass through it with two continuous derivatives instead of three.
     pub(super) fn new(
         a: &End,
         b: &End,
@@ -51,7 +51,7 @@ impl Blend {
     ) -> Self {
         let mut halves = [PolyPiece::new(), PolyPiece::new()];
         for i in 0..a.point.len() {
-            // the second half is seen from its end, where its parameter starts
+            // the second half is described from its end, where its parameter starts
             let (a0, a1) = (a.point[i], rate_a * a.tangent[i]);
             let (b0, b1) = (b.point[i], -rate_b * b.tangent[i]);
             let a2 = 0.5 * rate_a * rate_a * a.curvature[i];
@@ -83,7 +83,7 @@ impl Blend {
         self.halves[1].iter().map(|c| c[0]).collect()
     }
 
-    /// Both halves cut into `parts` pieces of equal range of the parameter.
+    /// Both halves divided into `parts` pieces of equal parameter range.
     pub(super) fn pieces(&self, parts: u32) -> impl Iterator<Item = PolyPiece> + '_ {
         let at = move |k: u32| f64::from(k) / f64::from(parts);
         self.halves.iter().flat_map(move |half| {

@@ -1,6 +1,6 @@
-//! Why a corner was not contoured as requested.
+//! Reasons why a corner was not contoured as programmed.
 
-/// Why a corner was not contoured as asked for.
+/// The reason why a corner was not contoured as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoContour {
     /// 120216: a block is too short.
@@ -30,17 +30,17 @@ pub enum NoContour {
         /// Angle of the corner in deg.
         angle_deg: f64,
     },
-    /// The curve would take longer than the sharp corner.
+    /// Passing the curve would take longer than passing the sharp corner.
     Slower,
     /// The mode is not available; the corner was contoured as DEV.
     ModeReplaced,
 }
 
-/// A corner that was not contoured as asked for.
+/// A corner that was not contoured as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Notice {
     /// Number of the block before the corner.
     pub seq: u64,
-    /// What was in the way.
+    /// The reason.
     pub reason: NoContour,
 }

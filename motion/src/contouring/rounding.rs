@@ -1,4 +1,4 @@
-//! One corner: how large the curve may be.
+//! The largest permitted curve at one corner.
 
 use super::blend::{Blend, End};
 use super::{Held, NoContour, is_feed};
@@ -19,30 +19,30 @@ pub(super) struct Curve {
     pub(super) post_mm: f64,
 }
 
-/// Lengths that bound the curve at one corner.
+/// The lengths that bound the curve at one corner.
 #[derive(Clone, Copy)]
 struct Bounds {
     pre: f64,
     post: f64,
-    /// Largest distance of the interim point from the corner.
+    /// Largest distance of the interim point from the corner in mm.
     dev: Option<f64>,
-    /// Both distances stay equal when one of them is limited.
+    /// Whether both distances stay equal when one of them is limited.
     symmetric: bool,
     point: [Option<f64>; 3],
     passes_point: bool,
 }
 
-/// What a corner is short of a reversal from which on it stays (Assumption: the curvature of the curve, and that of a
-/// spline at such a corner, grows with the square of the tangent of half the angle; in such a needle the path would crawl for seconds where the corner itself
-/// takes a few cycles).
+/// A corner closer than this to a reversal, in rad, is kept. Assumption: the curvature of the curve, and that of a
+/// spline at such a corner, grows with the square of the tangent of half the angle; the path would take seconds for
+/// such a needle, the corner itself takes a few cycles.
 pub(crate) const NEEDLE_RAD: f64 = 0.05;
 
-/// Corner distance that a block must allow. Source: the example of the vendor's remarks on contouring, where 0.0007 mm of a
-/// block of 0.0014 mm are too short (120216); Assumption: the limit is the next round number, 1 um.
+/// Shortest corner distance in mm. Source: the example in the vendor's remarks on contouring, where 0.0007 mm of a
+/// block of 0.0014 mm are too short (120216). Assumption: the limit is the next round number, 1 um.
 const SHORTEST_MM: f64 = 0.001;
 
-/// Largest corner distance of a block: half of what does not have to remain, on arcs at most a quarter turn
-/// (source: TF5200, maximum corner distance).
+/// Largest corner distance of a block: half of what does not have to remain, on arcs at most a quarter turn (source:
+/// TF5200, maximum corner distance).
 fn longest(path: &Path, settings: &ContourSettings) -> f64 {
     let half = 0.5 * (1.0 - settings.remain_ratio.clamp(0.0, 1.0)) * path.length();
     match path {
@@ -146,11 +146,11 @@ struct Corner<'a> {
     from: &'a Path,
     to: &'a Path,
     skipped: &'a [Block],
-    /// Axes over which lengths are measured.
+    /// The axes over which lengths are measured.
     measured: Vec<bool>,
-    /// Only one of the blocks moves measured axes.
+    /// Whether only one of the blocks moves measured axes.
     mixed: bool,
-    /// Largest change of direction of an axis.
+    /// Largest change of direction of any axis.
     jump: f64,
     angle_rad: f64,
     /// Largest corner distances of both blocks.
@@ -198,7 +198,8 @@ impl<'a> Corner<'a> {
         p.iter().zip(q).zip(&self.measured).filter(|(_, m)| **m).map(d2).sum::<f64>().sqrt()
     }
 
-    /// The curve begins or ends at its interim point: a corner distance of 0 keeps the programmed contour (475227019).
+    /// Whether the curve begins or ends at its interim point: a corner distance of 0 keeps the programmed contour
+    /// (475227019).
     fn keeps_the_contour(&self, bounds: &Bounds) -> bool {
         let corner = self.from.end();
         let at_corner = (0..corner.len().min(3))
@@ -245,7 +246,7 @@ impl<'a> Corner<'a> {
         best.filter(|c| c.pre_mm >= SMALLEST_MM && c.post_mm >= SMALLEST_MM)
     }
 
-    /// Two lines that meet.
+    /// Whether two lines meet here directly.
     fn is_plain(&self) -> bool {
         self.skipped.is_empty() && self.from.is_straight() && self.to.is_straight()
     }
@@ -253,7 +254,7 @@ impl<'a> Corner<'a> {
     fn at(&self, pre: f64, post: f64) -> Curve {
         let a = End::of(self.from, self.from.length() - pre);
         let b = End::of(self.to, post);
-        // blocks that are bridged belong to both halves alike
+        // bridged blocks count towards both halves equally
         let bridged = 0.5 * self.skipped.iter().map(|b| b.path.length()).sum::<f64>();
         let blend = Blend::new(&a, &b, pre + bridged, post + bridged, |_| None);
         Curve { blend, pre_mm: pre, post_mm: post }
@@ -273,7 +274,7 @@ impl<'a> Corner<'a> {
         Some(Curve { blend, pre_mm: pre, post_mm: post })
     }
 
-    /// True if a curve keeps the deviations.
+    /// Whether a curve keeps the deviations.
     fn keeps(&self, curve: &Curve, dev: Option<f64>) -> bool {
         const SLACK: f64 = 1.0 + 1e-12;
         let interim = curve.blend.interim();
@@ -291,7 +292,7 @@ impl<'a> Corner<'a> {
         if self.is_plain() {
             return true;
         }
-        // the corners that are cut, from the curve; and the curve, from the contour
+        // the distance of the skipped corners from the curve, and of the curve from the contour
         let samples: Vec<AxisVec> = curve
             .blend
             .halves

@@ -1,11 +1,11 @@
 //! The largest distance from the contour between two set points.
 //!
-//! Along the line between them the distance from one straight block is convex, so it is largest at an end; the distance from
-//! the contour is the least of those from all blocks, which is larger than at both ends only where the nearest block changes.
-//! These places are roots of the difference of two distances and are found as such: between the blocks nearest to both
-//! ends first, and, where a third block is nearer still, once more on either side. A component of the vector from one straight
-//! block goes straight with the line except where the nearest point comes to an end of the block, so it is largest at an
-//! end of the line or there. Along a bent block the middle is looked at.
+//! Along the line between them the distance from a single straight block is convex, so it is largest at an end. The
+//! distance from the contour is the minimum over all blocks, which exceeds its values at both ends only where the
+//! nearest block changes. These points are roots of the difference of two distances and are computed as such: first
+//! between the blocks nearest to the two ends, then, where a third block is nearer still, once more on either side. A
+//! component of the vector from a straight block is linear along the line except where the nearest point reaches an end
+//! of the block, so it is largest there or at an end of the line. Along a curved block the midpoint is examined.
 
 use super::Excursion;
 use crate::axis::AxisVec;
@@ -14,17 +14,18 @@ use crate::path::Along;
 use crate::profile::roots::enclosed_root;
 use smallvec::{Array, SmallVec};
 
-/// Points of one line that are looked at, at most: beyond that, blocks are so short that no distance is missed between them.
+/// Largest number of points examined on one line; with more changes the blocks are so short that no distance is missed
+/// between them.
 const LOOKS: usize = 64;
 
-/// Share of a stretch of the line that the place of a change is found to.
+/// Accuracy of the place of a change, as a share of the section of the line.
 const PRECISION: f64 = 1e-9;
 
-/// A point of the line, as a share of it, and the block nearest to it.
+/// A point on the line, as a share of its length, and the block nearest to it.
 type Foot<'a> = (f64, Nearest<'a>);
 
-/// Takes every vector that can be the largest one between the ends of a line. `now` is the nearest block at its end among those
-/// that count there.
+/// Collects every vector that can be the largest one between the ends of a line. `now` is the nearest block at its end
+/// among those that count there.
 pub(super) fn largest<'a>(
     around: &Around<'a>,
     line: (&[f64], &[f64]),
@@ -82,7 +83,7 @@ pub(super) fn largest<'a>(
     }
 }
 
-/// Where between two points of the line that are nearest to the same block another vector can be larger than at both of them.
+/// The points between two points nearest to the same block at which another vector can be larger than at both of them.
 fn places(
     around: &Around<'_>,
     line: (&[f64], &[f64]),
@@ -100,7 +101,7 @@ fn places(
     places
 }
 
-/// Where between two points of the line their nearest blocks are equally near.
+/// The point between two points of the line at which their nearest blocks are equally near.
 fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
     if let (Some(a), Some(b)) = (low.1.line(), high.1.line()) {
         return change_of_lines((low.0, a.along(line)), (high.0, b.along(line)));
@@ -121,8 +122,8 @@ fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
     }
 }
 
-/// The same between straight blocks: between the places where a nearest point comes to an end of its block, the squares of
-/// both distances are parabolas.
+/// As [`change`], between straight blocks: between the points at which a nearest point reaches an end of its block, the
+/// squares of both distances are parabolas.
 fn change_of_lines(low: (f64, Along<'_>), high: (f64, Along<'_>)) -> f64 {
     let mut borders: SmallVec<[f64; 6]> = SmallVec::new();
     for block in [&low.1, &high.1] {
@@ -139,7 +140,7 @@ fn change_of_lines(low: (f64, Along<'_>), high: (f64, Along<'_>)) -> f64 {
         if further(from) >= 0.0 {
             return from;
         } else if further(to) > 0.0 {
-            // where the difference rises through zero
+            // where the difference crosses zero upwards
             let slope = (c1 * c1 - 4.0 * c2 * c0).max(0.0).sqrt();
             let root = if c1 > 0.0 { -2.0 * c0 / (c1 + slope) } else { (slope - c1) / (2.0 * c2) };
             return root.clamp(from, to);
@@ -149,7 +150,7 @@ fn change_of_lines(low: (f64, Along<'_>), high: (f64, Along<'_>)) -> f64 {
     high.0
 }
 
-/// Takes those of two places that lie inside a stretch of the line.
+/// Adds those of two places that lie inside a section of the line.
 fn push_between<A: Array<Item = f64>>(
     (low, high): (f64, f64),
     ends: [f64; 2],
@@ -194,7 +195,7 @@ mod tests {
         contour
     }
 
-    /// What the function under test finds between two points, with what counts at them.
+    /// What the function under test finds between two points, including the ends.
     fn found(points: &[[f64; 2]], ends: &[[f64; 2]; 2]) -> Excursion {
         let contour = contour(points);
         let line = (&ends[0][..], &ends[1][..]);
@@ -211,7 +212,8 @@ mod tests {
         out
     }
 
-    /// The same from 4,000 points of the line, each with its nearest point on each block, and how far apart they are.
+    /// The same from 4,000 points on the line, each with its nearest point on each block, and the spacing of the
+    /// points.
     fn of_many_points(points: &[[f64; 2]], ends: &[[f64; 2]; 2]) -> (Excursion, f64) {
         let [from, to] = ends;
         let mut out = Excursion::none(2);
@@ -232,7 +234,7 @@ mod tests {
     }
 
     proptest! {
-        /// Any contour and any line: the largest distance is found, and no component is invented.
+        /// Any contour and any line: the largest distance is found, and every component found really occurs.
         #[test]
         fn the_largest_distance_is_found(
             points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 2..9),
@@ -246,7 +248,7 @@ mod tests {
             }
         }
 
-        /// Lines that are short compared with the blocks, as they are between two cycles: every component, too.
+        /// Lines that are short compared with the blocks, as between two cycles: every component is found as well.
         #[test]
         fn of_a_short_line_every_component_is_found(
             points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 2..9),

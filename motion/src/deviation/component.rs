@@ -1,19 +1,20 @@
-//! The vector from a point to a line whose largest component is smallest.
+//! The vector from a point to a line with the smallest largest component.
 //!
-//! The shortest vector to a set path jumps where two of its lines are equally near, and with it the largest component: which of
-//! them counts depends on the last cycle that belongs to the path. The least of the largest components does not jump.
+//! The shortest vector to a set path jumps where two of its lines are equally near, and its largest component jumps
+//! with it: which line counts then depends on the last cycle of the path. The minimum of the largest component does not
+//! jump.
 
 use crate::axis::AxisVec;
 
-/// Sets `vector` to that from `point` to the line between two others whose largest component is least; returns that component.
+/// Sets `vector` to the one from `point` to a line whose largest component is smallest; returns that component.
 ///
-/// Along the line the largest component is convex and made of straight pieces: two of them, one that falls and one that rises,
-/// enclose the minimum, and where they meet another one may be larger still, until none is.
+/// Along the line the largest component is convex and piecewise linear. A falling and a rising piece enclose the
+/// minimum; where they meet another piece may be larger still, and replaces one of them until none is.
 pub(super) fn least(point: &[f64], line: (&[f64], &[f64]), vector: &mut AxisVec) -> f64 {
     let at = |u: f64| Piece::largest(point, line, u);
     let (mut falling, mut rising) = (at(0.0).1, at(1.0).0);
     let mut u = if falling.slope < 0.0 { 1.0 } else { 0.0 };
-    // every component has two pieces, and each of them is met at most once
+    // every component has two pieces, and each of them is used at most once
     for _ in 0..2 * point.len() {
         if falling.slope >= 0.0 || rising.slope <= 0.0 {
             break;
@@ -34,7 +35,7 @@ pub(super) fn least(point: &[f64], line: (&[f64], &[f64]), vector: &mut AxisVec)
     vector.iter().fold(0.0, |m, c| m.max(c.abs()))
 }
 
-/// A straight piece of the largest component: its value at a place of the line and its slope.
+/// A linear piece of the largest component: its value at a position on the line and its slope.
 #[derive(Clone, Copy)]
 struct Piece {
     u: f64,
@@ -43,7 +44,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// The largest components at a place: the one that counts left of it and the one that counts right of it.
+    /// The largest component at a position: its pieces to the left and to the right.
     fn largest(point: &[f64], line: (&[f64], &[f64]), u: f64) -> (Self, Self) {
         let pieces = (0..point.len()).map(|i| {
             let way = line.1[i] - line.0[i];
@@ -64,7 +65,7 @@ impl Piece {
         })
     }
 
-    /// Where a piece that falls meets one that rises.
+    /// Position at which a falling piece meets a rising one.
     fn meets(&self, rising: &Self) -> f64 {
         let along = |piece: &Self| piece.value - piece.slope * piece.u;
         ((along(self) - along(rising)) / (rising.slope - self.slope)).clamp(0.0, 1.0)
@@ -77,7 +78,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// None of 2,000 points of the line is nearer, and one of them is almost as near.
+        /// None of 2,000 points on the line is nearer, and one of them is almost as near.
         #[test]
         fn no_point_of_the_line_is_nearer(
             [point, from, to] in prop::array::uniform3(prop::array::uniform3(-1.0..1.0f64)),

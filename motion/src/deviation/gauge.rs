@@ -4,31 +4,31 @@ use super::{Excursion, SetPath};
 use crate::axis::AxisVec;
 use crate::contour::{Contour, Sight};
 
-/// Both ways, cycle by cycle, for what is output.
+/// Deviation in both directions, cycle by cycle, for the output.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gauge {
     reach: u64,
-    /// The filters of the axes differ.
+    /// Whether the filters differ between the axes.
     every: bool,
     set: SetPath,
     path: SetPath,
     found: Excursion,
     sight: Sight,
-    /// Number of the block that the filters let go last.
+    /// Number of the last block that has left the filters.
     left: u64,
-    /// Last cycle whose set point was not the interpolated one.
+    /// Last cycle whose set point differed from the interpolated one.
     filtered: Option<u64>,
     /// Shortest vector to the last set point with its length in mm.
     shortest: Option<(f64, AxisVec)>,
 }
 
 impl Gauge {
-    /// For filters that reach `reach` cycles back; `every`: they differ between the axes.
+    /// For filters that reach back `reach` cycles; `every`: they differ between the axes.
     pub(crate) fn new(reach: u32, every: bool) -> Self {
         Self { reach: u64::from(reach), every, ..Self::default() }
     }
 
-    /// The contour is another one.
+    /// Forgets known distances, because the contour was replaced.
     pub(crate) fn look_anew(&mut self) {
         self.sight = Sight::default();
     }
@@ -43,8 +43,9 @@ impl Gauge {
         self.shortest.as_ref().map(|(length, vector)| (*length, &**vector))
     }
 
-    /// Takes the set point of a cycle that filters left as it was interpolated. Finds what of the contour they have let go
-    /// was missed: axes that have all arrived may still owe a corner that they held until now. `least_mm`: see [`Self::step`].
+    /// Processes the set point of a cycle in which the filters change nothing, and finds what was missed of the part of
+    /// the contour that has just left the filters: axes that have all arrived may still have cut a corner that the
+    /// filters held until now. `least_mm`: see [`Self::step`].
     pub(crate) fn unfiltered(
         &mut self,
         contour: &Contour,
@@ -66,10 +67,10 @@ impl Gauge {
         }
     }
 
-    /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
-    /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
-    /// missed by; see [`Self::miss`] for the least tolerance of the run. Without one, only the shortest vector to the set
-    /// point is found.
+    /// Processes the set point and the interpolated point of cycle `k`. Finds the largest components of the vectors
+    /// from the contour to the line that ends at the set point, and of the vectors to the set path from those points of
+    /// the contour that have just left the filters; for the least tolerance of the run see [`Self::miss`]. Without such
+    /// a tolerance only the shortest vector to the set point is found.
     pub(crate) fn step(
         &mut self,
         contour: &Contour,
@@ -104,7 +105,7 @@ impl Gauge {
         }
     }
 
-    /// What of the contour was missed that the filters have let go in cycle `k`.
+    /// Finds what was missed of the part of the contour that leaves the filters in cycle `k`.
     fn let_go(&mut self, contour: &Contour, k: u64, least_mm: f64) {
         let passed = k as f64 - self.reach as f64 - 1.0;
         let entered = contour.entered_near(passed, contour.index(self.left).unwrap_or_default());
@@ -121,9 +122,9 @@ impl Gauge {
         }
     }
 
-    /// Takes the vector from a point of the contour to the set path between two cycles: the shortest one, or, if that exceeds
-    /// the tolerance of the blocks that the filters held, the one whose largest component is smallest. Up to `least_mm`, the
-    /// least tolerance of the run, none is exceeded.
+    /// Adds the vector from a point of the contour to the set path between two cycles: the shortest one or, if that
+    /// exceeds the tolerance of the blocks that the filters held, the one with the smallest largest component. Vectors
+    /// up to `least_mm`, the least tolerance of the run, do not exceed any.
     fn miss(&mut self, contour: &Contour, k: u64, point: &[f64], among: (u64, u64), least_mm: f64) {
         let mut shortest = Excursion::none(point.len());
         self.set.misses(point, among, f64::INFINITY, &mut shortest);
@@ -134,8 +135,8 @@ impl Gauge {
     }
 }
 
-/// Loosest tolerance in mm of the blocks that filters with this reach held until cycle `k`, with the number of its block; infinite
-/// where one of them has none.
+/// Loosest tolerance in mm of the blocks that filters with this reach held until cycle `k`, with the number of its
+/// block; infinite if one of them is not monitored.
 pub(crate) fn loosest(contour: &Contour, k: u64, reach: u64) -> Option<(f64, u64)> {
     let (reach, moment) = (reach as f64, k as f64);
     let held = contour.between(moment - 2.0 * reach - 3.0, moment);

@@ -1,33 +1,34 @@
-//! Measures what is output, apart from the planner.
+//! Measures the deviation of the output, separately from the planner.
 
 use super::gauge::{Gauge, loosest};
 use crate::axis::AxisVec;
 use crate::contour::{Contour, Passed};
 use crate::tolerance::Unkept;
 
-/// What has changed in a planner that the deviation of its output depends on, see [`Meter::take`].
+/// A change in a planner that affects the deviation of its output, see [`Meter::take`].
 #[derive(Clone, Debug)]
 pub struct Change(pub(crate) What);
 
 #[derive(Clone, Debug)]
 pub(crate) enum What {
-    /// The contour is another one.
+    /// The contour is replaced.
     Contour(Contour),
-    /// A block is put after the others.
+    /// A block is appended.
     Enters(Passed),
-    /// So many blocks lie out of reach.
+    /// This number of blocks is out of reach.
     Leave(usize),
-    /// Other filters, at rest at a position in a cycle.
+    /// The filters are replaced, at rest at a position in a cycle.
     Kernels { reach_cycles: u32, differ: bool, at: Option<(u64, AxisVec)> },
     /// Least tolerance of any block so far in mm.
     Tolerance(f64),
-    /// It has been reported that a plan does not keep the tolerance.
+    /// A plan that does not keep the tolerance has been reported.
     Told,
 }
 
-/// The deviation of what a planner puts out and filters change, cycle by cycle, in both directions that `AX_DEV` bounds.
+/// The deviation of the output of a planner after the filters, cycle by cycle, in both directions that `AX_DEV` bounds.
 ///
-/// It follows the planner by its changes ([`crate::planner::Planner::take_changes`]) and may lag behind it, on another thread.
+/// It follows the planner by the changes of the latter ([`crate::planner::Planner::take_changes`]) and may do so later,
+/// on another thread.
 ///
 /// Order of calls: in each cycle [`Self::take`] for the changes up to it, then [`Self::filtered`] or [`Self::unfiltered`].
 ///
@@ -57,36 +58,37 @@ pub struct Meter {
     contour: Contour,
     gauge: Gauge,
     reach_cycles: u32,
-    /// Least tolerance of any block so far in mm, if one has any.
+    /// Least tolerance of any block so far in mm, if any block has one.
     least_tolerance_mm: Option<f64>,
-    /// The set path between two set points, and what of the contour it misses, do not matter as long as no block has one.
+    /// Whether only set points are measured, without the path between them and the contour it misses, until a block has
+    /// a tolerance.
     set_points_only: bool,
     excess: Excess,
 }
 
-/// What is known of an excess in what is output.
+/// State of the search for an excess in the output.
 #[derive(Clone, Copy, Debug, Default)]
 enum Excess {
-    /// No cycle exceeded the tolerance of its blocks.
+    /// No cycle has exceeded the tolerance of its blocks.
     #[default]
     None,
-    /// One did, and this has not been taken yet.
+    /// One has, and it has not been taken yet.
     Found(Unkept),
-    /// It has been reported, or that a plan does not keep the tolerance; later ones are not looked for.
+    /// An excess, or a plan that does not keep the tolerance, has been reported; later ones are not searched for.
     Told,
 }
 
-/// Share and mm by which the output may exceed a tolerance before it is reported: what a trace rounds away.
+/// Factor and mm by which the output may exceed a tolerance before it is reported: the rounding of a trace.
 const ALLOWANCE: f64 = 1.001;
 const ALLOWANCE_MM: f64 = 1e-6;
 
 impl Meter {
-    /// Measures nothing but the set points until a block has a tolerance: half of the work.
+    /// Measures only the set points until a block has a tolerance, which halves the work.
     pub fn set_points_only(&mut self) {
         self.set_points_only = true;
     }
 
-    /// Takes a change of the planner, in their order.
+    /// Applies a change of the planner; changes have to come in their order.
     pub fn take(&mut self, Change(what): Change) {
         match what {
             What::Contour(contour) => {
@@ -118,8 +120,8 @@ impl Meter {
         wanted.then(|| self.least_mm())
     }
 
-    /// Components of the shortest vector from the contour within reach of the filters to the set point of cycle `k`, whose
-    /// interpolated point is `path`; returns its length in mm.
+    /// Sets `out` to the components of the shortest vector to the set point of cycle `k` from the contour within reach
+    /// of the filters; returns its length in mm. `path` is the interpolated point of the cycle.
     pub fn filtered(&mut self, k: u64, set: &[f64], path: &[f64], out: &mut [f64]) -> f64 {
         self.gauge.step(&self.contour, k, (set, path), self.wanted_mm());
         debug_assert_eq!(
@@ -145,7 +147,7 @@ impl Meter {
         self.judge(k);
     }
 
-    /// Compares what is output with the loosest tolerance of the blocks that the filters hold.
+    /// Compares the output with the loosest tolerance of the blocks that the filters hold.
     fn judge(&mut self, k: u64) {
         let most = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));
         let looked_for = matches!(self.excess, Excess::None);
@@ -161,17 +163,16 @@ impl Meter {
         }
     }
 
-    /// The first excess that was measured in what is output although the plan had kept the tolerance; each run has one at
-    /// most.
+    /// The first measured excess in the output of a plan that keeps the tolerance; at most one per run.
     pub fn take_exceeded(&mut self) -> Option<Unkept> {
         let Excess::Found(unkept) = self.excess else { return None };
         self.excess = Excess::Told;
         Some(unkept)
     }
 
-    /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the
-    /// contour that the filters have just let go: the two directions that `AX_DEV` bounds. `None` if only the set point was
-    /// measured.
+    /// Largest components in mm of the two directions that `AX_DEV` bounds: how far the set path leaves the contour in
+    /// this cycle, and by how much it has missed the part of the contour that has just left the filters. `None` if only
+    /// the set point was measured.
     pub fn excursion(&self) -> Option<&[f64]> {
         self.wanted_mm().map(|_| self.gauge.found())
     }

@@ -1,4 +1,4 @@
-//! The nearest line of a set path, by looking at every one of them.
+//! The nearest line of a set path, compared with a search over every line.
 
 use super::*;
 use proptest::prelude::*;
@@ -17,7 +17,7 @@ fn length(v: &[f64; 2]) -> f64 {
 }
 
 proptest! {
-    /// The nearest line is found, and where whatever could be called the nearest one counts, all of those.
+    /// The nearest line is found; where every line counts that may be the nearest, all of them are.
     #[test]
     fn no_line_of_the_set_path_is_nearer(
         steps in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 3..40),
@@ -27,7 +27,7 @@ proptest! {
     ) {
         let (mut at, mut points) = ([0.0; 2], vec![[0.0; 2]]);
         for (step, i) in steps.iter().zip(0..) {
-            // a path that comes from somewhere, with cycles in which it rests
+            // a path with cycles in which it rests
             let scale = if rests && i % 5 > 2 { 0.0 } else { 0.3 };
             at = [at[0] + scale * (step[0] + ahead), at[1] + scale * step[1]];
             points.push(at);
@@ -55,7 +55,7 @@ proptest! {
                 prop_assert_eq!(&*out.vector, &nearest[..]);
                 continue;
             }
-            // those that are as near as the rule says, less and more than rounding
+            // lines as near as the rule requires, with less and with more than rounding
             let within = |share: f64| {
                 let near = lines.iter().filter(move |v| length(v) <= (1.0 + share) * least);
                 [0, 1].map(|i| near.clone().fold(0.0, |m: f64, v| m.max(v[i].abs())))

@@ -8,17 +8,17 @@ use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 use std::sync::Arc;
 
-/// Rows of a table at most: two accelerations and the jerk of four ramps.
+/// Largest number of rows in a table: two accelerations and the jerk of four ramps.
 const ROWS: usize = 6;
 
-/// What the slopes of blocks take from the axes: worked out once for the blocks that share a set of dynamics.
+/// Axis limits used by the slopes of blocks, computed once for all blocks that share a set of dynamics.
 #[derive(Clone, Debug)]
 pub(crate) struct SlopeTable {
-    /// The set. It is held, so that no other one can come to its place in memory.
+    /// The set, kept alive so that its address stays unique.
     dynamics: Arc<ChannelDynamics>,
     slope: Slope,
     rapid: bool,
-    /// Limits by axis, each kind of them once.
+    /// Limits by axis, each different row once.
     rows: Vec<AxisVec>,
     /// Rows of acceleration and deceleration in mm/s2.
     plateaus: [usize; 2],
@@ -27,7 +27,7 @@ pub(crate) struct SlopeTable {
 }
 
 impl SlopeTable {
-    /// The table of a block.
+    /// The table for a block.
     pub(crate) fn of(block: &Block, cycle: CycleTime) -> Self {
         let rapid = block.feed == Feed::Rapid;
         let mut table = Self {
@@ -52,7 +52,7 @@ impl SlopeTable {
                 } else {
                     axis.feed.ramps_s[k]
                 };
-                // a ramp below the cycle time is not a ramp
+                // a ramp shorter than the cycle time is not a ramp
                 if t < cycle.seconds() { f64::INFINITY } else { plateau(k / 2, axis) / t }
             };
             table.plateaus = [0, 1].map(|k| table.row(|axis| plateau(k, axis)));
@@ -61,7 +61,7 @@ impl SlopeTable {
         table
     }
 
-    /// The place of a row of limits.
+    /// Index of a row of limits, which is added if it is new.
     fn row(&mut self, limit: impl Fn(&AxisDynamics) -> f64) -> usize {
         let row: AxisVec = self.dynamics.axes.iter().map(limit).collect();
         let same =
@@ -72,7 +72,7 @@ impl SlopeTable {
         })
     }
 
-    /// True if it is the table of this block, too.
+    /// Whether the table is valid for this block as well.
     pub(crate) fn serves(&self, block: &Block) -> bool {
         Arc::ptr_eq(&self.dynamics, &block.dynamics)
             && self.slope == block.slope
@@ -81,8 +81,8 @@ impl SlopeTable {
 
     /// Path slope over a path.
     ///
-    /// The weakest axis rules acceleration; ramps combine through the axis jerk `a_i / t_i` (Assumption: then no axis
-    /// exceeds its own jerk and none is slower than needed).
+    /// The weakest axis determines the acceleration; ramps are combined through the axis jerk `a_i / t_i` (Assumption:
+    /// with this rule no axis exceeds its jerk, and none is slower than necessary).
     pub(crate) fn path_slope(&self, x: &PathExtremes) -> SlopeLimits {
         let d = &self.dynamics;
         if self.slope.kind == SlopeKind::Step {
@@ -98,7 +98,7 @@ impl SlopeTable {
         let dec = dec.min(vector.dec_mm_s2.unwrap_or(f64::INFINITY));
         let shape =
             if self.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
-        // the jerk of a limit is the largest one, that of a ramp time the mean one
+        // a jerk limit bounds the peak jerk, a ramp time gives the mean jerk
         let vector_jerk = vector.jerk_mm_s3.map_or(f64::INFINITY, |jerk| jerk / shape.peak_jerk());
         let ramp = |k: usize| {
             let path = if k < 2 { acc } else { dec };
@@ -110,7 +110,7 @@ impl SlopeTable {
     }
 }
 
-/// Two-stage slope of a path: the path value is the minimum over the axes, so there is one break point per axis.
+/// Two-stage slope of a path: its value is the minimum over the axes, which gives one break point per axis.
 fn step_slope(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> StepLimits {
     let mut axes: SmallVec<[StepAxis; 9]> = d
         .axes

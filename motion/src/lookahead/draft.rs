@@ -1,21 +1,22 @@
-//! A plan that is made again and again, under limits of which few change or with more blocks after it: what it was made for
-//! stays with it.
+//! A plan that is made repeatedly, under limits of which few change or with more blocks appended, stored together with
+//! its inputs.
 //!
-//! The profile of a span depends on its blocks, their feeds, the caps of the boundaries inside, and the speeds at its ends; that of
-//! the first span also on the acceleration there. Which boundaries are knots does not matter: a span is asked for by its ends.
+//! The profile of a span depends on its blocks, their feed rates, the caps of the boundaries inside and the speeds at
+//! its ends; that of the first span also on its start acceleration. It does not depend on which other boundaries are
+//! knots: spans are looked up by their ends.
 
 use super::Span;
 use crate::cap::Cap;
 use crate::queue::Queued;
 use std::sync::Arc;
 
-/// A plan with what it was made for: where that stays as it is, so does the plan.
+/// A plan with its inputs: spans with unchanged inputs are reused.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     pub(crate) spans: Vec<Span>,
-    /// The plan with acceleration zero at its knots, where some of them are passed with another one.
+    /// The plan with zero acceleration at its knots, if some of them are passed with a different one.
     flat: Option<Vec<Span>>,
-    /// Acceleration in mm/s2 with which the span of the first block begins.
+    /// Acceleration in mm/s2 at the start of the span of the first block.
     a_start: f64,
     blocks: Vec<Arc<Queued>>,
     feeds: Vec<Cap>,
@@ -23,7 +24,7 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// `passing`: what takes the place of a plan, see [`super::passing`].
+    /// `passing`: the plan that replaces `spans`, see [`super::passing`].
     pub(super) fn new(
         spans: Vec<Span>,
         passing: Option<Vec<Span>>,
@@ -39,12 +40,12 @@ impl Draft {
         Self { spans, flat, a_start, blocks: blocks.to_vec(), feeds, caps }
     }
 
-    /// A plan of which nothing can be used again.
+    /// A plan without reusable spans.
     pub(super) fn of_spans(spans: Vec<Span>) -> Self {
         Self { spans, ..Self::default() }
     }
 
-    /// What is left when the first blocks are before the start.
+    /// Drops the first `count` blocks, which are now before the start.
     pub(crate) fn pass(&mut self, count: usize) {
         if count == 0 {
             return;
@@ -70,7 +71,7 @@ impl Draft {
         self.caps.drain(..count);
     }
 
-    /// The spans inside which nothing else is allowed now.
+    /// The spans whose limits have not changed inside.
     pub(super) fn left(
         &self,
         a_start: f64,
@@ -103,7 +104,7 @@ mod tests {
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 
-    /// Chords of these lengths and directions: the accelerations of the path differ from one to the next.
+    /// Chords of these lengths and directions; the path acceleration differs from one to the next.
     fn contour(slope: Slope, chords: &[(f64, f64)]) -> Vec<Arc<Queued>> {
         let cycle = CycleTime::from_us(1000).unwrap();
         let mut at = [0.0, 0.0];
@@ -123,13 +124,13 @@ mod tests {
         )
     }
 
-    /// The caps before blocks, with a stop after the last one.
+    /// The caps before the blocks, with a stop after the last one.
     fn closed(caps: &[f64]) -> Vec<Cap> {
         let corner = |v: &f64| Cap::new(*v, SpeedLimit::Corner);
         caps.iter().map(corner).chain([Cap::STOP]).collect()
     }
 
-    /// Plans once from nothing and once with a draft.
+    /// Plans once from scratch and once with a draft.
     fn twice(
         blocks: &[Arc<Queued>],
         limits: (&[Cap], &[Cap]),
@@ -157,8 +158,8 @@ mod tests {
     }
 
     proptest! {
-        /// Random blocks whose limits are lowered here and there, round after round: a plan made again is to the bit the one
-        /// made from nothing.
+        /// Random blocks, some of whose limits are lowered in each round: a plan with a draft equals the one from
+        /// scratch bit for bit.
         #[test]
         fn a_plan_made_again_is_the_plan_made_anew(
             slope in slopes(),
@@ -178,8 +179,8 @@ mod tests {
             }
         }
 
-        /// A window that moves along a random contour, and stops now and then inside a span, with the acceleration that the path
-        /// has there: what is kept of the plan before changes no bit.
+        /// A window that moves along a random contour and sometimes stops inside a span, with the acceleration of the
+        /// path there: reusing the earlier plan changes no bit.
         #[test]
         fn a_plan_whose_window_moves_on_is_the_plan_made_anew(
             slope in slopes(),

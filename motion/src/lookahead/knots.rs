@@ -1,6 +1,6 @@
 //! Knots: the boundaries of a window at which the acceleration is zero.
 //!
-//! Reads a window, touches nothing but the marks.
+//! Only the marks are modified; the window is read.
 
 use super::stretch::{Stretch, rates};
 use super::{Window, is_above};
@@ -9,16 +9,17 @@ use crate::queue::Queued;
 use crate::ride::has_hill;
 use std::sync::Arc;
 
-/// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller
-/// value (Assumption: a CAM contour changes its direction from block to block by little, and the control does not
-/// stop accelerating there).
+/// Relative difference of the path acceleration up to which blocks of a run are planned as one span with the smaller
+/// value (Assumption: the direction of a CAM contour changes little from block to block, and the control does not
+/// reduce its acceleration to zero there).
 const NEARLY_EQUAL: f64 = 0.1;
-/// Relative difference up to which limits of two blocks are the same: rounding.
+/// Relative difference up to which limits of two blocks count as equal: rounding.
 const ALIKE: f64 = 1e-6;
 
 impl Window<'_> {
-    /// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration
-    /// passes through zero in any case, so they are knots that cost nothing. `plain`: blocks that are not planned across.
+    /// Boundaries at which the fastest speed without a jerk limit has a distinct local minimum. There the acceleration
+    /// passes through zero in any case, so as knots they cost no time. `plain`: blocks that are not planned across
+    /// boundaries.
     pub(super) fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
         let blocks = self.blocks;
         let n = blocks.len();
@@ -27,7 +28,7 @@ impl Window<'_> {
         own.extend((1..n).map(|i| self.limit(i).v_mm_s).map(|v| v * v));
         own.push(0.0);
         let mut square = own.clone();
-        // what the square of the speed gains along each block, up and down; none where its limits have no rates
+        // gain of the squared speed along each block, up and down; none where its limits have no rates
         let gain =
             |b: &Arc<Queued>| rates(b).map(|r| (2.0 * b.length * r.acc, 2.0 * b.length * r.dec));
         let gains: Vec<Option<(f64, f64)>> = blocks.iter().map(gain).collect();
@@ -37,7 +38,7 @@ impl Window<'_> {
         for i in 0..n {
             square[i + 1] = square[i + 1].min(square[i] + gains[i].map_or(0.0, |(up, _)| up));
         }
-        // where a line is only divided nothing is to be decided, and a hill may reach over its parts
+        // at a boundary that merely divides a line there is nothing to decide, and a hill may extend across it
         let divides: Vec<bool> = (0..=n).map(|b| b > 0 && b < n && self.only_divides(b)).collect();
         let (mut begins, mut ends): (Vec<usize>, Vec<usize>) = (0..n).map(|i| (i, i + 1)).unzip();
         for i in 1..n {
@@ -50,7 +51,7 @@ impl Window<'_> {
                 ends[i - 1] = ends[i];
             }
         }
-        // of the part of a line between two boundaries
+        // whether the part of a line between two boundaries has a hill
         let own_hill = |from: usize, to: usize| {
             let v = square[from].max(square[to]).sqrt();
             let length = blocks[from..to].iter().map(|b| b.length).sum();
@@ -72,7 +73,7 @@ impl Window<'_> {
             .collect()
     }
 
-    /// True if the blocks on both sides of a boundary are parts of one line to the planner.
+    /// Whether the planner may treat the blocks on both sides of a boundary as parts of one line.
     pub(super) fn only_divides(&self, b: usize) -> bool {
         let [before, behind] = [b - 1, b].map(|i| &self.blocks[i]);
         let feed = self.feeds[b];
@@ -83,13 +84,13 @@ impl Window<'_> {
             && same(self.feeds[b - 1].v_mm_s, feed.v_mm_s)
             && before.block.slope == behind.block.slope
             && rates(before).zip(rates(behind)).is_some_and(|(x, y)| {
-                // from line to line of a contour the acceleration changes first
+                // between the lines of a contour the acceleration differs most often, so it is compared first
                 let ramps = || x.ramps.iter().zip(y.ramps).all(|(x, y)| same(*x, y));
                 same(x.acc, y.acc) && same(x.dec, y.dec) && ramps()
             })
     }
 
-    /// Drops the minima at which acceleration zero would cost speed; true if there were any.
+    /// Drops the minima at which zero acceleration would cost speed; true if there were any.
     pub(super) fn drop_lowered(
         &self,
         stretches: &[Stretch<'_>],
@@ -98,7 +99,7 @@ impl Window<'_> {
         soft: &mut [bool],
     ) -> bool {
         let mut any = false;
-        // from the speed at the start, which is final, the first one may be out of reach
+        // the speed at the start is final, and the first minimum may be out of reach from it
         if let [first, second, ..] = stretches {
             let (v0, v1) = (speeds[0].v_mm_s, speeds[1].v_mm_s);
             if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
@@ -116,8 +117,8 @@ impl Window<'_> {
         any
     }
 
-    /// Marks the boundaries that are knots in any case. Returns which blocks are planned as with plain TRAPEZ or SIN2: the
-    /// run of equal feed in which braking under G901 begins.
+    /// Marks the boundaries that are knots in any case. Returns which blocks are planned as with plain TRAPEZ or SIN2:
+    /// the run of equal feed rate in which braking under G901 begins.
     pub(super) fn mark_knots(&self, knot: &mut [bool]) -> Vec<bool> {
         let Self { blocks, feeds, caps, .. } = *self;
         let mut run = 0;

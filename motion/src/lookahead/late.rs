@@ -1,17 +1,18 @@
-//! G901: braking to a lower feed begins after the end of the faster block.
+//! G901: braking to a lower feed rate begins after the end of the faster block.
 //!
-//! The slower block may be entered above its feed, with what its own limits and the boundary allow; there the path brakes
-//! at once to the feed, holds it and continues as usual. The boundary is a knot, and braking ends in the run of blocks of
-//! this feed, so at its end the speed is what it would be without G901.
+//! The slower block may be entered above its feed rate, limited by its other limits and the boundary. There the path
+//! brakes at once to the feed rate, holds it and continues as usual. The boundary is a knot, and braking ends within
+//! the run of blocks with this feed rate, so that the speed at its end is the same as without G901.
 //!
-//! A run shorter than the braking is *carried*: if its end is under G901 too, the next run is slower still, and that makes
-//! the path faster, the next run is joined to it, and braking continues across the boundary to the feed of the next run.
+//! If a run is shorter than the braking distance, braking may be *carried*: if the end of the run is under G901 too,
+//! the next run is slower still, and the result is faster, the next run is joined to it and braking continues across
+//! the boundary to the feed rate of the next run.
 //!
-//! Source: TF5200 programming manual, G08/G09/G900/G901. Assumption: its exception, that the path is at its velocity limit
-//! already, means the limits of the slower block, with which it is entered at most.
+//! Source: TF5200 programming manual, G08/G09/G900/G901. Assumption: its exception, a path that is already at its
+//! velocity limit, refers to the limits of the slower block, which cap its entry speed.
 //!
-//! Nothing here is promised to be faster: of the plans with carried braking, without it, and without G901 the fastest one
-//! is taken.
+//! None of this is certain to be faster, so the fastest of three plans is used: with carried braking, without it, and
+//! without G901.
 
 use super::{Span, Stretch, Window, is_above};
 use crate::cap::Cap;
@@ -19,12 +20,12 @@ use crate::profile::Infeasible;
 use crate::queue::Queued;
 use std::sync::Arc;
 
-/// Halvings of the speed at which a run of several blocks may be entered.
+/// Bisection steps for the entry speed of a run of several blocks.
 const HALVINGS: u32 = 40;
-/// Rounds of carrying; each one joins as many runs as it can.
+/// Rounds of carrying; each joins as many runs as possible.
 const ROUNDS: usize = 16;
 
-/// Speeds at which the blocks may be entered; `None` if no block may be entered above its feed.
+/// Entry speeds of the blocks; `None` if no block may be entered above its feed rate.
 pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>> {
     let mut entries = feeds.to_vec();
     for i in 1..blocks.len() {
@@ -37,15 +38,15 @@ pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>>
     (entries != feeds).then_some(entries)
 }
 
-/// Highest speed at which block `i` may be entered, whatever the feed of the block before.
+/// Highest entry speed of block `i`, whatever the feed rate of the block before.
 fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
-    // what lowers a feed below that of the block (tolerance monitoring) is a limit
+    // a cap below the feed rate of the block (tolerance monitoring) is a limit
     let own = feeds[i].v_mm_s >= blocks[i].velocity.v_mm_s;
     let late = own && blocks[i - 1].brakes_late_into(&blocks[i]);
     if late && blocks[i].ceiling.v_mm_s > feeds[i].v_mm_s { blocks[i].ceiling } else { feeds[i] }
 }
 
-/// Plans a window with these entries, `early` without them.
+/// Plans a window with these entry speeds; `early` is the window without them.
 pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Vec<Span>, Infeasible> {
     let mut late = Window { entries, ..early.clone() };
     late.carry_start();
@@ -60,15 +61,15 @@ pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Vec<Span>, I
     })
 }
 
-/// The faster one of two plans, the second one if they are equal.
+/// The faster of two plans, the second one if they are equal.
 fn faster(a: Vec<Span>, b: Vec<Span>) -> Vec<Span> {
     let time = |plan: &Vec<Span>| plan.iter().map(|s| s.profile.duration()).sum::<f64>();
     if time(&a) < time(&b) { a } else { b }
 }
 
 impl Window<'_> {
-    /// The highest speed, at most `most`, at which a stretch that ends with `v1` may be entered: above its feed no
-    /// boundary inside is passed faster than it allows, now and when a later plan ends it at its feed.
+    /// The highest entry speed of a stretch, up to `most`, that ends with `v1`: above its feed rate no boundary inside
+    /// may be passed faster than permitted, neither now nor when a later plan ends the stretch at its feed rate.
     pub(super) fn entry_speed(&self, s: &Stretch<'_>, most: f64, v1: f64) -> f64 {
         if !s.is_above(most) {
             return most;
@@ -86,7 +87,7 @@ impl Window<'_> {
         low
     }
 
-    /// True if no boundary inside a stretch is passed faster than it allows.
+    /// Whether every boundary inside a stretch is passed at a permitted speed.
     pub(super) fn keeps(&self, s: &Stretch<'_>, v0: f64, v1: f64) -> bool {
         if s.end - s.first == 1 || !s.is_above(v0) {
             return true;
@@ -100,8 +101,8 @@ impl Window<'_> {
         })
     }
 
-    /// True if braking may continue across the boundary before block `b`: to a feed that is not higher and that the boundary
-    /// allows.
+    /// Whether braking may continue across the boundary before block `b`: to a feed rate that is not higher and that
+    /// the boundary permits.
     fn joins(&self, b: usize) -> bool {
         let (from, to) = (&self.blocks[b - 1], &self.blocks[b]);
         !self.forced[b]
@@ -110,7 +111,7 @@ impl Window<'_> {
             && from.brakes_late_into(to)
     }
 
-    /// Carries the braking that begins before the window as far as it needs.
+    /// Carries braking that begins before the window as far as necessary.
     fn carry_start(&mut self) {
         let v0 = self.v_start.v_mm_s;
         for end in 1..self.blocks.len() {
@@ -123,7 +124,8 @@ impl Window<'_> {
         }
     }
 
-    /// A plan in which braking continues across the ends of runs, as far as that makes it faster; `None` if nowhere.
+    /// A plan with braking carried across the ends of runs as far as that makes it faster; `None` if it does so
+    /// nowhere.
     fn carried(&self, base: &[Span]) -> Option<Vec<Span>> {
         let mut window = self.clone();
         let mut plan: Option<Vec<Span>> = None;
@@ -144,8 +146,8 @@ impl Window<'_> {
         plan
     }
 
-    /// Ends of runs across which braking should continue: with the speeds around as they are, the two runs and what lies
-    /// before them take less time.
+    /// Ends of runs across which braking should continue, because the two runs and the part before them then take less
+    /// time, with the other speeds unchanged.
     fn joints(&self, plan: &[Span]) -> Vec<usize> {
         let mut out = Vec::new();
         let mut k = 1;
@@ -153,7 +155,7 @@ impl Window<'_> {
             let b = plan[k + 1].first;
             if self.gains(plan, k) {
                 out.push(b);
-                // the speeds around change
+                // the neighbouring speeds change
                 k += 3;
             } else {
                 k += 1;
@@ -162,7 +164,7 @@ impl Window<'_> {
         out
     }
 
-    /// True if spans `k` and `k + 1` as one are faster.
+    /// Whether spans `k` and `k + 1` are faster as one.
     fn gains(&self, plan: &[Span], k: usize) -> bool {
         let [before, first, second] = &plan[k - 1..=k + 1] else { return false };
         let start = |s: &Span| s.profile.at(0.0).v_mm_s;
@@ -177,7 +179,7 @@ impl Window<'_> {
         let (up, whole) = (stretch(before), stretch(first).carried_into(&stretch(second)));
         let v0 = start(before);
         let v1 = second.profile.at(second.profile.duration()).v_mm_s;
-        // braking ends at the feed of the second run at the latest
+        // braking ends at the feed rate of the second run at the latest
         if is_above(v1, whole.feed) {
             return false;
         }

@@ -1,23 +1,25 @@
 //! Kinks passed with an acceleration (HSC).
 //!
-//! A plan gets to a kink that holds it down as early as it can: at a local minimum of the speed with acceleration zero, on
-//! the way up with what a rise to this speed has left. Over both sides that is not the best: where the path may change its
-//! acceleration faster before the kink than after it, or has less to lose there, a slower approach pays that passes
-//! the kink at the same speed with an acceleration `a` under way. The lowest speed then lies before the kink: with
-//! the jerk `j` of that block `a^2 / 2j` below the speed `v` at the kink, `v t - j t^3 / 3` away from it, `t = a / j`.
+//! A plan arrives at a limiting kink as early as it can: with zero acceleration at a local minimum of the speed, or,
+//! while speeding up, with the acceleration that the rise to this speed leaves. Over both sides this is not always
+//! optimal. Where the path can change its acceleration faster before the kink than after it, or has less to lose there,
+//! a slower approach pays off that passes the kink at the same speed with an acceleration `a`. The minimum of the speed
+//! is then before the kink: with the jerk `j` of that block it is `a^2 / 2j` below the speed `v` at the kink and
+//! `v t - j t^3 / 3` away from it, `t = a / j`.
 //!
-//! To the first order in `a` one side loses the time `a rho / j`, the other one gains as much with its own `rho` and `j`;
-//! `rho = 1 - v / peak` of the hill on that side. That says on which side the minimum lies better. How far away is found by
-//! trying; a kink where a trial saves nothing is left as it is, and so is one between several blocks with limits of their
-//! own: there a trial costs a plan of all of them, and on surfaces and circles of chords it was found to save less than 1 %.
+//! To first order in `a` one side loses the time `a rho / j`, and the other gains the same expression with its `rho`
+//! and `j`; `rho = 1 - v / peak` of the hill on that side. This decides on which side the minimum should be. Its
+//! distance is found by trial. A kink where a trial saves nothing is left as it is, and so is a kink between spans of
+//! several blocks with different limits: there each trial costs a plan of all of them, and on surfaces and circles of
+//! chords it saved less than 1 %.
 //!
-//! It reads a plan and puts spans in its place that begin and end at the same kinks, in less time.
+//! The input is a plan; some of its spans are replaced by ones with the same ends and a shorter duration.
 //!
-//! TRAPEZ brings the acceleration to zero where it reaches the speed of a kink; HSC may have one at the end of a block
-//! (P-CHAN-00071). Assumption: also at a kink, within the limits of both blocks. An axis then changes its acceleration in one
-//! cycle by that of the path times its change of direction, in addition to the jump of its velocity, which is all that the limits
-//! of kinks know. Where `AX_DEV` holds a kink down, its speed has been found with the acceleration as it was, and that
-//! stays so.
+//! TRAPEZ brings the acceleration to zero where it reaches the speed of a kink; HSC may have a non-zero acceleration at
+//! the end of a block (P-CHAN-00071). Assumption: this also holds at a kink, within the limits of both blocks. The
+//! acceleration of an axis then changes within one cycle by that of the path times the change of direction of the axis,
+//! in addition to the velocity jump, the only quantity in the limits of kinks. Kinks limited by `AX_DEV` are excluded,
+//! since their speed was determined with the present acceleration.
 
 use super::stretch::cells;
 use super::{FLAT_MM_S2, Span, Window, is_above};
@@ -26,32 +28,33 @@ use crate::cap::SpeedLimit;
 use crate::profile::{Infeasible, Profile, State};
 use crate::ride::Alone;
 
-/// Part of the largest acceleration up to which one is tried: the minimum stays above rest.
+/// Share of the largest acceleration up to which one is tried, so that the minimum of the speed stays above zero.
 const MOST: f64 = 0.98;
-/// Trials at a kink.
+/// Largest number of trials at a kink.
 const TRIALS: usize = 5;
-/// Part by which what one side gains exceeds what the other loses, from which on an acceleration is looked for.
+/// Net saving, as a share of the gain of one side, from which on an acceleration is searched for.
 const UNEVEN: f64 = 0.2;
-/// Part of the gain to the first order that is worth another trial.
+/// Share of the first-order gain that justifies another trial.
 const ENOUGH: f64 = 0.02;
-/// Part of the largest acceleration within which two are the same, and up to which the one that is tried least lies.
+/// Share of the largest acceleration within which two accelerations count as equal; also the smallest one that is
+/// tried.
 const NEAR: f64 = 0.05;
-/// Relative difference from its limit within which a speed is held down by it.
+/// Relative difference within which a speed counts as being at its limit.
 const AT_LIMIT: f64 = 1e-6;
 
-/// A kink between two spans, and what may be had there.
+/// A kink between two spans, and its potential.
 struct Kink {
-    /// What lies before it and after it.
+    /// The spans before and after it.
     sides: [Alone; 2],
     v: f64,
-    /// Acceleration with which it is passed, and the largest one that is tried, with their signs.
+    /// Acceleration at which it is passed now, and the largest one that is tried, both signed, mm/s2.
     now: f64,
     most: f64,
-    /// What the difference would save in s, to the first order.
+    /// Time in s that the difference would save, to first order.
     gain_s: f64,
 }
 
-/// Two spans that take less time, in the place of span `k - 1` and span `k`.
+/// Two spans that take less time and replace spans `k - 1` and `k`.
 struct Pair {
     k: usize,
     gain_s: f64,
@@ -59,13 +62,13 @@ struct Pair {
 }
 
 impl Window<'_> {
-    /// Plans from nothing, with kinks passed with an acceleration.
+    /// Plans from scratch, passing kinks with an acceleration.
     pub(super) fn plan_passing(&self) -> Result<Vec<Span>, Infeasible> {
         let plan = self.plan(Vec::new())?;
         Ok(self.pass(&plan).unwrap_or(plan))
     }
 
-    /// A plan in which kinks are passed with an acceleration; `None` where nothing is gained by that.
+    /// A plan that passes kinks with an acceleration; `None` if that gains nothing.
     pub(super) fn pass(&self, plan: &[Span]) -> Option<Vec<Span>> {
         if !(1..self.blocks.len()).any(|b| self.is_free(b)) {
             return None;
@@ -75,7 +78,7 @@ impl Window<'_> {
         if found.is_empty() {
             return None;
         }
-        // the best ones first, whichever side the plan is seen from
+        // the best ones first, in an order that does not depend on the direction of travel
         found.sort_by(|a, b| b.gain_s.total_cmp(&a.gain_s));
         let mut changed = vec![false; spans.len()];
         for pair in found {
@@ -90,11 +93,11 @@ impl Window<'_> {
         Some(spans)
     }
 
-    /// True if a kink may be passed with an acceleration.
+    /// Whether a kink may be passed with an acceleration.
     fn is_free(&self, b: usize) -> bool {
         let [before, behind] = [b - 1, b].map(|i| &self.blocks[i]);
         let cap = self.caps[b];
-        // braking to a lower feed ends at that feed; braking under G901 begins at a boundary
+        // braking to a lower feed rate ends at that feed rate; braking under G901 begins at a boundary
         let late = |i: usize| {
             let entered = if i == 0 { self.v_start } else { self.entries[i] };
             self.carried[i] || is_above(entered.v_mm_s, self.feeds[i].v_mm_s)
@@ -111,7 +114,7 @@ impl Window<'_> {
             && behind.block.slope.kind == SlopeKind::Hsc
     }
 
-    /// The spans, those that are held down by kinks on their way in parts.
+    /// The spans of the plan, split at the kinks that limit them inside.
     fn parted(&self, plan: &[Span]) -> Vec<Span> {
         let mut out = Vec::with_capacity(plan.len());
         for span in plan {
@@ -137,14 +140,14 @@ impl Window<'_> {
         out
     }
 
-    /// The best pair around the start of span `k`, if it is faster than what is there.
+    /// The best pair around the start of span `k`, if it is faster than the present one.
     fn pair(&self, spans: &[Span], k: usize) -> Option<Pair> {
         let pair = [&spans[k - 1], &spans[k]];
         let kink = self.kink(pair)?;
         let now: f64 = pair.iter().map(|s| s.profile.duration()).sum();
         let state = |s: State| (s.v_mm_s, s.a_mm_s2);
         let (start, end) = (state(pair[0].profile.at(0.0)), state(pair[1].profile.end()));
-        // `x`: part of the difference between the acceleration now and the largest one
+        // `x`: share of the difference between the present acceleration and the largest one
         let tried = |x: f64| {
             let here = (kink.v, kink.now + x * (kink.most - kink.now));
             let [in_front, after] = &kink.sides;
@@ -161,7 +164,7 @@ impl Window<'_> {
             if gain_s > best.as_ref().map_or(0.0, |b| b.gain_s) {
                 best = Some(Pair { k, gain_s, profiles });
             }
-            // a parabola through nothing and the last two: gain = (slope - bend x) x
+            // a parabola through the origin and the last two trials: gain = (slope - bend x) x
             let (slope, bend) = match last {
                 None => (kink.gain_s, (kink.gain_s - gain_s / x) / x),
                 Some((x0, gain0)) => {
@@ -180,7 +183,7 @@ impl Window<'_> {
         best
     }
 
-    /// The kink between two spans, if another acceleration there is worth a trial.
+    /// The kink between two spans, if a different acceleration is worth a trial.
     fn kink(&self, [first, second]: [&Span; 2]) -> Option<Kink> {
         let b = second.first;
         let here = second.profile.at(0.0);
@@ -193,7 +196,7 @@ impl Window<'_> {
         let sides = [before?, behind?];
         let [before, behind] = &sides;
         let [in_front, after] = [first, second].map(|s| 1.0 - v / s.profile.peak().max(v));
-        // seconds per unit of acceleration: what is saved, and how much of it the one side gains
+        // seconds per unit of acceleration: the net saving, and the gain of the better side
         let (lost, gained) = (in_front / before.jerk(), after / behind.jerk());
         let is_up = gained >= lost;
         let (saved, gained) = ((gained - lost).abs(), gained.max(lost));

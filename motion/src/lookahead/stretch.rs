@@ -1,6 +1,6 @@
 //! A stretch: the blocks between two knots, as one length with the weakest of their limits.
 //!
-//! It knows its blocks; its ends belong to the window.
+//! A stretch has its blocks; the speeds at its ends belong to the window.
 
 use super::is_above;
 use crate::cap::Cap;
@@ -10,7 +10,8 @@ use crate::ride::{Cell, has_hill};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
+/// Relative difference of the path acceleration from which on blocks planned across are not planned with the weakest of
+/// them.
 const UNEVEN: f64 = 0.01;
 
 /// Blocks `first..end` between two knots.
@@ -19,12 +20,13 @@ pub(super) struct Stretch<'a> {
     pub(super) end: usize,
     /// Length in mm.
     pub(super) length: f64,
-    /// Highest feed in mm/s.
+    /// Highest feed rate in mm/s.
     pub(super) feed: f64,
     pub(super) slope: Weakest<'a>,
 }
 
-/// The slope of an only block, or the weakest of several: limits are large, and most stretches have one block.
+/// The slope of a single block by reference, or the weakest of several. Limits are large, and most stretches have one
+/// block.
 pub(super) enum Weakest<'a> {
     One(&'a SlopeLimits),
     OfSeveral(Box<SlopeLimits>),
@@ -42,7 +44,7 @@ impl Deref for Weakest<'_> {
 }
 
 impl Weakest<'_> {
-    /// Is to hold for another block, too.
+    /// Combines the limits with those of another block.
     pub(super) fn join(&mut self, other: &SlopeLimits) {
         let weaker = self.weaker(other);
         match self {
@@ -53,7 +55,7 @@ impl Weakest<'_> {
 }
 
 impl Stretch<'_> {
-    /// Both in one, with the feed of the second one: braking continues from the first to the second.
+    /// Both stretches as one, with the feed rate of the second: braking continues from the first into the second.
     pub(super) fn carried_into(mut self, second: &Self) -> Self {
         self.slope.join(&second.slope);
         self.length += second.length;
@@ -61,16 +63,16 @@ impl Stretch<'_> {
         self
     }
 
-    /// Largest speed at its end, acceleration zero, from a speed and an acceleration at its start: the acceleration is
-    /// reduced to zero first.
+    /// Largest speed at the end, with zero acceleration, from a speed and an acceleration at the start; the
+    /// acceleration is brought to zero first.
     pub(super) fn reach_from(&self, v: f64, a: f64) -> f64 {
         let settled = self.slope.settled(v, a);
         let length = self.slope.change(v, a, settled).map_or(0.0, |c| c.length());
         self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
     }
 
-    /// True if one of its blocks, or one line in parts, allows more than all of them together, and is long enough at this speed
-    /// to use it. `divides`: the boundary before a block only divides a line.
+    /// Whether one of its blocks, or one divided line, permits more than all of them together and is long enough at
+    /// this speed to use it. `divides`: whether the boundary before a block only divides a line.
     pub(super) fn is_uneven(
         &self,
         blocks: &[Arc<Queued>],
@@ -89,7 +91,7 @@ impl Stretch<'_> {
         })
     }
 
-    /// True if a speed at its start is above its feed (G901).
+    /// Whether a speed at its start is above its feed rate (G901).
     pub(super) fn is_above(&self, v0: f64) -> bool {
         is_above(v0, self.feed)
     }
@@ -130,7 +132,7 @@ pub(super) fn rates(block: &Queued) -> Option<Rates> {
     }
 }
 
-/// The boundary inside a span whose cap, or whose block's velocity, the profile exceeds most.
+/// The boundary inside a span at which the profile exceeds its cap, or the velocity of the block before it, most.
 pub(super) fn most_exceeded(
     blocks: &[Arc<Queued>],
     feeds: &[Cap],
@@ -155,7 +157,7 @@ pub(super) fn most_exceeded(
                 worst = (ratio, Some(i + 1));
             }
         }
-        // a peak inside the block: both ends are within the block's velocity, the middle is not
+        // a peak inside the block: the velocity is kept at both ends, but not in the middle
         let peak = profile.highest_inside(at - blocks[i].length, at).max(before).max(behind);
         if peak / feeds[i].v_mm_s > worst.0 {
             let inner = if i > s.first { i } else { i + 1 };

@@ -3,7 +3,7 @@
 use super::line::feed_length;
 use crate::axis::AxisVec;
 
-/// What defines an arc in addition to its end points.
+/// The parameters of an arc in addition to its end points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcShape {
     /// Channel indices of the two plane axes, first and second (G17: X Y, G18: Z X, G19: Y Z).
@@ -14,9 +14,9 @@ pub struct ArcShape {
     pub sweep_rad: f64,
 }
 
-/// An arc or helix, `s` proportional to the angle.
+/// An arc or helix, with `s` proportional to the angle.
 ///
-/// A difference between the radii at start and end (rounding of the program, or G164) is spread linearly over the
+/// A difference between the radii at start and end (rounding of the program, or G164) is distributed linearly over the
 /// angle, so that both ends are met exactly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArcPath {
@@ -48,7 +48,7 @@ impl ArcPath {
         let straight = if start[..] == flat_end[..] {
             0.0
         } else {
-            // slaved axes do not count, the plane is always part of the feed group
+            // slaved axes do not count; the plane is always part of the feed group
             let only_feed: Vec<bool> = (0..start.len())
                 .map(|i| i != a && i != b && feed_axes.get(i).copied().unwrap_or(true))
                 .collect();
@@ -97,7 +97,7 @@ impl ArcPath {
         self.start_rad
     }
 
-    /// `dq/ds` of the axes outside the plane (constant), zero in the plane.
+    /// `dq/ds` of the axes outside the plane (constant); zero in the plane.
     pub(crate) fn tangent_outside_plane(&self, out: &mut [f64]) {
         out.copy_from_slice(&self.linear);
     }
@@ -148,9 +148,9 @@ impl ArcPath {
         out[b] = -radius * rate * rate * sin + 2.0 * growth * rate * cos;
     }
 
-    /// Path lengths at which an axis turns round that has these shares in the first and second direction of the plane
-    /// and moves by `drift` mm per mm besides: of each kind of turn the first and the last one, since a helix shifts
-    /// them evenly.
+    /// Path lengths at which the direction of travel of an axis reverses. `first` and `second` are its components along
+    /// the directions of the plane, `drift` is its additional movement in mm per mm. Of each kind of reversal only the
+    /// first and the last are returned, since a helix shifts them evenly.
     pub(super) fn turning_points(&self, [first, second]: [f64; 2], drift: f64) -> [Option<f64>; 4] {
         let sweep = self.shape.sweep_rad;
         let amplitude = self.radius() * libm::hypot(first, second);
@@ -190,15 +190,15 @@ impl ArcPath {
         out
     }
 
-    /// Nearest point: for a plane arc the point at the same angle, for a helix refined by Newton from the angles of
-    /// every turn (the distance has at most one minimum per turn within half a turn of those angles).
+    /// Nearest point: for a plane arc the point at the same angle; for a helix Newton's method from that angle in every
+    /// turn (the distance has at most one minimum per turn within half a turn of it).
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
         let [a, b] = self.shape.plane;
         let (px, py) = (point[a] - self.shape.centre_mm[0], point[b] - self.shape.centre_mm[1]);
         let angle = libm::atan2(py, px);
         let turn = 2.0 * std::f64::consts::PI;
         let sweep = self.shape.sweep_rad;
-        // progress in the sense of rotation from the start to the angle of the point
+        // angle from the start to the point in the direction of rotation
         let delta = (angle - self.start_rad) * sweep.signum();
         let first = delta - turn * libm::floor(delta / turn);
         let mut best = (f64::INFINITY, 0.0);
@@ -212,7 +212,7 @@ impl ArcPath {
         candidate(0.0);
         candidate(self.length);
         let turns = libm::ceil(sweep.abs() / turn) as u32;
-        // of a helix with many turns only those around the height of the point can be nearest
+        // for a helix with many turns only those close to the height of the point can contain the nearest point
         let (from, to) = self.turn_range(point, turns);
         for k in from..=to {
             let phi = first + turn * f64::from(k);
@@ -243,7 +243,7 @@ impl ArcPath {
         q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
     }
 
-    /// Newton on the derivative of the squared distance; stays where it is if a step would not help.
+    /// Newton's method on the derivative of the squared distance; keeps the old value if a step does not help.
     fn polish(&self, point: &[f64], s: f64) -> f64 {
         if self.linear.iter().all(|l| *l == 0.0)
             && self.radius_start.to_bits() == self.radius_end.to_bits()

@@ -1,9 +1,9 @@
-//! A ball around a path: a point far outside it need not be examined.
+//! A ball that contains a path: a path far from a point need not be examined for it.
 
 use super::Path;
 use crate::axis::AxisVec;
 
-/// Center and radius over all axes in mm; no point of the path lies outside.
+/// Centre and radius over all axes in mm; every point of the path is inside.
 #[derive(Clone, Debug)]
 pub(crate) struct Ball {
     center: AxisVec,
@@ -37,7 +37,7 @@ impl Ball {
         Self { center, radius: f64::sqrt(square) }
     }
 
-    /// How far every point of the path is from `point` at least, in mm; negative for a point in the ball.
+    /// Lower bound in mm of the distance from `point` to any point of the path; negative for a point inside the ball.
     pub(crate) fn distance_from(&self, point: &[f64]) -> f64 {
         let mut square = 0.0;
         for (c, p) in self.center.iter().zip(point) {
@@ -54,7 +54,7 @@ mod tests {
     use crate::path::{ArcPath, ArcShape, LinePath, Path};
     use std::f64::consts::PI;
 
-    /// A line and a helix seen from points all around: none of a thousand points of the path is nearer than the ball says.
+    /// A line and a helix seen from points all around: none of a thousand points of the path is nearer than the bound.
     #[test]
     fn no_point_of_the_path_lies_outside() {
         let at = AxisVec::from_slice;

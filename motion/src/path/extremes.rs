@@ -1,24 +1,26 @@
-//! Largest derivatives by path length on a polynomial piece, by a proven bound.
+//! Largest derivatives with respect to path length on a polynomial piece, with proven bounds.
 //!
-//! With `N = |P'|^2` over the measured axes every derivative of an axis by path length is a quotient `F / N^e`:
-//! `q' = p' / N^(1/2)`, and from one to the next `F_next = F' N - e F N'` with `e_next = e + 3/2`. The same `F_next` is, up to a
-//! positive factor, the derivative of the quotient by the parameter: the extremes of `q'`, `q''` and `q'''` lie at the ends
-//! of the piece and at the zeros of polynomials. Their coefficients in Bernstein form show how many zeros there are
-//! (Descartes' rule of signs: none without a change of sign, exactly one with one change) and how far the quotient may
-//! leave its values at the ends (half the largest slope). Pieces for which neither is enough are halved.
+//! With `N = |P'|^2` over the measured axes every derivative of an axis with respect to path length is a quotient
+//! `F / N^e`: `q' = p' / N^(1/2)`, and from one to the next `F_next = F' N - e F N'` with `e_next = e + 3/2`. Up to a
+//! positive factor, the same `F_next` is the derivative of the quotient with respect to the parameter. The extremes of
+//! `q'`, `q''` and `q'''` are therefore at the ends of the piece and at the zeros of polynomials. Their Bernstein
+//! coefficients bound the number of zeros (Descartes' rule of signs: none without a change of sign, exactly one with a
+//! single change) and the deviation of the quotient from its values at the ends (half the largest slope). Pieces for
+//! which neither is sufficient are halved.
 
 use super::piece::{PolyPiece, section};
 use crate::axis::AxisVec;
 use crate::profile::roots::enclosed_root;
 use smallvec::SmallVec;
 
-/// Halvings of a piece at most, and the part by which a bound may exceed what is reached where they end before.
+/// Largest number of halvings of a piece, and the share by which a bound may exceed the value reached if halving ends
+/// earlier.
 const DEEPEST: u32 = 24;
 const TIGHT: f64 = 1e-6;
-/// Accuracy of a zero: the quotient is flat there, so that half the digits give all digits of it.
+/// Accuracy of a zero. The quotient is flat there, so half the digits of the zero give all digits of the quotient.
 const FLAT: f64 = 1e-9;
 
-/// Coefficients of a polynomial, lowest power first, without zeros at the end. Those of degree five make at most 26.
+/// Coefficients of a polynomial, lowest power first, without trailing zeros. Pieces of degree five give at most 26.
 type Poly = SmallVec<[f64; 26]>;
 
 fn trimmed(mut p: Poly) -> Poly {
@@ -57,7 +59,7 @@ fn add_product(out: &mut Poly, factor: f64, a: &[f64], b: &[f64]) {
     }
 }
 
-/// Coefficients in Bernstein form over `0..=1`: the polynomial stays between the smallest and the largest one.
+/// Bernstein coefficients over `0..=1`: the polynomial stays between the smallest and the largest of them.
 pub(super) fn bernstein(p: &[f64]) -> Poly {
     let mut out = Poly::from_slice(p);
     let n = out.len().saturating_sub(1);
@@ -68,7 +70,7 @@ pub(super) fn bernstein(p: &[f64]) -> Poly {
     }
     let sums = &mut out[..];
     for k in 1..=n {
-        // each takes what the one before it was
+        // each value is computed from the previous ones
         let mut before = sums[k - 1];
         for sum in &mut sums[k..] {
             before = std::mem::replace(sum, *sum + before);
@@ -77,7 +79,7 @@ pub(super) fn bernstein(p: &[f64]) -> Poly {
     out
 }
 
-/// Changes of sign from one coefficient to the next, zeros left out.
+/// Number of sign changes between successive coefficients, ignoring zeros.
 fn changes(p: &[f64]) -> usize {
     let (mut count, mut last) = (0, 0.0_f64);
     for c in p.iter().copied().filter(|c| *c != 0.0) {
@@ -92,7 +94,7 @@ fn zero(p: &[f64]) -> f64 {
     enclosed_root((0.0, value(p, 0.0)), (1.0, value(p, 1.0)), FLAT, |x| value(p, x)).1
 }
 
-/// `|P'|^2` with its least coefficient in Bernstein form.
+/// `|P'|^2` with its smallest Bernstein coefficient.
 struct Speed {
     square: Poly,
     slope: Poly,
@@ -110,7 +112,7 @@ impl Speed {
         Self { slope: slope(&square), square, least }
     }
 
-    /// The derivative after `F / N^e` with `twice` = `2 e`.
+    /// The numerator of the derivative that follows `F / N^e`, with `twice` = `2 e`.
     fn next(&self, f: &Poly, twice: i32) -> Poly {
         let mut out = Poly::new();
         add_product(&mut out, 1.0, &slope(f), &self.square);
@@ -118,7 +120,7 @@ impl Speed {
         trimmed(out)
     }
 
-    /// `|F| / N^e` at a place; 0 where the path has no direction.
+    /// `|F| / N^e` at a parameter value; 0 where the path has no direction.
     fn quotient(&self, f: &Poly, twice: i32, x: f64) -> f64 {
         let q = value(f, x).abs() / half_power(value(&self.square, x), twice);
         if q.is_finite() { q } else { 0.0 }
@@ -131,8 +133,9 @@ fn half_power(x: f64, twice: i32) -> f64 {
     if twice % 2 == 1 { whole * x.sqrt() } else { whole }
 }
 
-/// Raises the largest `|q'|`, `|q''|` and `|q'''|` of the axes to those on a piece between two parameters. They are never
-/// below the true ones, but for rounding. Returns a bound of `|q''|` there over all axes, in 1/mm.
+/// Raises the largest `|q'|`, `|q''|` and `|q'''|` of the axes to include those on a piece between two parameter
+/// values; up to rounding they are never below the true maxima. Returns a bound of `|q''|` on it over all axes, in
+/// 1/mm.
 pub(super) fn raise(
     largest: &mut [AxisVec; 3],
     piece: &PolyPiece,
@@ -173,7 +176,8 @@ fn halve(largest: &mut [AxisVec; 3], part: &PolyPiece, measured: &[bool], depth:
     bend
 }
 
-/// Raises the largest `|F| / N^e` to that over a piece and returns a bound of it there; `None` if that takes halves.
+/// Raises the largest `|F| / N^e` to include a piece and returns a bound on it; `None` if the piece has to be halved
+/// for that.
 fn settle(
     speed: &Speed,
     (f, next): (&Poly, &Poly),
@@ -243,7 +247,7 @@ mod tests {
         (out, bend)
     }
 
-    /// Cubics as of splines, quartics as of rounded corners, quintics; with a slaved axis or without.
+    /// Cubics like those of splines, quartics like those of rounded corners, quintics; with and without a slaved axis.
     #[test]
     fn no_dense_sample_exceeds_them_and_they_are_reached() {
         let mut random = Random::from_state(7);
@@ -279,7 +283,7 @@ mod tests {
                     let (got, here) = (got[order][i], sampled[order][i]);
                     let what = format!("{case}: axis {i}, order {order}: {got} {here}");
                     assert!(got >= here * (1.0 - 1e-10) - 1e-13, "{what}");
-                    // the peaks of near cusps lie between samples
+                    // the peaks of near cusps are between samples
                     let seen = sampled[1].iter().all(|bend| *bend < 300.0);
                     assert!(!seen || got <= here * (1.0 + 1e-2) + 1e-12, "{what}");
                 }
@@ -289,7 +293,8 @@ mod tests {
         }
     }
 
-    /// Parabola `y = a x^2` from its vertex, `x` from 0 to 1: closed forms at the vertex and where `q'''` is largest.
+    /// Parabola `y = a x^2` from its vertex, `x` from 0 to 1, with closed forms at the vertex and at the maximum of
+    /// `q'''`.
     #[test]
     fn a_parabola_has_its_closed_forms() {
         let a = 2.0;
@@ -311,7 +316,7 @@ mod tests {
         assert!((got[2][1] - third).abs() < 1e-12 * third, "{} {third}", got[2][1]);
     }
 
-    /// Straight pieces, axes at rest, a piece that starts from rest: no bend, and an end.
+    /// Straight pieces, axes at rest, a piece that starts from rest: zero curvature, and the search terminates.
     #[test]
     fn pieces_without_a_bend() {
         let (even, uneven) = ([0.0, 3.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.5, 0.4, 0.1, 0.0, 0.0]);

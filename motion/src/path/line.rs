@@ -41,7 +41,8 @@ impl LinePath {
         Some(line)
     }
 
-    /// Becomes the line between other ends over the same axes; false, and left as it was, if no axis moves along that.
+    /// Turns this line into the one between other ends over the same axes; false, and unchanged, if no axis moves along
+    /// that one.
     pub fn lead(&mut self, start: &[f64], end: &[f64], feed_axes: &[bool]) -> bool {
         let Some(length) = moving_length(start, end, feed_axes) else { return false };
         self.start.copy_from_slice(start);
@@ -52,7 +53,7 @@ impl LinePath {
         true
     }
 
-    /// Makes the direction out of the end point in it.
+    /// Sets the direction, which must hold the end point.
     fn aim(&mut self) {
         for (d, a) in self.direction.iter_mut().zip(self.start.iter()) {
             *d = (*d - a) / self.length;
@@ -126,14 +127,14 @@ impl LinePath {
         self.foot(point).clamp(0.0, self.length)
     }
 
-    /// This path as it is seen from the points of another line.
+    /// Relation of this path to another line, for distances from points of that line.
     #[inline]
     pub(crate) fn along<'a>(&'a self, line: (&'a [f64], &'a [f64])) -> Along<'a> {
         let from = self.foot(line.0);
         Along { path: self, line, from, way: self.foot(line.1) - from }
     }
 
-    /// Where the perpendicular from a point meets the line through start and end, in mm of path length.
+    /// Foot of the perpendicular from a point on the line through start and end, in mm of path length.
     #[inline]
     fn foot(&self, point: &[f64]) -> f64 {
         let n = point.len();
@@ -151,21 +152,21 @@ impl LinePath {
 pub(crate) struct Along<'a> {
     path: &'a LinePath,
     line: (&'a [f64], &'a [f64]),
-    /// Foot of the perpendicular from the start of the line in mm of path length, and its way along the line.
+    /// Foot of the perpendicular from the start of the line in mm of path length, and its movement along the line.
     from: f64,
     way: f64,
 }
 
 impl Along<'_> {
-    /// Where along the line (as a share of it) the nearest point of the path comes to its start and to its end: no order, and
-    /// shares outside the line, too.
+    /// Positions on the line, as shares of its length, at which the nearest point of the path reaches the start and the
+    /// end of the path; in no particular order, and possibly outside the line.
     #[inline]
     pub(crate) fn ends(&self) -> [f64; 2] {
         [(0.0 - self.from) / self.way, (self.path.length - self.from) / self.way]
     }
 
-    /// Coefficients of the square of the distance of `from + u * (to - from)` from the path: `c[0] + c[1] u + c[2] u^2` on
-    /// that stretch of u around `at` where the nearest point is inside of the path, or stays at one end of it.
+    /// Coefficients of the squared distance of `from + u * (to - from)` from the path, `c[0] + c[1] u + c[2] u^2`, on
+    /// the range of `u` around `at` in which the nearest point stays inside the path or at one of its ends.
     pub(crate) fn square(&self, at: f64) -> [f64; 3] {
         let ((from, to), path) = (self.line, self.path);
         let n = from.len();

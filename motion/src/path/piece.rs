@@ -14,22 +14,22 @@ pub(super) fn value(c: &Coefficients, x: f64) -> f64 {
     c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))))
 }
 
-/// First derivative by the parameter.
+/// First derivative with respect to the parameter.
 pub(super) fn slope(c: &Coefficients, x: f64) -> f64 {
     c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))
 }
 
-/// Second derivative by the parameter.
+/// Second derivative with respect to the parameter.
 pub(super) fn bend(c: &Coefficients, x: f64) -> f64 {
     2.0 * c[2] + x * (6.0 * c[3] + x * (12.0 * c[4] + x * 20.0 * c[5]))
 }
 
-/// Third derivative by the parameter.
+/// Third derivative with respect to the parameter.
 pub(super) fn twist(c: &Coefficients, x: f64) -> f64 {
     6.0 * c[3] + x * (24.0 * c[4] + x * 60.0 * c[5])
 }
 
-/// How the parameter runs along the path at one point, by the parameter.
+/// Derivatives of the path length with respect to the parameter at one point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     rate: f64,
@@ -39,7 +39,7 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// From the derivatives by the parameter of the measured axes.
+    /// From the derivatives of the measured axes with respect to the parameter.
     pub(super) fn at(piece: &PolyPiece, measured: &[bool], x: f64) -> Self {
         let (mut dot12, mut dot22, mut dot13) = (0.0, 0.0, 0.0);
         let mut rate2 = 0.0;
@@ -56,7 +56,7 @@ impl Pace {
         Self { rate, rate2, growth, growth2 }
     }
 
-    /// Derivatives of one axis by path length.
+    /// Derivatives of one axis with respect to path length.
     pub(super) fn derivatives(self, c: &Coefficients, x: f64) -> [f64; 3] {
         let Self { rate, rate2, growth, growth2 } = self;
         let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));

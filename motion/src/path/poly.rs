@@ -1,8 +1,8 @@
-//! Curve of piecewise polynomials of degree five or less per axis, parameterised by path length.
+//! Curve of piecewise polynomials up to degree five per axis, parameterised by path length.
 //!
-//! A piece runs over its own parameter `x` in `0..=1`. Its arc length over the feed axes is integrated by Gauss with
-//! five points on sub-intervals that are halved until the whole and the two halves agree; `s` is turned into `x` by
-//! Newton on the table of sub-intervals.
+//! Each piece has a parameter `x` in `0..=1`. Its arc length over the feed axes is integrated by Gauss quadrature with
+//! five points, on sub-intervals that are halved until the whole and the sum of both halves agree; `s` is converted to
+//! `x` by Newton's method on the table of sub-intervals.
 
 mod nearest;
 
@@ -14,17 +14,18 @@ use std::sync::Arc;
 
 /// Agreement of the integral over a sub-interval with that over its halves, relative to the length of the curve.
 const SPLIT: f64 = 1e-13;
-/// Depth of halving at which the speed of the parameter has to be smooth enough.
+/// Largest depth of halving.
 const DEPTH: u32 = 12;
-/// Share of a sub-interval from which on [`PolyPath::near`] takes its last step of Newton, which squares it.
+/// Residual, as a share of a sub-interval, from which on one more Newton step is enough for [`PolyPath::near`], as it
+/// squares the residual.
 const GUESS: f64 = 1e-4;
-/// Steps of Newton after which it searches instead.
+/// Newton steps after which [`PolyPath::near`] falls back to the exact search.
 const STEPS: usize = 4;
 
-/// What a curve leaves its ends by at least, in mm and in proportion to its position: less is rounding.
+/// Smallest distance beyond its ends that counts for a curve, in mm and relative to its position: less is rounding.
 const BEYOND: (f64, f64) = (1e-9, 1e-12);
 
-/// Gauss-Legendre on `-1..=1`: nodes and weights of five points.
+/// Gauss-Legendre on `-1..=1`: nodes and weights for five points.
 #[rustfmt::skip]
 const GAUSS: [(f64, f64); 5] = [
     (0.0, 0.568_888_888_888_888_9),
@@ -44,19 +45,20 @@ struct Cell {
     s: f64,
     /// Largest `|q''|` of an axis in 1/mm, rounded up.
     bend: f64,
-    /// No point of it is further than this, in mm over all axes, from that at the middle of the parameter.
+    /// Radius in mm over all axes, around the point at the middle of the parameter, that contains the whole
+    /// sub-interval.
     radius: f64,
-    /// Path length by the parameter in mm at both ends.
+    /// Derivative of the path length with respect to the parameter in mm at both ends.
     rates: [f64; 2],
 }
 
-/// True if a position is outside a range by more than rounding.
+/// Whether a position is outside a range by more than rounding.
 fn is_beyond(x: f64, (low, high): (f64, f64)) -> bool {
     let slack = BEYOND.0 + BEYOND.1 * x.abs();
     x < low - slack || x > high + slack
 }
 
-/// Derivatives of all axes by path length at one point.
+/// Derivatives of all axes with respect to path length at one point.
 #[derive(Clone, Debug)]
 struct Derivatives {
     first: AxisVec,
@@ -69,15 +71,15 @@ struct Derivatives {
 pub struct PolyPath {
     start: AxisVec,
     end: AxisVec,
-    /// Shared, like the cells: the rest of a block is a copy of it.
+    /// Shared, like the cells: the remainder of a block is a copy of it.
     pieces: Arc<[PolyPiece]>,
     /// Axes over which the path length is measured.
     measured: SmallVec<[bool; 8]>,
     cells: Arc<[Cell]>,
-    /// Points at the middle of the cells' parameters, axis by axis: every search begins with all of them.
+    /// Points at the middle of the cells' parameters, axis by axis, with which every search begins.
     middles: Arc<[f64]>,
     length: f64,
-    /// Largest absolute derivatives by `s`, see [`Self::extremes`].
+    /// Largest absolute derivatives with respect to `s`, see [`Self::extremes`].
     extremes: [AxisVec; 3],
 }
 
@@ -89,14 +91,14 @@ impl PolyPath {
         Self::new(start, end, pieces, feed_axes)
     }
 
-    /// Lowest and highest position of an axis in mm (deg), to a nanometre. A curve that turns at one of its ends is not beyond
-    /// it by rounding.
+    /// Lowest and highest position of an axis in mm (deg), to a nanometre. A curve that turns at one of its ends does
+    /// not exceed it by rounding.
     pub fn extent(&self, axis: usize) -> (f64, f64) {
         let (start, end) = (self.start[axis], self.end[axis]);
         let (mut low, mut high) = (start.min(end), start.max(end));
         let mut left: Vec<Coefficients> = self.pieces.iter().map(|piece| piece[axis]).collect();
         while let Some(part) = left.pop() {
-            // the part stays between the least and the largest of them
+            // the part stays between its smallest and largest Bernstein coefficient
             if !extremes::bernstein(&part).into_iter().any(|x| is_beyond(x, (low, high))) {
                 continue;
             }
@@ -157,7 +159,7 @@ impl PolyPath {
         self.cells.len()
     }
 
-    /// The curve from one sub-interval until before another one; `None` as in [`Self::new`].
+    /// The curve from the start of sub-interval `from` to the start of sub-interval `to`; `None` as in [`Self::new`].
     pub(crate) fn section(&self, from: usize, to: usize) -> Option<Self> {
         let mut pieces: Vec<PolyPiece> = Vec::new();
         let cells = self.cells.get(from..to)?;
@@ -177,7 +179,7 @@ impl PolyPath {
         Self::new(start, end, pieces, &self.measured)
     }
 
-    /// Speed of the parameter over the measured axes.
+    /// Derivative of the path length with respect to the parameter.
     fn rate(&self, piece: usize, x: f64) -> f64 {
         let axes = &self.pieces[piece][..];
         let measured = &self.measured[..axes.len()];
@@ -231,7 +233,7 @@ impl PolyPath {
         &self.end
     }
 
-    /// Cell at `s`, the path length into it, and its own.
+    /// Cell at `s`, the path length inside the cell, and the length of the cell.
     fn cell_at(&self, s: f64) -> (&Cell, f64, f64) {
         let s = s.clamp(0.0, self.length);
         let i = self.cells.partition_point(|c| c.s <= s).saturating_sub(1);
@@ -267,13 +269,13 @@ impl PolyPath {
 
     /// As [`Self::position`] to 1e-7 of the length, at a fifth of the cost.
     ///
-    /// The parameter begins as a cubic of the path length that has the right values and slopes at both ends of a cell; the last of
-    /// few steps of Newton is not checked, since it squares what the one before missed by.
+    /// The parameter is first estimated by a cubic in the path length with the correct values and slopes at both ends
+    /// of a cell. The result of the last Newton step is not checked, since the step squares the remaining error.
     pub(super) fn near(&self, s: f64, out: &mut [f64]) {
         let (cell, want, whole) = self.cell_at(s);
         let width = cell.to - cell.from;
         let u = (want / whole).clamp(0.0, 1.0);
-        // slopes of up to three times the mean one make no cubic turn back (Fritsch and Carlson, 1980)
+        // a cubic with end slopes of up to three times the mean slope is monotonic (Fritsch and Carlson, 1980)
         let [start, end] = cell.rates.map(|rate| (whole / rate).min(3.0 * width));
         let v = 1.0 - u;
         let mut x = cell.from + width * u * u * (3.0 - 2.0 * u) + u * v * (v * start - u * end);
@@ -317,7 +319,7 @@ impl PolyPath {
         Pace::at(&self.pieces[piece], &self.measured, x)
     }
 
-    /// `q'`, `q''`, `q'''` by path length.
+    /// `q'`, `q''`, `q'''` with respect to path length.
     fn derivatives(&self, piece: usize, x: f64) -> Derivatives {
         let pace = self.pace(piece, x);
         let axes = &self.pieces[piece];
@@ -349,7 +351,7 @@ impl PolyPath {
     }
 
     fn find_extremes(&mut self, cells: &mut [Cell]) {
-        // what is reached at the ends spares most of the search inside
+        // the values at the ends make most of the search inside unnecessary
         let last = cells.last().map(|c| (c.piece, c.to));
         for (piece, x) in cells.iter().map(|c| (c.piece, c.from)).chain(last) {
             let Derivatives { first, second, third } = self.derivatives(piece, x);
@@ -366,7 +368,7 @@ impl PolyPath {
         }
     }
 
-    /// Sub-intervals by the path length at their ends, with the largest `|q''|` of an axis in 1/mm, rounded up.
+    /// Sub-intervals as the path length at their ends and the largest `|q''|` of an axis in 1/mm, rounded up.
     pub(crate) fn bends(&self) -> impl Iterator<Item = (f64, f64)> {
         let ends = self.cells.iter().skip(1).map(|c| c.s).chain([self.length]);
         ends.zip(self.cells.iter().map(|c| c.bend))

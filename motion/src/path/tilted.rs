@@ -1,6 +1,6 @@
-//! Arc or helix in a coordinate system that is turned in space.
+//! Arc or helix in a coordinate system that is rotated in space.
 //!
-//! The arc itself is an [`ArcPath`] in the coordinates of that system; three axes of the machine follow it through a
+//! The arc is an [`ArcPath`] in the coordinates of that system. Three axes of the machine are mapped to it by a
 //! rotation, the others are the same in both.
 
 use super::arc::ArcPath;
@@ -13,12 +13,12 @@ pub struct Tilt {
     pub axes: [usize; 3],
     /// Orthogonal matrix.
     pub m: [[f64; 3]; 3],
-    /// Where the origin of the system lies, in mm.
+    /// Origin of the system in mm.
     pub t_mm: [f64; 3],
 }
 
 impl Tilt {
-    /// Position of the machine from one in the system.
+    /// Machine position of a position in the system.
     pub fn position(&self, local: &AxisVec) -> AxisVec {
         let mut out = local.clone();
         self.turn(&mut out);
@@ -28,7 +28,7 @@ impl Tilt {
         out
     }
 
-    /// Position in the system from one of the machine.
+    /// Position in the system of a machine position.
     pub fn local(&self, machine: &[f64]) -> AxisVec {
         let mut out = AxisVec::from_slice(machine);
         let d: [f64; 3] = std::array::from_fn(|i| machine[self.axes[i]] - self.t_mm[i]);
@@ -38,7 +38,7 @@ impl Tilt {
         out
     }
 
-    /// Turns a direction of the system into one of the machine, in place.
+    /// Rotates a direction of the system into one of the machine, in place.
     fn turn(&self, v: &mut [f64]) {
         let d = self.axes.map(|axis| v[axis]);
         for (row, axis) in self.m.iter().zip(self.axes) {
@@ -47,7 +47,7 @@ impl Tilt {
     }
 }
 
-/// An arc in a turned coordinate system.
+/// An arc in a rotated coordinate system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TiltedArc {
     arc: ArcPath,
@@ -57,7 +57,7 @@ pub struct TiltedArc {
 }
 
 impl TiltedArc {
-    /// An arc of the system with its ends as positions of the machine, which must be the images of its own ends.
+    /// An arc of the system, with its ends as machine positions; these must be the images of the ends of the arc.
     pub fn new(arc: ArcPath, tilt: Tilt, start: AxisVec, end: AxisVec) -> Self {
         Self { arc, tilt, start, end }
     }
@@ -115,7 +115,7 @@ impl TiltedArc {
         self.arc.nearest(&self.tilt.local(point))
     }
 
-    /// Shares of an axis of the machine in the first and second direction of the plane, and its way per s along the
+    /// Components of a machine axis along the first and second direction of the plane, and its movement per s along the
     /// normal.
     pub(crate) fn shares(&self, axis: usize) -> ([f64; 2], f64) {
         let mut v = AxisVec::zeros(self.start.len());

@@ -1,8 +1,8 @@
-//! Kinks that fall into the same cycle (blocks shorter than `v T`): together they are one jump of the axis velocity.
+//! Kinks within the same cycle (blocks shorter than `v T`): together they act as a single jump of the axis velocity.
 //!
-//! Over the length `d` of a run of lines between two of its kinks the direction of axis `i` changes by `U_i`. As long as
-//! the path needs more than a cycle for it (`v <= d / T`) every kink counts for itself, else `v U_i` is bounded like a
-//! single jump. On a fine chord polygon that is the limit of the circle, `v^2 / r <= w a` (derived).
+//! Over the length `d` of a run of lines between two of its kinks the direction of axis `i` changes by `U_i`. As long
+//! as the path takes longer than a cycle for it (`v <= d / T`) every kink counts separately; otherwise `v U_i` is
+//! limited like a single jump. On a fine chord polygon this is the limit of the circle, `v^2 / r <= w a` (derived).
 
 use super::Segment;
 use crate::cap::{Cap, SpeedLimit};
@@ -11,9 +11,9 @@ use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 
-/// Kinks that are looked at one by one; a run with more of them in a cycle is taken as a curve.
+/// Largest number of kinks that are examined one by one; a run with more of them in a cycle is treated as a curve.
 const KINKS: usize = 64;
-/// Blocks that are looked at for them: most may go straight on.
+/// Largest number of blocks examined for them: most may continue straight.
 const BLOCKS: usize = 1024;
 
 /// Lowers the caps at the starts of the newest segment and of those before it.
@@ -31,7 +31,7 @@ pub(super) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, ker
         }
         distance += inner.length;
         let apart = distance / cycle.seconds();
-        // an override may come later
+        // the override may still be raised later
         let fastest = to.fastest_behind(before_last).min(inner.fastest_behind(from));
         let fastest = fastest.min(segments[newest].cap.v_mm_s).min(segments[first].cap.v_mm_s);
         if apart >= fastest {
@@ -60,7 +60,7 @@ pub(super) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, ker
     }
 }
 
-/// True if the direction changes between two blocks.
+/// Whether the direction changes between two blocks.
 fn is_kink(from: &Queued, to: &Queued) -> bool {
     from.ends
         .tangent_out

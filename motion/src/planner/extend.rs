@@ -1,4 +1,4 @@
-//! From the queue to the timeline: plans, their examination, and what of them becomes final.
+//! From the queue to the timeline: planning, examination, and making a part of the plan final.
 
 use super::Planner;
 use crate::cap::{Cap, SpeedLimit};
@@ -12,28 +12,28 @@ use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Parts in which a span of the last plan becomes final where there is no new one.
+/// Number of parts in which a span of the last plan becomes final where there is no new plan.
 const FALL_BACK_PARTS: usize = 8;
 
-/// What a search for a plan ends in.
+/// Result of the search for a plan.
 pub(super) enum Searched {
     /// A plan that keeps the tolerance.
     Kept(Vec<Entry>),
     /// Blocks to be planned in parts, see [`Verdict::Divided`].
     Divided(Vec<(usize, Vec<Arc<Queued>>)>),
-    /// A plan that does not keep it after too many rounds, and the largest excess.
+    /// A plan that does not keep the tolerance after too many rounds, and the largest excess.
     GivenUp(Vec<Entry>, Unkept),
-    /// No speed leads from the start to rest.
+    /// No speed profile leads from the start to rest.
     Infeasible(Infeasible),
-    /// No plan ends early enough.
+    /// Every plan ends too late.
     TooLate,
 }
 
 impl Planner {
-    /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
+    /// Plans the queue and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
         let window = self.plan.window();
-        // a block without speed ends the path before it
+        // a block with zero speed ends the path before it
         let barred = window.len() < self.plan.segments.len();
         let mut start = self.plan.start.moment;
         if self.plan.is_at_rest() {
@@ -66,7 +66,7 @@ impl Planner {
                     return Ok(());
                 }
                 Searched::Infeasible(e) => return self.fall_back().ok_or(e),
-                // the plan before this one keeps the tolerance
+                // the previous plan keeps the tolerance
                 Searched::GivenUp(..) | Searched::TooLate if self.fall_back().is_some() => {
                     return Ok(());
                 }
@@ -83,23 +83,23 @@ impl Planner {
             let count =
                 if rests { Some(entries.len()) } else { entries_before(&entries, last_window) };
             let Some(count) = count else {
-                // one span over more than a window: it is cut where the last window begins
+                // one span covers more than a window: cut it where the last window begins
                 forced[last_window] = true;
                 last = Some(entries);
                 continue;
             };
             self.commit(entries, count);
             if given_up {
-                // what did not help is not tried again
+                // demands that did not help are not tried again
                 self.plan.demands = Demands::default();
             }
             return Ok(());
         }
     }
 
-    /// Plans and examines, and again with what the examination asks for, until the tolerance is kept. `last` is the plan before, of
-    /// the same blocks (the reserve if there is none), and `round` counts the plans. Gives up where a plan ends at `too_late` (cycles) or later: what is asked for
-    /// makes it only slower.
+    /// Plans and examines repeatedly, with the demands of each examination, until the tolerance is kept. `last` is the
+    /// previous plan of the same blocks (the reserve if there is none), `round` counts the plans. Gives up if a plan
+    /// ends at `too_late` (cycles) or later, since further demands only make it slower.
     pub(super) fn search(
         &mut self,
         window: &[Arc<Queued>],
@@ -130,13 +130,13 @@ impl Planner {
         }
     }
 
-    /// A tolerance is not kept, and this is reported; the output will show it, too.
+    /// Reports a tolerance that is not kept; the output will exceed it as well.
     fn give_up(&mut self, unkept: Unkept) {
         self.unkept.push(unkept);
         self.report(|_| What::Told);
     }
 
-    /// Examines a plan of the window after everything that is final, see [`Monitor::examine`].
+    /// Examines a plan of the window that follows the final part, see [`Monitor::examine`].
     ///
     /// [`Monitor::examine`]: crate::tolerance::Monitor::examine
     fn verdict(&mut self, entries: &mut [Entry], round: usize) -> Verdict {
@@ -153,7 +153,7 @@ impl Planner {
         verdict
     }
 
-    /// What of the timeline, which ends at rest, does not keep the tolerance.
+    /// The excess over the tolerance on the timeline, which ends at rest.
     pub(super) fn excess(&self) -> Option<Unkept> {
         if !self.kernels.any() {
             return None;
@@ -173,7 +173,7 @@ impl Planner {
         }
     }
 
-    /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.
+    /// The way to rest from the end of the final part that keeps the tolerance; `None` if there is none.
     pub(super) fn way_out(&mut self) -> Option<Vec<Entry>> {
         loop {
             let window = self.plan.window();
@@ -188,7 +188,7 @@ impl Planner {
         }
     }
 
-    /// Puts the entry that reaches over the start of block `limit` in two, where its blocks may be left with an acceleration.
+    /// Splits the entry across the start of block `limit` where its blocks may be left with a non-zero acceleration.
     fn part(&self, entries: &mut Vec<Entry>, limit: usize) {
         let mut first = 0;
         let over = entries.iter().position(|entry| {
@@ -207,8 +207,8 @@ impl Planner {
         }
     }
 
-    /// True if a plan may start inside an entry: braking under G901 and what keeps a tolerance are planned as a whole, and
-    /// with STEP there is no ramp to continue.
+    /// Whether a plan may start inside an entry. Braking under G901 and blocks with a tolerance are planned as a whole,
+    /// and with STEP there is no ramp to continue.
     fn may_part(&self, entry: &Entry) -> bool {
         let whole = |q: &Queued| {
             q.block.late_braking || self.kernels.any() && q.block.tolerance.ax_dev_mm.is_some()
@@ -219,11 +219,10 @@ impl Planner {
             && !entry.blocks.iter().map(|b| &b.0).chain(ahead).any(|q| whole(q))
     }
 
-    /// Makes the next span of the last plan, or the first blocks of it, final, because there is no new plan from where it
-    /// starts.
+    /// Makes the next span of the last plan, or its first blocks, final, because no new plan can start at its start.
     ///
-    /// New blocks can make the window infeasible: with ramps, braking to the crawl that they ask for may be longer than
-    /// braking to the rest that was planned, and runs of blocks are joined anew from the cursor on.
+    /// New blocks can make the window infeasible: with ramps, braking to the low speed that they require may take
+    /// longer than the planned braking to rest, and runs of blocks are formed anew from the present start.
     pub(super) fn fall_back(&mut self) -> Option<()> {
         let mut entry = self.plan.reserve.pop_front()?;
         let few = entry.blocks.len().div_ceil(FALL_BACK_PARTS);
@@ -238,7 +237,7 @@ impl Planner {
         entry.hold_to(self.plan.pass(entry.blocks.len()));
         self.append(entry, 0);
         if let Some(next) = self.plan.reserve.front() {
-            // a dwell in between
+            // there may be a dwell in between
             self.plan.start.moment = next.start;
         }
         Some(())
@@ -260,7 +259,7 @@ impl Planner {
         }
         self.timeline.extend(entries.drain(..count));
         self.plan.reserve = entries;
-        // what ends at a limit rises from there because of it
+        // a speed that ends at a limit rises again from there because of that limit
         if let Some(next) = self.plan.segments.front() {
             let limit = next.cap.lower(next.queued.velocity);
             let speed = &mut self.plan.start.speed;
@@ -270,13 +269,13 @@ impl Planner {
         }
     }
 
-    /// Puts an entry after the others on the timeline; what follows a stop starts after `dwell` cycles.
+    /// Appends an entry to the timeline; the entry after a stop starts `dwell` cycles later.
     pub(super) fn append(&mut self, entry: Entry, dwell: u32) {
         self.enter(&entry, dwell);
         self.timeline.push(entry);
     }
 
-    /// Continues after an entry that becomes final.
+    /// Moves the start of the plan to the end of an entry that becomes final.
     fn enter(&mut self, entry: &Entry, dwell: u32) {
         for (cycles, s, queued) in entry.entries(self.cycle) {
             self.contour.enter(cycles, s, Arc::clone(queued));
@@ -285,7 +284,7 @@ impl Planner {
             }
         }
         let end = entry.profile.end();
-        // a rise that is left on its way continues for the reason it began with
+        // a rise that is left halfway continues with the reason it began with
         let why = if end.a_mm_s2 > 0.0 { entry.last_rise() } else { entry.why_down };
         let mut start = Start {
             moment: entry.end,
@@ -301,7 +300,7 @@ impl Planner {
     }
 }
 
-/// How many entries end before block `limit` of the window or at it; `None` if the first one continues.
+/// Number of entries that end before or at block `limit` of the window; `None` if the first one extends beyond it.
 fn entries_before(entries: &[Entry], limit: usize) -> Option<usize> {
     let mut blocks = 0;
     let before = entries.iter().take_while(|e| {
@@ -311,8 +310,8 @@ fn entries_before(entries: &[Entry], limit: usize) -> Option<usize> {
     Some(before.count()).filter(|count| *count > 0)
 }
 
-/// Notes in a plan what has been seen of the plan before it, over the same blocks: of entries with the same profile, and with
-/// the same wait in front.
+/// Copies the findings about a previous plan of the same blocks to a new plan, for entries with the same profile and
+/// the same wait before them.
 fn recall(plan: &mut [Entry], before: &[Entry], cycle: CycleTime) {
     let waited = |list: &[Entry], i: usize| {
         let end = |p: usize| list[p].end.cycles(cycle);

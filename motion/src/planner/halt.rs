@@ -1,8 +1,8 @@
-//! A halt at a place that becomes known only while the path is on its way there.
+//! A halt at a point that becomes known only while the path is approaching it.
 //!
-//! What lies after the place is set aside, so that the path ends there: exactly there, with the limits of its blocks, and
-//! without a stop at their end. [`Planner::resume`] puts it back, and the look-ahead continues as if there had been a rest
-//! of the program.
+//! The path after that point is set aside, so that the path ends exactly there, within the limits of its blocks and
+//! without a stop at their ends. [`Planner::resume`] puts it back, and the look-ahead continues as after a rest of the
+//! program.
 
 use super::Planner;
 use super::replan::{GENTLER, SAME_END_MM};
@@ -12,16 +12,16 @@ use crate::timeline::Entry;
 use std::sync::Arc;
 
 impl Planner {
-    /// The path halts at the end of everything that was pushed, and asks for nothing more until [`Self::resume`].
+    /// Halts the path at the end of everything that was pushed; no more input is requested until [`Self::resume`].
     pub fn halt_behind(&mut self) {
         self.halted.get_or_insert_default();
     }
 
-    /// The path halts `distance_mm` after the place of block `seq` that is nearest to `point`; nothing is pushed until
+    /// Halts the path `distance_mm` after the point of block `seq` nearest to `point`; nothing may be pushed until
     /// [`Self::resume`].
     ///
-    /// False if the block ends before, or if the path is too near or too fast to come to rest there: then it follows its
-    /// plan as if nothing had been asked.
+    /// False if the block ends before that point, or if the path is too close or too fast to come to rest there; the
+    /// path then follows its plan unchanged.
     pub fn halt_in(&mut self, seq: u64, point: &[f64], distance_mm: f64) -> bool {
         let before = (self.plan.clone(), self.timeline.clone(), self.contour.clone());
         while self.fall_back().is_some() {}
@@ -45,12 +45,12 @@ impl Planner {
         false
     }
 
-    /// A [`Next::Rest`](super::Next::Rest) is that of a halt.
+    /// Whether [`Next::Rest`](super::Next::Rest) means a halt.
     pub fn halts(&self) -> bool {
         self.halted.is_some()
     }
 
-    /// A path that has come to rest where it halts may continue.
+    /// Continues a path that has come to rest at a halt.
     pub fn resume(&mut self) {
         if let Some(behind) = self.halted.take() {
             let ratios = &self.active.ratios;
@@ -60,7 +60,7 @@ impl Planner {
     }
 }
 
-/// Path length of the program at the place of a block that is nearest to a point.
+/// Path length of the program at the point of a block nearest to `point`.
 fn place_in(ahead: &[(f64, Segment)], seq: u64, point: &[f64]) -> Option<f64> {
     let mut vector = vec![0.0; point.len()];
     let of_block = ahead.iter().filter(|(_, segment)| segment.queued.block.seq == seq);
@@ -71,7 +71,7 @@ fn place_in(ahead: &[(f64, Segment)], seq: u64, point: &[f64]) -> Option<f64> {
     places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
 }
 
-/// What lies before path length `s` of the program, and what lies after it.
+/// The segments before path length `s` of the program, and those after it.
 fn divided(ahead: &[(f64, Segment)], s: f64) -> (Vec<(f64, Segment)>, Vec<Segment>) {
     let (mut front, mut behind) = (Vec::new(), Vec::new());
     for (start, segment) in ahead {

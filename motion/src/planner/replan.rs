@@ -1,29 +1,30 @@
 //! Override and feedhold on a running path.
 //!
-//! A change of the commanded speed is carried out from the present state, in three steps:
-//! 1. the old plan is kept up to the rest at its end: it is the way out that always exists;
-//! 2. at the present cycle, or failing that 1, 2, 4, ... cycles later in the same span or at the end of a span, a *leg*
-//!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits
-//!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
-//!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
-//!    look-ahead finds a plan after it. Where the speed is on its way to one that is allowed and the jerk is constant, the
-//!    look-ahead continues from the acceleration as it is, without a leg;
-//! 3. what lies after the leg goes back into the queue, the block in which it ends as its remainder.
+//! A change of the commanded speed is made from the present state, in three steps:
+//! 1. the old plan is kept up to the rest at its end, as the way out that always exists;
+//! 2. at the present cycle or, if that fails, 1, 2, 4, ... cycles later in the same span or at the end of a span, a
+//!    *leg* takes the path from its velocity and acceleration to the new velocity with zero acceleration. It uses the
+//!    limits of the block, reduced to those of the weakest block it crosses. A braking leg is only accepted if it is
+//!    nowhere faster than the old plan, an accelerating one only if no cap or block velocity is exceeded, and both only
+//!    if the look-ahead finds a plan after it. If the speed already approaches a permitted one with constant jerk, the
+//!    look-ahead continues from the present acceleration, without a leg;
+//! 3. the path after the leg goes back into the queue, the block in which the leg ends as its remainder.
 //!
-//! So every state that is output still has a stop ahead of it. Until its leg begins the path follows the old plan:
-//! shortly before a slower place, where the path is braking already, a change takes effect after that place.
+//! Every state that is output therefore still has a stop ahead of it. Until its leg begins the path follows the old
+//! plan: shortly before a slower section, where the path is braking already, a change takes effect after that section.
 //!
-//! Each of these is a transaction on the plan: the kept part, the leg and a new plan after it take the place of what is there,
-//! and what was there comes back where that does not keep the tolerance.
+//! Each attempt is a transaction on the plan: the kept part, the leg and a new plan after it replace the present state,
+//! which is restored if the result does not keep the tolerance.
 //!
-//! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned after it before it is taken; where the tolerance
-//! cannot be kept that way the old plan, which keeps it, continues to the next place. A leg that ends at rest waits for such
-//! a place no longer than the kernel is; then it brakes more gently ([`GENTLER`]), because where filters of different
-//! delays pull the axes apart even an acceleration leaves a straight line. Where the gentlest exceeds, too, the change waits for
-//! the first place of the old plan where it does not, at the latest the rest at its end: a late stop is better than a lost contour.
-//! The search after a leg begins with what the tolerance has asked of the blocks in their first plan ([`Asked`]): a search
-//! from nothing takes as many rounds as the first one, and may end in less, so that a feedhold made a run faster. What a leg
-//! adds to that is not kept beyond the next change.
+//! Tolerance monitoring (`AX_DEV`) examines a leg together with the plan after it before the leg is accepted. If the
+//! tolerance cannot be kept that way, the old plan, which keeps it, continues to the next candidate. A leg that ends at
+//! rest waits for such a candidate for at most the length of the kernel; then it brakes more gently ([`GENTLER`]),
+//! because with filters of different delay even an acceleration moves the axes away from a straight line. If the
+//! gentlest leg exceeds the tolerance too, the change waits for the first point of the old plan where it does not, at
+//! the latest the rest at its end: a late stop is better than a contour error. The search after a leg begins with the
+//! demands of the tolerance from the first plan of the blocks ([`Asked`]): a search from scratch takes as many rounds
+//! as the first one and may end with fewer demands, so that a feedhold would make a run faster. Demands added because
+//! of a leg are dropped at the next change.
 
 use super::Planner;
 use super::feedhold::feedhold_slope;
@@ -42,27 +43,27 @@ use std::sync::Arc;
 /// Relative slack of comparisons of velocities.
 const SLACK: f64 = 1e-9;
 
-/// Parts of a block that end closer together than this, in mm, end at the same place.
+/// Parts of a block whose ends are closer together than this, in mm, end at the same point.
 pub(super) const SAME_END_MM: f64 = 1e-9;
 
-/// Parts of the acceleration with which the speed changes, one after the other, where the tolerance leaves no more. What is gentle
-/// is a matter of the speed and the filters: a slow path rests within a cycle even with a small part of it.
+/// Shares of the acceleration for a change of speed, tried in this order where the tolerance does not permit more. What
+/// counts as gentle depends on speed and filters: a slow path comes to rest within a cycle even with a small share.
 pub(super) const GENTLER: [f64; 8] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01, 0.003, 0.001];
 
-/// What has become of a leg.
+/// Result of an attempt with a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     Taken,
-    /// It ends at rest and does not keep the tolerance.
+    /// The leg ends at rest and does not keep the tolerance.
     Exceeds,
-    /// No plan after it keeps the tolerance.
+    /// No plan after the leg keeps the tolerance.
     NoWay,
 }
 
 /// One or two profiles in a row.
 type Leg = SmallVec<[Profile; 2]>;
 
-/// Where a leg may begin.
+/// A point at which a leg may begin.
 #[derive(Clone, Copy, Debug)]
 struct Spot {
     moment: Moment,
@@ -73,21 +74,21 @@ struct Spot {
     why: SpeedLimit,
 }
 
-/// What a leg does.
+/// Purpose of a leg.
 #[derive(Clone, Copy, Debug)]
 enum Aim {
-    /// Nothing: acceleration is zero and the velocity not too high.
+    /// None: the acceleration is zero and the velocity not too high.
     Stay,
-    /// Acceleration to zero at once.
+    /// Reduce the acceleration to zero at once.
     Settle,
-    /// Up to a velocity, out of a positive acceleration.
+    /// Rise to a velocity from a positive acceleration.
     Rise(f64),
-    /// Down to a velocity; a positive acceleration is brought to zero first.
+    /// Brake to a velocity; a positive acceleration is brought to zero first.
     Brake(f64),
 }
 
 impl Planner {
-    /// Brings the demanded override and feedhold into effect.
+    /// Applies the requested override and feedhold.
     pub(super) fn replan(&mut self) {
         while self.fall_back().is_some() {}
         self.active = self.wanted;
@@ -100,12 +101,12 @@ impl Planner {
                 return;
             }
         }
-        // the old plan itself exceeds, which has been reported: it continues to its rest
+        // the old plan itself exceeds the tolerance, which has been reported: follow it to its rest
         self.timeline.put(old);
     }
 
-    /// Changes the speed at the first place where a leg with a part of the acceleration fits; false if that is not to be waited
-    /// for any longer. `ahead` may end before the old plan does; then nothing is driven after it.
+    /// Changes the speed at the first point where a leg with this share of the acceleration fits; false if waiting any
+    /// longer is not acceptable. `ahead` may end before the old plan does; the path then ends there.
     pub(super) fn change_speed(
         &mut self,
         old: &[Entry],
@@ -116,7 +117,7 @@ impl Planner {
         let (k, cycle) = (self.setpoint.k, self.cycle);
         let gentlest = GENTLER.last() == Some(&gentle);
         let moves = self.spot(old, over, over).v > 0.0;
-        // inside the entry of the present cycle: ever later
+        // inside the entry of the present cycle, at increasing intervals
         let later = std::iter::successors(Some(1), |later| Some(2 * later));
         let inside = later.take_while(|later| {
             moves && old.get(over).is_some_and(|e| !e.is_over(k + later, cycle))
@@ -157,11 +158,11 @@ impl Planner {
         false
     }
 
-    /// Everything known from the entry of the present cycle on, with the path length at which it starts.
+    /// All known segments from the entry of the present cycle on, each with the path length at its start.
     pub(super) fn ahead(&self, old: &[Entry]) -> Vec<(f64, Segment)> {
         let mut out: Vec<(f64, Segment)> = Vec::new();
         let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap, asked: Option<Asked>| {
-            // not the rest of a block that is listed already
+            // skip the remainder of a block that is already listed
             let listed = out.last().is_some_and(|(_, Segment { queued: listed, .. })| {
                 let [own, other] = [queued, listed].map(|q| q.offset + q.length);
                 queued.offset > listed.offset && (own - other).abs() <= SAME_END_MM
@@ -184,7 +185,7 @@ impl Planner {
         out
     }
 
-    /// The present state (`i` = the entry of the present cycle), or the end of the entry before `i`.
+    /// The state at the present cycle (`i` = the entry of that cycle), or at the end of the entry before `i`.
     fn spot(&self, old: &[Entry], over: usize, i: usize) -> Spot {
         let next = old.get(i);
         if let Some(entry) = next.filter(|_| i == over) {
@@ -201,7 +202,7 @@ impl Planner {
         }
     }
 
-    /// Inside an entry, or at its start if it lies ahead.
+    /// The state in cycle `k` of an entry, or at its start if that is later.
     fn inside(&self, entry: &Entry, k: u64) -> Spot {
         let t = entry.seconds_at(k, self.cycle);
         let state = entry.profile.at(t);
@@ -214,8 +215,8 @@ impl Planner {
         }
     }
 
-    /// True if the speed is on its way to one that is allowed, and a plan may start from the acceleration as it is: nothing has to
-    /// be settled first. What keeps a tolerance, and braking under G901, are planned as a whole.
+    /// Whether the speed already approaches a permitted one and a plan may start from the present acceleration, so that
+    /// it need not be reduced first. Blocks with a tolerance, and braking under G901, are planned as a whole.
     fn may_go_on(&self, spot: &Spot, rest: &[Segment]) -> bool {
         let Some(Segment { queued: first, .. }) = rest.first() else { return false };
         let constant_jerk = |q: &Queued| matches!(q.block.slope.kind, Trapez | Hsc);
@@ -238,7 +239,7 @@ impl Planner {
         if spot.v > 0.0 { self.leg(spot, rest, old, gentle) } else { Some(Leg::new()) }
     }
 
-    /// Slope of a block while the speed changes, with a part of the acceleration.
+    /// Slope of a block during the change of speed, with a share of the acceleration.
     fn slope_of(&self, queued: &Queued, gentle: f64) -> SlopeLimits {
         let slope = match self.active.hold {
             Some(braking) => feedhold_slope(queued, braking, self.cycle),
@@ -247,7 +248,7 @@ impl Planner {
         if gentle < 1.0 { slope.scaled(gentle) } else { slope }
     }
 
-    /// The leg from a spot that moves; `None` if the old plan has to continue.
+    /// The leg from a spot in motion; `None` if the old plan has to continue.
     fn leg(&self, spot: &Spot, rest: &[Segment], old: &[Entry], gentle: f64) -> Option<Leg> {
         let first = &rest.first()?.queued;
         let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.v_mm_s };
@@ -255,7 +256,7 @@ impl Planner {
         let settled = slope.settled(spot.v, spot.a);
         let steady = (settled - spot.v).abs() <= 1e-12 * spot.v;
         let spot = Spot { a: if steady { 0.0 } else { spot.a }, ..*spot };
-        // the old plan keeps the tolerance, and so does what is slower; what is faster has to be examined first
+        // the old plan keeps the tolerance, and so does any slower speed; a faster one has to be examined first
         let monitored =
             self.kernels.any() && rest.iter().any(|s| s.queued.block.tolerance.ax_dev_mm.is_some());
         let aims: &[Aim] = if steady {
@@ -288,13 +289,13 @@ impl Planner {
         old: &[Entry],
     ) -> Option<Leg> {
         let mut slope = first.clone();
-        // boundaries crossed, by their distance
+        // distances of the boundaries crossed
         let mut crossed: SmallVec<[f64; 8]> = SmallVec::new();
         let mut reach = rest.first()?.queued.length;
         let leg = loop {
             let leg = profiles(aim, spot, &slope)?;
             let length: f64 = leg.iter().map(Profile::length).sum();
-            // a ramp that was planned to end with the block ends there
+            // a ramp that was planned to end with the block ends at that boundary
             if length <= reach * (1.0 + SAME_LENGTH) {
                 break leg;
             }
@@ -310,7 +311,7 @@ impl Planner {
         let v_end = leg.last().map_or(spot.v, |c| c.end().v_mm_s);
         let falls = matches!(aim, Aim::Brake(_));
         if falls {
-            // into a slower block
+            // the leg enters a slower block
             let crossed = rest[1..=crossed.len()].iter().map(|s| s.queued.velocity.v_mm_s);
             let slowest = crossed.fold(f64::INFINITY, f64::min);
             if slowest < v_end * (1.0 - SLACK) {
@@ -337,8 +338,9 @@ impl Planner {
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts what is kept and a leg on the timeline and what lies after it into the plan, which begins with the acceleration of the
-    /// spot where there is no leg. If the path would be too fast there for the tolerance, nothing is changed but the timeline.
+    /// Puts the kept part and a leg on the timeline and the path after it into the plan; without a leg the plan begins
+    /// with the acceleration of the spot. If the path would be too fast for the tolerance there, only the timeline is
+    /// changed.
     fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, rest: Vec<Segment>) -> Outcome {
         let speed = Cap::new(spot.v, spot.why);
         let start = Start { moment: spot.moment, s_mm: spot.s, speed, a_mm_s2: spot.a };
@@ -381,26 +383,26 @@ impl Planner {
         if at_rest && self.excess().is_none() {
             return Outcome::Taken;
         }
-        // a rest that the old plan kept shorter: what the filters still hold leaves no time to wait
+        // the rest is longer than in the old plan, and the contour still held by the filters leaves no time to wait
         let must_rest = at_rest && (moves || self.active.hold.is_some());
         if must_rest {
             return Outcome::Exceeds;
         }
         let Some(way_out) = self.way_out() else { return Outcome::NoWay };
         if way_out.is_empty() && !at_rest {
-            // a barred block: no speed leads on
+            // a barred block: the path cannot continue at any speed
             return Outcome::NoWay;
         }
         self.plan.reserve = way_out.into();
         if at_rest {
-            // it is not known later
+            // later this way is no longer known
             self.fall_back();
         }
         Outcome::Taken
     }
 }
 
-/// The part of it after path length `s` of the program.
+/// The segments after path length `s` of the program.
 fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
     let first = ahead.partition_point(|b| b.0 <= s).max(1) - 1;
     let rest = ahead[first.min(ahead.len())..].iter().map(|(_, segment)| segment.clone());
@@ -408,10 +410,10 @@ fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
     cut(rest.collect(), into)
 }
 
-/// What lies after `s` mm; a rest of a block no longer than rounding is dropped.
+/// The segments after the first `s` mm; a remainder no longer than rounding is dropped.
 fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     let mut gone = 0;
-    // a leg to the end of a block, and what is left of the block, are computed in different ways
+    // a leg to the end of a block and the remainder of the block are computed by different formulas
     let is_over = |length: f64, s: f64| {
         s >= length * (1.0 - SAME_LENGTH) || s > 0.0 && length - s <= SAME_END_MM
     };
@@ -465,7 +467,7 @@ fn speed_at(old: &[Entry], s: f64) -> f64 {
     old.get(i).map_or(0.0, |e| e.profile.at(e.profile.time_at(s - e.s0)).v_mm_s)
 }
 
-/// The look-ahead finds a plan that starts with `v`.
+/// Whether the look-ahead finds a plan that starts with `v`.
 fn goes_on(rest: &[Segment], v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
     for Segment { queued, cap, .. } in rest.iter().take_while(|s| s.queued.velocity.v_mm_s > 0.0) {

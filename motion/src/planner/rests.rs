@@ -1,9 +1,9 @@
-//! No plan is slower than one that rests.
+//! A plan is never slower than one that rests.
 //!
-//! With rests as long as the filters are at both ends, a block depends on nothing but itself. The search for a plan knows only who
-//! is to blame for an excess; where causes overlap it can slow down a whole stretch that would be faster with rests. So, where
-//! the blocks of a stretch take longer than they would from rest to rest, a plan that rests there is searched for, and the one that
-//! ends earlier is taken.
+//! With rests as long as the filters at both ends, a block is independent of the others. The search for a plan only
+//! attributes each excess to a cause; where causes overlap it can slow down a whole section that would be faster with
+//! rests. Where the blocks of a section take longer than they would from rest to rest, a plan with these rests is
+//! therefore searched as well, and the one that ends earlier is used.
 
 use super::Planner;
 use super::extend::Searched;
@@ -13,13 +13,13 @@ use crate::timeline::{Entry, Moment};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Stretches tried in one plan.
+/// Number of sections tried in one plan.
 const TRIES: usize = 4;
-/// Cycles that rests have to save.
+/// Number of cycles that the rests have to save.
 const WORTH: f64 = 2.0;
 
 impl Planner {
-    /// The plan that is faster: `kept`, which keeps the tolerance, or one that rests on some stretch that begins before block
+    /// The faster plan: `kept`, which keeps the tolerance, or one that rests on some section that begins before block
     /// `front`.
     pub(super) fn rest_instead(
         &mut self,
@@ -51,8 +51,8 @@ impl Planner {
         kept
     }
 
-    /// Cycles that each block of a plan would save if the path rested before it until the filters have let go of what is
-    /// before, and at its end; what it loses is negative.
+    /// Number of cycles that each block of a plan would save if the path rested before it, until the earlier contour
+    /// has left the filters, and at its end; negative for a loss.
     fn gains(&self, plan: &[Entry]) -> Vec<f64> {
         let (cycle, wait) = (self.cycle, f64::from(self.kernels.length()));
         let mut entered: Vec<f64> = Vec::new();
@@ -76,7 +76,7 @@ impl Planner {
     }
 }
 
-/// The blocks in a row that save most together, the first of them before block `front`.
+/// The consecutive blocks with the largest total saving, the first of them before block `front`.
 fn best_stretch(gains: &[f64], front: usize) -> Option<Range<usize>> {
     let (mut best, mut stretch) = (WORTH, None);
     let (mut sum, mut from) = (0.0, 0);

@@ -1,24 +1,24 @@
 //! Curves with a sharp turn inside, in parts.
 //!
-//! A block has one path velocity, that of its sharpest place. The curve of an Akima spline that goes there and back turns
-//! within micrometres: with one velocity the whole of it would be driven as slowly as its tip. Such a curve becomes
-//! several blocks of the same number, each with the velocity of its part. There is no limit where they meet: direction
-//! and curvature are continuous.
+//! A block has one path velocity, that of its sharpest point. The curve of an Akima spline that reverses turns within
+//! micrometres, and with a single velocity all of it would be as slow as its tip. Such a curve becomes several blocks
+//! with the same number, each with the velocity of its part. Their boundaries limit nothing, as direction and curvature
+//! are continuous.
 //!
-//! Curves whose parts would not save half of the time stay whole, so that a spline of ordinary bends has the one profile
-//! per block that its slope promises. So do blocks whose feed is defined over the whole of them (G194), and those with
-//! something to do at every transition (G116, G901).
+//! Curves whose parts would not save half of the time stay whole, so that an ordinary spline keeps the one profile per
+//! block that its slope requires. So do blocks with a feed that refers to the whole block (G194), and blocks with a
+//! function at every transition (G116, G901).
 
 use crate::block::{Block, Feed};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath};
 
-/// Times as long that the whole block takes at its one velocity as its parts at theirs, for them to be worth it.
+/// Ratio of the time of the whole block at one velocity to that of its parts at which dividing it pays off.
 const WORTH: f64 = 2.0;
-/// The same for two neighbours of one part.
+/// The same ratio for two neighbouring sub-intervals of one part.
 const APART: f64 = 1.1;
 
-/// A stretch of a curve by its sub-intervals.
+/// A section of a curve, by its sub-intervals.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
     from: usize,
@@ -42,7 +42,7 @@ impl Stretch {
     }
 }
 
-/// What takes the place of a block, if anything does.
+/// The blocks that replace a block; `None` if it stays whole.
 pub(super) fn parts(block: &Block) -> Option<Vec<Block>> {
     let Path::Curve(curve) = &block.path else { return None };
     let whole_by_nature = matches!(block.feed, Feed::ShareOfMaximum(_))
@@ -90,7 +90,7 @@ pub(super) fn parts(block: &Block) -> Option<Vec<Block>> {
     stretches.into_iter().enumerate().map(part).collect()
 }
 
-/// A first look: centripetal acceleration alone allows speeds that differ enough.
+/// A first check: whether the speeds permitted by centripetal acceleration alone differ enough.
 fn is_uneven(curve: &PolyPath) -> bool {
     let (mut sharpest, mut seconds, mut from) = (0.0_f64, 0.0, 0.0);
     for (end, bend) in curve.bends() {

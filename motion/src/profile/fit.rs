@@ -1,6 +1,6 @@
 //! Whether a change of speed fits into the length of a span.
 
-/// How far (relative) the boundary velocities may miss the length before a plan is refused.
+/// Relative amount by which the boundary velocities may miss the length before a plan is refused.
 pub(super) const LENGTH_SLACK: f64 = 1e-9;
 
 /// The boundary velocities of a span do not fit its length; the look-ahead has to lower one of them.
@@ -9,7 +9,7 @@ pub(super) const LENGTH_SLACK: f64 = 1e-9;
 pub struct Infeasible {
     /// Length of the span in mm.
     pub length_mm: f64,
-    /// Length the change between the boundary velocities needs in mm; infinite if no speed is allowed.
+    /// Length in mm that the change between the boundary velocities needs; infinite if the speed limit is 0.
     pub needed_mm: f64,
 }
 

@@ -1,19 +1,19 @@
-//! One change of speed of a TRAPEZ or SIN2 slope: acceleration rises, stays, falls back to zero.
+//! One change of speed of a TRAPEZ or SIN2 slope: the acceleration rises, stays constant and falls back to zero.
 //!
-//! A leg always runs from the lower to the higher velocity. A braking leg is its mirror in time, so the
-//! same formulas serve both; only ramp times and plateau differ.
+//! A leg always runs from the lower to the higher velocity. A braking leg is its mirror image in time, so the same
+//! formulas serve both; only ramp times and plateau differ.
 
 use super::phase::Phase;
 use super::ramp::RampShape;
 use super::roots::{increasing_root, monotone_cubic};
 
-/// Ramp times below this count as a step of acceleration; the parameter lists have whole microseconds.
+/// Ramp times below this count as a step of the acceleration; the parameter lists are in whole microseconds.
 const SHORTEST_RAMP_S: f64 = 1e-9;
 
-/// Limits of a leg with everything that depends on them alone.
+/// Limits of a leg and all quantities that depend on them alone.
 ///
-/// Symbols: plateau `a`, ramp times `t1` (rise) and `t2` (fall), `Δ` gain of velocity. `a (t1 + t2)/2` is
-/// the least gain that reaches the plateau; below it a leg is *short*.
+/// Symbols: plateau `a`, ramp times `t1` (rise) and `t2` (fall), gain of velocity `Δ`. `a (t1 + t2)/2` is the smallest
+/// gain that reaches the plateau; a leg below it is *short*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LegLimits {
     shape: RampShape,
@@ -27,9 +27,9 @@ pub(super) struct LegLimits {
     shoulder: f64,
     /// `a c (t1² - t2²)`, the part of a full leg that vanishes for equal ramps.
     skew: f64,
-    /// Least gain of velocity that reaches the plateau.
+    /// Smallest gain of velocity that reaches the plateau.
     gain_full: f64,
-    /// `1/a` and `1/gain_full`: divisions are what these formulas would wait for.
+    /// `1/a` and `1/gain_full`, stored because divisions dominate the latency of these formulas.
     per_a: f64,
     per_gain_full: f64,
 }
@@ -91,12 +91,12 @@ impl LegLimits {
         Self::new(self.shape, self.constant_ramp_time, a, rise, fall)
     }
 
-    /// Shape, plateau, first and second ramp time, if a short leg keeps the jerk.
+    /// Shape, plateau, first and second ramp time, if a short leg has the same jerk.
     pub(super) fn scalable(&self) -> Option<(RampShape, f64, [f64; 2])> {
         (!self.constant_ramp_time).then_some((self.shape, self.a, self.ramps_s()))
     }
 
-    /// True if plateau and ramps differ by at most `ratio`.
+    /// Whether plateau and ramps differ by at most `ratio`.
     pub(super) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
         let near = |x: f64, y: f64| (x - y).abs() <= ratio * x.max(y);
         self.shape == other.shape
@@ -123,7 +123,7 @@ impl LegLimits {
         }
     }
 
-    /// [`Self::distance`] and its derivative by the gain; for a short leg of constant jerk `gain > 0`.
+    /// [`Self::distance`] and its derivative with respect to the gain; for a short leg of constant jerk `gain > 0`.
     fn distance_and_slope(&self, v: f64, gain: f64) -> (f64, f64) {
         if gain >= self.gain_full {
             (self.distance(v, gain), (v + gain) * self.per_a + 0.5 * self.t2)
@@ -179,10 +179,10 @@ impl LegLimits {
         Quadratic { c2: 0.0, c1, c0: v * self.ramps + c1 * gain }
     }
 
-    /// Rise, plateau and fall of the leg from `v` to `v + gain` over `distance` (that of the limits), its time scaled by
-    /// `stretch` (close to 1): velocities stay, distance scales with time.
+    /// Rise, plateau and fall of the leg from `v` to `v + gain` over `distance` (that of the limits), with its time
+    /// scaled by `stretch` (close to 1): velocities stay, distance scales with time.
     ///
-    /// Rise and plateau are seen from the start, the fall from the end, so that either is met exactly.
+    /// Rise and plateau are computed from the start, the fall from the end, so that both ends are met exactly.
     pub(super) fn phases(&self, v: f64, gain: f64, distance: f64, stretch: f64) -> [Phase; 3] {
         let (plateau, ramp, tc) = if gain >= self.gain_full {
             (self.a, 1.0, gain / self.a - 0.5 * self.ramps)
@@ -198,7 +198,7 @@ impl LegLimits {
         let [t1, tc, t2] = [self.t1 * ramp, tc.max(0.0), self.t2 * ramp].map(|t| t * stretch);
         let jerk = |t: f64| if t > 0.0 { a / t } else { 0.0 };
         let rise = Phase::state(0.0, v, 0.0).ramp(self.shape, jerk(t1), t1);
-        // a ramp that takes no time is a jump
+        // a ramp of zero duration is a jump
         let shoulder = rise.end();
         let hold = Phase::state(shoulder.s, shoulder.v, a).ramp(self.shape, 0.0, tc);
         let way = t2 * (v + gain - self.shape.rise_factor() * a * t2);
@@ -220,7 +220,7 @@ impl Quadratic {
         Self { c2: self.c2 + other.c2, c1: self.c1 + other.c1, c0: self.c0 + other.c0 }
     }
 
-    /// The root of `... = value` on the increasing branch; negative values of it come out as 0.
+    /// The root of `... = value` on the increasing branch; 0 if that is negative.
     fn root(self, value: f64) -> f64 {
         let d = value - self.c0;
         if d <= 0.0 {
@@ -241,18 +241,18 @@ pub(super) struct LegPair<'a> {
 }
 
 impl LegPair<'_> {
-    /// Gains of both legs for the peak that uses up `length`, where the peak lies between `max(v0, ve)`, which
-    /// needs only `least`, and `v_max`, which needs `most`.
+    /// Gains of both legs for the peak that uses up `length`; the peak is between `max(v0, ve)`, which only needs
+    /// `least`, and `v_max`, which needs `most`.
     ///
-    /// With constant ramp time the distance jumps when a leg appears; a length inside the jump gives the
-    /// lower peak and the rest is cruised.
+    /// With constant ramp time the distance jumps when a leg appears; for a length within the jump the lower peak is
+    /// used and the remaining distance is cruised.
     pub(super) fn gains(&self, v_max: f64, length: f64, least: f64, most: f64) -> (f64, f64) {
         let Self { up, down, v0, ve } = *self;
         let top = v0.max(ve);
         let (up_base, down_base) = (top - v0, top - ve);
         let distance = |x: f64| up.distance(v0, up_base + x) + down.distance(ve, down_base + x);
 
-        // narrow to the interval in which neither leg changes between short and full
+        // narrow the interval to where neither leg changes between short and full
         let (up_knee, down_knee) = (up.gain_full - up_base, down.gain_full - down_base);
         let (mut lo, mut hi) = (0.0, v_max - top);
         let (mut at_lo, mut at_hi) = (least, most);
@@ -289,9 +289,9 @@ impl LegPair<'_> {
 
 /// Gain of a short leg of constant jerk from `v`, such that it and the other leg from `w` use up `length`.
 ///
-/// Unknown is `λ`, the ratio of the short leg's ramp times to the full ones: gain `g λ²`, distance a cubic in
-/// `λ`. The total is increasing and convex in `λ` (the other leg too is convex in it, given `w <= v` if it is
-/// short), so Newton converges from any start. `bracket`: least and largest gain with the total at both.
+/// The unknown is `λ`, the ratio of the ramp times of the short leg to the full ones: the gain is `g λ²`, the distance
+/// a cubic in `λ`. The total is increasing and convex in `λ` (so is the other leg, given `w <= v` if it is short), so
+/// Newton's method converges from any start. `bracket`: smallest and largest gain with the total at both.
 fn short_gain(
     leg: &LegLimits,
     v: f64,
@@ -314,7 +314,7 @@ fn short_gain(
     }
     let [(lo, at_lo), (hi, at_hi)] = bracket;
     let (lo, hi) = ((lo / full).sqrt(), (hi / full).sqrt());
-    // start from a cubic through both ends with the true slope at λ = 0
+    // start from a cubic through both ends with the correct slope at λ = 0
     let c3 = (at_hi - at_lo - linear * (hi - lo)) / (hi * hi * hi - lo * lo * lo);
     let guess = monotone_cubic(c3, linear, length - at_lo + lo * (linear + c3 * lo * lo));
     let root = increasing_root(lo, hi, guess, 1e-10, |x| {

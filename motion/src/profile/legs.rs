@@ -1,23 +1,23 @@
-//! Speed-up, cruise and braking over one length.
+//! Acceleration, cruise and braking over one length.
 
 use super::phase::Phase;
 use super::row::{Profile, State};
 
-/// What a plan has settled about its length.
+/// The peak of a plan and the length it belongs to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Legs {
     pub(super) length: f64,
     pub(super) ve: f64,
     pub(super) peak: f64,
-    /// The peak is the feed, not the solution for the length.
+    /// Whether the peak is the feed rate rather than the solution for the length.
     pub(super) at_feed: bool,
 }
 
 impl Legs {
-    /// Puts the legs together such that they cover the length exactly; the second one is seen backwards from the end.
+    /// Combines the legs such that they cover the length exactly; the second one is described backwards from the end.
     ///
-    /// `up_mm`, `down_mm`: lengths of the legs unstretched. What is missing is cruised at the peak; a rounding error of
-    /// the peak, or legs slightly too long, are taken out by stretching time.
+    /// `up_mm`, `down_mm`: lengths of the legs without stretching. A remaining distance is cruised at the peak. A
+    /// rounding error of the peak, or legs that are slightly too long, are compensated by stretching time.
     pub(super) fn profile<Leg>(
         self,
         [up_mm, down_mm]: [f64; 2],

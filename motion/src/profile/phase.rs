@@ -1,13 +1,13 @@
-//! A phase: a part of a motion in which the acceleration runs along one ramp, or stays.
+//! A phase: a part of a motion in which the acceleration follows one ramp or is constant.
 
 use super::ramp::{RampShape, RampState};
 use super::roots::increasing_root;
 use std::f64::consts::FRAC_1_PI;
 
-/// Last step to a root, relative to it: the error is its square.
+/// Relative size of the last step to a root; the error is its square.
 const ROOT: f64 = 1e-9;
 
-/// A phase in which the acceleration runs along one ramp, or stays, from its state at the start.
+/// A phase in which the acceleration follows one ramp or is constant, from its state at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Phase {
     /// Path length at the start in mm.
@@ -16,15 +16,15 @@ pub(crate) struct Phase {
     pub(crate) v: f64,
     /// Acceleration there in mm/s2.
     pub(crate) a: f64,
-    /// Jerk in mm/s3; of a sine-square ramp the mean one.
+    /// Jerk in mm/s3; for a sine-square ramp the mean jerk.
     pub(crate) j: f64,
     /// Duration in s.
     pub(crate) t: f64,
-    /// The sine-square ramp of which this is a part; `None`: the jerk is constant.
+    /// The sine-square ramp of which this is a part; `None`: constant jerk.
     sine: Option<Sine>,
 }
 
-/// Where a phase lies on a sine-square ramp.
+/// Position of a phase on a sine-square ramp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sine {
     /// Time of the ramp before the start of the phase in s.
@@ -39,7 +39,7 @@ impl Phase {
         Self { s, v, a, j: 0.0, t: 0.0, sine: None }
     }
 
-    /// From a state along a whole ramp of this (mean) jerk.
+    /// From a state along a whole ramp with this (mean) jerk.
     pub(crate) fn ramp(self, shape: RampShape, j: f64, t: f64) -> Self {
         let curved = shape == RampShape::Sin2 && j != 0.0 && t > 0.0;
         Self { j, t, sine: curved.then_some(Sine { skip: 0.0, whole: t }), ..self }
@@ -52,7 +52,7 @@ impl Phase {
         Self::state(self.s + way, v, a)
     }
 
-    /// Path length run through in the first `t` s, velocity and acceleration then.
+    /// Path length travelled in the first `t` s, and velocity and acceleration after them.
     #[inline]
     fn way_after(&self, t: f64) -> (f64, f64, f64) {
         match self.sine {
@@ -84,7 +84,7 @@ impl Phase {
         self.after(self.t)
     }
 
-    /// The same phase from another place on.
+    /// The same phase from another path length on.
     pub(super) fn placed_at(self, s: f64) -> Self {
         Self { s, ..self }
     }
@@ -94,20 +94,20 @@ impl Phase {
         Self { t, ..self }
     }
 
-    /// What is left of the phase `t` s after its start.
+    /// The remainder of the phase `t` s after its start.
     pub(crate) fn rest(&self, t: f64) -> Self {
         let sine = self.sine.map(|s| Sine { skip: s.skip + t, ..s });
         Self { j: self.j, t: self.t - t, sine, ..self.after(t) }
     }
 
-    /// The phase run backwards from the other end of `length` mm.
+    /// The phase reversed in time and direction, measured from the other end of `length` mm.
     pub(crate) fn reversed(&self, length: f64) -> Self {
         let end = self.end();
         let sine = self.sine.map(|s| Sine { skip: s.whole - s.skip - self.t, ..s });
         Self { s: length - end.s, v: end.v, a: -end.a, sine, ..*self }
     }
 
-    /// True if the acceleration runs along a sine-square ramp.
+    /// Whether the acceleration follows a sine-square ramp.
     pub(super) fn is_curved(&self) -> bool {
         self.sine.is_some()
     }
@@ -137,7 +137,7 @@ impl Phase {
             crate::closed_forms::add();
             (way - want, v)
         };
-        // the kind of ramp is determined once, not in every step
+        // branch on the kind of ramp once, not in every step
         match self.sine {
             None => {
                 increasing_root(0.0, most, guess, ROOT, |t| short(self.way_at_constant_jerk(t)))
@@ -148,12 +148,12 @@ impl Phase {
         }
     }
 
-    /// The place inside the phase at which the acceleration passes through zero.
+    /// The point inside the phase at which the acceleration passes through zero.
     pub(super) fn turn(&self) -> Option<Self> {
         let turn = match self.sine {
             None => -self.a / self.j,
             Some(sine) => {
-                // a + da (sin2(z) - sin2(z of the start)) = 0
+                // a + da (sin2(z) - sin2(z at the start)) = 0
                 let ratio = (self.on_ramp(sine, 0.0).a - self.a) / (self.j * sine.whole);
                 2.0 * sine.whole * FRAC_1_PI * libm::asin(ratio.max(0.0).sqrt()) - sine.skip
             }

@@ -11,7 +11,7 @@ pub enum RampShape {
     Sin2,
 }
 
-/// What a ramp has gained over a motion at its starting velocity.
+/// Additional state of a ramp relative to a motion at its initial velocity.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RampState {
     pub(super) s: f64,
@@ -21,7 +21,7 @@ pub(super) struct RampState {
 }
 
 impl RampShape {
-    /// Largest jerk of a ramp over its mean one.
+    /// Ratio of the peak jerk of a ramp to its mean jerk.
     pub(crate) fn peak_jerk(self) -> f64 {
         match self {
             Self::Trapez => 1.0,

@@ -1,4 +1,4 @@
-//! TRAPEZ and SIN2: acceleration that builds up and falls in ramps.
+//! TRAPEZ and SIN2: the acceleration builds up and falls in ramps.
 
 use super::fit::Infeasible;
 use super::leg::{LegLimits, LegPair};
@@ -13,7 +13,7 @@ pub struct RampedLimits {
     down: LegLimits,
 }
 
-/// The numbers of a slope whose ramps get shorter with the change of acceleration.
+/// The values of a slope whose ramps become shorter with the change of acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rates {
     /// Shape of the ramps.
@@ -29,10 +29,10 @@ pub(crate) struct Rates {
 impl RampedLimits {
     /// Limits referred to the path.
     ///
-    /// `acc_mm_s2`, `dec_mm_s2`: plateaus, positive. `ramps_s`: `t1..t4`, the times in which acceleration
-    /// builds up and falls and deceleration builds up and falls; below one nanosecond they are a step.
-    /// `constant_ramp_time` (P-CHAN-00349 = 1): a speed change too small for the plateau keeps its ramp
-    /// times and lowers the plateau; otherwise it keeps the jerk and shortens the ramps.
+    /// `acc_mm_s2`, `dec_mm_s2`: plateaus, positive. `ramps_s`: `t1..t4`, the times in which the acceleration builds up
+    /// and falls and the deceleration builds up and falls; below one nanosecond they count as a step.
+    /// `constant_ramp_time` (P-CHAN-00349 = 1): a speed change too small for the plateau keeps its ramp times and
+    /// lowers the plateau; otherwise it keeps the jerk and shortens the ramps.
     ///
     /// Source: TF5200, P-CHAN-00071, P-CHAN-00349, P-AXIS-00001, 00002, 00195..00198.
     pub fn new(

@@ -1,8 +1,8 @@
-//! Roots of the equations met by slope profiles.
+//! Roots of the equations that slope profiles lead to.
 
 /// Root of `c3 x³ + c1 x = d` for `c3 > 0`, `c1 >= 0`, `d >= 0`: the single, non-negative one.
 ///
-/// Cardano's formula written without a difference of large numbers.
+/// Cardano's formula in a form without differences of large numbers.
 pub(super) fn monotone_cubic(c3: f64, c1: f64, d: f64) -> f64 {
     if d <= 0.0 {
         return 0.0;
@@ -17,8 +17,9 @@ pub(super) fn monotone_cubic(c3: f64, c1: f64, d: f64) -> f64 {
 
 /// Root of an increasing function in `lo..=hi` with `f(lo) <= 0 <= f(hi)`; `eval` gives value and slope.
 ///
-/// Newton from `guess`, bisection whenever a step leaves the bracket; stops after 64 steps or after a step of less
-/// than `precision`, relative to the root: where Newton converges quadratically, the error is then its square.
+/// Newton's method from `guess`, with bisection whenever a step leaves the bracket. It stops after 64 steps or after a
+/// step below `precision`, relative to the root; where it converges quadratically, the error is then the square of that
+/// step.
 #[inline] // the function is evaluated in place
 pub(super) fn increasing_root(
     mut lo: f64,
@@ -36,7 +37,7 @@ pub(super) fn increasing_root(
             lo = x;
         }
         let newton = x - value / slope;
-        // written so that a NaN step (slope 0) bisects
+        // written so that a NaN step (slope 0) leads to bisection
         let next = if newton >= lo && newton <= hi { newton } else { 0.5 * (lo + hi) };
         let step = (next - x).abs();
         x = next;
@@ -47,9 +48,9 @@ pub(super) fn increasing_root(
     x
 }
 
-/// Two places, not farther apart than `precision` times their first distance, between which the only root of a function
-/// lies, by false position from two places with the values there. The function has the sign of `low` at the first one,
-/// and not at the second one, which is the root itself if it is met exactly.
+/// Two arguments, at most `precision` times their initial distance apart, that enclose the only root of a function, by
+/// regula falsi from two arguments with their function values. The function has the sign of `low` at the first one, but
+/// not at the second one, which is the root itself if it is met exactly.
 pub(crate) fn enclosed_root(
     (mut low, mut at_low): (f64, f64),
     (mut high, mut at_high): (f64, f64),
@@ -59,7 +60,7 @@ pub(crate) fn enclosed_root(
     let close = precision * (high - low);
     let mut stays = None;
     while high - low > close && at_high != 0.0 {
-        // a step beside the root goes across it
+        // a step close to the root is extended across it
         let least = 0.5 * close / (high - low);
         let step = (at_low / (at_low - at_high)).clamp(least, 1.0 - least);
         let x = low + step * (high - low);
@@ -70,7 +71,7 @@ pub(crate) fn enclosed_root(
         } else {
             (high, at_high) = (x, here);
         }
-        // an end that stays for a second time counts half (Illinois)
+        // an end that is kept twice counts half (Illinois)
         if stays == Some(raises_low) {
             *(if raises_low { &mut at_high } else { &mut at_low }) *= 0.5;
         }

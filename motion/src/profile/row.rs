@@ -1,10 +1,10 @@
-//! The speed over a path length: a row of phases, from whichever planner.
+//! The speed over a path length: a row of phases, from any planner.
 
 use super::phase::Phase;
 use smallvec::SmallVec;
 use std::sync::Arc;
 
-/// Phases of a profile of TRAPEZ, SIN2 and HSC: two legs of three, and what is cruised.
+/// Phases of a profile of TRAPEZ, SIN2 and HSC: two legs of three phases and a cruise.
 const USUAL_PHASES: usize = 7;
 
 /// State of the path coordinate at one time.
@@ -16,14 +16,14 @@ pub struct State {
     pub v_mm_s: f64,
     /// Path acceleration in mm/s2.
     pub a_mm_s2: f64,
-    /// Path jerk in mm/s3; 0 where acceleration jumps.
+    /// Path jerk in mm/s3; 0 where the acceleration jumps.
     pub j_mm_s3: f64,
 }
 
-/// A speed that never goes backwards, in phases of constant jerk or of one sine-square ramp.
+/// A speed that is never negative, in phases of constant jerk or of one sine-square ramp each.
 #[derive(Clone, Debug)]
 pub struct Profile {
-    /// Phases in order with the times at which they start; there may be empty ones. Shared: plans hand their profiles on.
+    /// Phases in order with their start times, possibly with empty ones. Shared: plans pass their profiles on.
     phases: Arc<[(f64, Phase)]>,
     duration: f64,
     end: State,
@@ -37,10 +37,11 @@ impl PartialEq for Profile {
 }
 
 impl Profile {
-    /// Phases that follow each other, and the state at their end.
+    /// Consecutive phases, and the state at their end.
     pub(super) fn new(phases: impl IntoIterator<Item = Phase>, end: State) -> Self {
         let mut duration = 0.0;
-        // laid down in place, then copied once: an `Arc` of a chain of iterators asks each of them for every phase
+        // collected in place, then copied once: an `Arc` of a chain of iterators would poll each of them for every
+        // phase
         let mut timed: SmallVec<[(f64, Phase); USUAL_PHASES]> = SmallVec::new();
         phases.into_iter().for_each(|phase| {
             timed.push((duration, phase));
@@ -49,14 +50,14 @@ impl Profile {
         Self { phases: Arc::from(&timed[..]), duration, end }
     }
 
-    /// One speed in mm/s, above 0, over a length: what most short blocks in a row have.
+    /// A constant speed in mm/s, above 0, over a length, as most short blocks of a run have it.
     pub(super) fn even(v_mm_s: f64, length: f64) -> Self {
         let cruise = Phase::state(0.0, v_mm_s, 0.0).until(length / v_mm_s);
         let end = State { s_mm: length, v_mm_s, ..State::default() };
         Self { phases: Arc::new([(0.0, cruise)]), duration: cruise.t, end }
     }
 
-    /// Phases that follow each other over a length.
+    /// Consecutive phases over a length.
     pub(crate) fn over(phases: Vec<Phase>, length: f64) -> Self {
         let last = phases.last().map(Phase::end);
         let end = last.map_or_else(State::default, |Phase { v, a, .. }| State {
@@ -69,7 +70,7 @@ impl Profile {
         Self::new(phases, end)
     }
 
-    /// The same with what follows after its end.
+    /// This profile with another one after its end.
     pub(super) fn followed_by(&self, next: &Self) -> Self {
         let length = self.end.s_mm;
         let moved = next.phases.iter().map(|(_, p)| p.placed_at(length + p.s));
@@ -77,8 +78,8 @@ impl Profile {
         Self::new(self.phases.iter().map(|(_, p)| *p).chain(moved), end)
     }
 
-    /// The parts before and after a path length, the acceleration there as it is; `None` if that cuts a sine-square ramp, or
-    /// leaves one that starts with an acceleration.
+    /// The parts before and after a path length, with the acceleration at that point unchanged; `None` if this cuts a
+    /// sine-square ramp, or leaves a ramp that starts with an acceleration.
     pub(crate) fn split(&self, s_mm: f64) -> Option<(Self, Self)> {
         let i = self.phases.partition_point(|p| p.1.s <= s_mm).checked_sub(1)?;
         let phase = self.phases[i].1;
@@ -112,9 +113,9 @@ impl Profile {
 
     /// Duration in s and mean jerk in mm/s3 of every phase.
     ///
-    /// TRAPEZ and SIN2: the seven segments I..VII, or the cruise alone where the speed never changes. STEP: one per
-    /// acceleration level from the lowest, cruise, one per deceleration level from the highest. Braking to the feed first: those of both parts. A speed that follows
-    /// varying limits: as many as it takes.
+    /// TRAPEZ and SIN2: the seven segments I..VII, or a single cruise if the speed never changes. STEP: one per
+    /// acceleration level from the lowest, cruise, one per deceleration level from the highest. Braking to the feed
+    /// rate first: those of both parts. A speed along varying limits: as many as needed.
     pub fn phases(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.phases.iter().map(|(_, p)| (p.t, p.j))
     }
@@ -124,8 +125,8 @@ impl Profile {
         self.highest_inside(0.0, self.length()).max(self.end.v_mm_s)
     }
 
-    /// Highest velocity in mm/s at which phases start, or pass from acceleration to braking, between two path lengths; 0 if
-    /// none does. No other velocity in there is higher than it and those at the two places.
+    /// Highest velocity in mm/s at the phase starts and at the changes from acceleration to braking between two path
+    /// lengths; 0 if there are none. In between no velocity exceeds this value and those at the two path lengths.
     pub(crate) fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
         let first = self.phases.partition_point(|p| p.1.s < from_mm);
         let last = self.phases.partition_point(|p| p.1.s <= to_mm);
@@ -136,13 +137,13 @@ impl Profile {
         starts.chain(inside).fold(0.0, f64::max)
     }
 
-    /// True if the speed rises again after it has fallen.
+    /// Whether the speed rises again after it has fallen.
     pub(crate) fn rises_after_a_fall(&self) -> bool {
         let mut accelerations = self.phases.iter().map(|(_, p)| p.a);
         accelerations.any(|a| a < 0.0) && accelerations.any(|a| a > 0.0)
     }
 
-    /// State at time `t` in s since the start; before the start and after the end the state of that end.
+    /// State at time `t` in s since the start; times outside the profile give the state at its start or end.
     pub fn at(&self, t: f64) -> State {
         if t >= self.duration {
             return self.end;
@@ -153,7 +154,7 @@ impl Profile {
         let now = phase.after(t);
         let ahead = self.phases.get(next).map_or(self.end.s_mm, |p| p.1.s);
         State {
-            // never beyond what follows, nor backwards at a stop: rounding
+            // rounding must not lead beyond the next phase, nor backwards at a stop
             s_mm: now.s.min(ahead),
             v_mm_s: now.v.max(0.0),
             a_mm_s2: now.a,
@@ -161,7 +162,7 @@ impl Profile {
         }
     }
 
-    /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], not decreasing.
+    /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], non-decreasing.
     pub fn time_at(&self, s_mm: f64) -> f64 {
         if s_mm >= self.end.s_mm {
             return self.duration;

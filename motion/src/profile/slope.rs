@@ -1,13 +1,13 @@
-//! Limits of the path speed over one span and the questions of the look-ahead.
+//! Limits of the path speed over one span, and the functions of them that the look-ahead uses.
 
 use super::fit::{Infeasible, add_rounding_down};
 use super::ramped::RampedLimits;
 use super::row::Profile;
 use super::step::StepLimits;
 
-/// Halvings of the speed at which the acceleration stops between two legs of braking.
+/// Bisection steps for the speed at which the acceleration is zero between two legs of braking.
 const HALVINGS: u32 = 50;
-/// Relative difference of speeds that no rounding makes up for.
+/// Relative difference of speeds that cannot be due to rounding.
 const CLEARLY: f64 = 1e-9;
 
 /// Path limits of one span: how its velocity may change.
@@ -54,9 +54,9 @@ impl SlopeLimits {
         }
     }
 
-    /// Largest velocity that a speed-up from `v0` reaches within `length`.
+    /// Largest velocity that can be reached from `v0` within `length`.
     ///
-    /// With constant ramp time any speed-up takes at least both ramps; on a shorter length the answer is `v0`.
+    /// With constant ramp time any change of speed takes at least both ramps; on a shorter length the result is `v0`.
     pub fn reach_up(&self, v0: f64, length: f64) -> f64 {
         match self {
             Self::Step(l) => l.up().reach(v0, length),
@@ -66,9 +66,9 @@ impl SlopeLimits {
 
     /// Largest velocity from which braking to `ve` fits into `length`.
     ///
-    /// Grows with `length`, but with ramps not always with `ve`: acceleration has to be zero at `ve`, so braking
-    /// to a crawl can take longer than braking to rest. Lowering one boundary velocity of a plan can make its
-    /// neighbours infeasible; both passes of the look-ahead have to run again.
+    /// Increases with `length` but, with ramps, not always with `ve`: the acceleration has to be zero at `ve`, so
+    /// braking to a very low speed can take longer than braking to rest. Lowering one boundary velocity of a plan can
+    /// therefore make its neighbours infeasible, and both passes of the look-ahead have to be repeated.
     pub fn reach_down(&self, ve: f64, length: f64) -> f64 {
         match self {
             Self::Step(l) => l.down().reach(ve, length),
@@ -76,8 +76,8 @@ impl SlopeLimits {
         }
     }
 
-    /// True if a speed-up from `v0` clearly reaches `v1` within `length`: then [`Self::reach_up`] is not less, and need not be
-    /// asked. Its answer takes a cube root, this one a square root at most.
+    /// Whether `v1` is clearly reached from `v0` within `length`. [`Self::reach_up`] is then at least `v1` and need not
+    /// be evaluated: it takes a cube root, this function at most a square root.
     pub(crate) fn clearly_reaches_up(&self, v0: f64, v1: f64, length: f64) -> bool {
         match self {
             Self::Step(_) => false,
@@ -85,7 +85,7 @@ impl SlopeLimits {
         }
     }
 
-    /// True if braking from `v1` clearly gets to `ve` within `length`, see [`Self::clearly_reaches_up`].
+    /// Whether braking from `v1` clearly reaches `ve` within `length`, see [`Self::clearly_reaches_up`].
     pub(crate) fn clearly_reaches_down(&self, v1: f64, ve: f64, length: f64) -> bool {
         match self {
             Self::Step(_) => false,
@@ -95,12 +95,12 @@ impl SlopeLimits {
 
     /// The whole span: from `v0` to a peak of at most `vf`, then to `ve`, over exactly `length`.
     ///
-    /// A `vf` below `max(v0, ve)` counts as that maximum. Where the boundary velocities miss the length by
-    /// rounding (relative 1e-9 at most), the times of the profile are compressed by that ratio: velocities stay
-    /// as given, acceleration exceeds its limit by the same ratio.
+    /// A `vf` below `max(v0, ve)` counts as that maximum. If the boundary velocities miss the length by rounding
+    /// (relative 1e-9 at most), the times of the profile are compressed by that ratio: velocities stay as given, the
+    /// acceleration exceeds its limit by the same ratio.
     ///
     /// # Errors
-    /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
+    /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or the speed limit is 0.
     pub fn plan(&self, v0: f64, ve: f64, vf: f64, length: f64) -> Result<Profile, Infeasible> {
         match self {
             Self::Step(l) => l.plan(v0, ve, vf, length),
@@ -108,13 +108,13 @@ impl SlopeLimits {
         }
     }
 
-    /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and continues to `ve`
-    /// (G901).
+    /// As [`Self::plan`] for a `v0` above the feed rate `vf >= ve`: brakes to the feed rate at once, holds it and
+    /// continues to `ve` (G901).
     ///
-    /// Where the acceleration has to stop at the feed and that does not fit, it stops at a lower speed.
+    /// If there is no room for zero acceleration at the feed rate, it is brought to zero at a lower speed.
     ///
     /// # Errors
-    /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
+    /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or the speed limit is 0.
     pub(crate) fn plan_from_above(
         &self,
         v0: f64,
@@ -138,7 +138,7 @@ impl SlopeLimits {
             let second = self.plan(hold, ve, hold, length - braking).ok()?;
             Some(first.followed_by(&second))
         };
-        // one leg, but for rounding, has no room for the other one
+        // a leg that takes the whole length up to rounding leaves no room for the other one
         if (hold > ve || hold > 0.0 && braking < length)
             && let Some(profile) = parts()
         {
@@ -155,8 +155,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What is clearly reached is never more than the reach itself, to the last bit; and what is a little more or less
-        /// than the reach is distinguished.
+        /// A velocity that is clearly reached is never above the reach itself, to the last bit, and values slightly
+        /// below and above the reach are distinguished.
         #[test]
         fn what_is_clearly_reached_is_within_reach(
             sin2 in any::<bool>(),

@@ -1,10 +1,10 @@
-//! A change of speed that starts with any acceleration: what a slope profile, which is at rest in acceleration at both
-//! ends, cannot do.
+//! A change of speed that starts with any acceleration, unlike a slope profile, whose acceleration is zero at both
+//! ends.
 //!
-//! Acceleration builds up from its present value, stays and falls to zero, or falls at once. The rates are those of the
-//! ramps of the slope (plateau / ramp time), also for SIN2 and for constant ramp times: a ramp that is interrupted in
-//! the middle has no defined shape (Assumption: the documents describe ramps from zero only). So the jerk of a SIN2
-//! slope, `π/2` times as large in the middle of its ramps, is never exceeded.
+//! The acceleration builds up from its present value, stays constant and falls to zero, or falls at once. The rates are
+//! those of the ramps of the slope (plateau / ramp time), also for SIN2 and for constant ramp times: a ramp that is
+//! interrupted halfway has no defined shape (Assumption: the documents only describe ramps from zero). The jerk of a
+//! SIN2 slope, which is `π/2` times as large in the middle of its ramps, is therefore never exceeded.
 
 use super::phase::Phase;
 use super::ramp::RampShape;
@@ -12,11 +12,11 @@ use super::row::{Profile, State};
 use super::slope::SlopeLimits;
 use super::step::StepLimits;
 
-/// How far (relative) a change of speed may be too small for its acceleration before it is refused.
+/// Relative amount by which a change of speed may be too small for its acceleration before it is refused.
 const SLACK: f64 = 1e-9;
 
-/// From a velocity and an acceleration to a velocity with zero acceleration: builds acceleration up and reduces it within
-/// the limits of a leg; `sign` is -1 for braking.
+/// From a velocity and an acceleration to a velocity with zero acceleration: builds the acceleration up and reduces it
+/// within the limits of a leg; `sign` is -1 for braking.
 ///
 /// `None` if the acceleration is outside the limits, or too large to reach zero within the change.
 fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<Profile> {
@@ -40,13 +40,13 @@ fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<Profi
     let mut at = Phase::state(0.0, v, a);
     let mut phases = [at; 3];
     for (i, (t, j)) in times.into_iter().zip(jerks).enumerate() {
-        // where a ramp takes no time the acceleration jumps
+        // the acceleration jumps where a ramp takes no time
         let a = if i == 0 { a } else { sign * peak };
         let jerk = if t > 0.0 { sign * j } else { 0.0 };
         phases[i] = Phase::state(at.s, at.v, a).ramp(RampShape::Trapez, jerk, t);
         at = phases[i].end();
     }
-    // the end without the rounding of the phases
+    // the end state without the rounding of the phases
     let end = State { s_mm: at.s, v_mm_s: target, ..State::default() };
     Some(Profile::new(phases, end))
 }
@@ -64,7 +64,7 @@ impl SlopeLimits {
         let Self::Ramped(limits) = self else { return None };
         let leg = if braking { limits.down() } else { limits.up() };
         let (plateau, [t1, t2]) = (leg.plateau(), leg.ramps_s());
-        // a braking leg is a mirror in time
+        // a braking leg is its mirror image in time
         let (build, reduce) = if braking { (t2, t1) } else { (t1, t2) };
         Some(Ramps { plateau, build: build / plateau, reduce: reduce / plateau })
     }
@@ -106,7 +106,7 @@ impl SlopeLimits {
         }
     }
 
-    /// True if both are linear, or both non-linear: only then they can be combined.
+    /// Whether both are linear or both non-linear; only then they can be combined.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         matches!(self, Self::Step(_)) == matches!(other, Self::Step(_))
     }

@@ -1,4 +1,4 @@
-//! STEP: acceleration jumps between levels that depend on the velocity.
+//! STEP: the acceleration jumps between levels that depend on the velocity.
 
 use super::fit::{Infeasible, add_rounding_down};
 use super::legs::Legs;
@@ -28,10 +28,10 @@ pub struct StepLimits {
 }
 
 impl StepLimits {
-    /// The least value of all axes at every velocity; at least one axis, values positive.
+    /// The lowest value of all axes at every velocity; at least one axis, values positive.
     ///
-    /// Source: TF5200, P-AXIS-00011, 00012, 00282, 00283, 00221; that the weakest axis rules follows from the
-    /// path.
+    /// Source: TF5200, P-AXIS-00011, 00012, 00282, 00283, 00221; that the weakest axis determines the limit follows
+    /// from the path.
     pub fn from_axes(axes: &[StepAxis]) -> Self {
         Self {
             up: Levels::lowest(axes, |axis| axis.acc_mm_s2),
@@ -39,7 +39,7 @@ impl StepLimits {
         }
     }
 
-    /// One deceleration at every velocity instead of the levels.
+    /// The same limits with a constant deceleration instead of the levels.
     pub(super) fn with_braking(limits: &Self, dec_mm_s2: f64) -> Self {
         let down = Levels(SmallVec::from_elem(Level { from: 0.0, a: dec_mm_s2 }, 1));
         Self { up: limits.up.clone(), down }
@@ -83,7 +83,7 @@ impl StepLimits {
         }))
     }
 
-    /// Peak above `v` for which speeding up to it and braking back to `v` takes `length`, at most `v_max`.
+    /// Peak above `v`, up to `v_max`, for which accelerating to it and braking back to `v` takes `length`.
     fn peak(&self, mut v: f64, v_max: f64, mut length: f64) -> f64 {
         loop {
             let (a, up_end) = self.up.level(v);

@@ -1,20 +1,20 @@
-//! The rise with constant jerk: ramps that begin and end exactly where the limits ask for it, each block with its own.
+//! The rise with constant jerk: its ramps begin and end exactly where the limits require, each block with its jerk.
 //!
 //! From a state the acceleration grows, or stays at its limit, as long as the ramp down to zero after it stays below
-//! every limit ahead. The last such moment is found by bisection; from there the ramp down is followed to the limit that
-//! it touches, and the next rise starts at that place.
+//! every limit ahead. The last such moment is found by bisection; from there the ramp down is followed to the limit
+//! that it touches, where the next rise starts.
 
 use super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
 
-/// Phases per block, and in addition, beyond which a rise is refused.
+/// Number of phases per block, and in addition to that, beyond which a rise is refused.
 const MOST_PHASES: [usize; 2] = [12, 20_000];
-/// Rounds of bisection of the time of a phase.
+/// Bisection steps for the time of a phase.
 const ROUNDS: u32 = 40;
-/// Time in s that a phase needs to be worth it: rounding.
+/// Duration in s below which a phase is dropped as rounding.
 const WORTH_S: f64 = 1e-7;
 
-/// Phases of the rise that are looked back over for a place from which a limit is passed.
+/// Number of phases of the rise that are searched backwards for a point from which a limit can be passed.
 const MOST_BACK: usize = 64;
 
 /// The limit ahead that a ramp down to zero touches.
@@ -33,11 +33,11 @@ pub(super) struct Climb<'a> {
     /// Block of the present state.
     c: usize,
     here: Phase,
-    /// Number of phases put out up to the last place at which the speed was cut.
+    /// Number of phases output up to the last point at which the speed was cut.
     base: usize,
 }
 
-/// Phases from `v0` with acceleration `a0` to the end; cut where a limit drops. `None`: a crawl.
+/// Phases from `v0` with acceleration `a0` to the end, cut where a limit drops. `None` if the speed gets too low.
 pub(super) fn climb(cells: &[Block], v0: f64, a0: f64) -> Option<Vec<Phase>> {
     let out = Vec::with_capacity(4 * cells.len());
     let mut climb = Climb { cells, out, c: 0, here: Phase::state(0.0, v0, a0), base: 0 };
@@ -52,7 +52,7 @@ pub(super) fn climb(cells: &[Block], v0: f64, a0: f64) -> Option<Vec<Phase>> {
 }
 
 impl Climb<'_> {
-    /// Ends a deceleration at the start; `None`: it comes to rest before.
+    /// Ends a deceleration at the start; `None` if it comes to rest before that.
     fn settle(&mut self) -> Option<()> {
         while let Some(cell) = self.cells.get(self.c).filter(|_| self.here.a < 0.0) {
             let here = self.here;
@@ -114,7 +114,7 @@ impl Climb<'_> {
         }
     }
 
-    /// Puts out a phase; `whole`: it ends at the end of the block.
+    /// Outputs a phase; `whole`: it ends at the end of the block.
     fn take(&mut self, phase: Phase, whole: bool) {
         let end = phase.end();
         self.here = Phase::state(end.s, end.v, end.a.max(0.0));
@@ -136,8 +136,9 @@ impl Climb<'_> {
         }
     }
 
-    /// Leaves the rise early enough to pass the end of block `k`, where it is too fast, at the limit with the acceleration
-    /// that is left there; false, and nothing is changed, if that is none: then the fall from the limit leaves room above.
+    /// Leaves the rise early enough to pass the end of block `k`, which it would exceed, at the limit and with the
+    /// acceleration that remains there. False, and unchanged, if none remains: the fall from the limit then leaves room
+    /// above it.
     fn lower(&mut self, k: usize, limit: f64) -> bool {
         let Some(i) = (self.base..self.out.len())
             .rev()
@@ -174,7 +175,7 @@ impl Climb<'_> {
         self.cells.partition_point(|c| c.end <= s)
     }
 
-    /// The end of block `k` in a ramp down to zero from a state.
+    /// The state at the end of block `k` on a ramp down to zero from a state.
     fn passes(&self, from: &Phase, k: usize) -> Phase {
         let mut at = Phase::state(from.s, from.v, from.a);
         for c in self.block_at(at.s)..=k {
@@ -183,7 +184,7 @@ impl Climb<'_> {
         at
     }
 
-    /// A ramp down to zero, and what follows it, up to the end of block `c`.
+    /// A ramp down to zero and the phase after it, up to the end of block `c`.
     fn ramp_in(&self, c: usize, at: &Phase) -> (Phase, Phase) {
         let cell = &self.cells[c];
         let down = cell.jerks[1];
@@ -202,7 +203,8 @@ impl Climb<'_> {
         (ramp, flat)
     }
 
-    /// The part of a phase that leaves a way, and the ramp down after it to the limit that it touches.
+    /// The part of a phase after which the limits can still be kept, and then the ramp down to the limit that it
+    /// touches.
     fn bend(&mut self, phase: &Phase, mut touch: Touch, v_ref: f64) -> Option<()> {
         let (mut low, mut high) = (0.0, phase.t);
         for _ in 0..ROUNDS {
@@ -222,7 +224,7 @@ impl Climb<'_> {
             Touch::Inside => usize::MAX,
             Touch::End(c) => c,
         };
-        // down to the touch
+        // ramp down to the point of contact
         loop {
             let (c, here) = (self.c, self.here);
             if here.a <= 0.0 {
@@ -242,7 +244,7 @@ impl Climb<'_> {
                 return Some(());
             }
         }
-        // as fast as allowed: to the end of the block
+        // as fast as permitted: to the end of the block
         let Some(cell) = self.cells.get(self.c) else { return Some(()) };
         if low <= WORTH_S || until != usize::MAX || self.here.v >= cell.v * (1.0 - SLACK) {
             if self.here.v <= 0.0 {
@@ -258,7 +260,7 @@ impl Climb<'_> {
         Some(())
     }
 
-    /// What a ramp down to zero that begins at the end of block `c` touches.
+    /// The limit touched by a ramp down to zero that begins at the end of block `c`.
     fn enter(&self, c: usize, end: &Phase, v_ref: f64) -> Result<(), Touch> {
         let cell = &self.cells[c];
         if self.crosses(c, end, v_ref)? {
@@ -268,7 +270,8 @@ impl Climb<'_> {
         }
     }
 
-    /// What a ramp touches that has the state `end` at the end of block `c`; true if it continues in the next one.
+    /// The limit touched by a ramp with the state `end` at the end of block `c`; true if it continues into the next
+    /// block.
     fn crosses(&self, c: usize, end: &Phase, v_ref: f64) -> Result<bool, Touch> {
         let cell = &self.cells[c];
         if end.v > cell.v * (1.0 + SLACK) {
@@ -285,7 +288,7 @@ impl Climb<'_> {
         Ok(true)
     }
 
-    /// What a ramp down to zero touches that begins at a state in block `c`.
+    /// The limit touched by a ramp down to zero that begins at a state in block `c`.
     fn lands(&self, mut c: usize, mut at: Phase, v_ref: f64) -> Result<(), Touch> {
         #[cfg(test)]
         crate::closed_forms::add();

@@ -1,26 +1,27 @@
-//! The lower one of rise and fall with constant jerk, connected where the one changes to the other.
+//! The lower of rise and fall with constant jerk, with a connection where one changes to the other.
 //!
-//! The rise never gets slower and the fall never faster, but for their cuts; so they cross once between two places at
-//! which both are cut. Before the crossing the rise is left: from there the acceleration falls with the jerk of the
-//! blocks until velocity and acceleration are those of the fall. The later it is left the closer this gets to the fall;
-//! the last moment is found by bisection. A fall that keeps the limits brakes harder than such a connection anywhere, so
-//! the connection keeps them too.
+//! Apart from their cuts the rise never gets slower and the fall never faster, so they cross once between two points at
+//! which both are cut. The rise is left before the crossing: from there the acceleration falls with the jerk of the
+//! blocks until velocity and acceleration are those of the fall. The later the rise is left, the closer this connection
+//! gets to the fall; the last possible moment is found by bisection. A fall within the limits brakes harder than such a
+//! connection everywhere, so the connection is within the limits too.
 
 use super::Block;
 use crate::profile::roots::enclosed_root;
 use crate::profile::{Phase, RampShape};
 
-/// Relative difference of speeds that is rounding.
+/// Relative difference of speeds that counts as rounding.
 const SAME: f64 = 1e-8;
 /// Relative gap that a connection may leave where it meets the fall.
 const MISS: f64 = 1e-7;
-/// Speed in mm/s below which a gap is relative to this one: where the fall comes to rest its own may be rounding.
+/// Speed in mm/s that is used as the reference of a gap below it: where the fall comes to rest its speed may be
+/// rounding.
 const LEAST_MM_S: f64 = 1e-4;
-/// Acceleration that is zero but for rounding.
+/// Acceleration in mm/s2 that counts as zero.
 const FLAT_MM_S2: f64 = 1e-6;
-/// Rounds of bisection of the moment in which the rise is left.
+/// Bisection steps for the moment at which the rise is left.
 const ROUNDS: u32 = 50;
-/// Accuracy of the moment in which both are closest, relative to the piece.
+/// Accuracy of the moment at which both are closest, relative to the piece.
 const MOMENT: f64 = 1e-12;
 
 /// A rise and a fall over the same blocks.
@@ -40,14 +41,14 @@ struct Joint {
     gap: f64,
 }
 
-/// A connection beside the fall.
+/// A connection compared with the fall at one point.
 #[derive(Clone, Copy, Debug)]
 struct Beside {
     /// State of the connection.
     there: Phase,
-    /// Difference of the slopes over the path, positive while the connection comes closer.
+    /// Difference of the slopes over the path, positive while the connection approaches the fall.
     closing: f64,
-    /// The place on the fall.
+    /// The corresponding point of the fall.
     joint: Joint,
 }
 
@@ -58,10 +59,10 @@ struct Way {
 }
 
 impl Meet<'_> {
-    /// The speed along the rise and the fall; `None` if no connection fits.
+    /// The speed along rise and fall; `None` if no connection fits.
     pub(super) fn speed(&self) -> Option<Vec<Phase>> {
         let mut out: Vec<Phase> = Vec::with_capacity(self.rise.len());
-        // place up to which both are cut, phases put out up to it
+        // phases of rise and fall reached, and number of phases output up to the last common cut
         let (mut r, mut f, mut base) = (0, 0, 0);
         let same = self.same_mm();
         loop {
@@ -76,7 +77,7 @@ impl Meet<'_> {
             }
             let on_fall = &self.fall[f];
             let below = on_fall.after(on_fall.time_at(end.s));
-            // at the end the acceleration is zero
+            // at the end the acceleration has to be zero
             let overshoots = r + 1 == self.rise.len() && end.a > FLAT_MM_S2;
             if end.v <= below.v * (1.0 + SAME) && !overshoots {
                 out.push(*next);
@@ -85,7 +86,7 @@ impl Meet<'_> {
             }
             out.push(*next);
             let joint = self.connect(&mut out, base)?;
-            // on the fall, until it is cut
+            // follow the fall until it is cut
             let entered = &self.fall[joint.phase];
             if joint.time < entered.t {
                 out.push(entered.rest(joint.time));
@@ -102,7 +103,7 @@ impl Meet<'_> {
             let at = self.fall[cut].s;
             r = self.rise.partition_point(|p| p.s < at - same);
             (base, f) = (out.len(), cut);
-            // both are cut there
+            // both have to be cut there
             let (end, next) = (out.last()?.end(), self.rise.get(r)?);
             if (next.v - end.v).abs() > MISS * end.v + 1e-9 || next.a > FLAT_MM_S2 {
                 return None;
@@ -110,12 +111,12 @@ impl Meet<'_> {
         }
     }
 
-    /// Distance in mm between places that are the same but for rounding.
+    /// Distance in mm up to which two points count as the same.
     fn same_mm(&self) -> f64 {
         1e-13 * self.cells.last().map_or(0.0, |c| c.end)
     }
 
-    /// Replaces the end of what has been put out, after `base`, by a connection to the fall.
+    /// Replaces the end of the output, after `base`, by a connection to the fall.
     fn connect(&self, out: &mut Vec<Phase>, base: usize) -> Option<Joint> {
         // the last phase from whose start a connection stays below the fall
         let (mut k, mut stride) = (out.len() - 1, 1);
@@ -163,14 +164,14 @@ impl Meet<'_> {
         let same = self.same_mm();
         let mut c = self.cells.partition_point(|b| b.end <= at.s + same);
         let mut f = self.fall.partition_point(|p| p.s <= at.s + same).max(1) - 1;
-        // the fall brakes more: known from the piece before
+        // whether the fall brakes more, as known from the previous piece
         let mut nears = None;
         loop {
             let (Some(cell), Some(fall)) = (self.cells.get(c), self.fall.get(f)) else {
                 return Some(Way { phases, joint: None });
             };
             let jerk = if at.a > 0.0 { cell.jerks[1] } else { cell.jerks[2] };
-            // to acceleration zero, or to rest
+            // until the acceleration is zero, or to rest
             let t = if at.a > 0.0 {
                 at.a / jerk
             } else {
@@ -205,14 +206,14 @@ impl Meet<'_> {
             nears = Some(end);
             if there.s >= fall_end - same {
                 f += 1;
-                // the fall may be cut
+                // the fall may be cut here
                 nears = None;
             }
             at = Phase::state(there.s, there.v, if whole && at.a > 0.0 { 0.0 } else { there.a });
         }
     }
 
-    /// A connection and phase `f` of the fall where the connection is `t` s after the start of a piece.
+    /// The connection `t` s after the start of a piece, compared with phase `f` of the fall.
     fn compare(&self, piece: &Phase, t: f64, f: usize) -> Beside {
         let here = piece.after(t);
         let fall = &self.fall[f];
@@ -223,7 +224,7 @@ impl Meet<'_> {
         Beside { there: here, closing, joint: Joint { phase: f, time, gap } }
     }
 
-    /// Where, inside a piece of a connection, the fall begins to brake less: there they are closest. Time in the piece.
+    /// Time in a piece of a connection at which the fall begins to brake less, where the two are closest.
     fn lowest(
         &self,
         piece: &Phase,

@@ -1,10 +1,10 @@
 //! Rise, fall and their connection with sine-square ramps.
 //!
-//! A ramp has the shape of a sine square, over the time that a constant jerk would take, and is never cut; so the jerk is
-//! zero between any two of them and its peak is that of SIN2 (`pi/2 a/t`). The rise goes in steps of one ramp each, with
-//! the largest acceleration from which the ramp down to zero still stays below every limit ahead. Rise and fall are
-//! connected by the fastest third-order profile between a state before and one after, as close to each other as the
-//! limits allow; where none fits, or it would crawl, both are planned anew below a lower *hill*.
+//! A ramp has the shape of a sine square over the time that a constant jerk would take, and is never cut; the jerk is
+//! therefore zero between any two ramps, and its peak is that of SIN2 (`pi/2 a/t`). The rise is built in steps of one
+//! ramp each, with the largest acceleration from which the ramp down to zero still stays below every limit ahead. Rise
+//! and fall are connected by the fastest third-order profile between a state before and one after, as close to each
+//! other as the limits permit. Where none fits, or it would be very slow, both are planned again below a lower *hill*.
 //!
 //! Every connection is checked against every limit it passes.
 
@@ -19,10 +19,10 @@ use rise::Rise;
 
 /// Steps per longest ramp.
 const STEPS_PER_RAMP: f64 = 8.0;
-/// Blocks ahead and after that a step is thought to run through at most.
+/// Largest number of blocks, forward and backward, that a step is assumed to cover.
 const REACH: usize = 64;
 
-/// A ramp may run through several blocks: its jerk is the least one of those within `reach_s` after a block.
+/// Reduces the jerk of every block to the smallest one within `reach_s`, as a ramp may extend over several blocks.
 fn blocks(cells: &[Cell], reach_s: f64) -> Vec<Block> {
     let each = joined(own(cells));
     let mut out = each.clone();
@@ -39,7 +39,8 @@ fn blocks(cells: &[Cell], reach_s: f64) -> Vec<Block> {
     out
 }
 
-/// The fastest speed found from `v0` to `v1`, acceleration zero at both ends; `None` if the limits leave no way.
+/// The fastest speed found from `v0` to `v1`, with zero acceleration at both ends; `None` if there is none within the
+/// limits.
 pub(super) fn speed(cells: &[Cell], v0: f64, v1: f64) -> Option<Vec<Phase>> {
     let length = cells.last()?.end;
     let longest = cells.iter().flat_map(|c| c.rates.ramps).fold(SHORTEST_RAMP_S, f64::max);
@@ -48,7 +49,7 @@ pub(super) fn speed(cells: &[Cell], v0: f64, v1: f64) -> Option<Vec<Phase>> {
     let mirrored = &mirror(cells)[..];
     let forward = Rise { cells, dt }.run(v0)?;
     let backward = Rise { cells: mirrored, dt }.run(v1)?;
-    // joined from either end, so that a reversed contour takes the same time
+    // joined from both ends, so that a reversed contour takes the same time
     let there = lower_one(cells, dt, forward.clone(), turned(&backward, length), v0);
     let back = lower_one(mirrored, dt, backward, turned(&forward, length), v1);
     let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();

@@ -1,4 +1,4 @@
-//! The edges of a run, and what is known of the corners between them.
+//! The edges of a run, and the corners between them.
 
 use crate::axis::AxisVec;
 use crate::block::{Block, Feed, SplineSettings};
@@ -29,13 +29,13 @@ pub(super) struct Curve {
 /// The corner at the start of an edge inside a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
-    /// Largest deviation there for a change of direction by 1 in mm, as far as the tolerances go.
+    /// Largest deviation in mm for a change of direction by 1, as far as the tolerances permit.
     pub(super) reach: f64,
-    /// Control points at `e` and `2 e` on either side.
+    /// Distance `e` in mm of control points at `e` and `2 e` on either side.
     pub(super) e: Option<f64>,
-    /// The spline takes longer than the sharp corner.
+    /// Whether the spline takes longer than the sharp corner.
     pub(super) slower: bool,
-    /// The spline ends here, since this round of the decision.
+    /// The round of the decision since which the spline ends here; `None`: it does not.
     pub(super) sharp_since: Option<usize>,
 }
 
@@ -66,7 +66,7 @@ pub(super) fn is_feed(block: &Block, i: usize) -> bool {
     block.dynamics.feed_axes.get(i).copied().unwrap_or(true)
 }
 
-/// How two edges differ in direction.
+/// Difference in direction between two edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     /// Length of the change of direction over the feed axes.
@@ -94,7 +94,7 @@ pub(super) fn turn(a: &Edge, b: &Edge) -> Turn {
 
 /// Judges the corner between two edges of a run; `None` where the spline ends.
 pub(super) fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
-    // where the path stops (G116) a spline only bends what could be straight
+    // where the path stops (G116) a spline would only bend an edge that could be straight
     let stops = b.block.dynamics.stop_at_transitions;
     if stops || a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
         return None;
@@ -104,7 +104,7 @@ pub(super) fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
     if angle.to_degrees() > settings.max_angle_deg || angle >= PI - NEEDLE_RAD {
         return None;
     }
-    // the reach whatever the knots of the other corners are
+    // the reach for any knots of the other corners
     let (h, k) = (a.length, b.length);
     let most = h * k / (h + k) * h.max(k) / (h + k);
     let allowed = |dev: f64, off: bool, jump: f64| {

@@ -1,18 +1,19 @@
-//! Takes the noise out of the programmed points before they become control points.
+//! Removes the noise from the programmed points before they become control points.
 //!
-//! Coordinates rounded to three decimals lie up to 0.9 um beside the contour that they describe. At chords of 0.05 mm that
-//! turns the edges by a degree, and a spline that takes every point for true bends there as much as at a radius of some
-//! mm. So each point moves to where a smoothing spline ([`fit`]) of the points around it is: by no more than
-//! [`SHARE`] of the tolerance and [`MOST`], and by no more than twice what the points around it show of noise. Points that
-//! lie on a smooth curve show none and stay. What a point has moved is taken off the tolerance of the B-spline at the
-//! corners around it: an edge between two points is nowhere farther from the programmed one than they are, so the whole
+//! Coordinates rounded to three decimals are up to 0.9 um off the contour that they describe. With chords of 0.05 mm
+//! this turns the edges by a degree, and a spline that takes every point as exact bends there as much as at a radius of
+//! a few mm. Each point is therefore moved to a smoothing spline ([`fit`]) of the points around it: by at most
+//! [`SHARE`] of the tolerance and [`MOST`], and by at most twice the noise of the points around it. Points on a smooth
+//! curve have no noise and stay. The displacement of a point is subtracted from the tolerance of the B-spline at the
+//! corners around it: an edge between two points is nowhere further from the programmed one than they are, so the whole
 //! stays within the tolerance.
 //!
-//! Points that stay exactly where they are: both ends of a run, of edges longer than [`LONG_MM`] and of blocks with other
-//! conditions than their neighbour (a new feed is none), and corners: points where the path turns by more than noise
-//! could make it. Between two such points a row of points is smoothed for itself. The axes of the feed group move
-//! together, the others in a second pass of the same kind. A long row is smoothed in parts of [`CHUNK`] points, each with
-//! [`MARGIN`] points on either side, after which the spline has forgotten what they are (`e^(-MARGIN / 40)` of the room).
+//! Points that stay exactly where they are: both ends of a run, of edges longer than [`LONG_MM`] and of blocks whose
+//! conditions differ from those of their neighbour (a new feed rate does not count), and corners, points at which the
+//! path turns by more than noise could cause. The points between two of them are smoothed as a separate row. The axes
+//! of the feed group move together, the others in a second pass of the same kind. A long row is smoothed in parts of
+//! [`CHUNK`] points, each with [`MARGIN`] points on either side, after which their influence on the spline has faded
+//! (`e^(-MARGIN / 40)` of the room).
 
 mod fit;
 #[cfg(test)]
@@ -27,40 +28,42 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Share of the tolerance that noise may take.
+/// Share of the tolerance that may be used to remove noise.
 const SHARE: f64 = 0.3;
-/// Noise that a point is freed from at most in mm (deg): rounding of a ten-thousandth of an inch in three axes is 2.2 um.
+/// Largest displacement of a point in mm (deg): rounding to a ten-thousandth of an inch in three axes is 2.2 um.
 const MOST: f64 = 3e-3;
-/// Noise in mm (deg) below which points are smooth: far below any rounding, above that of numbers.
+/// Noise in mm (deg) below which points count as smooth: far below any rounding of coordinates, above that of the
+/// arithmetic.
 const LEAST: f64 = 1e-7;
-/// Room of a point as a multiple of the noise around it: a step of rounding `q` shows as `q / 3`, and half of it is noise.
+/// Permitted displacement of a point as a multiple of the noise around it: a rounding step `q` shows as `q / 3`, and
+/// half of it is noise.
 const CERTAIN: f64 = 2.0;
 /// Edges longer than this keep their ends: rounding turns them by less than a tenth of a degree.
 const LONG_MM: f64 = 1.0;
-/// Change of direction of a corner in rad, beside what noise of [`GRAIN_MM`] at three points makes.
+/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points.
 const CORNER_RAD: f64 = 0.35;
 const GRAIN_MM: f64 = 1e-3;
-/// Distances of points count as this much at least: of a shorter one noise is the larger part.
+/// Smallest distance that is used for two points: in a shorter one noise is the larger part.
 const SHORTEST_MM: f64 = 1e-3;
-/// Points of a long row that are put out at once, those on either side that they are smoothed with, and those in which one
-/// part goes over into the next.
+/// Number of points of a long row that are output at once, of those on either side that they are smoothed with, and of
+/// those in which one part blends into the next.
 const CHUNK: usize = 384;
 const MARGIN: usize = 384;
 const SEAM: usize = 64;
-/// Part of its length that an edge keeps at least in the direction of the path.
+/// Smallest share of its length that an edge keeps in the direction of the path.
 const KEPT: f64 = 0.25;
 
 /// A programmed point of a row.
 #[derive(Debug)]
 struct Vertex {
     point: AxisVec,
-    /// Place on the polygon.
+    /// Position on the polygon in mm.
     at: f64,
-    /// Largest way that the axes of the feed group and the others may take.
+    /// Largest permitted displacement of the axes of the feed group and of the others.
     room: [f64; 2],
-    /// Way taken.
+    /// Displacement.
     moved: AxisVec,
-    /// Lengths of it over the axes of the feed group and the others.
+    /// Its length over the axes of the feed group and over the others.
     size: [f64; 2],
 }
 
@@ -76,25 +79,25 @@ impl Vertex {
     }
 }
 
-/// The stage. Of a row it holds [`CHUNK`] + [`MARGIN`] blocks at most, and [`MARGIN`] points before them.
+/// The fairing stage. It holds at most [`CHUNK`] + [`MARGIN`] blocks of a row, and [`MARGIN`] points before them.
 #[derive(Debug, Default)]
 pub(super) struct Fairing {
-    /// Edges of the row that have not been put out.
+    /// Edges of the row that have not been output.
     edges: VecDeque<Edge>,
-    /// Points of the row: those of the edges, and before them final ones.
+    /// Points of the row: those of the edges, and final ones before them.
     row: VecDeque<Vertex>,
-    /// What the last point before the row has moved.
+    /// Displacement of the last point before the row.
     before: [f64; 2],
     ready: Vec<Block>,
 }
 
 impl Fairing {
-    /// No block waits.
+    /// Whether no block is held.
     pub(super) fn is_empty(&self) -> bool {
         self.edges.is_empty()
     }
 
-    /// Takes a block; what is final comes back.
+    /// Takes a block and returns the final ones.
     pub(super) fn push(&mut self, block: Block) -> std::vec::Drain<'_, Block> {
         match Edge::new(&block) {
             None => {
@@ -106,7 +109,7 @@ impl Fairing {
         self.ready.drain(..)
     }
 
-    /// The path stops after the last block: everything comes back.
+    /// Returns everything that is held, where the path stops after the last block.
     pub(super) fn flush(&mut self) -> std::vec::Drain<'_, Block> {
         self.end_run();
         self.ready.drain(..)
@@ -136,7 +139,7 @@ impl Fairing {
         }
     }
 
-    /// The last point of the row stays.
+    /// Ends a row; its last point stays where it is.
     fn end_row(&mut self) {
         self.put_out(self.edges.len());
         let n = self.row.len();
@@ -146,7 +149,7 @@ impl Fairing {
         self.row.clear();
     }
 
-    /// Puts out edges of the row from the first one on.
+    /// Outputs the first edges of the row.
     fn put_out(&mut self, count: usize) {
         if self.edges.is_empty() {
             return;
@@ -170,7 +173,7 @@ impl Fairing {
         self.row.drain(..last.saturating_sub(MARGIN));
     }
 
-    /// Moves points of the row; the first of them has been moved before.
+    /// Moves points of the row, the first of which has been moved already.
     fn settle(&mut self, points: Range<usize>) {
         let Some(edge) = self.edges.front() else { return };
         let feed = |i: &usize| is_feed(&edge.block, *i);
@@ -198,7 +201,7 @@ impl Fairing {
         }
     }
 
-    /// Gives points of the row their ways along one group of axes.
+    /// Displaces points of the row along one group of axes.
     fn move_points(
         &mut self,
         group: usize,
@@ -206,7 +209,8 @@ impl Fairing {
         points: &Range<usize>,
         ways: &[Vec<f64>],
     ) {
-        // the first points have a way of the part before, too, as those after the last one get one of this part
+        // the first points also have a displacement from the previous part, and those after the last one get one from
+        // this part
         let seam = if points.start > 0 { SEAM } else { 0 };
         let until = (points.end + SEAM).min(self.row.len());
         for i in points.start + 1..until {
@@ -226,8 +230,8 @@ impl Fairing {
     }
 }
 
-/// Evens the distances between points by what noise may make of them: along the path it is as large as across. A spline
-/// through uneven points has an uneven curvature, however well they lie on the curve.
+/// Evens out the distances between points within their noise, which is as large along the path as across. A spline
+/// through unevenly spaced points has an uneven curvature, however well they are placed on the curve.
 fn evened(knots: &mut [f64], rooms: &[f64]) {
     let numbers: Vec<f64> = (0..knots.len()).map(|i| i as f64).collect();
     let step = |i: usize| if i > 0 { knots[i] - knots[i - 1] } else { 0.0 };
@@ -242,12 +246,12 @@ fn evened(knots: &mut [f64], rooms: &[f64]) {
     }
 }
 
-/// The point where it has moved to.
+/// The point after its displacement.
 fn moved(v: &Vertex) -> AxisVec {
     v.point.iter().zip(v.moved.iter()).map(|(p, d)| p + d).collect()
 }
 
-/// True if the point between two edges stays where it is.
+/// Whether the point between two edges stays where it is.
 fn stays(a: &Edge, b: &Edge) -> bool {
     let (p, q) = (&a.block, &b.block);
     let same = Arc::ptr_eq(&p.dynamics, &q.dynamics) || p.dynamics == q.dynamics;
@@ -267,23 +271,23 @@ fn stays(a: &Edge, b: &Edge) -> bool {
         || turn(a, b).angle_rad > CORNER_RAD + noise_rad
 }
 
-/// Room of the point between two edges, whatever the noise.
+/// Permitted displacement of the point between two edges, regardless of the noise.
 fn room(a: &Edge, b: &Edge) -> [f64; 2] {
     let SplineSettings { path_dev_mm, track_dev_deg, .. } = b.settings;
     let most = |dev: f64| if dev > 0.0 { MOST.min(SHARE * dev) } else { MOST };
-    // along the path the others follow the feed group
+    // along the path the other axes follow the feed group
     let follow =
         if track_dev_deg > 0.0 { most(track_dev_deg) / pace(a).max(pace(b)) } else { MOST };
     [most(path_dev_mm).min(follow), most(track_dev_deg)]
 }
 
-/// Way of the fastest axis outside the feed group for one mm of path.
+/// Movement of the fastest axis outside the feed group per mm of path.
 fn pace(edge: &Edge) -> f64 {
     let axes = edge.direction.iter().enumerate().filter(|(i, _)| !is_feed(&edge.block, *i));
     axes.map(|(_, u)| u.abs()).fold(0.0, f64::max)
 }
 
-/// The tolerances that the ways of the points around the corner at the start of an edge leave.
+/// The tolerances that remain after the displacements of the points around the corner at the start of an edge.
 fn what_is_left(edge: &Edge, sizes: [[f64; 2]; 3]) -> SplineSettings {
     let largest = |group: usize| sizes.iter().map(|s| s[group]).fold(0.0, f64::max);
     let settings = edge.settings;
@@ -295,8 +299,8 @@ fn what_is_left(edge: &Edge, sizes: [[f64; 2]; 3]) -> SplineSettings {
     }
 }
 
-/// Takes back the ways of both ends of an edge that would shrink away or turn back: of the shortest ones the way of their
-/// ends is a large part.
+/// Revokes the displacements of both ends of an edge that would vanish or reverse: for the shortest edges they are a
+/// large part of the length.
 fn keep_order(points: &[Vec<f64>], ways: &mut [Vec<f64>]) {
     let count = points.first().map_or(0, Vec::len);
     let mut i = 0;

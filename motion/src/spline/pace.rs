@@ -1,5 +1,5 @@
-//! Cuts the spline of an edge where one part of it has to be much slower than another: a block has one velocity limit,
-//! and that of the sharpest bend would hold over the whole edge.
+//! Divides the spline over an edge where one part has to be much slower than another: a block has one velocity limit,
+//! and the sharpest bend would determine it for the whole edge.
 
 use crate::block::{Block, Feed};
 use crate::cap::SpeedLimit;
@@ -7,19 +7,19 @@ use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::piece::section;
 use crate::path::{Path, PolyPath, PolyPiece};
 
-/// Divisions of a piece by three at most: a sharp bend, wherever it lies, leaves one of the thirds free.
+/// Largest number of divisions of a piece by three: wherever a sharp bend is, one of the thirds is free of it.
 const DEEPEST: u32 = 5;
-/// Part of its time that a piece has to gain to be cut, and the time in s from which on it is cut in any case: a tenth
-/// of a long edge matters, and a larger tolerance would cost it.
+/// Share of its time that a piece has to save to be divided, and the saving in s from which on it is divided in any
+/// case: a tenth of a long edge matters, and a larger tolerance would cost that time.
 const GAIN: f64 = 0.1;
 const GAIN_S: f64 = 1e-3;
 
-/// A part of the spline with its least time in s.
+/// A part of the spline with its shortest time in s.
 struct Part {
     piece: PolyPiece,
     length: f64,
     time_s: f64,
-    /// Nothing but the programmed speed holds it down.
+    /// Whether it is limited by the programmed speed only.
     at_feed: bool,
 }
 
@@ -37,7 +37,7 @@ impl Part {
 
 /// The pieces of an edge in groups of nearly equal speed, each with its speed in mm/s.
 pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiece>, f64)> {
-    // a time means one speed over the whole edge
+    // a programmed duration means a constant speed over the whole edge
     let feed = match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
         feed => feed,
@@ -50,7 +50,7 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiec
         }
     }
     let mut out: Vec<(Vec<PolyPiece>, f64)> = Vec::new();
-    // of the group under way: its length, the time of its parts, and that of its slowest part for a mm
+    // of the present group: its length in mm, the time of its parts, and the time per mm of its slowest part
     let (mut length, mut time_s, mut pace) = (0.0, 0.0, 0.0);
     for part in parts {
         let own = part.time_s / part.length;
@@ -70,12 +70,12 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiec
     out
 }
 
-/// True if parts that take `apart_s` should not share the speed with which they take `together_s`.
+/// Whether parts that take `apart_s` should not share the speed with which they take `together_s`.
 fn gains(apart_s: f64, together_s: f64) -> bool {
     apart_s < (1.0 - GAIN) * together_s || apart_s < together_s - GAIN_S
 }
 
-/// Divides a part as long as that makes it faster.
+/// Divides a part as long as that saves time.
 fn cut(block: &Block, part: Part, depth: u32, out: &mut Vec<Part>) {
     let third = |k: u32| {
         let at = |k: u32| f64::from(k) / 3.0;

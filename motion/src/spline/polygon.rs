@@ -7,18 +7,18 @@ use crate::path::PolyPiece;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 
-/// Subdivisions of the legs at a corner at most. Each of them takes at least a third of its deviation, where less than a
-/// tenth has to be left.
+/// Largest number of subdivisions of the legs at a corner. Each reduces the deviation by at least a third, where less
+/// than a tenth of it has to remain.
 const DEEPEST: usize = 32;
 
 /// A control point with its knot.
 #[derive(Clone, Debug)]
 struct Node {
     point: AxisVec,
-    /// Place on the polygon: the knot, but for control points that a subdivision puts on an edge.
+    /// Position on the polygon: the knot, except for control points that a subdivision puts on an edge.
     at: f64,
     knot: f64,
-    /// Present at corners that are still where they were programmed: the largest reach of the spline there.
+    /// The largest reach of the spline at a corner that is still at its programmed point; otherwise `None`.
     reach: Option<f64>,
 }
 
@@ -26,7 +26,7 @@ struct Node {
 #[derive(Debug)]
 pub(super) struct ControlPolygon {
     nodes: SmallVec<[Node; 24]>,
-    /// Control points at the start and the end of the edge.
+    /// Indices of the control points at the start and the end of the edge.
     pub(super) first: usize,
     pub(super) last: usize,
 }
@@ -73,7 +73,7 @@ impl ControlPolygon {
         self.nodes.push(Node { point, at, knot: at, reach });
     }
 
-    /// Two control points mirrored at the end, which make it an exact end without curvature.
+    /// Mirrors two control points at the end, which makes it an exact end without curvature.
     fn mirror_end(&mut self) {
         let n = self.nodes.len() - 1;
         for back in 1..=2 {
@@ -104,7 +104,7 @@ impl ControlPolygon {
         self.nodes[j].knot
     }
 
-    /// Ratio at which the third knot `t` divides the leg after control point `j`, beside the knots at its ends.
+    /// Ratio at which the third knot `t` divides the leg after control point `j`, between the knots at its ends.
     fn ratio(&self, j: usize, t: f64) -> f64 {
         let (before, behind) = (self.knot(j - 1), self.knot(j + 2));
         (t - before) / (behind - before)
@@ -115,7 +115,7 @@ impl ControlPolygon {
         between(&self.nodes[j].point, &self.nodes[j + 1].point, self.ratio(j, t))
     }
 
-    /// The control point with knot `j` between the knots `a` and `b`; with all three equal the point of the spline.
+    /// The control point for the knots `a`, `j` and `b`; with all three equal it is the point of the spline.
     fn control(&self, j: usize, a: f64, b: f64) -> AxisVec {
         let (before, behind) = (self.knot(j - 1), self.knot(j + 1));
         let ratio = (a - before) / (behind - before);
@@ -157,7 +157,7 @@ impl ControlPolygon {
         reach([j - 2, j - 1, j, j + 1, j + 2].map(node))
     }
 
-    /// The reach after the subdivision of both legs.
+    /// The reach after subdivision of both legs.
     fn reach_subdivided(&self, j: usize) -> f64 {
         let node = |k: usize| (self.nodes[k].at, self.nodes[k].knot);
         let middle = |k: usize| {
@@ -172,9 +172,9 @@ impl ControlPolygon {
         0.5 * (self.knot(j) + self.knot(j + 1))
     }
 
-    /// Puts a knot into the middle of both legs of every corner that reaches too far. That alone leaves the spline as it
-    /// is, with the new control points on the edges and the corners drawn in; then the corners go back to the programmed
-    /// points, as far as the tolerance demands. False if there are none.
+    /// Adds a knot in the middle of both legs of every corner with too large a reach. This alone leaves the spline
+    /// unchanged, with the new control points on the edges and the corners pulled in; then the corners move back
+    /// towards the programmed points, as far as the tolerance requires. False if there are no such corners.
     fn subdivide(&mut self) -> bool {
         let n = self.nodes.len();
         let inside = |j: usize| j >= 2 && j + 2 < n;
@@ -190,7 +190,7 @@ impl ControlPolygon {
         for j in 0..n {
             let mut node = self.nodes[j].clone();
             let (before, behind) = (j > 0 && splits(j - 1), splits(j));
-            // the outermost control points have no part in the edge
+            // the outermost control points have no influence on the edge
             if inside(j) {
                 let a = if before { self.middle(j - 1) } else { self.knot(j - 1) };
                 let b = if behind { self.middle(j) } else { self.knot(j + 1) };
@@ -203,7 +203,7 @@ impl ControlPolygon {
                         node.reach = None;
                     }
                 } else {
-                    // judged once: what its neighbours do leaves the spline here as it is
+                    // judged once: changes at its neighbours leave the spline here unchanged
                     (node.point, node.reach) = (drawn_in, None);
                 }
             }
@@ -226,13 +226,14 @@ fn between(p: &AxisVec, q: &AxisVec, ratio: f64) -> AxisVec {
     p.iter().zip(q.iter()).map(|(p, q)| p + ratio * (q - p)).collect()
 }
 
-/// Reach at the middle one of five control points given by place and knot.
+/// Reach at the middle one of five control points given by position and knot.
 ///
-/// With `g h k l` between the knots, the Bezier points before and after the corner have the distances
+/// With `g h k l` between the knots, the Bezier points before and after the corner are at the distances
 /// `h k / (g + h + k)` and `h k / (h + k + l)` from it (on legs as long as `h` and `k`), and the spline divides their
-/// connection as `h : k`. So it has the distances `beta sin(theta)` from the first edge and `alpha sin(theta)` from the
-/// second one, where `alpha = h k^2 / ((h + k) (g + h + k))` and `beta = h^2 k / ((h + k) (h + k + l))`, and passes the
-/// corner at no more than the larger one of them times the change of direction. At even edges that is a sixth of an edge.
+/// connection as `h : k`. Its distance from the first edge is therefore `beta sin(theta)`, from the second one
+/// `alpha sin(theta)`, where `alpha = h k^2 / ((h + k) (g + h + k))` and `beta = h^2 k / ((h + k) (h + k + l))`, and
+/// its distance from the corner is at most the larger of the two times the change of direction. With equal edges that
+/// is a sixth of an edge.
 fn reach([a, b, c, d, e]: [(f64, f64); 5]) -> f64 {
     let (h, k) = (c.1 - b.1, d.1 - c.1);
     let alpha = (c.0 - b.0) * k * k / (d.1 - a.1);

@@ -1,30 +1,32 @@
-//! Whether the spline at a corner takes no longer than the corner itself.
+//! Whether the spline at a corner takes no longer than the sharp corner.
 //!
-//! Each corner is judged for itself, with the spline as if all other corners were rounded. Corners with control points of
-//! their own do not depend on each other: that decides. At the others an end of the spline bends it more at the corners next to
-//! it: these stay sharp only if that, too, is faster, beside the corners that have been found sharp before. There are rounds of
-//! this, as an end may pay beside another one; each round sees what the ones before it have found. So a contour and the reversed one
-//! have the same corners, but for those that take as long either way.
+//! Each corner is judged separately, with the spline as if all other corners were rounded. For corners with additional
+//! control points, which are independent of each other, this is decisive. At other corners an end of the spline makes
+//! it bend more at the neighbouring corners: these corners stay sharp only if that is still faster, together with the
+//! corners already found sharp. There are several rounds, as an end may pay off next to another one; each round uses
+//! the results of the earlier ones. A contour and its reverse therefore have the same sharp corners, except for those
+//! that take the same time either way.
 
 use super::Splining;
 use super::edge::{Curve, Edge};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::worth::{Part, Passage};
 
-/// Part of the time that an end of the spline at a smooth corner has to save: less is an accident of the pieces.
+/// Share of the time that an end of the spline at a smooth corner has to save: less may be due to the division into
+/// pieces.
 const GAIN: f64 = 0.01;
 
 impl Splining {
-    /// True if the spline takes no longer than the sharp corner at the start of an edge.
+    /// Whether the spline takes no longer than the sharp corner at the start of an edge.
     pub(super) fn is_worth(&self, corner: usize, kernel_active: bool) -> bool {
         let (from, to) = (&self.run[corner - 1], &self.run[corner]);
         let (a, b) = (&from.block, &to.block);
-        // only the planner knows the speed of a sharp corner under AX_DEV; an end speed is programmed explicitly
+        // the speed of a sharp corner under AX_DEV is only known in the planner; an end speed is programmed explicitly
         let monitored = [a, b].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
         if monitored || a.end_velocity_mm_s.is_some() {
             return true;
         }
-        // beyond its own control points the spline is the edge
+        // beyond its additional control points the spline coincides with the edge
         let reach = |edge: &Edge| to.corner.e.map_or(0.5 * edge.length, |e| 2.0 * e);
         let (pre_mm, post_mm) = (reach(from), reach(to));
         let mut around: Vec<Part> = near(from.curves.iter().rev(), pre_mm).collect();
@@ -33,7 +35,7 @@ impl Splining {
         self.passage(corner, kernel_active).is_worth(&around, pre_mm, post_mm)
     }
 
-    /// True if it saves time that the spline ends at the start of an edge: that bends it more next to it.
+    /// Whether ending the spline at the start of an edge saves time, although it then bends more next to it.
     pub(super) fn gains_as_end(&self, corner: usize, round: usize, kernel_active: bool) -> bool {
         let passage = self.passage(corner, kernel_active);
         let time_with = |and: Option<usize>| {
@@ -62,7 +64,7 @@ impl Splining {
     }
 }
 
-/// The spline over an edge; without one the edge itself.
+/// The spline over an edge, or the edge itself without one.
 fn parts(edge: &Edge, curves: &[Curve]) -> Vec<Part> {
     if curves.is_empty() {
         let speeds = PathSpeeds::of(&edge.block, &PathExtremes::of(&edge.block.path));
@@ -72,7 +74,7 @@ fn parts(edge: &Edge, curves: &[Curve]) -> Vec<Part> {
     curves.iter().map(|c| Part { length_mm: c.path.length(), v_mm_s: c.v_mm_s }).collect()
 }
 
-/// The parts of curves within a distance from the first one's start.
+/// The parts of curves within a distance from the start of the first one.
 fn near<'a>(curves: impl Iterator<Item = &'a Curve>, reach_mm: f64) -> impl Iterator<Item = Part> {
     let mut left = reach_mm;
     curves.map_while(move |curve| {

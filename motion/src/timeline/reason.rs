@@ -1,7 +1,7 @@
-//! What holds the speed of an entry down where it changes.
+//! The reasons for the speed of an entry where it changes.
 //!
-//! A profile along many blocks falls to a limit inside and rises from it again. There the speed is held down by that limit and not
-//! by what comes at the ends of the profile.
+//! A profile along many blocks falls to a limit inside and rises from it again. Its speed there is due to that limit,
+//! not to those at the ends of the profile.
 
 use super::Entry;
 use crate::cap::{Cap, SpeedLimit};
@@ -10,10 +10,10 @@ use crate::plan::Segment;
 use crate::profile::State;
 use smallvec::SmallVec;
 
-/// Relative difference up to which the speed is at a limit: what a ride leaves between both.
+/// Relative difference up to which the speed counts as being at a limit: the gap that a ride leaves.
 const TOUCHES: f64 = 1e-3;
 
-/// A limit that the speed runs down to, or along, inside an entry.
+/// A limit inside an entry that the speed falls to or follows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Low {
     /// Path length in mm since the start of the span.
@@ -21,13 +21,13 @@ pub(super) struct Low {
     why: SpeedLimit,
 }
 
-/// True if a speed in mm/s runs along a limit.
+/// Whether a speed in mm/s follows a limit.
 pub(crate) fn is_at(v_mm_s: f64, limit: Cap) -> bool {
     v_mm_s >= limit.v_mm_s * (1.0 - TOUCHES)
 }
 
 impl Entry {
-    /// What its blocks were held to, once it is final.
+    /// Stores the limits of its blocks, once the entry is final.
     pub(crate) fn hold_to(&mut self, segments: impl IntoIterator<Item = Segment>) {
         self.caps = segments.into_iter().map(|s| (s.cap, s.asked)).collect();
         self.lows = if self.blocks.len() > 1 && self.profile.rises_after_a_fall() {
@@ -46,12 +46,12 @@ impl Entry {
         is_at(v, limit).then_some(Low { s_mm, why: limit.why })
     }
 
-    /// What held the speed down from which it rises at the end.
+    /// The reason for the speed from which it last rises.
     pub(crate) fn last_rise(&self) -> SpeedLimit {
         self.lows.last().map_or(self.why_up, |low| low.why)
     }
 
-    /// What holds the speed down in a state inside block `i`.
+    /// The reason for the speed in a state inside block `i`.
     #[inline]
     pub(super) fn reason(&self, i: usize, state: &State) -> SpeedLimit {
         let at = || self.lows.partition_point(|low| low.s_mm <= state.s_mm);
@@ -61,7 +61,7 @@ impl Entry {
         } else if state.a_mm_s2 < -FLAT_MM_S2 {
             self.lows.get(at()).map_or(self.why_down, |low| low.why)
         } else if state.v_mm_s >= top.v_mm_s * (1.0 - ROUNDING) {
-            // what is driven evenly after a change of speed keeps the rounding of that change
+            // a constant speed after a change of speed contains the rounding of that change
             top.why
         } else {
             self.lows.get(at()).map_or(self.why_down, |low| low.why)

@@ -1,4 +1,4 @@
-//! Runs of blocks: short ones that are bridged, what cannot be contoured, words of the neighbours.
+//! Runs of blocks: short ones that are bridged, corners that cannot be contoured, words of the neighbours.
 
 use super::*;
 
@@ -18,7 +18,7 @@ fn short_blocks_are_bridged() {
     let (blocks, notices) = contoured_at(0.1, &job, dev(1.0), paths());
     assert!(curves(&blocks).is_empty());
     assert!(notices[..2].iter().all(|n| n.reason == NoContour::BlockTooShort), "{notices:?}");
-    // half of 0.0042 mm is a curve for a crawl
+    // half of 0.0042 mm is a curve for a very low speed
     let points: [&[f64]; 4] = [&[0.0, 0.0], &[99.997, 0.003], &[100.0, 0.0], &[100.0, 100.0]];
     let paths = points.windows(2).map(|w| line(w[0], w[1]));
     let (blocks, _) = contoured_at(0.1, &job, dev(1.0), paths);
@@ -42,7 +42,7 @@ fn what_cannot_be_contoured_says_so() {
     let mode = ContourMode::Dist { pre_mm: 0.0, post_mm: 1.0 };
     let short = reason(ContourSettings { mode, ..dev(1.0) }, right());
     assert!(matches!(short, NoContour::DistanceTooSmall { .. }));
-    // a needle next to a reversal would be a crawl
+    // a needle next to a reversal would take seconds
     for angle_deg in [180.0, 179.999, 179.0] {
         assert_eq!(reason(dev(1.0), corner(angle_deg).to_vec()), NoContour::NotPossible);
     }
@@ -53,7 +53,7 @@ fn what_cannot_be_contoured_says_so() {
         reason(bounded, right()),
         NoContour::AngleAboveMaximum { angle_deg } if (angle_deg - 90.0).abs() < 1e-9
     ));
-    // DIST_SOFT is contoured, but not as asked for
+    // DIST_SOFT is contoured, but in another mode
     let mode = ContourMode::DistSoft { path_dist_mm: 2.0 };
     let (blocks, notices) = contoured(&job, ContourSettings { mode, ..dev(1.0) }, right());
     assert_eq!(notices[0].reason, NoContour::ModeReplaced);
@@ -83,7 +83,7 @@ fn words_of_the_neighbours() {
     out.extend(stage.flush());
     assert!(stage.take_notices().is_empty(), "the last block does not ask for contouring");
     assert_eq!(out[0].feed, Feed::PathVelocity(50.0), "G93: the speed of the whole block");
-    // either half of the curve has the feed of its block
+    // each half of the curve has the feed rate of its block
     let mut feeds: Vec<_> = curves(&out).iter().map(|c| (c.feed, c.feed_ratio)).collect();
     feeds.dedup();
     assert_eq!(feeds, [(Feed::PathVelocity(50.0), 1.0), (Feed::PathVelocity(60.0), 0.5)]);
@@ -91,7 +91,7 @@ fn words_of_the_neighbours() {
         assert_eq!(curve.tolerance.ax_dev_mm, Some(0.01));
         assert!(curve.contour.is_none());
     }
-    // E: speed at the end of the block, which lies inside the curve
+    // E: speed at the end of the block, which is inside the curve
     let e = Block {
         contour: Some(dev(1.0)),
         end_velocity_mm_s: Some(5.0),

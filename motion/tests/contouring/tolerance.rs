@@ -1,4 +1,4 @@
-//! What a larger tolerance of contouring may not do, and the tolerance of the axes on curves.
+//! Effects that a larger tolerance of contouring must not have, and the tolerance of the axes on curves.
 
 use super::{at, contoured_at, dev, line};
 use crate::common::{Job, deviation, filtered, peaks};
@@ -86,7 +86,7 @@ fn a_larger_tolerance_costs_nothing_on_random_polygons() {
     }
 }
 
-/// `AX_DEV` holds on curves as it does on arcs: the filtered setpoints stay within it of the contoured path.
+/// `AX_DEV` applies on curves as on arcs: the filtered setpoints stay within it of the contoured path.
 #[test]
 fn tolerance_monitoring_on_curves() {
     let points: [&[f64]; 5] =

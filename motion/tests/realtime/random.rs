@@ -143,7 +143,7 @@ impl Case {
                 if p.v_mm_s * u > axes[i].v_max_mm_s * slack {
                     return Err(format!("{k}: axis {i} velocity {}", p.v_mm_s * u));
                 }
-                // at the very beginning of a STEP slope the block before counts
+                // at the very beginning of a STEP slope the previous block counts
                 if p.a_mm_s2.abs() * u > a * slack {
                     return Err(format!("{k}: axis {i} acceleration {} of {a}", p.a_mm_s2 * u));
                 }
@@ -165,7 +165,7 @@ impl Case {
                 return Err(format!("{k}: acceleration jumps from {} to {}", q.a_mm_s2, p.a_mm_s2));
             }
         }
-        // what a kink may put on an axis in one cycle, and the acceleration on both sides of it
+        // the jump of an axis at a kink in one cycle, and the acceleration on both sides of it
         for (k, w) in out.windows(3).enumerate() {
             for i in 0..2 {
                 let second =

@@ -13,9 +13,9 @@ fn ripple(out: &[Setpoint]) -> f64 {
     (high - low) / high
 }
 
-/// A polygonised circle of 10 mm: with the spline the speed is even, at half the admissible speed and, with a look-ahead
-/// that reaches as far as braking takes, at its limit. TRAPEZ with NO_OPT=0: without it every acceleration ends at a
-/// block limit, and the speed is not even at the limit.
+/// A polygonised circle of 10 mm: with the spline the speed is constant at half the admissible speed and, if the
+/// look-ahead covers the braking distance, also at its limit. TRAPEZ with NO_OPT=0; without it every acceleration ends
+/// at a block boundary, and the speed is not constant at the limit.
 #[test]
 fn ripple_on_a_circle_with_the_spline() {
     for kind in [Hsc, Trapez] {
@@ -61,7 +61,7 @@ fn ripple_on_a_circle_with_the_least_tolerance() {
     }
 }
 
-/// Tolerances below `h^2 / (6 r)` are used, unless the polygon is faster, and a smaller one never makes the run shorter.
+/// Tolerances below `h^2 / (6 r)` are used unless the polygon is faster, and a smaller one never shortens the run.
 #[test]
 fn a_small_tolerance_on_a_circle() {
     let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };

@@ -1,13 +1,13 @@
 //! Time budget of the fuzz targets.
 //!
-//! It is one of processor time, all threads together: how busy the machine is makes no difference.
+//! It counts processor time over all threads: the load of the computer makes no difference.
 
 use cpu_time::ProcessTime;
 use std::time::Duration;
 
-/// What any input may take.
+/// Time allowed for any input.
 const BASE: Duration = Duration::from_secs(4);
-/// What each byte of it may take in addition; instrumented code is ten times slower than usual.
+/// Additional time per byte of it; instrumented code is ten times slower than usual.
 const PER_BYTE: Duration = Duration::from_micros(500);
 
 /// Calls a target and panics if it takes longer than its input allows.

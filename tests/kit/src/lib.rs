@@ -1,5 +1,5 @@
-//! The kit of all tests: random numbers, a comparison, tables of programs, and a mass on a spring by small steps. It depends on none of the crates
-//! that it tests.
+//! A kit for all tests: random numbers, a comparison, tables of programs, and a mass on a spring integrated in small steps. It depends on
+//! none of the crates under test.
 
 mod oscillator;
 mod random;
@@ -8,10 +8,10 @@ pub mod rows;
 pub use oscillator::Oscillator;
 pub use random::{Random, count, environment, seed};
 
-/// Two numbers differ by `tolerance` at most.
+/// Asserts that two numbers differ by `tolerance` at most.
 ///
 /// # Panics
-/// They do not.
+/// If they do not.
 #[track_caller]
 pub fn near(is: f64, want: f64, tolerance: f64) {
     assert!((is - want).abs() <= tolerance, "{is} is not {want} +- {tolerance}");

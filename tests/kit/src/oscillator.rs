@@ -1,8 +1,8 @@
-//! A mass on a spring by small steps of its differential equation.
+//! A mass on a spring, integrated in small steps of its differential equation.
 
 use std::f64::consts::TAU;
 
-/// A mass on a spring whose base is accelerated, by the method of Runge and Kutta.
+/// A mass on a spring with an accelerated base, by the Runge-Kutta method.
 #[derive(Clone, Debug)]
 pub struct Oscillator {
     w: f64,
@@ -19,7 +19,7 @@ impl Oscillator {
         Self { w: TAU * freq_hz, damping, q: 0.0, v: 0.0 }
     }
 
-    /// Time `t_s` under a constant acceleration of the base, in `steps` steps.
+    /// Advances the time by `t_s` under a constant acceleration of the base, in `steps` steps.
     pub fn advance(&mut self, acceleration: f64, t_s: f64, steps: u32) {
         let slope = |q: f64, v: f64| {
             (v, -acceleration - 2.0 * self.damping * self.w * v - self.w * self.w * q)

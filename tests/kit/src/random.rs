@@ -1,11 +1,11 @@
 //! Random numbers that are the same everywhere, without a dependency.
 
-/// Linear congruential generator; two of the same seed give the same numbers.
+/// Linear congruential generator; two generators of the same seed give the same numbers.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// A generator; neighbouring seeds give unrelated numbers.
+    /// A generator for a seed; neighbouring seeds give unrelated numbers.
     pub fn new(seed: u64) -> Self {
         let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1));
         for _ in 0..4 {
@@ -14,19 +14,19 @@ impl Random {
         random
     }
 
-    /// A generator whose state is a number as it is.
+    /// A generator with the given number as its state.
     pub fn from_state(state: u64) -> Self {
         Self(state)
     }
 
-    /// 64 bits; the upper ones are good, the lower ones repeat soon.
+    /// 64 bits; the upper ones are good, the lower ones repeat after a short period.
     pub fn bits(&mut self) -> u64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         self.0
     }
 
-    /// From 0 up to, not including, 1.
+    /// From 0 up to but not including 1.
     pub fn ratio(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -36,12 +36,12 @@ impl Random {
         low + (high - low) * self.ratio()
     }
 
-    /// Every decade as likely as the others.
+    /// Each decade as likely as the others.
     pub fn log(&mut self, low: f64, high: f64) -> f64 {
         low * libm::pow(high / low, self.ratio())
     }
 
-    /// Normal distribution with mean 0 and standard deviation 1 (Box and Muller).
+    /// Normal distribution with mean 0 and standard deviation 1 (Box-Muller).
     pub fn normal(&mut self) -> f64 {
         let (a, b) = (self.ratio().max(f64::MIN_POSITIVE), self.ratio());
         (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
@@ -53,7 +53,7 @@ impl Random {
         (self.ratio() * count as f64) as usize
     }
 
-    /// True in this share of the cases.
+    /// True in the given share of the cases.
     pub fn chance(&mut self, share: f64) -> bool {
         self.ratio() < share
     }
@@ -64,12 +64,12 @@ impl Random {
     }
 }
 
-/// A whole number of the environment, else `default`.
+/// An integer from the environment, else `default`.
 pub fn environment(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
 }
 
-/// How many random cases a test takes: `COUNT` of the environment, else `default`.
+/// Number of random cases of a test: `COUNT` of the environment, else `default`.
 pub fn count(default: usize) -> usize {
     environment("COUNT", default as u64) as usize
 }

@@ -1,5 +1,5 @@
-//! Tables of programs: one program a line, an arrow, and what must come of it. `interpreter/tests/language/README.md` describes
-//! the form; what the words after the arrow mean is up to the reader.
+//! Tables of programs: in each line a program, an arrow and the expected result. `interpreter/tests/language/README.md` describes the
+//! form; the reader decides what the words after the arrow mean.
 
 /// A row of a table.
 #[derive(Clone, Debug, Default)]
@@ -10,15 +10,15 @@ pub struct Row {
     pub files: Vec<(String, String)>,
     /// Real-time inputs: time in s, signal, value.
     pub inputs: Vec<(f64, String, f64)>,
-    /// The program, with what its paragraph puts around it and M30.
+    /// The program, with the surroundings given by its paragraph and M30.
     pub program: String,
     /// The right side.
     pub expected: String,
-    /// The row as it is written.
+    /// The row as written.
     pub text: String,
 }
 
-/// Lines of a program out of their form in a row.
+/// Lines of a program from the form that it has in a row.
 fn lines(text: &str) -> String {
     text.replace(" | ", "\n") + "\n"
 }
@@ -26,7 +26,7 @@ fn lines(text: &str) -> String {
 /// The rows of a table.
 ///
 /// # Panics
-/// A line is neither of the head of a paragraph nor a row.
+/// If a line is neither the head of a paragraph nor a row.
 pub fn rows(table: &str) -> Vec<Row> {
     let (mut rows, mut always) = (Vec::new(), Vec::new());
     let (mut here, mut before, mut after) = (Row::default(), String::new(), String::new());
@@ -67,7 +67,7 @@ fn number(text: &str) -> f64 {
     number.unwrap_or_default()
 }
 
-/// Whether a thing is that of a row, as far as it is given there, numbers within 1e-9.
+/// Whether a thing is that of the row, as far as the row states it, numbers within 1e-9.
 pub fn is(wanted: &str, found: &str) -> bool {
     let number = |text: &str| text.trim_end_matches(char::is_alphabetic).parse::<f64>().ok();
     let unit = |text: &str| text.trim_start_matches(|c: char| !c.is_alphabetic()).to_owned();

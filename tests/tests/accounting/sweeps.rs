@@ -1,8 +1,8 @@
-//! What varies in a sweep, and its parts.
+//! The parameters of a sweep, and its parts.
 
 use super::*;
 
-/// Rows of a sweep over a square, by columns.
+/// Rows of a sweep over a square, with the given columns.
 fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
     let folder = Folder::new(&[("part.nc", program)]);
     let part = folder.path("part.nc");
@@ -16,7 +16,7 @@ fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
 
 const SQUARE: &str = "G01 X1 F4000\nY1\nX0\nY0\nM30\n";
 
-/// All axes vary together with `*` and with a list of names, as with one `--set` each.
+/// All axes vary together with `*` and with a list of names, as with one `--set` for each.
 #[test]
 fn axes_vary_together() {
     let square = format!("#VIB GUARD ON\n{SQUARE}");
@@ -27,7 +27,7 @@ fn axes_vary_together() {
         let (one, _) = sweep(&square, &each.iter().map(String::as_str).collect::<Vec<_>>());
         assert_eq!(row[1..], one[0][3..], "{hz} Hz");
         let (named, _) = sweep(&square, &[&format!("X,Y,Z.vib_guard.freq={hz}")]);
-        // the key has commas: its cell is quoted, the results are the last ones
+        // the key contains commas: its cell is quoted, the results are the last cells
         assert_eq!(row[1..], named[0][named[0].len() - row.len() + 1..], "{hz} Hz");
     }
     assert_ne!(rows[0][1..], rows[1][1..]);
@@ -40,11 +40,11 @@ fn a_value_that_the_program_sets_itself_is_told() {
     let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
     assert_eq!(rows[0][1..], rows[1][1..]);
     assert!(err.contains("*.vib_guard.freq: every value gives the same results"), "{err}");
-    // in every row, too
+    // in every row as well
     assert!(rows.iter().all(|row| row.last().unwrap() == "*.vib_guard.freq"), "{rows:?}");
 }
 
-/// A number in the program varies as if another program had been written; a name goes to several places at once.
+/// A number in the program varies as if another program had been written; one name can occur in several places.
 #[test]
 fn numbers_in_a_program_vary() {
     let part = |x: &str, hz: &str| {
@@ -65,7 +65,7 @@ fn numbers_in_a_program_vary() {
     }
 }
 
-/// External variables carry the words of a command.
+/// External variables hold the words of a command.
 #[test]
 fn values_of_a_program_vary() {
     let with = |value: &str| format!("#VIB GUARD ON [MODE=1 FREQ={value}]\n{SQUARE}");
@@ -77,8 +77,8 @@ fn values_of_a_program_vary() {
     }
 }
 
-/// Part by part, in any order: the rows of the parts, one after the other, are the table. All parts are refused alike where
-/// there are more of them than runs.
+/// Part by part, in any order: the rows of the parts, one after the other, are the table. If there are more parts than runs, all parts
+/// are refused alike.
 #[test]
 fn shards_together_are_the_sweep() {
     let folder = Folder::new(&[("part.nc", SQUARE)]);
@@ -86,7 +86,7 @@ fn shards_together_are_the_sweep() {
     let words = ["sweep", &part, "--vary", "*.vib_guard.freq=20..24", "--vary", "V.E.A=1,2"];
     let with = |more: &[&str]| command([&words[..], more].concat());
     let whole = with(&[]).out;
-    // the last column is what a part knows of itself alone
+    // the last column is what a part knows from its own rows alone
     assert!(whole.lines().next().is_some_and(|header| header.ends_with(",without_effect")));
     let known = |table: &str| -> String {
         table.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0)).collect()
@@ -99,7 +99,7 @@ fn shards_together_are_the_sweep() {
             assert_eq!(done.exit, Exit::Finished, "{}", done.err);
             let (head, part) = done.out.split_once('\n').unwrap();
             assert_eq!(head, header);
-            // rows of one frequency and the next, of V.E.A 1 and 2, or a single row, of which nothing is known
+            // rows of one frequency and of the next, of V.E.A 1 and 2, or a single row, which says nothing
             let expected: &[&str] = match (parts, i) {
                 (10, _) => &[],
                 _ => &["*.vib_guard.freq", "V.E.A"],
@@ -123,7 +123,7 @@ fn shards_together_are_the_sweep() {
     assert_eq!(with(&["--shard", "1/2", "-o", &picture]).exit, Exit::Usage);
 }
 
-/// A job whose every run ends with an error has still been done.
+/// A job in which every run ends with an error is nevertheless finished.
 #[test]
 fn a_shard_of_aborted_runs_is_finished() {
     let folder = Folder::new(&[("part.nc", "G01 X[V.E.A] F1000\nM30\n")]);

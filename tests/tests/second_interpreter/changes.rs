@@ -8,7 +8,7 @@ impl Writer<'_> {
     /// A change of offsets or frames, increments, and all axes.
     fn changed(&mut self, place: Place, change: Statement) -> Vec<Statement> {
         let mut all = vec![change];
-        // below all rotations every axis takes its offset over by itself
+        // below all rotations every axis takes over its offset independently
         if place.lowest && self.random.chance(0.4) {
             for _ in 0..self.random.below(4) {
                 all.extend(self.lines(place));
@@ -46,7 +46,7 @@ impl Writer<'_> {
                 }
             }
             6 if !place.cycle => Statement::Tool(self.random.below(4) as u32),
-            // in systems too
+            // also in coordinate systems
             7 if place.lowest || (place.framed > 0 && !place.turned && !place.machine) => {
                 let mut all = vec![Statement::Mirror(20), self.whole_move()];
                 if self.random.chance(0.3) {
@@ -87,7 +87,7 @@ impl Writer<'_> {
                 let systems = (0..count).map(|_| self.place_of_system()).collect();
                 let selected = 1 + self.random.below(count);
                 let off = Statement::StackOff(count, self.random.chance(0.5));
-                // systems of both kinds do not go together
+                // systems of the two kinds are not combined
                 (Statement::Stack(systems, selected), off, Place { framed: 4, ..inside })
             }
             0 => {
@@ -108,13 +108,13 @@ impl Writer<'_> {
             }
             _ => {
                 let values = self.place_of_system();
-                // P-CHAN-00394: the second angle within a quarter turn has one reading only
+                // P-CHAN-00394: with the second angle within a quarter turn there is only one reading
                 let all = place.lowest && self.random.chance(0.3);
                 let off = Statement::SystemOff(all);
                 let on = if self.random.chance(0.5) {
                     Statement::System(values)
                 } else {
-                    // no number that is in use (20825)
+                    // a number that is not in use (20825)
                     Statement::StoredSystem(inside.framed as u32, values)
                 };
                 (on, off, inside)

@@ -5,7 +5,7 @@ use super::model::axes_of;
 use super::random::{Place, Writer};
 use super::tree::{Contour, Expr, Insert, Motion, Statement, Way, Word};
 
-/// Where a contour is, and where it goes to.
+/// Position of a contour, and its direction.
 struct Pen {
     plane: u32,
     heading_deg: f64,
@@ -41,7 +41,7 @@ impl Writer<'_> {
         all
     }
 
-    /// Turns the heading, by more than a little.
+    /// Turns the direction by a noticeable angle.
     fn bend(&mut self, pen: &mut Pen, most_deg: f64) {
         let by = self.random.between(3.0, most_deg);
         pen.heading_deg += if self.random.chance(0.5) { by } else { -by };
@@ -59,7 +59,7 @@ impl Writer<'_> {
             let radius = size * self.random.between(4.0, 9.0);
             let swept = self.random.between(60.0, 200.0);
             let side = if left { 1.0 } else { -1.0 };
-            // the end is exact to a thousandth, the centre fits to it on the bisector
+            // the end is exact to a thousandth, and the centre on the bisector fits it
             let end = (pen.heading_deg + side * swept).to_radians();
             let (x, y) = (
                 rounded(side * radius * (libm::sin(end) - s)),
@@ -94,7 +94,7 @@ impl Writer<'_> {
             if writer.random.chance(0.3) {
                 axes.reverse();
             }
-            // without a way, G40 would wait for the next motion
+            // without a motion of its own, G40 would wait for the next motion
             let word = |axis| Word { axis, value: Expr::Number(decimal(writer.random, 30.0)) };
             let words = axes.into_iter().map(word).collect();
             writer.line_to(words, None)
@@ -110,14 +110,14 @@ impl Writer<'_> {
         // G239 is refused in planes askew to the axes
         let last = if place.lowest { Way::Stays } else { Way::Lines };
         let way = self.random.pick(&[Way::Lines, Way::Perpendicular, last]);
-        // a line within the contour leads to another radius
+        // within the contour a line leads to the other radius
         let within = 1..elements.len().max(2) - 1;
         let straight = within.rev().find(|i| elements[*i].path == Some(1));
         let changes = way != Way::Perpendicular && self.random.chance(0.4);
         let change = straight
             .filter(|_| changes)
             .map(|i| (i, rounded(radius * self.random.between(0.3, 1.2))))
-            // the same radius is no change, and its corners are those of all others
+            // with the same radius nothing changes, and the corners are like all others
             .filter(|(_, other)| (other - radius).abs() > 1e-9);
         let contour = Contour {
             way,
@@ -133,7 +133,7 @@ impl Writer<'_> {
         vec![Statement::Compensated(contour)]
     }
 
-    /// Points of a spline, far enough from one another, as increments or absolutely.
+    /// Points of a spline, far enough apart, as increments or absolute positions.
     fn spline(&mut self) -> Statement {
         let count = 1 + self.random.below(6);
         let motions = (0..count).map(|_| {

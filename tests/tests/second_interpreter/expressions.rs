@@ -20,7 +20,7 @@ pub fn both(operator: Operator, a: Expr, b: Expr) -> Expr {
     Expr::Both(operator, Box::new(a), Box::new(b))
 }
 
-/// With three decimals, and not within a thousandth of 0.
+/// With three decimals, and at least a thousandth away from 0.
 pub fn decimal(random: &mut Random, most: f64) -> f64 {
     let value = (random.between(-most, most) * 1000.0).round() / 1000.0;
     if value == 0.0 { 0.125 } else { value }
@@ -31,7 +31,7 @@ impl Writer<'_> {
         Expr::Number(decimal(self.random, 9.0))
     }
 
-    /// A value within some tens.
+    /// A value of up to some tens.
     pub fn value(&mut self, place: Place, depth: usize) -> Expr {
         if depth == 0 || self.random.chance(0.3) {
             return self.leaf(place);

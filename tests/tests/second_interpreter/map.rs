@@ -1,4 +1,4 @@
-//! Rigid motions and mirrorings of the model's coordinates.
+//! Rigid motions and reflections of the coordinates of the model.
 
 use super::path::{Point, dot, plus};
 
@@ -20,7 +20,7 @@ impl Map {
         std::array::from_fn(|i| dot(self.m[i], p))
     }
 
-    /// The transposed matrix: rotations and mirrorings are orthogonal.
+    /// The transpose: rotations and reflections are orthogonal.
     pub fn back(&self, q: Point) -> Point {
         let d = plus(q, self.t, -1.0);
         std::array::from_fn(|j| (0..3).map(|i| self.m[i][j] * d[i]).sum())
@@ -37,7 +37,7 @@ impl Map {
         Self { t, ..UNIT }
     }
 
-    /// Turned from main axis `a` towards `b`.
+    /// Rotated from main axis `a` towards `b`.
     pub fn turn(a: usize, b: usize, deg: f64) -> Self {
         let (s, c) = libm::sincos(deg.to_radians());
         let mut map = UNIT;

@@ -1,7 +1,7 @@
-//! What a program means, worked out on its tree.
+//! The meaning of a program, worked out on its tree.
 //!
-//! Coordinates are affine maps that are composed for every word: offsets of the machine, then for each coordinate system
-//! its place, its rotation and its own offsets, then mirroring, then contour rotation. Nothing is kept but the position of the machine.
+//! Coordinates are affine maps that are composed for every word: offsets of the machine, then for each coordinate system its position,
+//! its rotation and its own offsets, then mirroring, then contour rotation. Only the position of the machine is stored.
 
 use super::map::{Map, UNIT};
 use super::path::{Driven, Point};
@@ -38,14 +38,14 @@ struct Coordinates {
     rotation: Option<(f64, [f64; 2])>,
 }
 
-/// What a subroutine shares with its caller and a cycle gives back.
+/// State that a subroutine shares with its caller and that a cycle gives back.
 #[derive(Clone, Debug)]
 pub struct Modal {
     pub path: u32,
     pub plane: u32,
     pub absolute: bool,
     pub absolute_centres: bool,
-    /// Of the last G163 or R.
+    /// The last G163 or R.
     pub radius: f64,
     /// G20 to G23.
     mirrors: [bool; 2],
@@ -65,7 +65,7 @@ pub struct Model<'a> {
     coordinates: Coordinates,
     table: BTreeMap<(u32, usize), f64>,
     pub machine: Point,
-    /// Factors of `#SCALE`, kept while it is off.
+    /// Factors of `#SCALE`, kept while scaling is off.
     factors: Point,
     scaled: bool,
     /// Length and offsets of the axes.
@@ -78,13 +78,13 @@ pub struct Model<'a> {
     /// @P of the current cycle.
     passed: Vec<Vec<f64>>,
     pub driven: Driven,
-    /// A tool does not fit into an inner corner.
+    /// A tool does not fit into an inside corner.
     pub narrow: bool,
-    /// Blocks carried out.
+    /// Executed blocks.
     pub steps: usize,
 }
 
-/// What the plane of G17, G18 or G19 has as first, second and third axis.
+/// The first, second and third axis of the plane of G17, G18 or G19.
 pub fn axes_of(plane: u32) -> [usize; 3] {
     match plane {
         17 => [0, 1, 2],
@@ -93,7 +93,7 @@ pub fn axes_of(plane: u32) -> [usize; 3] {
     }
 }
 
-/// Placement of a coordinate system: shift, then turns about Z, Y and X.
+/// Placement of a coordinate system: shift, then rotations about Z, Y and X.
 fn placed([x, y, z, a, b, c]: &[f64; 6]) -> Map {
     Map::shift([*x, *y, *z])
         .then_inner(&Map::turn(0, 1, *c))
@@ -101,7 +101,7 @@ fn placed([x, y, z, a, b, c]: &[f64; 6]) -> Map {
         .then_inner(&Map::turn(1, 2, *a))
 }
 
-/// Variables that a level and those below it see.
+/// Variables visible to a level and to those below it.
 fn is_local(name: &str) -> bool {
     name.starts_with("V.L.") || name.starts_with("V.CYC.")
 }
@@ -170,12 +170,12 @@ impl<'a> Model<'a> {
         map
     }
 
-    /// What a unit of an axis is in the coordinates of the program.
+    /// Length of a unit of an axis in the coordinates of the program.
     pub fn unit(&self, axis: usize) -> f64 {
         if self.scaled { self.factors[axis] } else { 1.0 }
     }
 
-    /// Another plane ends a contour rotation.
+    /// A change of the plane ends a contour rotation.
     pub fn plane(&mut self, g: u32) {
         if g != self.modal.plane {
             self.coordinates.rotation = None;
@@ -274,7 +274,7 @@ impl<'a> Model<'a> {
                 let layers = systems.iter().map(|values| Layer::new(placed(values), NO_GROUP));
                 self.coordinates.layers.extend(layers.take(*selected));
             }
-            // it is below all others
+            // it lies below all others
             Statement::StackOff(..) => self.coordinates.layers.truncate(1),
             Statement::SystemOff(all) => {
                 let left = self.coordinates.layers.len() - 1;
@@ -309,7 +309,7 @@ impl<'a> Model<'a> {
                 self.passed.push(passed);
                 let (modal, group) = (self.modal.clone(), self.layer().group);
                 self.call(*number);
-                // P-CHAN-00210: G functions without values go back to what they were
+                // P-CHAN-00210: G functions without values return to their previous state
                 if !self.layer().by_value {
                     self.select(group);
                 }
@@ -418,7 +418,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Where a value is kept.
+    /// Where a value is stored.
     fn key(&self, expr: &Expr) -> String {
         match expr {
             Expr::Name(name) => name.clone(),

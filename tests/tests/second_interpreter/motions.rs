@@ -126,7 +126,7 @@ impl Model<'_> {
         let way = libm::hypot(dx, dy);
         let centre = if motion.centre.is_empty() {
             let radius = self.modal.radius * self.unit(a);
-            // the short arc against the clock has its centre on the left of the chord
+            // the short arc counter-clockwise has its centre to the left of the chord
             let height = (radius * radius - way * way / 4.0).max(0.0).sqrt();
             let left = if against_the_clock == (radius > 0.0) { height } else { -height };
             let middle = [(from[a] + to[a]) / 2.0, (from[b] + to[b]) / 2.0];
@@ -139,7 +139,7 @@ impl Model<'_> {
                 value.map_or(0.0, |(_, value)| *value) * self.unit(axis)
             };
             let centre = [base[a] + given(a), base[b] + given(b)];
-            // G165, in force from the start: the foot of the centre on the bisector of the chord
+            // G165, in force from the start: the projection of the centre onto the bisector of the chord
             let off = ((centre[0] - (from[a] + to[a]) / 2.0) * dx
                 + (centre[1] - (from[b] + to[b]) / 2.0) * dy)
                 / (way * way);
@@ -156,7 +156,7 @@ impl Model<'_> {
         while angle > TAU + 1e-9 {
             angle -= TAU;
         }
-        // radius vector, and the same a quarter turn on
+        // radius vector, and the same rotated by a quarter turn
         let (x, y) = (from[a] - centre[0], from[b] - centre[1]);
         let sense = if against_the_clock { 1.0 } else { -1.0 };
         let (mut u, mut v, mut c, mut rise) = ([0.0; 3], [0.0; 3], from, [0.0; 3]);

@@ -1,6 +1,6 @@
-//! Parallels of plane contours, and what is inserted at their corners.
+//! Offset curves of plane contours, and the elements inserted at their corners.
 //!
-//! Intersections are found by Newton's method over the shares of both elements.
+//! Intersections are found by Newton's method in the path fractions of both elements.
 
 use super::path::{Piece, Point, dot, plus};
 use super::tree::{Contour, Insert, Way};
@@ -24,7 +24,7 @@ fn length(p: [f64; 2]) -> f64 {
     libm::hypot(p[0], p[1])
 }
 
-/// Derivative of the place by the share, in the plane.
+/// Derivative of the position with respect to the path fraction, in the plane.
 fn along(piece: &Piece, share: f64, plane: Plane) -> [f64; 2] {
     let (s, c) = libm::sincos(piece.angle * share);
     let turned = plus(plus([0.0; 3], piece.u, -s), piece.v, c);
@@ -41,7 +41,7 @@ fn left_of(p: [f64; 2], t: [f64; 2], distance: f64) -> [f64; 2] {
     [p[0] - distance * t[1], p[1] + distance * t[0]]
 }
 
-/// The parallel at a distance to the left, with the motion of the third axis.
+/// The offset curve at a distance to the left, with the motion of the third axis.
 fn parallel(piece: &Piece, distance: f64, plane: Plane) -> Piece {
     let [a, b, _] = plane;
     let mut shifted = piece.clone();
@@ -58,7 +58,7 @@ fn parallel(piece: &Piece, distance: f64, plane: Plane) -> Piece {
     shifted
 }
 
-/// From one share to another; the third axis keeps its whole way.
+/// From one path fraction to another; the third axis keeps its whole motion.
 fn part(piece: &Piece, from: f64, to: f64, [a, b, _]: Plane) -> Piece {
     let mut cut = piece.clone();
     if piece.angle == 0.0 {
@@ -73,7 +73,7 @@ fn part(piece: &Piece, from: f64, to: f64, [a, b, _]: Plane) -> Piece {
     Piece::arc(cut.number, cut.centre, [u, v], piece.angle * (to - from), cut.rise)
 }
 
-/// Shares at which two elements that follow one another cross, nearest to their ends.
+/// Path fractions at which two consecutive elements intersect, nearest to their common corner.
 fn meet(p: &Piece, q: &Piece, plane: Plane) -> Option<[f64; 2]> {
     let mut best: Option<([f64; 2], f64)> = None;
     for i in 0..36 {
@@ -92,7 +92,7 @@ fn meet(p: &Piece, q: &Piece, plane: Plane) -> Option<[f64; 2]> {
         let (x, y) = (flat(p.at(s), plane), flat(q.at(t), plane));
         let apart = length([y[0] - x[0], y[1] - x[1]]);
         let inside = |share: f64| (-1e-9..=1.0 + 1e-9).contains(&share);
-        // how far back, and how far on
+        // how far backwards, and how far forwards
         let way = (1.0 - s) * length(along(p, s, plane)) + t * length(along(q, t, plane));
         if apart < 1e-9 && inside(s) && inside(t) && best.is_none_or(|(_, other)| way < other) {
             best = Some(([s, t], way));
@@ -103,12 +103,12 @@ fn meet(p: &Piece, q: &Piece, plane: Plane) -> Option<[f64; 2]> {
 
 /// How a corner is passed.
 enum Corner {
-    /// Shares where the elements are cut.
+    /// Path fractions at which the elements are cut.
     Cut([f64; 2]),
     /// The tool does not fit.
     Narrow,
     Smooth,
-    /// How far the tangents are prolonged to the ends of a line.
+    /// How far the tangents are extended to the ends of a line.
     Lines(f64),
     Arc(f64),
 }
@@ -130,21 +130,21 @@ fn corner(before: &Piece, after: &Piece, distance: f64, contour: &Contour, plane
     Corner::Lines(contour.radius * libm::tan(angle / 2.0).min(1.0))
 }
 
-/// A place with other coordinates in the plane.
+/// The position with other coordinates in the plane.
 fn placed(at: Point, p: [f64; 2], [a, b, _]: Plane) -> Point {
     let mut at = at;
     (at[a], at[b]) = (p[0], p[1]);
     at
 }
 
-/// The point perpendicular above an end of an element.
+/// The point perpendicular to an end of an element.
 fn above(element: &Piece, share: f64, distance: f64, plane: Plane) -> Point {
     let p = flat(element.at(share), plane);
     let p = left_of(p, direction(element, share, plane), distance);
     placed(element.at(share), p, plane)
 }
 
-/// The way of the tool's centre: approach, contour and, where the program knows it (G139), exit, all in the plane but for the third
+/// The path of the tool centre: approach, contour and, where the program knows it (G139), exit, all in the plane except for the third
 /// axis; `None` where the tool does not fit between two elements.
 pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<Vec<Piece>> {
     let side = |radius: f64| if contour.left { radius } else { -radius };
@@ -191,7 +191,7 @@ pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<
     Some(all)
 }
 
-/// Parallels of elements that follow one another, with what is inserted at their corners.
+/// Offset curves of consecutive elements, with the elements inserted at their corners.
 fn parallels(
     contour: &Contour,
     elements: &[Piece],
@@ -206,7 +206,7 @@ fn parallels(
         let aside = parallel(element, distance, plane);
         let next = elements.get(i + 1);
         let kind = next.map(|next| corner(element, next, distance, contour, plane));
-        // a line that is prolonged keeps the way of its third axis, an arc gets a line at its end
+        // a line that is extended keeps the motion of its third axis, an arc gets a line at its end
         let prolonged = |piece: &Piece, reach: f64| {
             let is_line = piece.angle == 0.0;
             if is_line { reach / length(along(piece, 0.0, plane)) } else { 0.0 }
@@ -252,13 +252,13 @@ fn parallels(
     Some(all)
 }
 
-/// Two motions and what is inserted between them.
+/// Two motions and the element inserted between them.
 pub fn inserted(kind: Insert, size: f64, [before, after]: &[Piece; 2], plane: Plane) -> Vec<Piece> {
     let [a, b, _] = plane;
     let (u, w) = (direction(before, 1.0, plane), direction(after, 0.0, plane));
     let turn = cross(u, w);
     let whole = |piece: &Piece| length(along(piece, 0.0, plane));
-    // share of an element from its end to a point that is so far away from it as the crow flies
+    // fraction of an element between its end and the point at this straight-line distance from that end
     let share = |piece: &Piece, back: f64| {
         if piece.angle == 0.0 {
             return back / whole(piece);

@@ -1,4 +1,4 @@
-//! Lines, arcs, helices and cubics of the model, by their lengths.
+//! Lines, arcs, helices and cubic curves of the model, by their lengths.
 
 use super::map::Map;
 use super::spline::Cubic;
@@ -27,7 +27,7 @@ pub struct Piece {
     pub v: Point,
     pub angle: f64,
     pub rise: Point,
-    /// A curve in place of all that.
+    /// A curve in place of all of these.
     pub cubic: Option<Box<Cubic>>,
     pub length: f64,
 }
@@ -51,7 +51,7 @@ impl Piece {
         Self { cubic: Some(Box::new(cubic)), length, ..Self::line(number, from, to) }
     }
 
-    /// Through a rigid motion or a mirroring.
+    /// Transformed by a rigid motion or a reflection.
     pub fn moved(&self, map: &Map) -> Self {
         if let Some(cubic) = &self.cubic {
             let [at, b, c, d] = cubic.coefficients;
@@ -67,7 +67,7 @@ impl Piece {
         }
     }
 
-    /// Where the path is at this share of the piece.
+    /// Position at this fraction of the piece.
     pub fn at(&self, share: f64) -> Point {
         if let Some(cubic) = &self.cubic {
             return cubic.at_length(share * self.length);
@@ -77,11 +77,11 @@ impl Piece {
     }
 }
 
-/// Everything that was driven.
+/// The whole path driven.
 #[derive(Clone, Debug, Default)]
 pub struct Driven {
     pub pieces: Vec<Piece>,
-    /// Path lengths at their beginnings.
+    /// Path lengths at the beginnings of the pieces.
     starts: Vec<f64>,
     pub length: f64,
 }
@@ -93,7 +93,7 @@ impl Driven {
         self.pieces.push(piece);
     }
 
-    /// The piece at a path length, and the way from its beginning.
+    /// The piece at a path length, and the distance from its beginning.
     pub fn find(&self, s: f64) -> Option<(&Piece, f64)> {
         let next = self.starts.partition_point(|start| *start <= s);
         let i = next.checked_sub(1)?;

@@ -1,14 +1,14 @@
 //! Random programs that have exactly one meaning by the manual.
 //!
-//! Where the manual says nothing, nothing is written: after every change of offsets or frames all axes are programmed absolutely
-//! (before it only increments) where a rotation or a system may couple them, arcs have ends that fit to their centres, loops end.
+//! Where the manual says nothing, nothing is written: after every change of offsets or frames, where a rotation or a system may couple
+//! the axes, all of them are programmed absolutely (before it only in increments), arcs have ends that fit their centres, and loops end.
 
 use super::expressions::{PARAMETERS, PASSED, TABLE, both, decimal, name, of};
 use super::model::axes_of;
 use super::tree::{Expr, Function, Kind, Motion, Operator, Program, Statement, Subroutine, Word};
 use kontur_kit::Random;
 
-/// Where a statement is.
+/// Where a statement stands.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Subroutines with smaller numbers may be called.
@@ -19,9 +19,9 @@ pub struct Place {
     pub depth: usize,
     pub breaks: bool,
     pub continues: bool,
-    /// Coordinate systems around it, here and where subroutines may be called.
+    /// Coordinate systems in force here and where subroutines may be called.
     pub framed: usize,
-    /// A contour rotation keeps to its plane.
+    /// A contour rotation stays in its plane.
     pub turned: bool,
     /// Machine coordinates: without changes of offsets or frames.
     pub machine: bool,
@@ -81,7 +81,7 @@ impl Place {
         Self { breaks: true, continues: true, ..self.deeper() }
     }
 
-    /// Inside of a frame that has to be left at its end: no way out but the end.
+    /// Inside a frame that must be left at its end: there is no way out but the end.
     pub fn inside(self) -> Self {
         Self {
             lowest: false,
@@ -94,7 +94,7 @@ impl Place {
 }
 
 impl Writer<'_> {
-    /// Every parameter and variable has a value, so that none is read before.
+    /// Every parameter and variable has a value, so that none is read before it is written.
     fn beginning(&mut self) -> Vec<Statement> {
         let mut all = vec![
             Statement::Local("V.L.A".to_owned(), self.literal()),
@@ -200,7 +200,7 @@ impl Writer<'_> {
         }
         all.push(Statement::Move(self.line_to(words, absolute)));
         if self.random.chance(0.3) {
-            // G00 or G01 holds
+            // G00 or G01 is in force
             let axis = self.random.below(3);
             let words = self.words(place, &[axis]);
             let number = self.number();
@@ -231,7 +231,7 @@ impl Writer<'_> {
         }
         // a centre on the bisector of the chord
         let height = decimal(self.random, 8.0);
-        // beside the bisector it is corrected, up to 5 % of the radius and 2 mm (P-CHAN-00059, 00060)
+        // next to the bisector it is corrected, by up to 5 % of the radius and 2 mm (P-CHAN-00059, 00060)
         let aside =
             if self.random.chance(0.3) { 0.03 * libm::hypot(height, way / 2.0) / way } else { 0.0 };
         let aside = self.random.between(-aside, aside);
@@ -280,7 +280,7 @@ impl Writer<'_> {
         let again = Motion { words: vec![word(a, -y * 0.5), word(b, x * 0.5)], ..arc.clone() };
         all.push(Statement::Move(arc));
         if holds {
-            // the radius is that of the arc before
+            // the radius is that of the previous arc
             let number = self.number();
             all.push(Statement::Move(Motion { number, radius: None, ..again }));
         }
@@ -395,7 +395,7 @@ impl Writer<'_> {
                 Statement::Cycle(number, values)
             }
         };
-        // a cycle gives G54 back, which is a change of offsets
+        // a cycle restores G54, which is a change of offsets
         vec![call, self.whole_move()]
     }
 }

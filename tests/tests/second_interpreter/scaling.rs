@@ -1,7 +1,7 @@
 //! Random contours that are enlarged or reduced (`#SCALE`).
 //!
-//! The page describes lines, arcs and helices from the zero point of the active system: in a scaled part nothing else is
-//! written but changes of offsets, which are not scaled. Arcs need equal factors in their plane.
+//! The page describes lines, arcs and helices from the zero point of the active system: in a scaled part nothing else is written except
+//! changes of offsets, which are not scaled. Arcs need equal factors in their plane.
 
 use super::expressions::{PARAMETERS, both, decimal, name};
 use super::model::axes_of;
@@ -16,7 +16,7 @@ impl Writer<'_> {
         let factor = |writer: &mut Self| writer.random.pick(&[0.25, 0.5, 1.0, 1.25, 2.0, 3.5]);
         let same = factor(self);
         let mut factors = vec![(a, same), (third, factor(self)), (b, same)];
-        // an axis without a word keeps its factor, which may not be that of the other one
+        // an axis without a word keeps its factor, which may differ from that of the other axis
         let arcs = !self.random.chance(0.3);
         if !arcs {
             factors = vec![(self.random.below(3), same)];
@@ -65,7 +65,7 @@ impl Writer<'_> {
         Statement::Move(self.line_to(words, absolute))
     }
 
-    /// By its radius, by its centre, or a full circle; in increments, with or without travel along the third axis.
+    /// By its radius, by its centre, or a full circle; in increments, with or without a motion of the third axis.
     fn scaled_arc(&mut self, [a, b, third]: [usize; 3]) -> Statement {
         let (x, y) = (decimal(self.random, 12.0), 0.5 + decimal(self.random, 12.0).abs());
         let way = libm::hypot(x, y);

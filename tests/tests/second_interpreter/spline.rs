@@ -1,11 +1,11 @@
-//! Splines through points, after Akima's paper: each coordinate is a cubic over the length of the chord.
+//! Splines through points, after Akima's paper: each coordinate is a cubic polynomial of the chord length.
 
 use super::path::{Piece, Point, dot, plus};
 
-/// Parts of a cubic whose lengths are added up.
+/// Number of parts of a cubic whose lengths are added up.
 const PARTS: usize = 64;
 
-/// Nodes and weights of Gauss's rule with three points on -1 to 1.
+/// Nodes and weights of the three-point Gauss rule on -1 to 1.
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
@@ -37,7 +37,7 @@ impl Cubic {
         plus(plus(plus(a, b, x), c, x * x), d, x * x * x)
     }
 
-    /// Where the curve is so long from its beginning.
+    /// Point at this length from the beginning.
     pub fn at_length(&self, length: f64) -> Point {
         let part = self.lengths.partition_point(|l| *l <= length).clamp(1, PARTS) - 1;
         let (mut low, mut high) = (node(part), node(part + 1));
@@ -57,7 +57,7 @@ impl Cubic {
             let v = plus(plus(b, c, 2.0 * x), d, 3.0 * x * x);
             dot(v, v).sqrt()
         };
-        // Gauss's rule on eight pieces
+        // Gauss's rule on eight parts
         (0..8)
             .map(|i| {
                 let (width, start) = (half / 8.0, from + f64::from(i) * half / 4.0);
@@ -75,12 +75,12 @@ fn node(part: usize) -> f64 {
     part as f64 / PARTS as f64
 }
 
-/// The curve through the ends of lines that follow one another.
+/// The curve through the ends of consecutive lines.
 pub fn akima(lines: &[Piece]) -> Vec<Piece> {
     let chords: Vec<f64> = lines.iter().map(|line| line.length).collect();
     let mut slopes: Vec<Point> =
         lines.iter().zip(&chords).map(|(line, l)| plus([0.0; 3], line.rise, 1.0 / l)).collect();
-    // two more on each side, on straight lines
+    // two more points on each side, on straight lines
     let (first, last) = (slopes[0], slopes[slopes.len() - 1]);
     let (second, before) =
         if slopes.len() > 1 { (slopes[1], slopes[slopes.len() - 2]) } else { (first, last) };

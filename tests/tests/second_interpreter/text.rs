@@ -12,14 +12,14 @@ pub const MAIN: &str = "part.nc";
 /// File and line of every motion.
 pub type Places = BTreeMap<usize, (String, u32)>;
 
-/// One file in work.
+/// A file being written.
 struct File {
     name: String,
     text: String,
     places: Places,
 }
 
-/// Files and the places of the motions in them.
+/// Files, and the places of the motions in them.
 pub fn written(program: &Program) -> (Vec<(String, String)>, Places) {
     let mut main = File { name: MAIN.to_owned(), text: String::new(), places: Places::new() };
     let mut files = Vec::new();
@@ -221,12 +221,12 @@ impl File {
         self.line(&motion_text(words, motion));
     }
 
-    /// A motion whose axis words are the text of a macro, which another one is a part of.
+    /// A motion whose axis words are the text of a macro, part of which is another macro.
     fn by_macros(&mut self, motion: &Motion) {
         let number = motion.number;
         let words = words_text(&motion.words);
         let mut parts: Vec<&str> = words.split(' ').filter(|part| !part.is_empty()).collect();
-        // blanks of operators divide words too: the whole is one part then
+        // blanks around operators divide words too: then the whole is one part
         if parts.len() != motion.words.len() || number.is_multiple_of(2) {
             parts = vec![&words];
         }
@@ -323,7 +323,7 @@ fn words_text(words: &[Word]) -> String {
     let mut line = String::new();
     for (i, word) in words.iter().enumerate() {
         let (axis, value) = (AXES[word.axis], text(&word.value));
-        // forms of a word in turn
+        // the forms of a word in turn
         let _ = match i % 3 {
             0 => write!(line, " {axis}{value}"),
             1 => write!(line, " {axis}[{value}]"),
@@ -360,7 +360,7 @@ fn motion_text(words: &str, motion: &Motion) -> String {
     line
 }
 
-/// How strongly an operator binds, by the manual's table: 10 is strongest. Functions of two values bind as atoms.
+/// Precedence of an operator by the table of the manual: 10 binds most strongly. Functions of two values bind like atoms.
 fn level(operator: Operator) -> u32 {
     match operator {
         Operator::Or => 1,
@@ -381,7 +381,7 @@ fn level_of(expr: &Expr) -> u32 {
     }
 }
 
-/// As text, with brackets where the levels demand them and nowhere else.
+/// As text, with brackets where the precedence demands them and nowhere else.
 pub fn text(expr: &Expr) -> String {
     match expr {
         Expr::Number(x) => format!("{x}"),
@@ -420,7 +420,7 @@ pub fn text(expr: &Expr) -> String {
                 Operator::Angle => return format!("ATAN2[{}, {}]", text(a), text(b)),
             };
             let level = level(*operator);
-            // comparisons do not follow one another
+            // comparisons are not chained
             let left = if level == 4 { level + 1 } else { level };
             format!("{}{sign}{}", bracketed(a, left), bracketed(b, level + 1))
         }

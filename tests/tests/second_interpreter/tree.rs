@@ -1,4 +1,4 @@
-//! A program as a tree: what the random programs are made of, written as text by `text` and carried out by `model`.
+//! A program as a tree: the form of the random programs, written as text by `text` and executed by `model`.
 
 /// Functions of one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,25 +69,25 @@ pub struct Motion {
     pub angle: Option<f64>,
 }
 
-/// What is inserted between two motions.
+/// The element inserted between two motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Insert {
     /// G301: distance of its ends from the corner.
     Chamfer,
-    /// `#CHF`: its own length.
+    /// `#CHF`: the length of the chamfer itself.
     ChamferLength,
     /// G302.
     Rounding,
 }
 
-/// How the tool comes to a contour and leaves it.
+/// How the tool approaches a contour and leaves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
     /// G139: with the line before the contour and the line after it.
     Lines,
     /// G237: perpendicular to the contour; the lines are those of the program.
     Perpendicular,
-    /// G239: as G139, but it stays at the end, and the program continues from there.
+    /// G239: like G139, but the tool stays at the end, and the program continues from there.
     Stays,
 }
 
@@ -100,9 +100,9 @@ pub struct Contour {
     /// G26 instead of G25.
     pub by_arcs: bool,
     pub radius: f64,
-    /// Another radius from this element on, a line, which leads to it.
+    /// Another radius from this element on; the element is a line, which leads to that radius.
     pub change: Option<(usize, f64)>,
-    /// G41 or G42, and G40, are in the blocks of the motions.
+    /// G41 or G42, and G40, stand in the blocks of the motions.
     pub in_block: bool,
     pub approach: Motion,
     pub elements: Vec<Motion>,
@@ -130,7 +130,7 @@ pub enum Statement {
     Plane(u32),
     Absolute(bool),
     AbsoluteCentres(bool),
-    /// G163: the radius of arcs that say none.
+    /// G163: the radius of arcs that state none.
     Radius(f64),
     /// G53 to G59 (0 to 6), G159 above.
     Group(u32),

@@ -19,7 +19,7 @@ pub enum Encoder {
     Motor,
     /// Direct measuring system at the load (`lr_hw[1]`).
     ///
-    /// Assumption: an axis that has one is controlled by it.
+    /// Assumption: an axis that has a direct measuring system is controlled by it.
     Direct,
 }
 
@@ -31,15 +31,15 @@ pub struct AxisControlConfig {
     /// Additive inputs of the drive.
     pub additive_inputs: AdditiveInputs,
     /// Delay of the position path in cycles, the same for every axis of a channel
-    /// ([`channel_delay_cycles`](crate::control::feedforward::channel_delay_cycles)). Never less than the axis' own feedforward
-    /// needs.
+    /// ([`channel_delay_cycles`](crate::control::feedforward::channel_delay_cycles)), never less than the feedforward
+    /// of this axis needs.
     pub delay_cycles: usize,
     /// Position controller.
     pub position: PositionConfig,
     /// Measuring system of the position loop.
     pub encoder: Encoder,
-    /// Smallest step of that measuring system in mm ([`increment_mm`](crate::control::scaling::increment_mm)); 0: it reads
-    /// without steps.
+    /// Smallest step of that measuring system in mm ([`increment_mm`](crate::control::scaling::increment_mm)); 0:
+    /// continuous.
     pub increment_mm: f64,
     /// Improved Position Control.
     pub ipc: IpcConfig,
@@ -80,7 +80,7 @@ impl AxisControlConfig {
         }
     }
 
-    /// The configuration with every documented correction, and what was found.
+    /// The configuration with every documented correction made, and the issues found.
     pub fn checked(mut self, cycle: CycleTime) -> (Self, Vec<Issue>) {
         let (feedforward, mut issues) = self.feedforward.checked(cycle, self.additive_inputs);
         self.feedforward = feedforward;

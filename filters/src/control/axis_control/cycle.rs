@@ -1,4 +1,4 @@
-//! One cycle of an axis, alone or in a row: from the set position to the drive, its monitors, and what the plant does with it.
+//! One cycle of an axis, or many in a row: from the set position to the drive, the monitors and the plant.
 
 use super::given::Given;
 use super::{AxisControl, ControlOutput, DriveValues, Encoder};
@@ -26,16 +26,17 @@ impl AxisControl {
 
     /// A position as the measuring system of the position loop reads it.
     ///
-    /// Assumption: the nearest increment, counted from the machine's zero; homing takes any constant part out.
+    /// Assumption: the nearest increment, counted from the machine's zero; homing removes any constant part.
     pub(super) fn read_mm(&self, mm: f64) -> f64 {
         let step_mm = self.config.increment_mm;
         if step_mm > 0.0 { (mm / step_mm).round() * step_mm } else { mm }
     }
 
-    /// One cycle: set position after filters or Vibration Guard, feedforward gain of this motion
-    /// ([`gain`](crate::control::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
+    /// Steps the axis by one cycle: set position after filters or Vibration Guard, feedforward gain of this motion
+    /// ([`gain`](crate::control::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is
+    /// jerk-limited.
     ///
-    /// A set position beyond [`RANGE_MM`] (or not a number) counts as standing still.
+    /// A set position beyond [`RANGE_MM`] (or not a number) counts as standstill.
     #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let mut output = ControlOutput::default();
@@ -43,11 +44,12 @@ impl AxisControl {
         output
     }
 
-    /// Cycles in a row under the same inputs, gain and slope, each as [`Self::step`], at least one. The number up to the first one
-    /// in which the monitors raise something or may: if it is not the last one, parts of the axis are beyond it, and it has to be
-    /// put back to where it was.
+    /// Steps the axis by many cycles under the same inputs, gain and slope, each as [`Self::step`], at least one.
+    /// Returns the number of cycles up to the first one in which the monitors raise a fault or may do so. If it is not
+    /// the last one, some parts of the axis are already ahead of it, and the axis has to be restored to its earlier
+    /// state.
     ///
-    /// `show` gets the output of the cycles from number `shown_from` on, and of one with a fault.
+    /// `show` receives the output of the cycles from number `shown_from` on, and of a cycle with a fault.
     #[inline] // the output is large: used where it is made
     pub fn run(
         &mut self,
@@ -181,7 +183,7 @@ impl AxisControl {
         count
     }
 
-    /// Advances the plant unless it diverged; then it is held where it was last finite.
+    /// Advances the plant unless it has diverged; a diverged plant is held at its last finite position.
     #[inline]
     fn advance(&mut self, input: PlantInput, lag_mm: f64) -> Option<Fault> {
         if self.diverged {
@@ -195,9 +197,9 @@ impl AxisControl {
         Some(Fault::Unstable { lag_mm, limit_mm })
     }
 
-    /// Speed that the drive follows: what it was sent in its format.
+    /// Speed that the drive follows: the value it was sent, in its format.
     ///
-    /// A drive that closes the position loop itself makes its own command.
+    /// A drive that closes the position loop itself generates its own command.
     #[inline]
     fn felt_mm_s(&self, command: f64, additive: f64) -> f64 {
         let (c, cycle_s) = (&self.config, self.cycle_s);

@@ -1,4 +1,4 @@
-//! Inputs of an axis in one cycle: while they stay the same, an axis at rest is skipped.
+//! Inputs of an axis in one cycle: while they stay the same, an axis at rest is not computed.
 
 use super::AxisInputs;
 
@@ -12,7 +12,7 @@ pub(super) struct Given {
 }
 
 impl Given {
-    /// With the set position 0.
+    /// These inputs with the set position 0.
     #[inline]
     pub(super) fn new(gain: f64, jerk_limited: bool, inputs: &AxisInputs) -> Self {
         let AxisInputs { additional_mm, force_mm_s2, encoder_offset_mm } = *inputs;
@@ -20,7 +20,7 @@ impl Given {
         Self { set: 0, gain: gain.to_bits(), jerk_limited, inputs }
     }
 
-    /// Equal but for the set position.
+    /// Whether the inputs are equal apart from the set position.
     #[inline]
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.gain == other.gain

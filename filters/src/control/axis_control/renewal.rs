@@ -1,12 +1,12 @@
-//! Changes of a running axis: new parameters, or a new position for the place where it is.
+//! Changes of a running axis: new parameters, or a new value for its present position.
 
 use super::AxisControl;
 
 impl AxisControl {
-    /// Continues where another axis is whose place this one takes: in the same place and under the same inputs.
+    /// Takes over the state of the axis that this one replaces, at the same position and under the same inputs.
     ///
-    /// Each part that is configured alike keeps its state; with the same configuration nothing changes at all. Others begin at
-    /// rest, another plant where the motor is.
+    /// Parts with the same configuration keep their state; if the whole configuration is the same, nothing changes.
+    /// Other parts begin at rest, a different plant at the position of the motor.
     pub fn take_over(&mut self, before: &Self) {
         self.start_with(before.set_mm, before.inputs);
         let (old, new) = (&before.config, &self.config);
@@ -41,7 +41,7 @@ impl AxisControl {
         self.held_mm = before.held_mm;
     }
 
-    /// The place where the axis is gets another position, `by_mm` further on: nothing moves.
+    /// Shifts the coordinate of the present position by `by_mm`; nothing moves.
     pub fn shift(&mut self, by_mm: f64) {
         self.buffer.shift(by_mm);
         self.plant.shift(by_mm);
@@ -56,8 +56,8 @@ impl AxisControl {
         self.still_cycles = 0;
     }
 
-    /// The set position at rest becomes another one, `by_mm` further on, to which the axis moves as its controller lets it: what
-    /// watches the set position does not see a motion.
+    /// Shifts the set position at rest by `by_mm`; the axis follows at the pace of its controller. The monitors of the
+    /// set position see no motion.
     pub fn command(&mut self, by_mm: f64) {
         self.exact_stop.shift(by_mm);
         self.setpoint.shift(by_mm);

@@ -1,5 +1,5 @@
-//! Recursive filters of the stages: band-pass, all-pass and oscillator, discretised with the bilinear rule that meets
-//! the analogue filter exactly at the given frequency.
+//! Recursive filters of the stages: band-pass, all-pass and oscillator. They are discretised by the bilinear transform,
+//! pre-warped to match the analogue filter exactly at the given frequency.
 //!
 //! All are written in `p = s / K` with the pre-warped `K = w0 / tan(w0 T / 2)`, so that `p = (z - 1) / (z + 1)` and
 //! the centre frequency is `W = tan(pi f0 T)`.
@@ -31,7 +31,7 @@ impl Section {
         let [b0, b1, b2] = self.b;
         let [a1, a2] = self.a;
         let y = b0 * x + b1 * self.x[0] + b2 * self.x[1] - a1 * self.y[0] - a2 * self.y[1];
-        // a decayed vibration must not end in denormal numbers
+        // keep decaying vibrations out of the denormal range
         let y = if y.abs() < 1e-200 { 0.0 } else { y };
         self.x = [x, self.x[0]];
         self.y = [y, self.y[0]];
@@ -61,7 +61,7 @@ impl Cascade {
 /// Band-pass of order 1..=3 (2 to 6 poles): Butterworth low-pass of that order, transformed. Gain 1 and phase 0 at the
 /// centre.
 ///
-/// Assumption: Butterworth; the manual names no prototype in this place.
+/// Assumption: Butterworth; the manual does not name the prototype here.
 pub(super) fn band_pass(order: u32, frequency_hz: f64, quality: f64, cycle_s: f64) -> Cascade {
     let w = libm::tan(PI * frequency_hz * cycle_s);
     let width = w / quality;
@@ -100,7 +100,7 @@ pub(super) fn all_pass(order: u32, frequency_hz: f64, cycle_s: f64) -> Cascade {
     Cascade { sections }
 }
 
-/// `w0^2 / (s2 + 2 D w0 s + w0^2)`: speed of a load that hangs on a motor of the given speed. At its frequency the
+/// `w0^2 / (s2 + 2 D w0 s + w0^2)`: speed of a load suspended from a motor of the given speed. At its frequency the
 /// gain is `1 / (2D)`, the phase -90 degrees.
 pub(super) fn oscillator(frequency_hz: f64, damping_ratio: f64, cycle_s: f64) -> Cascade {
     let w = libm::tan(PI * frequency_hz * cycle_s);

@@ -206,7 +206,7 @@ fn amplitude_over_weight_and_damping() {
     }
 }
 
-/// 53 Hz with Q 10: -3 dB 5.3 Hz apart, 11 Hz at least 20 dB below what comes in. Conformance: I009, I033.
+/// 53 Hz with Q 10: bandwidth 5.3 Hz at -3 dB; at 11 Hz attenuated by at least 20 dB. Conformance: I009, I033.
 #[test]
 fn a_stage_cuts_its_band_out() {
     let direct = || config(vec![IpcStageConfig { weight_num: 1.0, ..stage(IpcMode::Direct) }]);
@@ -224,7 +224,7 @@ fn a_stage_cuts_its_band_out() {
     assert!((width - 5.3).abs() < 0.16, "{width}");
 }
 
-/// DIRECT and INDIRECT take the measured speed, `SET_POINT` the command; the oscillation is simulated for the last two.
+/// DIRECT and INDIRECT use the measured speed, `SET_POINT` the command; the last two simulate the oscillation.
 /// Conformance: I012, I016, I043.
 #[test]
 fn what_the_modes_listen_to() {

@@ -4,7 +4,7 @@
 //! filters, reaches the target of the stop; it ends (t2) when the actual position is inside the window.
 //!
 //! A window of 0 means half an increment: the vendor compares whole increments, and an actual position that is off by
-//! less counts as the same one.
+//! less than half an increment counts as the same one.
 
 use crate::control::fault::Fault;
 use crate::time::CycleTime;
@@ -15,7 +15,7 @@ pub struct ExactStopConfig {
     /// Half width of the window in mm (P-AXIS-00236), default 0.05, at least half an increment; recommended: three times
     /// the lag at rest.
     pub window_mm: f64,
-    /// Time in s to reach it (P-AXIS-00532, if negative P-AXIS-00151), default 1; none: not monitored (value 0).
+    /// Time in s to reach it (P-AXIS-00532, if negative P-AXIS-00151), default 1; `None`: not monitored (value 0).
     /// Recommended 0.010 to 0.200.
     pub settling_s: Option<f64>,
     /// Distance in mm below which a set position has reached its target, because recursive filters only approach it
@@ -36,7 +36,7 @@ impl Default for ExactStopConfig {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
-    /// No stop expected, or the last one is done.
+    /// No stop expected, or the last one is complete.
     Idle,
     /// The set position is on its way to the target.
     Approaching { target_mm: f64 },
@@ -58,7 +58,7 @@ pub struct ExactStopMonitor {
 }
 
 impl ExactStopMonitor {
-    /// Distance from which on a set position has moved.
+    /// A set position that changes by less than this, in mm, counts as unmoved.
     const MOVED_MM: f64 = ExactStopConfig::HALF_INCREMENT_MM;
 
     /// A monitor at rest.
@@ -81,16 +81,16 @@ impl ExactStopMonitor {
 
     /// Time in s since t1 while the axis settles, then t2 - t1 of the last stop; 0 before the first one.
     pub fn settling_s(&self) -> f64 {
-        // asked in every cycle, mostly before the first stop
+        // called in every cycle, mostly before the first stop
         if self.cycles == 0 { 0.0 } else { self.cycle.time_of(self.cycles) }
     }
 
-    /// No stop is awaited.
+    /// Whether no stop is awaited.
     pub const fn rests(&self) -> bool {
         matches!(self.state, State::Idle)
     }
 
-    /// The set position is at the target of a stop, the actual one not yet inside the window.
+    /// Whether the set position is at the target of a stop and the actual position not yet inside the window.
     pub const fn settles(&self) -> bool {
         matches!(self.state, State::Settling { .. })
     }
@@ -101,13 +101,13 @@ impl ExactStopMonitor {
         (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
-    /// The stop awaited by another monitor, with its own window and time.
+    /// Takes over the stop that another monitor awaits; window and time stay those of this one.
     pub(crate) fn take_over(&mut self, before: &Self) {
         let (config, cycle) = (self.config, self.cycle);
         *self = Self { config, cycle, ..before.clone() };
     }
 
-    /// The place where the axis is gets another position, `by_mm` further on.
+    /// Shifts the coordinate of the present position by `by_mm`.
     pub(crate) fn shift(&mut self, by_mm: f64) {
         self.rest_mm += by_mm;
         self.last_mm += by_mm;
@@ -116,9 +116,10 @@ impl ExactStopMonitor {
         }
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`; to be called no later than right after the cycle in which the
-    /// set position got there. An axis that has not moved since its last stop, and need not, has no new one; one that still
-    /// settles at this target keeps its time, since a dwell after an exact stop is not another stop.
+    /// Announces a stop of the path, for this axis at `target_mm`; to be called no later than right after the cycle in
+    /// which the set position got there. An axis that has not moved since its last stop and need not move has no new
+    /// stop. One that still settles at this target keeps its time, since a dwell after an exact stop is not another
+    /// stop.
     pub fn expect(&mut self, target_mm: f64) {
         if (target_mm - self.last_mm).abs() > self.config.reached_mm {
             self.state = State::Approaching { target_mm };
@@ -127,7 +128,7 @@ impl ExactStopMonitor {
         }
     }
 
-    /// Cycles in a row while no stop is awaited, see [`Self::rests`].
+    /// Processes many cycles while no stop is awaited, see [`Self::rests`].
     pub(crate) fn pass(&mut self, set_mm: &[f64]) {
         let Some(last_mm) = set_mm.last() else { return };
         self.last_mm = *last_mm;
@@ -158,7 +159,7 @@ impl ExactStopMonitor {
         }
     }
 
-    /// t1.
+    /// Starts the timer (t1).
     fn begin(&mut self, target_mm: f64) {
         (self.state, self.cycles) = (State::Settling { target_mm }, 0);
     }
@@ -235,7 +236,7 @@ mod tests {
         assert_eq!((1..2000).find(|_| m.step(1.0, 0.94).is_some()), Some(200));
     }
 
-    /// Expected again while it settles, as by a dwell or a block without motion: t1 is when the set position got there.
+    /// A stop expected again while the axis settles, as by a dwell or a block without motion, keeps its t1.
     #[test]
     fn a_stop_told_again_keeps_its_time() {
         let mut m = monitor(Some(0.2));
@@ -254,7 +255,7 @@ mod tests {
         let mut m = monitor(Some(0.01));
         m.expect(0.0);
         assert!((0..100).all(|_| m.step(0.0, 1.0).is_none()));
-        // and after its own stop it stays quiet while others move
+        // no fault after its own stop while others move
         assert!(fault_after(&mut m, |_| 1.0).is_none());
         m.expect(1.0);
         assert!((0..100).all(|_| m.step(1.0, 5.0).is_none()));

@@ -1,7 +1,7 @@
 //! Following-error monitoring: permitted lag of types 1, 2 and 4.
 //!
-//! Source: TF5200 position lag monitoring, P-AXIS-00167 to 00172, 00176, 00191, 00488. Type 3 was dropped by the
-//! vendor; it and any other value switch the monitor off.
+//! Source: TF5200 position lag monitoring, P-AXIS-00167 to 00172, 00176, 00191, 00488. The vendor has dropped type 3;
+//! it and any other value switch the monitor off.
 
 use crate::control::fault::Fault;
 use crate::time::CycleTime;
@@ -14,11 +14,11 @@ pub enum LagMonitorType {
     Off,
     /// 1: estimation filter on the commanded movement between `lag_min` and `lag_max`; ignores Kv.
     ///
-    /// Assumption for the law: `s = q (s + |dx|)`, `q = dynamics / 1024`; 1024 switches off, as documented.
+    /// Assumption on the filter: `s = q (s + |dx|)`, `q = dynamics / 1024`; 1024 switches off, as documented.
     Standard,
     /// 2: the theoretical lag v/Kv times a factor, not below `lag_max` while moving; at rest `lag_min`.
     ///
-    /// Assumption for the factor: `1024 / (1024 - dynamics)`, 1 at 0 and off at 1024; the manual's formula is a
+    /// Assumption on the factor: `1024 / (1024 - dynamics)`, 1 at 0 and off at 1024; the manual shows its formula as a
     /// picture.
     Linear,
     /// 4: `lag_max` while moving, `lag_min` at rest; meant for full feedforward.
@@ -38,12 +38,12 @@ pub struct LagMonitorConfig {
     pub lag_min_mm: f64,
     /// Shift of the limit curve in s (P-AXIS-00170), default 0.
     pub shift_s: f64,
-    /// Time in s for which type 4 tolerates an excess (P-AXIS-00488), up to 0.25, default 0.
+    /// Time in s for which type 4 tolerates a lag above the limit (P-AXIS-00488), up to 0.25, default 0.
     pub tolerance_s: f64,
     /// Cycles between command and actual value (P-AXIS-00191), 0..=10. The vendor's default of 4 holds for digital
     /// drives; 0 for the simulated one.
     pub delay_cycles: usize,
-    /// Compute but raise nothing (P-AXIS-00176), default false.
+    /// Compute the limit but raise nothing (P-AXIS-00176), default false.
     pub suppress: bool,
 }
 
@@ -74,7 +74,7 @@ pub struct LagMonitor {
     next: usize,
     /// Cycles without commanded movement.
     still: usize,
-    /// The last cycle has changed nothing that a cycle without movement could change again.
+    /// The last cycle changed nothing that further cycles without movement could still change.
     rests: bool,
     estimate_mm: f64,
     excess_cycles: u64,
@@ -86,11 +86,11 @@ pub struct LagMonitor {
 impl LagMonitor {
     /// Largest delay of the actual value in cycles.
     pub(crate) const MAX_DELAY: usize = 10;
-    /// Cycles that its delay reaches back.
+    /// Number of past references that are kept for the delay of the actual value.
     pub(crate) const MEMORY: usize = Self::MAX_DELAY + 2;
     /// Longest shift of the limit curve in cycles.
     const MAX_SHIFT: usize = 10_000;
-    /// Relative difference of lags that is rounding.
+    /// Relative excess over the limit that is attributed to rounding.
     const ROUNDING: f64 = 1e-9;
     /// Scale of P-AXIS-00167.
     const FULL: f64 = 1024.0;
@@ -127,22 +127,22 @@ impl LagMonitor {
         self.raised = false;
     }
 
-    /// Following error of the last cycle in mm, actual value delay taken into account.
+    /// Following error of the last cycle in mm, with the delay of the actual value taken into account.
     pub const fn lag_mm(&self) -> f64 {
         self.lag_mm
     }
 
-    /// Permitted lag of the last cycle in mm, none while off.
+    /// Permitted lag of the last cycle in mm, `None` while the monitor is off.
     pub const fn limit_mm(&self) -> Option<f64> {
         self.limit_mm
     }
 
-    /// While reference, actual position and gain stay the same, further cycles change nothing.
+    /// Whether further cycles change nothing as long as reference, actual position and gain stay the same.
     pub(crate) const fn rests(&self) -> bool {
         self.rests
     }
 
-    /// The place where the axis is gets another position, `by_mm` further on.
+    /// Shifts the coordinate of the present position by `by_mm`.
     pub(crate) fn shift(&mut self, by_mm: f64) {
         for past_mm in &mut self.past_mm {
             *past_mm += by_mm;
@@ -150,13 +150,14 @@ impl LagMonitor {
         (self.still, self.rests) = (0, false);
     }
 
-    /// It is on: every cycle counts. Otherwise as many of the last ones as it [remembers](Self::MEMORY).
+    /// Whether every cycle matters (the monitor is on). Otherwise only as many of the last ones as it
+    /// [remembers](Self::MEMORY).
     #[inline]
     pub(crate) fn needs_every_cycle(&self) -> bool {
         self.config.kind != LagMonitorType::Off
     }
 
-    /// One cycle: reference and actual position, gain of the position controller.
+    /// One cycle: reference and actual position in mm, gain of the position controller in 1/s.
     #[inline]
     pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
         let delay = self.config.delay_cycles;
@@ -173,7 +174,7 @@ impl LagMonitor {
         self.watch(commanded, kv_per_s)
     }
 
-    /// The lag of this cycle against what is permitted.
+    /// Compares the lag of this cycle with the permitted one.
     fn watch(&mut self, commanded: f64, kv_per_s: f64) -> Option<Fault> {
         let delay = self.config.delay_cycles;
         let newest = (commanded - self.past_mm[delay + 1]).abs();
@@ -199,7 +200,8 @@ impl LagMonitor {
         Some(Fault::FollowingError { lag_mm: self.lag_mm, limit_mm })
     }
 
-    /// The lag is above a limit by more than rounding: at constant speed it comes as near to `v / kv` as numbers allow.
+    /// Whether the lag exceeds a limit by more than rounding; at constant speed it approaches `v / kv` to the last
+    /// digits.
     fn exceeds(&self, limit_mm: f64) -> bool {
         self.lag_mm.abs() > limit_mm * (1.0 + Self::ROUNDING)
     }
@@ -257,7 +259,7 @@ mod tests {
         (m.limit_mm(), first)
     }
 
-    /// `x - (x - 2)` is above 2 by rounding in some cycles; an increment more is a fault.
+    /// `x - (x - 2)` exceeds 2 by rounding in some cycles, which is not a fault; one more increment is.
     #[test]
     fn a_lag_at_its_limit_does_not_exceed_it() {
         for kind in [LagMonitorType::VelocityIndependent, LagMonitorType::Linear] {

@@ -9,7 +9,7 @@ use crate::control::RANGE_MM;
 use crate::control::fault::{Derivative, Fault, Faults};
 use crate::time::CycleTime;
 
-/// Excess over the limit that is allowed, 1 = 100 %.
+/// Permitted excess over the limit, 1 = 100 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thresholds {
     /// Up to the warning.
@@ -19,7 +19,7 @@ pub struct Thresholds {
 }
 
 impl Thresholds {
-    /// Nothing if both are 0: monitoring off (acceleration and jerk only).
+    /// `None` if both are 0: monitoring off (acceleration and jerk only).
     fn watched(self) -> Option<Self> {
         (self.warn_ratio != 0.0 || self.error_ratio != 0.0).then_some(self)
     }
@@ -43,7 +43,7 @@ pub struct SetpointMonitorConfig {
 }
 
 impl SetpointMonitorConfig {
-    /// The vendor's thresholds over the limits of an axis.
+    /// The vendor's thresholds for the limits of an axis.
     pub fn new(v_max_mm_s: f64, a_max_mm_s2: f64, j_max_mm_s3: f64) -> Self {
         Self {
             v_max_mm_s,
@@ -71,16 +71,17 @@ pub struct SetpointMonitor {
     cycle_s: f64,
     past_mm: [f64; 3],
     levels: [Level; 3],
-    /// A level is above good.
+    /// Whether a level is above good.
     raised: bool,
-    /// Magnitude of each difference of set positions in mm up to which there is nothing to say about the derivative.
+    /// Magnitude of each difference of set positions in mm up to which its derivative certainly raises nothing.
     good_mm: [f64; 3],
 }
 
-/// Share of a threshold below which no rounding makes up for the rest.
+/// Share of a threshold below which rounding cannot lead to an excess.
 const CLEARLY: f64 = 1.0 - 1e-12;
 
-/// Threshold of a limit. Sampled differences carry rounding noise: a value at its threshold is not above it.
+/// Threshold of a limit. Sampled differences carry rounding noise, so a value at its threshold does not count as above
+/// it.
 fn threshold(ratio: f64, limit: f64) -> f64 {
     (1.0 + ratio) * limit * (1.0 + 1e-9)
 }
@@ -109,19 +110,19 @@ impl SetpointMonitor {
         (self.levels, self.raised) = ([Level::Good; 3], false);
     }
 
-    /// The place where the axis is gets another position, `by_mm` further on.
+    /// Shifts the coordinate of the present position by `by_mm`.
     pub(crate) fn shift(&mut self, by_mm: f64) {
         for past_mm in &mut self.past_mm {
             *past_mm += by_mm;
         }
     }
 
-    /// A level is above good.
+    /// Whether a level is above good.
     pub(crate) const fn is_raised(&self) -> bool {
         self.raised
     }
 
-    /// Number of the first cycles in a row about which there is nothing to say.
+    /// Number of leading cycles that certainly raise nothing.
     pub(crate) fn quiet(&self, set_mm: &[f64]) -> usize {
         if self.raised {
             return 0;
@@ -141,7 +142,7 @@ impl SetpointMonitor {
         set_mm.iter().position(loud).unwrap_or(set_mm.len())
     }
 
-    /// Cycles about which there is nothing to say.
+    /// Processes cycles that certainly raise nothing.
     pub(crate) fn pass(&mut self, set_mm: &[f64]) {
         for set_mm in &set_mm[set_mm.len().saturating_sub(3)..] {
             self.past_mm = [*set_mm, self.past_mm[0], self.past_mm[1]];
@@ -161,7 +162,7 @@ impl SetpointMonitor {
         }
     }
 
-    /// The same where there may be something to say.
+    /// The same for a cycle that may raise something.
     #[cold]
     fn judge(&mut self, differences: [f64; 3], faults: &mut Faults) {
         let t = self.cycle_s;
@@ -246,8 +247,8 @@ mod tests {
         assert_eq!(faults(config, &[-0.25]), [error], "either direction");
     }
 
-    /// Speeds a few of the smallest steps around a threshold, in cycles of any length: there is a fault if the quotient is above
-    /// it, and none if not.
+    /// Speeds a few of the smallest steps around a threshold, in cycles of any length: a fault if and only if the
+    /// quotient is above it.
     #[test]
     fn a_threshold_is_met_to_the_last_bit() {
         for (limit, us) in [(200.0, 1000), (0.3, 250), (1e5 / 3.0, 125), (17.7, 2000)] {

@@ -18,21 +18,21 @@ pub(super) struct Continuous {
 }
 
 impl Continuous {
-    /// Two measured points move apart.
+    /// Whether two measured points can move relative to each other.
     fn differ(&self, a: usize, b: usize) -> bool {
         self.positions[a] != self.positions[b] || self.speeds[a] != self.speeds[b]
     }
 }
 
-/// A vector of states: an array where the usual drives have few of them.
+/// A vector of states: a fixed array for the small models of the usual drives, otherwise on the heap.
 pub(super) trait States: AsRef<[f64]> + AsMut<[f64]> + Clone {
-    /// As many of them as there are states.
+    /// One such vector per state: a square matrix.
     type Square: AsRef<[Self]> + std::fmt::Debug + Clone;
 
-    /// The vector of these values.
+    /// The vector with these values.
     fn of(values: &[f64]) -> Self;
 
-    /// A vector for each state.
+    /// One vector for each of `n` states.
     fn square(vector: impl Fn(usize) -> Self, n: usize) -> Self::Square;
 }
 
@@ -60,8 +60,8 @@ impl States for Vec<f64> {
     }
 }
 
-/// Discrete model with state. The position is kept apart and only ever moved by increments: so an axis at rest stays
-/// where it is bit by bit, and far from zero it loses nothing of its resolution.
+/// Discrete model with its state. The position is kept apart and only moved by increments: an axis at rest stays where
+/// it is bit for bit, and the resolution does not depend on the distance from zero.
 #[derive(Clone, Debug)]
 pub(super) struct LinearPlant<S: States> {
     /// Columns of the matrices.
@@ -77,7 +77,7 @@ pub(super) struct LinearPlant<S: States> {
     substeps: u32,
     cycles: u64,
     cycle: CycleTime,
-    /// The load moves apart from the motor, the tool point apart from the load.
+    /// Whether the load can move relative to the motor, and the tool point relative to the load.
     elastic: bool,
     has_tool_point: bool,
 }
@@ -85,7 +85,7 @@ pub(super) struct LinearPlant<S: States> {
 impl<S: States> LinearPlant<S> {
     /// Substeps per cycle while a force acts inside the cycle.
     const SUBSTEPS: u32 = 4;
-    /// Below this a state is taken for zero, so that decayed vibrations do not end in denormal numbers.
+    /// States below this magnitude are set to zero, to keep decaying vibrations out of the denormal range.
     const NEGLIGIBLE: f64 = 1e-200;
 
     pub(super) fn new(
@@ -135,9 +135,9 @@ impl<S: States> LinearPlant<S> {
         self.has_tool_point
     }
 
-    /// Advances by one cycle. `rests` says whether that changed nothing, bit for bit: with the same input no further
-    /// cycle will. A disturbance that changes with time never rests. False if the state is no longer finite; what was measured
-    /// last then stays.
+    /// Advances by one cycle. `rests` is set to whether that changed nothing, bit for bit: with the same input no
+    /// further cycle will. A disturbance that changes with time never rests. False if the state is no longer finite;
+    /// the last finite measurement then remains.
     #[inline]
     pub(super) fn advance(
         &mut self,
@@ -153,7 +153,7 @@ impl<S: States> LinearPlant<S> {
             }
             *rests = false;
         } else {
-            // no force is 0, not -0
+            // adding 0 turns -0 into 0
             *rests = self.substep(input, input.force_mm_s2 + 0.0);
         }
         self.cycles += 1;
@@ -172,12 +172,12 @@ impl<S: States> LinearPlant<S> {
         d.amplitude_mm_s2 * share * wave
     }
 
-    /// True if nothing has changed.
+    /// Whether nothing changed.
     #[inline]
     fn substep(&mut self, input: &PlantInput, force_mm_s2: f64) -> bool {
         let inputs: [f64; INPUTS] = [input.speed_mm_s, input.acc_mm_s2, force_mm_s2];
-        // plain loops: matrices this small are faster than the library's dispatch. A sum begins with -0, so that the
-        // first product is kept with its sign
+        // plain loops: matrices this small are faster without the dispatch of the library. Each sum begins with -0,
+        // which keeps the sign of its first product
         let (state, next) = (self.state.as_ref(), self.next.as_mut());
         let n = next.len();
         next.fill(-0.0);
@@ -208,7 +208,7 @@ impl<S: States> LinearPlant<S> {
         rests
     }
 
-    /// A function of the state; no allocation.
+    /// A linear function of the state; does not allocate.
     #[inline]
     fn value(&self, row: &S) -> f64 {
         let (row, state) = (row.as_ref(), self.state.as_ref());
@@ -219,7 +219,7 @@ impl<S: States> LinearPlant<S> {
         sum
     }
 
-    /// Measures, unless a value is not a number; false then.
+    /// Updates the measurement unless a value is not finite; false in that case.
     #[inline]
     fn measure(&self, measured: &mut Measured) -> bool {
         let (motor_mm, motor_mm_s) = self.point(0);
@@ -292,8 +292,8 @@ fn exponential(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     e.iter().all(|v| v.is_finite()).then_some(e)
 }
 
-/// Matrix product in plain order. The library's own dispatches to kernels that differ from processor to processor in
-/// the last bit.
+/// Matrix product in plain order. That of the library dispatches to kernels that differ between processors in the last
+/// bit.
 fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| {
         a.row(i).iter().zip(b.column(j).iter()).map(|(x, y)| x * y).sum()
@@ -316,7 +316,7 @@ mod tests {
             let (phi, gamma) = discretise(&a, &b, h).unwrap();
             let e = libm::exp(-h / ta);
             assert_eq!((phi[(0, 0)], phi[(1, 0)]), (1.0, 0.0), "nothing depends on the position");
-            // where e itself is tiny, 1e-12 of the unit state is what counts
+            // where e itself is tiny, compare with 1e-12 of the unit state
             assert!((phi[(1, 1)] - e).abs() <= 1e-12 * e.max(1e-4), "{ta} {h}");
             assert!(close(phi[(0, 1)], ta * -libm::expm1(-h / ta), 1e-12), "{ta} {h}");
             assert!(close(gamma[(1, 0)], -libm::expm1(-h / ta), 1e-12), "{ta} {h}");
@@ -325,7 +325,7 @@ mod tests {
         }
     }
 
-    /// Arrays and lists of states do the same, bit for bit, and rest in the same cycle.
+    /// Fixed arrays and heap vectors give the same states bit for bit, and rest in the same cycle.
     #[test]
     fn the_number_of_states_is_all_that_an_array_knows() {
         let two = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, -200.0]);

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 pub struct SpeedLoop {
     /// Proportional gain in 1/s: acceleration per speed error.
     pub gain_per_s: f64,
-    /// Integral time Tn in s, none: no integral part.
+    /// Integral time Tn in s; `None`: without an integral part.
     pub integral_time_s: Option<f64>,
     /// Time constant Ti of the current loop in s.
     pub current_time_s: f64,
@@ -36,11 +36,11 @@ pub struct TwoMassConfig {
     pub resonance_hz: f64,
     /// Damping ratio of the free resonance.
     pub damping_ratio: f64,
-    /// Loops of the drive; the motor encoder closes them.
+    /// Loops of the drive, closed by the motor encoder.
     pub speed_loop: SpeedLoop,
 }
 
-/// One vibration mode: natural frequency, damping, participation of the places.
+/// One vibration mode: natural frequency, damping, and participation of each point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
     /// Natural frequency in Hz.
@@ -49,12 +49,12 @@ pub struct Mode {
     pub damping_ratio: f64,
     /// Participation of the motor.
     pub motor: f64,
-    /// Participation of the load encoder. Same sign as the motor: a mode of the structure; opposite sign: of the drive
-    /// train.
+    /// Participation of the load encoder. Same sign as the motor: a mode of the structure; opposite sign: a mode of the
+    /// drive train.
     pub load: f64,
     /// Participation of the tool point.
     pub tool: f64,
-    /// Participation of the place where the disturbance force acts.
+    /// Participation of the point at which the disturbance force acts.
     pub disturbance: f64,
 }
 
@@ -63,7 +63,7 @@ pub struct Mode {
 pub struct ModalConfig {
     /// The modes.
     pub modes: Vec<Mode>,
-    /// Loops of the drive; the motor encoder closes them.
+    /// Loops of the drive, closed by the motor encoder.
     pub speed_loop: SpeedLoop,
 }
 
@@ -71,8 +71,8 @@ impl ModalConfig {
     /// Rack and pinion axis with a column at 53 Hz and a tool point at 11 Hz, the two dominant vibrations of the
     /// application example of Improved Position Control.
     ///
-    /// Assumption: the manual gives frequencies and amplitudes only; the rest is chosen so that both amplitudes and
-    /// their reduction come out.
+    /// Assumption: the manual only gives frequencies and amplitudes; the other values are chosen to reproduce both
+    /// amplitudes and their reduction.
     pub fn rack_and_pinion() -> Self {
         let column = Mode {
             frequency_hz: 53.0,
@@ -173,7 +173,7 @@ fn rigid(a: DMatrix<f64>, b: DMatrix<f64>) -> Continuous {
 }
 
 /// Rows of the drive: torque `tau` (as acceleration of the whole mass) and integrator `z`, driven by the speed error
-/// `u - v_motor` with `v_motor` a row over the state.
+/// `u - v_motor`, where `v_motor` is a row over the state.
 fn drive_rows(
     a: &mut DMatrix<f64>,
     b: &mut DMatrix<f64>,
@@ -194,21 +194,21 @@ fn drive_rows(
     if let Some(tn) = config.integral_time_s {
         a[(tau, z)] += rate * kp / tn;
     } else {
-        // an integrator that is never read would only grow
+        // an unused integrator would only grow
         a.row_mut(z).fill(0.0);
         b.row_mut(z).fill(0.0);
     }
 }
 
-/// State `[x_m, v_m, w d, v_l, z, tau]` with `d = x_m - x_l` and `w` the free resonance: the scaling keeps the matrix
-/// balanced.
+/// State `[x_m, v_m, w d, v_l, z, tau]` with `d = x_m - x_l` and `w` the free resonance, a scaling that keeps the
+/// matrix balanced.
 fn two_mass(config: &TwoMassConfig) -> Result<Continuous, PlantError> {
     positive(config.load_to_motor_ratio, "mass ratio of load and motor")?;
     positive(config.resonance_hz, "resonance")?;
     finite(config.damping_ratio, "damping of the resonance")?;
     config.speed_loop.check()?;
     let w = TAU * config.resonance_hz;
-    // masses with sum 1; c = w^2 mu, d = 2 D w mu, mu = J_M J_L / (J_M + J_L)
+    // the masses sum to 1; c = w^2 mu, d = 2 D w mu, mu = J_M J_L / (J_M + J_L)
     let load = config.load_to_motor_ratio / (1.0 + config.load_to_motor_ratio);
     let motor = 1.0 - load;
     let damping = 2.0 * config.damping_ratio * w;
@@ -219,7 +219,7 @@ fn two_mass(config: &TwoMassConfig) -> Result<Continuous, PlantError> {
     a[(0, v_m)] = 1.0;
     a[(d, v_m)] = w;
     a[(d, v_l)] = -w;
-    // c/J_M = w^2 J_L (the sum of the masses is 1), the other way round for the load
+    // c/J_M = w^2 J_L since the masses sum to 1, and c/J_L = w^2 J_M
     for (v, share, sign) in [(v_m, load, -1.0), (v_l, motor, 1.0)] {
         a[(v, d)] = sign * w * share;
         a[(v, v_m)] = sign * damping * share;

@@ -131,14 +131,14 @@ fn two_masses_are_one_antiphase_mode() {
     }
 }
 
-/// The velocity loop doubles the damping of 53 Hz (0.010 without it) and hardly touches 11 Hz (0.020): 0.0211 and
-/// 0.0223 by the eigenvalues of the closed loop.
+/// The velocity loop doubles the damping of the mode at 53 Hz (0.010 without it) and hardly changes that at 11 Hz
+/// (0.020): 0.0211 and 0.0223 by the eigenvalues of the closed loop.
 #[test]
 fn velocity_loop_damps_the_modes() {
     use crate::analysis::decay::Decay;
     for (mode, frequency_hz, damping) in [(0, 53.0, 0.0211), (1, 11.0, 0.0223)] {
         let mut config = ModalConfig::rack_and_pinion();
-        // the tool point moves against the load by one mode only; the dynamics are the same
+        // the tool point moves relative to the load by one mode only; the dynamics are the same
         config.modes[1 - mode].tool = config.modes[1 - mode].load;
         let mut plant = plant(PlantModel::Modal(config));
         plant.start(0.0);
@@ -171,7 +171,7 @@ fn undamped_mode_keeps_its_energy() {
     let mut plant = plant(PlantModel::Modal(ModalConfig { modes: vec![mode], speed_loop }));
     plant.start(0.0);
     plant.advance(PlantInput { force_mm_s2: 1000.0, ..PlantInput::default() });
-    // the load sees mode and body, the tool point the body alone
+    // the load moves with mode and body, the tool point with the body alone
     let energy = |m: &Measured| {
         let (q, p) = (m.load_mm - m.tcp_mm, m.load_mm_s - m.tcp_mm_s);
         w * w * q * q + p * p
@@ -224,7 +224,7 @@ fn follow_repeats_the_reference_one_cycle_later() {
     assert!((plant.measured().motor_mm_s - 100.0).abs() < 1e-9);
 }
 
-/// A force held over the substeps equals the same force from outside; four substeps sample a sine in their middles.
+/// A force held over the substeps equals the same external force; four substeps sample a sine at their midpoints.
 #[test]
 fn disturbance_acts_in_quarter_cycles() {
     let model = PlantModel::FirstOrder { time_constant_s: 0.005 };

@@ -67,7 +67,7 @@ pub struct SweepArgs {
 /// One of several parts of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// From 1.
+    /// Number of the part, from 1.
     part: usize,
     parts: usize,
 }
@@ -87,7 +87,7 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// Its share of so many combinations, by their numbers; the sizes of the parts differ by one at most.
+    /// Its share of `count` combinations, by their numbers; the sizes of the parts differ by at most one.
     ///
     /// # Errors
     /// A message, the same for all parts, if some of them would be empty.
@@ -95,22 +95,22 @@ impl Shard {
         if self.parts > count {
             return Err(format!("--shard: {} parts of {count} combinations", self.parts));
         }
-        // a part is at most the number of parts, so the bound fits what the count fits
+        // a part is at most the number of parts, so the bound is at most the count
         let bound = |part: usize| (count as u128 * part as u128 / self.parts as u128) as usize;
         Ok(bound(self.part - 1)..bound(self.part))
     }
 }
 
-/// What is looked for in the spectrum of a signal.
+/// An amplitude to search for in the spectrum of a signal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amplitude {
-    /// As it was written: the name of the result.
+    /// As written: the name of the result.
     pub text: String,
     /// Column of the trace.
     pub signal: String,
     /// Frequencies in Hz.
     pub band_hz: (f64, f64),
-    /// Times in s; none: the whole run.
+    /// Times in s; `None`: the whole run.
     pub window_s: Option<(f64, f64)>,
 }
 
@@ -136,7 +136,7 @@ impl FromStr for Amplitude {
 }
 
 impl Amplitude {
-    /// The time belongs to the window.
+    /// Whether a time in s is inside the window.
     pub(crate) fn holds(&self, t_s: f64) -> bool {
         self.window_s.is_none_or(|(from, to)| (from..to).contains(&t_s))
     }

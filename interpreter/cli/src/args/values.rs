@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbers(pub Vec<f64>);
 
-/// More curves than this are a typing mistake.
+/// A request for more curves than this counts as a typing mistake.
 const MOST_CURVES: usize = 1000;
 
 impl FromStr for Numbers {
@@ -19,7 +19,7 @@ impl FromStr for Numbers {
 }
 
 impl Numbers {
-    /// At most so many of them.
+    /// Parses at most `most` numbers.
     pub(super) fn parse(text: &str, most: usize) -> Result<Self, String> {
         let wrong = || format!("`{text}`: 4 or 1,2,5 or 1..6 or 2..200:2 expected");
         let too_many = || format!("`{text}`: more than {most} values");
@@ -62,7 +62,7 @@ pub(super) fn above_zero(text: &str) -> Result<f64, String> {
 /// `F1000` or `1000`: mm/min, above 0.
 ///
 /// # Errors
-/// A text that is neither.
+/// Any other text.
 pub(crate) fn feed(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_start_matches(['F', 'f']);
     match number.parse::<f64>() {
@@ -71,7 +71,7 @@ pub(crate) fn feed(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Two numbers from 0 on in rising order: `50..56`.
+/// Two increasing numbers from 0 on: `50..56`.
 ///
 /// # Errors
 /// Any other text.
@@ -85,7 +85,7 @@ pub(crate) fn span(text: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// The form only; what the words name is the machine's business.
+/// Checks the form only; the machine checks what the words refer to.
 pub(crate) fn setting(text: &str) -> Result<String, String> {
     match Override::parse(text) {
         Ok(_) => Ok(text.to_owned()),
@@ -93,7 +93,7 @@ pub(crate) fn setting(text: &str) -> Result<String, String> {
     }
 }
 
-/// The name of an external variable after its `V.E.`, in any case; nothing if the text does not begin with that.
+/// The name of an external variable after its `V.E.`, in any case; `None` if the text does not begin with that.
 pub(crate) fn after_external(text: &str) -> Option<&str> {
     const FRONT: &str = "V.E.";
     let (front, name) = text.split_at_checked(FRONT.len())?;

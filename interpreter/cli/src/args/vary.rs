@@ -5,23 +5,23 @@ use kontur_interpreter::machine::Override;
 use kontur_interpreter::machine::table::{Bound, Raw};
 use std::str::FromStr;
 
-/// An integer parameter with fewer values than this selects one of several modes.
+/// An integer parameter with fewer values than this selects a mode.
 const MOST_CHOICES: f64 = 8.0;
 
-/// Front of the key of a word in the program.
+/// Prefix of the key of a word in the program.
 const PROGRAM: &str = "program";
 
 /// One list parameter and its values: `X.getriebe[0].kv=2000..60000:1000`, `X.vorsteuer.vorsteuerung=NONE,VEL,VEL|ACC`; a word of the
 /// program: `program.P1=1..5`, `program[12].FREQ=20,40`; or a name that others use: `F=20..60:10` with `X.vib_guard.freq={F}`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vary {
-    /// What `--set` calls it.
+    /// Key as for `--set`.
     pub key: String,
-    /// Its values as a list writes them.
+    /// Values as written in a list.
     pub values: Vec<String>,
 }
 
-/// More combinations of values than this are a typing mistake.
+/// A request for more combinations than this counts as a typing mistake.
 pub(crate) const MOST_COMBINATIONS: usize = 100_000;
 
 impl FromStr for Vary {
@@ -55,26 +55,26 @@ impl FromStr for Vary {
     }
 }
 
-/// A number without the rounding of its steps: 0.3, not 0.30000000000000004.
+/// A number without the rounding errors of its steps: 0.3, not 0.30000000000000004.
 fn plain(value: f64) -> String {
     let text = format!("{value:.9}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The name in `{NAME}`, if that is what a value is.
+/// The name in `{NAME}`, if the value has this form.
 pub(crate) fn used_name(value: &str) -> Option<&str> {
     value.strip_prefix('{')?.strip_suffix('}')
 }
 
 impl Vary {
-    /// A name for values that several others use.
+    /// Whether this is a name for values that others use.
     pub(crate) fn is_name(&self) -> bool {
         let mut letters = self.key.chars();
         letters.next().is_some_and(char::is_alphabetic)
             && letters.all(|c| c.is_alphanumeric() || c == '_')
     }
 
-    /// The word of the program that it names, and its line if it names one.
+    /// The word of the program that the key refers to, with its line if given.
     pub(crate) fn word(&self) -> Option<(Option<u32>, &str)> {
         let (front, word) = self.key.split_once('.')?;
         let (front, line) = match front.split_once('[') {
@@ -84,12 +84,12 @@ impl Vary {
         front.eq_ignore_ascii_case(PROGRAM).then_some((line, word))
     }
 
-    /// The last part of the key, where it says enough: `kv`, `enable`.
+    /// The last part of the key, if it is clear enough: `kv`, `enable`.
     pub(crate) fn short(&self) -> &str {
         self.key.rsplit('.').next().unwrap_or(&self.key)
     }
 
-    /// True if its numbers only name modes: there is nothing between two of them.
+    /// Whether its numbers only select modes, with nothing in between.
     pub(crate) fn is_choice(&self) -> bool {
         let row =
             self.values.first().and_then(|v| Override::parse(&format!("{}={v}", self.key)).ok());
@@ -111,7 +111,7 @@ impl Vary {
         crate::chart::scale::label(&self.key, unit)
     }
 
-    /// What the parameter is, with its ID, as `explain` says it.
+    /// Meaning of the parameter with its ID, as in `explain`.
     pub(crate) fn meaning(&self) -> Option<String> {
         let row = Override::parse(&format!("{}={}", self.key, self.values.first()?)).ok()?;
         let row = row.parameter()?;

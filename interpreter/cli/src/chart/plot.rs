@@ -94,7 +94,7 @@ mod tests {
         assert!(!svg.contains("NaN"));
     }
 
-    /// There is nothing between two modes: points with names, side by side where several series have one.
+    /// Values of a mode: points with names, side by side for several series, without a line between them.
     #[test]
     fn categories_are_points() {
         let line = |series, y| Line::series(series, vec![[0.0, y], [1.0, 2.0 * y]]);
@@ -114,7 +114,7 @@ mod tests {
         assert!(!svg.contains("<path"));
     }
 
-    /// What lies on an earlier line leaves it visible: only the first one is solid.
+    /// A line on top of an earlier one leaves that one visible: only the first is solid.
     #[test]
     fn later_lines_are_dashed() {
         let points = vec![[0.0, 0.0], [1.0, 0.5]];

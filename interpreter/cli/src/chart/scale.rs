@@ -1,4 +1,4 @@
-//! Scales of a view, and the round numbers along them: first the range of what is drawn, then its [`ticks`].
+//! Scales of a view and the round numbers along them: first the range of the data, then its [`ticks`].
 //!
 //! ```
 //! use kontur::chart::scale::ticks;
@@ -10,11 +10,11 @@
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// Powers of ten that a step of a scale has.
+/// Powers of ten in the steps of a scale.
 const POWERS: std::ops::RangeInclusive<i32> = -12..=12;
 /// Maximum number of labels of a scale.
 const MOST_TICKS: usize = 200;
-/// Steps narrower than this share of the wanted one are accepted, so that rounding makes no difference.
+/// Steps narrower than this share of the wanted one are accepted, so that rounding has no effect.
 const ALMOST: f64 = 1.0 - 1e-6;
 
 /// Distance of two round numbers.
@@ -26,11 +26,11 @@ pub struct Step {
     pub decimals: usize,
 }
 
-/// Every step of a scale, in rising order. A page gets them as data.
+/// Every step of a scale, in increasing order. A page receives them as data.
 pub fn steps() -> Vec<Step> {
     let of = |power: i32| {
         [1.0, 2.0, 5.0].map(|factor| Step {
-            // divided for negative powers: 0.2 and not 0.2000000000000001
+            // divided for negative powers: 0.2, not 0.2000000000000001
             size: if power < 0 {
                 factor / libm::pow(10.0, f64::from(-power))
             } else {
@@ -42,7 +42,7 @@ pub fn steps() -> Vec<Step> {
     POWERS.flat_map(of).collect()
 }
 
-/// Round numbers inside a range as they label a scale, about `wanted` of them: at least two, since fewer make no scale.
+/// Round numbers inside a range for the labels of a scale, about `wanted` of them but at least two.
 pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
@@ -68,7 +68,7 @@ pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
     }
 }
 
-/// A number at a scale.
+/// A number on a scale.
 fn text(v: f64, decimals: usize) -> String {
     let text = format!("{v:.decimals$}");
     if text.trim_start_matches(['-', '0', '.']).is_empty() {
@@ -85,7 +85,7 @@ pub(crate) struct Scale {
     pub(crate) label: Cow<'static, str>,
     pub(crate) range: (f64, f64),
     pub(crate) logarithmic: bool,
-    /// Names of the places 0, 1, 2, ... of a direction that is not a quantity: nothing lies between them.
+    /// Names of the positions 0, 1, 2, ... of a direction that is not a quantity, with nothing in between.
     pub(crate) categories: Vec<String>,
 }
 
@@ -100,13 +100,13 @@ impl Scale {
         Self { logarithmic: true, ..Self::linear(label, range) }
     }
 
-    /// Named places side by side.
+    /// Named positions side by side.
     pub(crate) fn categories(label: impl Into<Cow<'static, str>>, names: Vec<String>) -> Self {
         let range = (-0.5, names.len() as f64 - 0.5);
         Self { categories: names, ..Self::linear(label, range) }
     }
 
-    /// What is drawn for a value.
+    /// The drawn coordinate of a value.
     pub(crate) fn drawn(&self, value: f64) -> f64 {
         if self.logarithmic { libm::log10(value) } else { value }
     }
@@ -115,7 +115,7 @@ impl Scale {
         (self.drawn(self.range.0), self.drawn(self.range.1))
     }
 
-    /// Places of grid lines with their numbers or names, about `wanted` of them; places are in what is drawn.
+    /// Positions of grid lines with their numbers or names, about `wanted` of them, in drawn coordinates.
     pub(crate) fn places(&self, drawn: (f64, f64), wanted: f64) -> Vec<(f64, String)> {
         if !self.categories.is_empty() {
             return (0_u32..).map(f64::from).zip(self.categories.iter().cloned()).collect();
@@ -138,7 +138,7 @@ fn decades(low: f64, high: f64) -> Vec<(f64, String)> {
     let mut found = Vec::new();
     for step in steps() {
         let leading = step.size / libm::pow(10.0, libm::floor(libm::log10(step.size) + 1e-9));
-        // between 1, 2 and 5 are the lines without a number
+        // the lines between 1, 2 and 5 have no number
         let until = if leading < 1.5 {
             2
         } else if leading < 3.0 {
@@ -179,13 +179,13 @@ pub(crate) fn of_column(column: &str) -> String {
         ("_hz", "Hz"),
         ("_s", "s"),
     ];
-    // an amplitude of a column names its band after it
+    // the column of an amplitude is followed by its band
     let (name, _) = column.split_once('@').unwrap_or((column, ""));
     let found = UNITS.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, unit)));
     found.map_or_else(|| name.to_owned(), |(short, unit)| label(&short.replace('_', " "), unit))
 }
 
-/// A range around all values with some air, not smaller than `least`.
+/// A range around all values with a margin, not smaller than `least`.
 pub(crate) fn around(values: impl Iterator<Item = f64>, least: f64) -> (f64, f64) {
     let (low, high) = values
         .filter(|v| v.is_finite())
@@ -207,7 +207,7 @@ mod tests {
             |range, wanted| ticks(range, wanted).into_iter().map(|t| t.1).collect::<Vec<_>>();
         assert_eq!(texts((0.0, 1.0), 5.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(texts((-0.013, 0.021), 4.0), ["\u{2212}0.01", "0", "0.01", "0.02"]);
-        // one number is not a scale
+        // a single number does not make a scale
         assert_eq!(texts((0.1, 0.9), 2.0), ["0.2", "0.4", "0.6", "0.8"]);
         assert!(ticks((1.0, 1.0), 4.0).is_empty());
         assert!(ticks((0.0, f64::NAN), 4.0).is_empty());

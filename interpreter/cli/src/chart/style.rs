@@ -4,14 +4,14 @@ use serde::Serialize;
 use serde::ser::Serializer;
 use std::fmt::Write as _;
 
-/// A colour by its use.
+/// A colour for one purpose.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Tone {
     /// Name of its variable in a page.
     pub(crate) name: &'static str,
     /// On white.
     pub(crate) light: &'static str,
-    /// On dark ground.
+    /// On a dark background.
     pub(crate) dark: &'static str,
 }
 
@@ -29,11 +29,11 @@ pub(crate) static GRID: Tone = tone("grid", "#e9ecef", "#2b2f33");
 pub(crate) static FRAME: Tone = tone("frame", "#ced4da", "#495057");
 /// Every second line of the program, over time.
 pub(crate) static SHADE: Tone = tone("shade", "#f6f8f9", "#24282c");
-/// The contour as it is programmed, below everything else.
+/// The programmed contour, below everything else.
 pub(crate) static PROGRAMMED: Tone = tone("programmed", "#c3cad1", "#4d555c");
 /// Background of pictures and cards.
 pub(crate) static CARD: Tone = tone("card", "#ffffff", "#1e2124");
-/// Background behind the cards of a page.
+/// Background of a page, below the cards.
 static GROUND: Tone = tone("ground", "#f1f3f5", "#141618");
 /// Frames of cards.
 static LINE: Tone = tone("line", "#dee2e6", "#373c41");
@@ -113,7 +113,7 @@ fn variable<S: Serializer>(tone: &&'static Tone, serializer: S) -> Result<S::Ok,
 impl Style {
     /// Colour and dash of one of several series.
     pub(crate) fn series(i: usize) -> Self {
-        // after the eighth the same colours come with other dashes
+        // after the eighth, the same colours are combined with other dashes
         let dash = DASHES[(i + i / SERIES.len()) % DASHES.len()];
         Self { tone: &SERIES[i % SERIES.len()], dash, width: 1.8 }
     }
@@ -184,7 +184,7 @@ mod tests {
         assert!(contrast(CARD.light, INK.light) >= 4.5 && contrast(CARD.dark, INK.dark) >= 4.5);
     }
 
-    /// Series that share a colour, or whose colours a dichromat takes for each other, differ in their dashes: all pairs do.
+    /// Series of the same colour, or of colours that a dichromat confuses, have different dashes; in fact all pairs do.
     #[test]
     fn series_differ_in_their_dashes_too() {
         let all: Vec<Style> = (0..SERIES.len()).map(Style::series).collect();

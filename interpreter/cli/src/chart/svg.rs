@@ -4,14 +4,14 @@ use super::scale::Scale;
 use super::style::{CARD, FAINT, FRAME, GRID, INK, Style, Tone};
 use std::fmt::Write as _;
 
-/// A picture under way.
+/// A picture being drawn.
 #[derive(Debug)]
 pub(crate) struct Svg {
     body: String,
     clips: u32,
 }
 
-/// How text is written.
+/// Style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Font {
     pub(crate) tone: &'static Tone,
@@ -19,7 +19,7 @@ pub(crate) struct Font {
     pub(crate) bold: bool,
     /// `start`, `middle` or `end`.
     pub(crate) anchor: &'static str,
-    /// From below to above.
+    /// Written upwards.
     pub(crate) upward: bool,
 }
 
@@ -32,7 +32,7 @@ impl Font {
     pub(crate) const NAME: Self = Self::new(&INK, 12.0);
     /// The text below a headline.
     pub(crate) const FACTS: Self = Self::new(&FAINT, 13.0);
-    /// Beside a scale.
+    /// Labels of a scale.
     pub(crate) const SCALE: Self = Self::new(&FAINT, 11.0);
 
     /// Text that begins at its place.
@@ -152,7 +152,7 @@ impl Svg {
         ));
     }
 
-    /// Opens a group that shows nothing outside the panel; [`Svg::end_group`] closes it.
+    /// Opens a group that is clipped to the panel; [`Svg::end_group`] closes it.
     pub(crate) fn clip(&mut self, p: &Panel) {
         self.clips += 1;
         let n = self.clips;
@@ -193,7 +193,7 @@ impl Svg {
         self.text([p.left - 54.0, middle], Font::SCALE.middle().upward(), &y.label);
     }
 
-    /// A line through data points; what moves less than a third of a pixel and what lies outside is left out.
+    /// A line through data points; points that move by less than a third of a pixel or are outside are left out.
     pub(crate) fn curve(
         &mut self,
         panel: &Panel,
@@ -202,7 +202,7 @@ impl Svg {
     ) {
         let mut path = String::new();
         let mut last: Option<[f64; 2]> = None;
-        // where the pen is on paper, and a small step it has not drawn yet
+        // last drawn position of the pen, and a small step that is not drawn yet
         let mut pen: Option<[f64; 2]> = None;
         let mut waiting: Option<[f64; 2]> = None;
         let mut put = |command: char, [x, y]: [f64; 2]| {

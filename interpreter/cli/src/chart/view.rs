@@ -1,4 +1,4 @@
-//! What a view shows, without a size: axes, lines, levels, marks.
+//! Content of a view, independent of its size: axes, lines, levels, marks.
 
 use super::scale::Scale;
 use super::style::{CARD, FAINT, SHADE, Style};
@@ -6,12 +6,12 @@ use super::svg::{Font, Panel, Svg};
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// Part of the distance of two places that the points of the series at one of them take.
+/// Share of the distance between two positions that the points of the series at one of them may occupy.
 const DODGE: f64 = 0.5;
-/// Stretches beyond these cannot be distinguished.
+/// More stretches than this cannot be distinguished.
 pub(crate) const MOST_STRETCHES: usize = 60;
 
-/// A view; `S` says where the points of a line come from.
+/// A view; `S` is the source of the points of a line.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct View<S> {
     pub(crate) title: String,
@@ -19,7 +19,7 @@ pub(crate) struct View<S> {
     pub(crate) y: Scale,
     /// Both directions have the same scale.
     pub(crate) equal: bool,
-    /// The later ones lie over the earlier ones.
+    /// Later lines are drawn over earlier ones.
     pub(crate) lines: Vec<Line<S>>,
     /// Heights of faint horizontal lines.
     pub(crate) levels: Vec<f64>,
@@ -39,14 +39,14 @@ pub(crate) struct Line<S> {
     pub(crate) points: S,
 }
 
-/// A place with a name.
+/// A position with a name.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Mark {
     pub(crate) at: f64,
     pub(crate) name: String,
 }
 
-/// Points as they are; what is not finite breaks the line.
+/// Points as they are; a value that is not finite breaks the line.
 pub(crate) type Points = Vec<[f64; 2]>;
 
 impl<S> Default for View<S> {
@@ -84,7 +84,7 @@ impl View<Points> {
 }
 
 impl<S> View<S> {
-    /// Draws the view into a panel, with the points that `points` finds for a line.
+    /// Draws the view into a panel, with the points that `points` returns for a line.
     pub(crate) fn draw_from<'a>(
         &'a self,
         svg: &mut Svg,
@@ -119,7 +119,7 @@ impl<S> View<S> {
         }
     }
 
-    /// Every second stretch on other ground, with its name where there is room.
+    /// Shades every second stretch, with its name where there is room.
     fn draw_stretches(&self, svg: &mut Svg, panel: &Panel) {
         if self.stretches.len() > MOST_STRETCHES {
             return;
@@ -138,7 +138,7 @@ impl<S> View<S> {
         }
     }
 
-    /// Places with names and, side by side, a point of every series.
+    /// Positions with names and, side by side, a point of every series.
     fn places<'a>(
         &'a self,
         svg: &mut Svg,
@@ -158,7 +158,7 @@ impl<S> View<S> {
     }
 }
 
-/// Smallest and largest value of every stretch, so that no swing is lost: about `most` points.
+/// Smallest and largest value of every stretch, which keeps all peaks: about `most` points.
 pub(crate) fn thinned(points: impl ExactSizeIterator<Item = [f64; 2]>, most: usize) -> Points {
     let stretch = points.len().div_ceil(most / 2).max(1);
     if stretch == 1 {

@@ -1,4 +1,4 @@
-//! Which programs are checked: files as they are named, and what folders hold.
+//! The programs to be checked: files as given, and the contents of folders.
 
 use crate::Error;
 use std::collections::HashSet;
@@ -12,12 +12,12 @@ const EXTENSION: &str = "nc";
 /// A program that may have to be checked.
 pub(super) struct Program {
     pub(super) path: PathBuf,
-    /// It was not named, but found in a folder.
+    /// Whether it was found in a folder rather than given.
     pub(super) of_folder: bool,
 }
 
-/// The programs of the command line in its order; a folder gives every `.nc` file below it, by name. Links to folders are
-/// not followed, and hidden folders are left out.
+/// The programs of the command line in order; a folder gives every `.nc` file below it, sorted by name. Links to
+/// folders are not followed, and hidden folders are left out.
 ///
 /// # Errors
 /// [`Error::Usage`] for a folder without a program, [`Error::Io`] for one that cannot be read.
@@ -47,9 +47,9 @@ pub(super) fn find(named: &[PathBuf]) -> Result<Vec<Program>, Error> {
     Ok(programs)
 }
 
-/// Which of the programs are only subroutines: they lie in a folder, and another one calls them. They have been checked with
-/// it; alone they lack what it sets, an F word or parameters. `files` are the files of each check, its own first. Two that call each
-/// other are programs.
+/// The programs that are only subroutines: they were found in a folder, and another program calls them. They have been
+/// checked with the caller; on their own they lack an F word or parameters that it sets. `files` are the files of each
+/// check, its own first. Two programs that call each other are not subroutines.
 pub(super) fn subroutines<'a>(
     programs: &[Program],
     files: impl Iterator<Item = &'a [Arc<str>]>,

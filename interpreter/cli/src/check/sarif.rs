@@ -7,7 +7,7 @@ use kontur_interpreter::diag::{Diagnostic, Id, Location, Severity};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 
-/// What represents itself in a URI (RFC 3986: unreserved characters, and the separators of a path).
+/// Characters that are not encoded in a URI (RFC 3986: unreserved characters, and the separators of a path).
 const PATH: &AsciiSet =
     &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_').remove(b'~').remove(b'/');
 

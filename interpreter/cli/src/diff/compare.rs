@@ -1,4 +1,4 @@
-//! Compares two streams of rows and remembers what to report.
+//! Compares two streams of rows and collects the findings.
 
 use super::delay::Delays;
 use crate::args::Tolerance;
@@ -26,7 +26,7 @@ pub(super) struct Difference {
     pub(super) b: String,
     /// Size of the difference, for numbers.
     pub(super) size: Option<f64>,
-    /// What would have been equal, for numbers.
+    /// The tolerance, for numbers.
     pub(super) tolerance: Option<f64>,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct ColumnOutcome {
     pub(super) rows: u64,
     /// First difference.
     pub(super) first: Difference,
-    /// Largest difference; none for texts.
+    /// Largest difference; `None` for texts.
     pub(super) worst: Option<Difference>,
 }
 
@@ -54,23 +54,23 @@ pub(super) struct Outcome {
     pub(super) rows_b: u64,
     /// First differing cell.
     pub(super) first: Option<Difference>,
-    /// Cell that exceeds its tolerance most.
+    /// Cell with the largest excess over its tolerance.
     pub(super) worst: Option<Difference>,
-    /// Rows by which B comes later than A (negative: earlier), if that alone makes the difference of the numbers.
+    /// Rows by which B is later than A (negative: earlier), if the numbers do not differ otherwise.
     pub(super) shift_cycles: Option<i64>,
-    /// With such a shift lines, blocks, files or reasons of the speed still differ.
+    /// Lines, blocks, files or speed reasons differ even with that shift.
     pub(super) shift_leaves_texts: bool,
     /// Every column that differs.
     pub(super) columns: Vec<ColumnOutcome>,
-    /// Columns of both that agree.
+    /// Columns of both traces that agree.
     pub(super) equal_columns: Vec<String>,
-    /// Columns that only A has.
+    /// Columns in A only.
     pub(super) only_a: Vec<String>,
-    /// Columns that only B has.
+    /// Columns in B only.
     pub(super) only_b: Vec<String>,
 }
 
-/// A column that both have.
+/// A column of both traces.
 struct Pair {
     name: String,
     a: usize,
@@ -87,7 +87,7 @@ pub(super) struct Comparison {
     /// Positions of `t_s`, `line`, `block`, `file` in A.
     places: [Option<usize>; 4],
     same_layout: bool,
-    /// From the first difference on.
+    /// Candidates for a delay, from the first difference on.
     delays: Delays,
     outcome: Outcome,
 }
@@ -213,7 +213,7 @@ impl Comparison {
         self.delays.take(a, b, equal);
     }
 
-    /// The result.
+    /// Completes the comparison.
     pub(super) fn finish(mut self) -> Outcome {
         let o = &mut self.outcome;
         let same_columns = o.only_a.is_empty() && o.only_b.is_empty();
@@ -248,7 +248,7 @@ struct Excess {
     size: Option<f64>,
 }
 
-/// None if two cells are equal within the tolerance.
+/// `None` if two cells are equal within the tolerance.
 fn excess(a: &[u8], b: &[u8], tolerance: Option<f64>) -> Option<Excess> {
     if a == b {
         return None;
@@ -261,7 +261,7 @@ fn excess(a: &[u8], b: &[u8], tolerance: Option<f64>) -> Option<Excess> {
         }
         (Some(tolerance), Some(a), Some(b)) => {
             let difference = (a - b).abs();
-            // a difference of 1e-6 between printed numbers is a little more or less in binary
+            // in binary a difference of 1e-6 between printed numbers is slightly more or less
             let within =
                 difference <= tolerance * (1.0 + 1e-9) + f64::EPSILON * a.abs().max(b.abs());
             (!within).then_some(Excess { size: Some(difference) })

@@ -1,8 +1,9 @@
-//! Is one trace only later than the other?
+//! Detects whether one trace is merely later than the other.
 //!
-//! Up to the first difference of a number both traces are the same. If from there on every row of one equals the row of the other
-//! a fixed number of rows earlier, one only does later what the other does: it was at rest for longer, at the start or
-//! between two motions. Numbers decide: a line added to a program shifts the numbers of all lines after it.
+//! Up to the first difference of a number both traces are the same. If from there on every row of one equals the row of
+//! the other a fixed number of rows earlier, the second one merely does the same later: it rested for longer, at the
+//! start or between two motions. Only numbers are decisive, because a line inserted into a program shifts the numbers
+//! of all later lines.
 
 use csv::ByteRecord;
 use std::collections::VecDeque;
@@ -10,7 +11,7 @@ use std::collections::VecDeque;
 /// Delays up to this many rows are recognised: 1 s at the default cycle.
 pub(super) const MOST_ROWS: usize = 1000;
 
-/// Rows of a motion that have to agree before it is taken for the same one, later.
+/// Rows with motion that have to agree before a motion counts as the same one, delayed.
 const LEAST_CHANGES: usize = 3;
 
 /// A delay after which all numbers of both traces are the same.
@@ -18,25 +19,25 @@ const LEAST_CHANGES: usize = 3;
 pub(super) struct Delay {
     /// Rows by which B is later; negative: A is.
     pub(super) rows: i64,
-    /// Texts are the same as well: line, block, file, reason of the speed.
+    /// Whether texts are the same as well: line, block, file, speed reason.
     pub(super) texts: bool,
 }
 
-/// A delay that may still explain everything.
+/// A delay that is still possible.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     delay: Delay,
     compared: usize,
-    /// Rows among them that were not the same as the one before: the traces move.
+    /// Number of these rows that differed from the previous one: the traces move.
     changes: usize,
 }
 
-/// A row that has been taken.
+/// A row of a trace.
 #[derive(Debug)]
 struct Row {
-    /// Nothing where the trace has ended.
+    /// `None` where the trace has ended.
     cells: Option<ByteRecord>,
-    /// It is the same as the one before.
+    /// Whether it equals the previous row.
     repeats: bool,
 }
 
@@ -44,7 +45,7 @@ struct Row {
 #[derive(Debug)]
 pub(super) struct Delays {
     candidates: Vec<Candidate>,
-    /// The rows before, the last one first.
+    /// The rows before, newest first.
     before: [VecDeque<Row>; 2],
 }
 
@@ -61,8 +62,8 @@ impl Delays {
         }
     }
 
-    /// Takes the cells of the next row of both traces in one order and without the time; nothing of a trace that has ended.
-    /// `equal` compares a row of A with one of B: whether the numbers are equal and, then, the texts.
+    /// Takes the cells of the next row of both traces in the same order and without the time; `None` for a trace that
+    /// has ended. `equal` compares a row of A with one of B: whether the numbers are equal and, if so, the texts.
     pub(super) fn take(
         &mut self,
         a: Option<ByteRecord>,
@@ -90,7 +91,7 @@ impl Delays {
             let first = candidate.compared == 0;
             candidate.changes += usize::from(!first && !later.repeats);
             candidate.compared += 1;
-            // where both are constant the answer of the rows before holds: a long standstill costs little
+            // where both are constant the result of the previous rows holds, which makes a long standstill cheap
             let stands = !first && earlier.repeats && later.repeats;
             if stands {
                 return true;
@@ -108,7 +109,7 @@ impl Delays {
         }
     }
 
-    /// The delay that explains the rest, if there is one: the smallest one over which both traces move.
+    /// The delay that explains the remaining rows, if there is one: the smallest one during which both traces move.
     pub(super) fn found(&self) -> Option<Delay> {
         self.candidates.iter().find(|c| c.changes >= LEAST_CHANGES).map(|c| c.delay)
     }
@@ -120,7 +121,7 @@ mod tests {
     use csv::ByteRecord;
     use kontur_kit::Random;
 
-    /// Rows from the first difference on, and what the definition gives for every delay, tried out one by one.
+    /// For the rows from the first difference on, every delay tried according to its definition.
     fn brute_force(a: &[u8], b: &[u8]) -> Option<i64> {
         let explains = |earlier: &[u8], later: &[u8], n: usize| {
             let pairs = || (n..later.len()).map(|k| (earlier.get(k - n), later[k]));
@@ -133,7 +134,7 @@ mod tests {
         })
     }
 
-    /// Steps of a few values with pauses; one trace has another pause, or another step, or ends elsewhere.
+    /// Steps between a few values with pauses; one trace has a different pause or step, or ends elsewhere.
     #[test]
     fn as_every_delay_tried_out() {
         let mut random = Random::new(7);

@@ -14,7 +14,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::Once;
 
-/// A Parquet trace that is being read.
+/// A Parquet trace being read.
 pub(super) struct Rows {
     name: String,
     rows: RowIter<'static>,
@@ -24,7 +24,7 @@ fn damaged(name: &str, reason: impl std::fmt::Display) -> Error {
     Error::io(name, io::Error::new(io::ErrorKind::InvalidData, reason.to_string()))
 }
 
-/// True if every column lies inside the file; the reader takes that for granted.
+/// Whether every column lies within the file, which the reader assumes.
 fn is_whole(metadata: &ParquetMetaData, length: u64) -> bool {
     metadata.row_groups().iter().flat_map(RowGroupMetaData::columns).all(|column| {
         let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
@@ -35,11 +35,11 @@ fn is_whole(metadata: &ParquetMetaData, length: u64) -> bool {
 }
 
 thread_local! {
-    /// A panic of this thread is caught and reported as what it means.
+    /// A panic of this thread is caught and reported as a damaged file.
     static TAKING_FOR_GRANTED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// The result of code that takes a file for whole and panics where it is not.
+/// Runs code that assumes an intact file and panics if it is not.
 fn guarded<T>(name: &str, code: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -51,14 +51,14 @@ fn guarded<T>(name: &str, code: impl FnOnce() -> Result<T, Error>) -> Result<T, 
         }));
     });
     TAKING_FOR_GRANTED.set(true);
-    // what was being read is dropped with the error
+    // the data being read are dropped with the error
     let done = panic::catch_unwind(AssertUnwindSafe(code));
     TAKING_FOR_GRANTED.set(false);
     done.unwrap_or_else(|_| Err(damaged(name, "its pages do not hold what they name")))
 }
 
 impl Rows {
-    /// Opens a trace; its columns come with it.
+    /// Opens a trace; returns its columns too.
     ///
     /// # Errors
     /// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a table that is not a trace.
@@ -171,7 +171,7 @@ mod tests {
         Ok(count)
     }
 
-    /// Whatever byte is wrong: rows or an error, never a panic.
+    /// With any single wrong byte there are rows or an error, but never a panic.
     #[test]
     fn damaged_pages_are_an_error() {
         let folder = tempfile::tempdir().unwrap();

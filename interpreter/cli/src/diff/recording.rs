@@ -1,8 +1,8 @@
 //! A trace or a fresh run against a recording of a machine, such as an export of TwinCAT Scope.
 //!
-//! The recording has its own names, units, signs, sampling times and beginning. Names and units come from the user
-//! ([`Pairing`]); by how much it begins earlier is found: the shift at which the speeds of all paired signals correlate
-//! best, then refined below one cycle. Where the recording has no samples nothing is compared.
+//! The recording has its own names, units, signs, sampling times and start. The user gives names and units
+//! ([`Pairing`]); the shift in time is determined: the one at which the speeds of all paired signals correlate best,
+//! then refined below one cycle. Where the recording has no samples nothing is compared.
 
 mod shift;
 mod signals;
@@ -17,9 +17,9 @@ use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// Drop-outs that the text names one by one.
+/// Number of drop-outs listed individually.
 const MOST_NAMED: usize = 10;
-/// Finest difference of positions that a recording can show, in mm or deg: one increment of the control, 0.1 um.
+/// Finest difference of positions that a recording can resolve, in mm or deg: one increment of the control, 0.1 um.
 const FLOOR_MM: f64 = 1e-4;
 
 /// The comparison of one pair of signals.
@@ -35,7 +35,7 @@ pub(super) struct PairOutcome {
     pub(super) rows: usize,
     /// Rows that differ by more than the tolerance.
     pub(super) different: usize,
-    /// What counts as equal.
+    /// Largest difference that counts as equal.
     pub(super) tolerance: f64,
     /// Mean of recording - trace: an offset of the zero points.
     pub(super) mean: f64,
@@ -47,9 +47,9 @@ pub(super) struct PairOutcome {
     pub(super) worst: Option<At>,
     /// Stretches without samples.
     pub(super) drop_outs: Vec<DropOut>,
-    /// The trace moves where the recording has nothing.
+    /// Whether the trace moves where the recording has no samples.
     pub(super) trace_goes_on: bool,
-    /// The recording moves where the trace has nothing.
+    /// Whether the recording moves where the trace has no rows.
     pub(super) recording_goes_on: bool,
 }
 
@@ -113,7 +113,7 @@ pub(super) fn compare(
     Ok(Outcome { equal: pairs.iter().all(PairOutcome::agrees), shift_cycles, cycle_s, pairs })
 }
 
-/// The tolerance: that of the user, but never finer than one increment and its differences.
+/// The tolerance of the user, but never finer than one increment and its differences.
 fn permitted(column: &str, asked: Tolerance, cycle_s: f64) -> f64 {
     let floor = Tolerance {
         mm: FLOOR_MM,
@@ -178,8 +178,8 @@ fn pair(
     outcome
 }
 
-/// The rows and the samples of the time that both signals have, and of one interval more at either end: the one that begins or ends
-/// earlier says nothing of what lies between its end and the sample that would be next.
+/// The rows and samples in the time that both signals cover, plus one interval at either end: nothing is known about
+/// the signal between its first or last sample and the neighbouring one that is missing.
 fn common(times_s: &[f64], recorded: &Recorded, shift_s: f64) -> [RangeInclusive<usize>; 2] {
     let (rows, samples) = (times_s.len() - 1, recorded.values.len() - 1);
     let place = |row: usize| recorded.place(times_s[row] - times_s[0] + shift_s);
@@ -229,7 +229,7 @@ impl PairOutcome {
         self.rows > 0 && self.different == 0 && !self.trace_goes_on && !self.recording_goes_on
     }
 
-    /// Where one side moves after the end of the other.
+    /// The sides that move after the end of the other.
     fn goes_on(&self) -> impl Iterator<Item = &'static str> {
         let trace = self.trace_goes_on.then_some("A moves where B has no samples");
         let recording = self.recording_goes_on.then_some("B moves where A has no rows");
@@ -244,7 +244,7 @@ impl At {
     }
 }
 
-/// The result in words.
+/// The result as text.
 pub(super) fn text(names: &[String; 2], outcome: &Outcome) -> String {
     let mut out = String::new();
     // writing to a String cannot fail

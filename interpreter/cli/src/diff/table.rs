@@ -1,4 +1,4 @@
-//! Where the rows of a comparison come from: a CSV or Parquet file, or a run that happens now.
+//! Source of the rows of a comparison: a CSV or Parquet file, or a fresh run.
 
 use crate::Error;
 use crate::trace::batch::{Batch, Numbers};
@@ -16,7 +16,7 @@ use std::fs::File;
 use std::io::{self, Cursor, Read as _};
 use std::path::Path;
 
-/// Rows of a fresh run that are formatted at a time.
+/// Number of rows of a fresh run that are formatted at a time.
 const BATCH: u64 = 256;
 
 /// Rows with a header, read once from top to bottom.
@@ -41,7 +41,7 @@ struct Fresh {
     batch: csv::Reader<Cursor<Vec<u8>>>,
 }
 
-/// True if a file is a trace, false if it is an NC program.
+/// Whether a file is a trace rather than an NC program.
 ///
 /// # Errors
 /// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a table of another form.
@@ -50,7 +50,7 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     let refused = |text: &str| Err(Error::Usage(format!("{}: {text}", path.display())));
     let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     if !std::fs::metadata(path).map_err(io)?.is_file() {
-        // what can be read only once is a program, but for its name
+        // a file that can be read only once is a program, unless its name says otherwise
         return if is("csv") { refused("no regular file") } else { Ok(false) };
     }
     let start = first_bytes(path)?;
@@ -65,7 +65,7 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
              with --map COLUMN=CHANNEL",
         ),
         [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => refused("the text is UTF-16; save it as UTF-8"),
-        // an empty or foreign table must not pass for a program that does nothing
+        // an empty or foreign table must not be taken for a program without motion
         [b'#', ..] if is("csv") => refused("it starts with a `#` line; a trace starts with `t_s`"),
         _ if is("csv") => refused(
             "no trace, it starts without `t_s`; a recording is the second file with --map COLUMN=CHANNEL",
@@ -89,7 +89,7 @@ fn first_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     Ok(start)
 }
 
-/// Mistakes of a table.
+/// Error of a table.
 fn unreadable(name: &str, e: csv::Error) -> Error {
     let text = match e.kind() {
         ErrorKind::UnequalLengths { pos: Some(at), expected_len, len } => {
@@ -125,11 +125,11 @@ impl Table {
         Ok(Self { name, header, row: ByteRecord::new(), rows })
     }
 
-    /// A run, with the columns named or, without names, those of a trace by default. Columns that the run cannot
-    /// give are left out; the comparison reports them.
+    /// A run with the given columns or, without names, those of a trace by default. Columns that the run does not have
+    /// are left out; the comparison reports them.
     ///
     /// # Errors
-    /// [`Error::Usage`] if no columns can be chosen.
+    /// [`Error::Usage`] if no columns can be selected.
     pub(super) fn run(run: Run, names: Option<&[String]>) -> Result<Self, Error> {
         let facts = run.facts();
         let columns: Vec<Column> = match names {
@@ -143,7 +143,7 @@ impl Table {
         let name = facts.program.clone();
         let rows = Rows::new(&columns, facts);
         let batch = reader(Vec::new());
-        // no column shows both ways
+        // there is no column for the deviation in both directions
         let run = run.without_both_ways();
         let rows = Origin::Run(Box::new(Fresh { run, columns, rows, batch }));
         Ok(Self { name, header, row: ByteRecord::new(), rows })

@@ -1,4 +1,4 @@
-//! A comparison in words.
+//! A comparison as text.
 
 use super::compare::{Difference, Outcome};
 use kontur_interpreter::diag::render::printable;
@@ -53,7 +53,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     Ok(())
 }
 
-/// A cell as a line of text may show it.
+/// A cell, shortened for a line of text.
 pub(super) fn brief(cell: &str) -> String {
     beginning(&printable(cell).replace('\n', "\u{FFFD}"))
 }
@@ -88,7 +88,7 @@ pub(super) fn sentence(d: &Difference) -> String {
     out
 }
 
-/// The shift that makes the rest equal, in words.
+/// The shift with which the rest is equal, as text.
 pub(super) fn shift(o: &Outcome) -> Option<String> {
     let n = o.shift_cycles?;
     let side = if n > 0 { "earlier" } else { "later" };

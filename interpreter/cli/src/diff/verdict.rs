@@ -1,4 +1,4 @@
-//! A comparison for machines that run tests: a verdict on every signal.
+//! A comparison for test systems: a verdict on every signal.
 
 use super::compare::{ColumnOutcome, Difference, Outcome};
 use super::text::{brief, place, sentence, shift};
@@ -18,18 +18,18 @@ pub(super) struct Verdict {
 #[derive(Debug)]
 pub(super) struct Signal {
     pub(super) name: String,
-    /// The difference; none if it agrees.
+    /// The difference; `None` if it agrees.
     pub(super) failure: Option<Failure>,
 }
 
-/// What differs in a signal.
+/// Difference in a signal.
 #[derive(Debug)]
 pub(super) struct Failure {
-    /// In one line.
+    /// Summary in one line.
     pub(super) message: String,
     /// Further information, line by line.
     pub(super) details: Vec<String>,
-    /// Where the first difference is: NC file and line.
+    /// Position of the first difference: NC file and line.
     pub(super) place: Option<(String, u32)>,
 }
 

@@ -1,25 +1,27 @@
-//! Signals in equal steps: sampling times out of printed ones, and missing samples.
+//! Signals at equal steps: sampling times from printed ones, and missing samples.
 
 use super::Channel;
 use crate::table::number;
 use serde::Serialize;
 use std::ops::Range;
 
-/// Samples of one signal with the missing ones filled in: more than an hour at 4 kHz.
+/// Largest number of samples of one signal including filled-in ones: more than an hour at 4 kHz.
 const MOST_SAMPLES: f64 = 16_777_216.0;
-/// Steps up to this many sampling times are single ones, whatever the rounding of the times makes of them.
+/// Steps up to this many sampling times count as single ones, to allow for rounding of the times.
 const SINGLE: f64 = 1.5;
-/// Where more than one of so many steps is a gap, the times are rounded too coarsely to say which samples are missing.
+/// If more than one in this many steps is a gap, the times are rounded too coarsely to determine which samples are
+/// missing.
 const MOST_GAPS: usize = 3;
-/// Samples may deviate from equal steps by this share of the sampling time: times are printed with a few decimals.
+/// Permitted deviation of samples from equal steps, as a share of the sampling time: times are printed with a few
+/// decimals.
 pub(super) const JITTER_RATIO: f64 = 0.25;
-/// A stretch without samples. In JSON: after how many seconds, and how many are missing.
+/// A gap without samples. In JSON: the seconds after which it begins, and the number of missing samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(into = "(f64, usize)")]
 pub(crate) struct DropOut {
     /// Time of the last sample before it in s, from the first time of the file.
     pub(crate) after_s: f64,
-    /// Where the missing samples are among those in equal steps.
+    /// Indices of the missing samples in the signal with equal steps.
     pub(crate) samples: Range<usize>,
 }
 
@@ -29,28 +31,28 @@ impl From<DropOut> for (f64, usize) {
     }
 }
 
-/// A rate that is given may differ from that of the times by this share.
+/// Permitted difference between a given rate and that of the times, as a share.
 const RATE_RATIO: f64 = 0.01;
 
-/// A signal in equal steps.
+/// A signal at equal steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Even {
-    /// The values, missing ones on a straight line between their neighbours.
+    /// The values, with missing ones interpolated linearly between their neighbours.
     pub(crate) values: Vec<f64>,
     /// Time of the first sample in s, from the first time of the file.
     pub(crate) begin_s: f64,
     /// Sampling time in s.
     pub(crate) step_s: f64,
-    /// Where samples are missing.
+    /// Gaps without samples.
     pub(crate) drop_outs: Vec<DropOut>,
 }
 
 impl Channel {
-    /// The values in equal steps, by the times of the file or the rate that was given.
+    /// The values at equal steps, according to the times of the file or the given rate.
     ///
     /// # Errors
-    /// Why there are none: neither times nor a rate, a rate that is not that of the times, times that do not rise in equal steps
-    /// (beyond rounding), or gaps that hold more than [`MOST_SAMPLES`].
+    /// The reason: neither times nor a rate, a rate that differs from that of the times, times that do not increase in
+    /// equal steps (beyond rounding), or gaps with more than [`MOST_SAMPLES`].
     pub(crate) fn even(&self, rate_hz: Option<f64>) -> Result<Even, String> {
         if self.times_s.is_empty() {
             let rate_hz =
@@ -68,7 +70,7 @@ impl Channel {
         }
     }
 
-    /// By the straight line through the times, more accurate than a printed step.
+    /// From the straight line through the times, which is more accurate than a printed step.
     fn by_times(&self) -> Result<Even, String> {
         let unequal = || "its times do not rise in equal steps".to_owned();
         let steps: Vec<f64> = self.times_s.windows(2).map(|w| w[1] - w[0]).collect();
@@ -88,7 +90,7 @@ impl Channel {
             }
             numbers.push(number);
         }
-        // 0, 1, 3, 4, 6 ms are 1.5 ms without decimals rather than drop-outs
+        // 0, 1, 3, 4, 6 ms are steps of 1.5 ms without decimals rather than drop-outs
         if MOST_GAPS * gaps > steps.len() {
             return Err(unequal());
         }
@@ -115,14 +117,14 @@ impl Channel {
     }
 }
 
-/// The middle one of the values, the upper one of two.
+/// The median of the values, the upper one of two.
 pub(super) fn median(values: &[f64]) -> Option<f64> {
     let mut values = values.to_vec();
     let middle = values.len() / 2;
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Begin and slope of the straight line through `y` over `x`, of least squares.
+/// Intercept and slope of the least-squares line through `y` over `x`.
 fn line(x: &[f64], y: &[f64]) -> (f64, f64) {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (x0, y0) = (mean(x), mean(y));
@@ -148,7 +150,7 @@ mod tests {
         }
     }
 
-    /// Gaps are filled up to a bound: a short file cannot ask for the memory of days of samples.
+    /// Gaps are filled up to a bound: a short file must not require memory for days of samples.
     #[test]
     fn gaps_of_hours_are_not_filled() {
         let even = |hours: u32| {
@@ -160,8 +162,8 @@ mod tests {
         assert!(even(30).is_err());
     }
 
-    /// Times of equal steps printed with few decimals give the step to a fraction of its rounding; where the rounding is
-    /// more than a quarter of a step, they are refused.
+    /// Times of equal steps printed with few decimals give the step to a fraction of its rounding; if the rounding
+    /// exceeds a quarter of a step, they are refused.
     #[test]
     fn rounded_times() {
         for (step, decimals) in [(1.0 / 3000.0, 4), (0.0025, 3), (1.0 / 7.0, 2), (0.001, 3)] {

@@ -46,7 +46,7 @@ fn scope_export() {
     assert!((ticks[0].times_s[3] - 0.003).abs() < 1e-9, "{:?}", ticks[0].times_s);
 }
 
-/// A record of a second in units of all kinds begins at 0 and ends at 1 s; what is not a unit of time is named.
+/// A recording of one second in any unit begins at 0 and ends at 1 s; a unit that is not one of time is reported.
 #[test]
 fn units_of_time() {
     for (title, last) in [
@@ -71,7 +71,7 @@ fn units_of_time() {
     assert!(unknown.contains("`days`") && unknown.contains("ms, us"), "{unknown}");
 }
 
-/// A repeated time with its value is a slow channel among faster ones, with another value it has lost its decimals.
+/// A repeated time with its value is a slow channel among faster ones; with a different value it has lost its decimals.
 #[test]
 fn repeated_times() {
     let slow = values("t_s,a,b\n0,1,5\n0,1,5\n0.1,2,6\n0.1,2,6\n");
@@ -88,7 +88,7 @@ fn scope(sample_ms: [&str; 2], rows: &str) -> String {
     )
 }
 
-/// All channels count from the first time of the file, whichever group has it.
+/// The times of all channels start at the first time of the file, whichever group has it.
 #[test]
 fn one_clock_for_all_channels() {
     let rows = "0\t1\t1\t40\t9\n1\t2\t2\t41\t8\n2\t3\t3\t42\t7\n";
@@ -99,7 +99,7 @@ fn one_clock_for_all_channels() {
     assert!((late[1].1[0] - 0.2).abs() < 1e-12 && late[0].1[0].abs() <= 0.0, "{late:?}");
 }
 
-/// The sampling time of the header has to fit the times; a slow channel whose samples are repeated does.
+/// The sampling time of the header has to match the times; that of a slow channel with repeated samples does.
 #[test]
 fn sampling_times_of_the_header() {
     let rows = "0\t1\t5\t0\t9\n1\t2\t5\t1\t8\n2\t3\t6\t2\t7\n3\t3\t6\t3\t7\n";

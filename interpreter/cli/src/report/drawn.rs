@@ -1,14 +1,14 @@
-//! What pages and pictures draw.
+//! Input of pages and pictures.
 
 use super::recording::Recording;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::summary::Summary;
 
-/// A run that is drawn.
+/// A run to be drawn.
 #[derive(Debug)]
 pub(super) struct Drawn {
     pub(super) recording: Recording,
     pub(super) summary: Summary,
-    /// Settings that the Vibration Guard of an axis worked with.
+    /// Settings used by the Vibration Guard of an axis.
     pub(super) guards: Vec<(usize, VibGuardSettings)>,
 }

@@ -14,10 +14,10 @@ use crate::times::Times;
 use crate::trace::fixed::Cells;
 use serde_json::json;
 
-/// Page with the places `/*STYLE*/`, `/*DATA*/` and `/*SCRIPT*/`.
+/// Page with the placeholders `/*STYLE*/`, `/*DATA*/` and `/*SCRIPT*/`.
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
-/// One script in the order in which its parts need each other.
+/// The script, its parts in the order of their dependencies.
 const SCRIPT: &str = concat!(
     include_str!("page/base.js"),
     include_str!("page/legend.js"),
@@ -29,17 +29,17 @@ const SCRIPT: &str = concat!(
     include_str!("page/around.js"),
 );
 
-/// Lines whose times the page knows, the most expensive ones.
+/// Number of lines whose times are part of the page, the most expensive ones.
 const MOST_LINES: usize = 5000;
-/// Pairs of axes of the contour, in the order of the page's buttons.
+/// Pairs of axes for the contour, in the order of the buttons.
 const PLANES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
-/// What a page shows of a run in addition to its curves.
+/// Data of a run that a page shows in addition to its curves.
 #[derive(Debug)]
 pub(super) struct Beside {
-    /// Where the time went.
+    /// Times by line and reason.
     pub(super) times: Times,
-    /// The lines of each source file, as far as they are shown.
+    /// The lines of each source file, as far as they are displayed.
     pub(super) texts: Vec<Option<Vec<String>>>,
     /// The part of the run that is drawn, in s.
     pub(super) window: Option<(f64, f64)>,
@@ -72,7 +72,7 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
     let Drawn { recording: r, summary: s, .. } = drawn;
     let points: Vec<Point> = r.points().copied().collect();
     let mut names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
-    // an only axis is drawn along a line
+    // a single axis is drawn along a line
     let drawn_axes = r.plane.len().max(if r.plane.is_empty() { 0 } else { 2 });
     names.resize(drawn_axes, "");
     let mut out = Json::new();
@@ -146,7 +146,7 @@ fn curve(r: &Recording, i: usize, c: &Curve) -> String {
     out.text("name", &safe(&json!(c.name).to_string()));
     out.text("unit", &safe(&json!(c.unit).to_string()));
     out.text("low", &join(r.buckets.iter().map(|b| number(b.range[i].0))));
-    // a run that keeps every cycle has one value per cycle
+    // if every cycle is kept there is one value per cycle
     let high = if r.width > 1 {
         join(r.buckets.iter().map(|b| number(b.range[i].1)))
     } else {

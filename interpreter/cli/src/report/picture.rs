@@ -1,5 +1,5 @@
-//! The still picture: contour, a close look at its worst corner or at the largest difference of its passes, path
-//! speed and deviations over time.
+//! The static picture: contour, a close-up of its worst corner or of the largest difference of its passes, path speed
+//! and deviations over time.
 
 use super::drawn::Drawn;
 use super::recording::Recording;
@@ -15,9 +15,9 @@ use kontur_interpreter::source::text::beginning;
 const WIDTH: f64 = 1200.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 1172.0;
-/// Set points that are compared with the first pass.
+/// Number of set points that are compared with the first pass.
 const MOST_COMPARED: usize = 2000;
-/// Distance in mm up to which nobody is told that points of a long contour are left out.
+/// Distance in mm up to which the picture does not mention points of a long contour that are left out.
 const COARSE_MM: f64 = 0.01;
 /// Draws one or several runs.
 pub(super) fn draw(runs: &[Drawn]) -> String {
@@ -94,7 +94,7 @@ fn axis_label(run: &Recording, i: usize) -> String {
     name.map_or_else(String::new, |name| format!("{name} in mm"))
 }
 
-/// The range of an axis with some air around it.
+/// The range of an axis with a margin.
 fn extent(runs: &[Drawn], axis: usize) -> (f64, f64) {
     let (low, high) = views::extent_of(runs, axis).unwrap_or((0.0, 1.0));
     let air = (0.06 * (high - low)).max(1e-3);
@@ -106,7 +106,7 @@ fn worst(runs: &[Drawn]) -> Option<Point> {
     found.max_by(|a, b| a.error.total_cmp(&b.error))
 }
 
-/// The set point of a group that is farthest from the first group's path, with its distance as error.
+/// The set point of a group with the largest distance from the path of the first group, which becomes its error.
 fn farthest(runs: &[Vec<Point>], groups: &[Group], [x, y]: [usize; 2]) -> Option<Point> {
     let (first, others) = groups.split_first()?;
     let at = |p: &Point| [p.set[x], p.set[y]];
@@ -129,7 +129,7 @@ fn from_line(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(to[0] - part * way[0], to[1] - part * way[1])
 }
 
-/// A window around the worst point, three times its error to either side but at most `most` mm.
+/// A window around the worst point: three times its error to either side, but at most `most` mm.
 fn zoom_panel(worst: &Point, [x, y]: [usize; 2], most: f64) -> Panel {
     let half = (3.0 * worst.error).min(most);
     let around = |v: f64| (v - half, v + half);
@@ -149,7 +149,7 @@ fn drawn(runs: &[Drawn]) -> Vec<Vec<Point>> {
     runs.iter().map(|r| r.recording.points().copied().collect()).collect()
 }
 
-/// The legend of the contour; gives its lower end.
+/// Draws the legend of the contour; returns its lower end.
 fn legend(svg: &mut Svg, groups: &[Group], top: f64) -> f64 {
     let mut entries = vec![
         (Style::programmed(), "programmed"),
@@ -166,9 +166,9 @@ fn legend(svg: &mut Svg, groups: &[Group], top: f64) -> f64 {
     top + 20.0 * rows as f64
 }
 
-/// Views over time or frequency below each other; gives the lower end of the picture.
+/// Draws views over time or frequency one below the other; returns the lower end of the picture.
 fn strips(svg: &mut Svg, runs: &[Drawn], groups: &[Group], top: f64) -> f64 {
-    // one program: what AX_DEV bounds, axis by axis; several: one curve each
+    // a single program: the deviations that AX_DEV bounds, per axis; several: one curve each
     let one = runs.len() == 1;
     let deviates = if one { "dev" } else { "error" };
     let is_flat = |view: &View<Source>| view.y.range.0.abs().max(view.y.range.1.abs()) < 2e-6;
@@ -199,8 +199,8 @@ fn strips(svg: &mut Svg, runs: &[Drawn], groups: &[Group], top: f64) -> f64 {
     top
 }
 
-/// The names of the lines of a view, to the right of its title; with several runs the dashes of the axes, as their colours are those of the
-/// contour.
+/// Draws the names of the lines of a view, to the right of its title; with several runs the dashes of the axes, since
+/// the colours are those of the contour.
 fn names(svg: &mut Svg, panel: &Panel, runs: &[Drawn], view: &View<Source>) {
     let mut entries: Vec<(&str, Style)> = Vec::new();
     for line in &view.lines {
@@ -227,7 +227,7 @@ fn names(svg: &mut Svg, panel: &Panel, runs: &[Drawn], view: &View<Source>) {
     }
 }
 
-/// Where the line of the program changes, if there is one program.
+/// Changes of the program line, if there is a single program.
 fn stretches(runs: &[Drawn]) -> Vec<Mark> {
     let [Drawn { recording: run, .. }] = runs else { return Vec::new() };
     let mut starts: Vec<(f64, u32)> = Vec::new();
@@ -248,7 +248,7 @@ mod tests {
     fn passes_are_compared_with_the_path_of_the_first() {
         let point =
             |pass: usize, x: f64, y: f64| Point { pass, set: [x, y, 0.0], ..Point::default() };
-        // the corner in (1, 0), and what cuts it
+        // the corner at (1, 0), and a path that cuts it
         let runs = [vec![
             point(0, 0.0, 0.0),
             point(0, 1.0, 0.0),
@@ -267,7 +267,7 @@ mod tests {
         assert!((far.set[0] - 0.7).abs() < 1e-15 && far.pass == 1, "{far:?}");
         assert!((far.error - 0.2).abs() < 1e-15, "{}", far.error);
         assert_eq!(farthest(&runs, &[group(0)], [0, 1]), None);
-        // beyond an end the end counts, and a segment without length is a point
+        // beyond an end the end point counts, and a segment of zero length is a point
         assert!((from_line([4.0, 4.0], [0.0, 0.0], [1.0, 0.0]) - 5.0).abs() < 1e-15);
         assert!((from_line([3.0, 4.0], [0.0, 0.0], [0.0, 0.0]) - 5.0).abs() < 1e-15);
     }

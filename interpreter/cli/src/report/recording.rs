@@ -1,4 +1,4 @@
-//! The data of a run that a picture needs, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
+//! The data of a run for a picture, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
 //! value of every curve, and the contour as a [`Track`]. Short runs have one bucket per cycle.
 
 use super::stops::Stops;
@@ -6,21 +6,21 @@ use super::track::{Point, Track};
 use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 
-/// Buckets of a finished recording are at least half of this many, once a run is longer than that.
+/// A finished recording of a longer run has at least half this number of buckets.
 const MOST_BUCKETS: usize = 4000;
 
-/// Most cycles for which every acceleration of an axis is kept: two minutes at 1 ms.
+/// Largest number of cycles for which every acceleration of an axis is kept: two minutes at 1 ms.
 const MOST_SAMPLES: usize = 1 << 17;
-/// The same for all axes together: 17 MB, and as text of a page twice as much.
+/// The same for all axes together: 17 MB, and twice as much as text of a page.
 const MOST_ACCELERATIONS: usize = 1 << 21;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 8;
 
-/// The set point that starts a pass is met again within this distance in mm.
+/// Distance in mm within which the set point at the start of a pass counts as reached again.
 const CLOSED_MM: f64 = 1e-6;
 
-/// Some consecutive cycles.
+/// Consecutive cycles.
 #[derive(Clone, Debug)]
 pub(crate) struct Bucket {
     /// The first cycle.
@@ -41,11 +41,11 @@ pub(crate) struct Curve {
     pub(crate) name: String,
     pub(crate) unit: String,
     pub(crate) kind: Kind,
-    /// Index into [`Facts::axes`]; none for the path.
+    /// Index into [`Facts::axes`]; `None` for the path.
     pub(crate) axis: Option<usize>,
 }
 
-/// What a curve shows; curves of one kind share a plot.
+/// Content of a curve; curves of one kind share a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Speed,
@@ -76,7 +76,7 @@ impl Kind {
     }
 }
 
-/// One trip around the contour.
+/// One pass around the contour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Pass {
     pub(crate) first_line: u32,
@@ -102,7 +102,7 @@ pub(crate) struct Recording {
     track: Track,
     /// The point with the largest contour error.
     pub(crate) worst: Option<Point>,
-    /// Cycles of which [`Self::accelerations`] are kept.
+    /// Number of cycles for which [`Self::accelerations`] are kept.
     pub(crate) most_samples: usize,
     /// Commanded acceleration of each axis of [`Facts::axes`], cycle by cycle from the first one on; empty for spindles.
     pub(crate) accelerations: Vec<Vec<f64>>,
@@ -158,7 +158,7 @@ impl Recording {
         }
     }
 
-    /// The last cycle has been added: what shows nothing is dropped. (The load of a stiff axis is where its motor is.)
+    /// Completes the recording and drops curves without information. (The load of a stiff axis is where its motor is.)
     pub(crate) fn finish(&mut self) {
         for i in (0..self.curves.len()).rev() {
             let actual = |c: &Curve| c.kind == Kind::Actual && c.axis == self.curves[i].axis;
@@ -190,7 +190,7 @@ impl Recording {
         self.track.points()
     }
 
-    /// Distance in mm that no point of the contour has from the lines between those that are kept.
+    /// Bound in mm of the distance of every point of the contour from the lines between the points that are kept.
     pub(crate) fn within_mm(&self) -> f64 {
         self.track.within_mm()
     }
@@ -246,7 +246,7 @@ impl Recording {
         let is_straight = matches!(record.path.motion, Motion::Line | Motion::Rapid);
         let target = is_straight.then(|| of(|a| a.target));
         let near = |p: [f64; 3]| (0..3).all(|i| (p[i] - ipo[i]).abs() < CLOSED_MM);
-        // a new pass begins when the path, after a trip, leaves a stop at the place where the trip began
+        // a new pass begins when the path, after a trip, leaves a stop where that trip began
         let start = *self.start.get_or_insert(ipo);
         let at_start = near(start);
         let rests = record.path.v_mm_s.abs() < 1e-9;
@@ -271,7 +271,7 @@ impl Recording {
         Point { k, line, pass, target, error, ipo, set, act }
     }
 
-    /// Too many passes to distinguish: from here on they are one.
+    /// Treats all passes as one from here on, as there are too many to distinguish.
     fn one_pass(&mut self) {
         let first = self.passes.first().copied().unwrap_or_default();
         let last = self.passes.last().copied().unwrap_or_default();
@@ -282,7 +282,7 @@ impl Recording {
             bucket.pass = 0;
         }
         self.track.one_pass();
-        // a start that no path returns to
+        // a start to which the path never returns
         self.start = Some([f64::INFINITY; 3]);
         self.moved = true;
     }
@@ -310,8 +310,8 @@ impl Bucket {
     }
 }
 
-/// The programmed path in a plane: a straight block goes to its end, whatever is made of its corner; what is not a straight line is the
-/// interpolated points. The last block ends where the run does.
+/// The programmed path in a plane: a straight block extends to its end, whatever happens to its corner; other blocks
+/// are the interpolated points. The last block ends with the run.
 pub(crate) fn programmed(points: &[Point], [x, y]: [usize; 2]) -> Vec<[f64; 2]> {
     let flat = |p: [f64; 3]| [p[x], p[y]];
     let mut path: Vec<[f64; 2]> = points.first().map(|p| flat(p.ipo)).into_iter().collect();

@@ -1,14 +1,14 @@
-//! What a report runs.
+//! The runs of a report.
 
 use crate::Error;
 use crate::args::ReportArgs;
 use crate::combinations::{combinations, put, values};
 use crate::request::Request;
 
-/// Runs of a page or a picture: twice as many as there are colours; a long one takes 25 MB.
+/// Largest number of runs on a page or in a picture: twice the number of colours; a long one takes 25 MB.
 const MOST_RUNS: usize = 16;
 
-/// Every program under every combination of `--vary`: the program, the values, and what is to be run.
+/// Every program under every combination of `--vary`: the program, the values, and the request.
 pub(super) fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> {
     let combinations = combinations(&args.vary)?;
     let mut all = Vec::new();

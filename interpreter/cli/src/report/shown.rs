@@ -1,11 +1,11 @@
-//! What a view of the report is made of, and how its lines are named and coloured.
+//! Content of a view of the report, and names and colours of its lines.
 
 use super::drawn::Drawn;
 use crate::chart::style::{DASHES, Style};
 use crate::chart::view::{Points, View};
 use serde::Serialize;
 
-/// Which of the contours.
+/// Kind of contour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Contour {
@@ -14,7 +14,7 @@ pub(super) enum Contour {
     Act,
 }
 
-/// Where the points of a line come from.
+/// Source of the points of a line.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Source {
@@ -28,17 +28,17 @@ pub(super) enum Source {
     Given { run: usize, axis: usize, points: Points },
 }
 
-/// A view and how a page begins with it.
+/// A view with its initial state on a page.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Shown {
     pub(super) kind: &'static str,
     pub(super) open: bool,
-    /// What is below it.
+    /// Text below it.
     pub(super) note: String,
     pub(super) view: View<Source>,
 }
 
-/// From the first to the last cycle that is drawn, in s.
+/// Time in s of the first and the last drawn cycle.
 pub(super) fn span(runs: &[Drawn]) -> (f64, f64) {
     let times = runs
         .iter()
@@ -62,16 +62,17 @@ pub(super) fn name(runs: &[Drawn], run: usize, name: &str) -> String {
     if runs.len() > 1 { format!("{} {name}", short(runs, run)) } else { name.to_owned() }
 }
 
-/// What distinguishes a run from the others: its name without the folders, the program or the parameters that all of them begin with.
+/// The part of a name that distinguishes a run from the others: without folders, program or parameters with which all
+/// of them begin.
 pub(super) fn short(runs: &[Drawn], run: usize) -> &str {
     let names: Vec<&str> = runs.iter().map(|r| r.summary.program.as_str()).collect();
     names.get(run).map_or("", |name| &name[common(&names)..])
 }
 
-/// Bytes of the whole parts that all names begin with and none of them consists of.
+/// Length in bytes of the whole parts with which all names begin, unless a name consists of nothing else.
 fn common(names: &[&str]) -> usize {
     let Some((first, others)) = names.split_first() else { return 0 };
-    // a blank inside `kv = 5` separates nothing
+    // a blank inside `kv = 5` is not a separator
     let ends = first.char_indices().filter(|(i, c)| match c {
         '/' | '\\' => true,
         c => *c == ' ' && first[..*i].ends_with(','),

@@ -20,16 +20,16 @@ use kontur_interpreter::summary::Collector;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// Panels beyond these make no picture.
+/// Largest number of panels in a picture.
 const MOST_SIGNALS: usize = 12;
-/// Values of all runs and columns: 34 MB.
+/// Largest number of values of all runs and columns: 34 MB.
 const MOST_VALUES: usize = 1 << 22;
-/// The same where spectra are made of them, which hold several lines for a value.
+/// The same with spectra, which have several lines per value.
 const MOST_TRANSFORMED: usize = 1 << 21;
-/// Points of a line beyond these are drawn as the extremes of stretches.
+/// Lines with more points than this are drawn by the extremes of stretches.
 const MOST_POINTS: usize = 20_000;
 
-/// The wanted columns of one run.
+/// The selected columns of one run.
 struct Recorded {
     label: String,
     cycle_s: f64,
@@ -40,7 +40,7 @@ struct Recorded {
     samples: Vec<Vec<f64>>,
 }
 
-/// Runs everything and writes the picture (`.svg`), or its numbers (`.csv`): of the spectra if there are any.
+/// Runs everything and writes the picture (`.svg`) or its numbers (`.csv`), those of the spectra if there are any.
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or the output cannot be written.
@@ -63,7 +63,7 @@ pub(super) fn report(
         (MOST_VALUES, MOST_VALUES)
     };
     for (program, values, request) in requests(args)? {
-        // the headline names a single program
+        // the headline contains the name of a single program
         let label = match (args.programs.len(), values.is_empty()) {
             (_, true) => program,
             (1, false) => values,
@@ -115,7 +115,7 @@ pub(super) fn report(
         }
         runs.push(recorded);
     }
-    // there is nothing to show of refused programs
+    // refused programs have nothing to show
     if runs.iter().any(|run| !run.times.is_empty()) {
         let to_error = |e| Error::io(output.display().to_string(), e);
         for mut target in create_all([output])? {
@@ -204,7 +204,7 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
     }
 }
 
-/// What is shown of the runs and, if one thing is varied, what it is.
+/// Description of the runs and, if a single parameter is varied, of that parameter.
 fn subtitle(args: &ReportArgs) -> String {
     let window = args.window.map(|(from, to)| format!("from {from} s to {to} s"));
     let varied = if let [one] = &args.vary[..] { one.meaning() } else { None };
@@ -231,8 +231,8 @@ fn panel(
     }
 }
 
-/// The numbers of the picture as CSV: the spectra if there are any, else the curves over time. Row by row: as a table they would
-/// take several times the memory of the samples.
+/// Writes the numbers of the picture as CSV: the spectra if there are any, otherwise the curves over time. This is done
+/// row by row, since a table would take several times the memory of the samples.
 fn write_numbers(args: &ReportArgs, runs: &[Recorded], to: impl Write) -> io::Result<()> {
     let columns = runs.first().map(|r| r.columns.as_slice()).unwrap_or_default();
     let first = if args.spectrum.is_some() { "f_hz" } else { "t_s" };

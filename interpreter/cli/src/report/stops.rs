@@ -1,4 +1,4 @@
-//! Stops of the axes as the position monitoring sees them: set position at its target (t1), actual position inside the
+//! Stops of the axes as seen by the position monitoring: set position at its target (t1), actual position inside the
 //! window (t2), end of the time limit (t3).
 //!
 //! Source: TF5200 position monitoring, course of an exact stop.
@@ -6,9 +6,9 @@
 use kontur_interpreter::job::{AxisFacts, Facts};
 use kontur_interpreter::record::CycleRecord;
 
-/// Stops that are kept; a picture shows no more.
+/// Largest number of stops that are kept; a picture does not show more.
 const MOST: usize = 2000;
-/// Set and interpolated position closer than this in mm (deg): the filters have arrived.
+/// The filters have arrived if set and interpolated position are closer than this in mm (deg).
 const ARRIVED_MM: f64 = 1e-4;
 /// Path speed in mm/s below which the path rests.
 const REST_MM_S: f64 = 1e-9;
@@ -18,13 +18,13 @@ const REST_MM_S: f64 = 1e-9;
 pub(crate) struct Stop {
     /// Index into [`Facts::axes`].
     pub(crate) axis: usize,
-    /// Where the axis is to be in mm (deg).
+    /// Target position in mm (deg).
     pub(crate) target: f64,
-    /// The set position has reached the target.
+    /// Cycle in which the set position reaches the target.
     pub(crate) t1: u64,
-    /// The actual position is inside the window; none if the axis continued before.
+    /// Cycle in which the actual position is inside the window; `None` if the axis continued before that.
     pub(crate) t2: Option<u64>,
-    /// The time limit ends; none without one.
+    /// Cycle in which the time limit ends; `None` without one.
     pub(crate) t3: Option<u64>,
 }
 
@@ -72,7 +72,7 @@ impl Stops {
                 watch.open = Some(self.found.len());
                 self.found.push(Stop { axis: i, target: a.set, t1, t2: None, t3: limit });
             }
-            // the cycle in which the window lets the axis continue still counts
+            // the cycle in which the window permits the axis to continue still counts
             if let Some(stop) = watch.open.and_then(|s| self.found.get_mut(s))
                 && (a.act - stop.target).abs() <= facts.window
             {

@@ -1,5 +1,5 @@
-//! The contour of a run in bounded memory: points that are left out lie within a known distance of the lines between those
-//! that are kept.
+//! The contour of a run in bounded memory: points that are left out are within a known distance of the lines between
+//! those that are kept.
 
 /// One point of the contour: up to three linear axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -7,7 +7,7 @@ pub(crate) struct Point {
     pub(crate) k: u64,
     pub(crate) line: u32,
     pub(crate) pass: usize,
-    /// End of its block as it is programmed, if that is a straight line.
+    /// Programmed end of its block, if that is a straight line.
     pub(crate) target: Option<[f64; 3]>,
     pub(crate) error: f64,
     pub(crate) ipo: [f64; 3],
@@ -15,25 +15,25 @@ pub(crate) struct Point {
     pub(crate) act: [f64; 3],
 }
 
-/// Points at once, before some of them are left out.
+/// Number of points that are collected before some are left out.
 const CHUNK: usize = 2048;
-/// Points of a finished track at most, where what is left out cannot be seen.
+/// Largest number of points of a finished track as long as the reduction cannot be seen.
 const MOST: usize = 40_000;
-/// Points of any finished track at most: many corners, again and again.
+/// Largest number of points of any finished track, as with many corners passed repeatedly.
 const MOST_OF_ALL: usize = 160_000;
-/// Part of the size of the contour from which on what is left out is seen: a pixel.
+/// Share of the size of the contour from which on a reduction is visible: a pixel.
 const VISIBLE: f64 = 1e-3;
-/// Distance in mm too small to be seen: the last digit of a trace.
+/// Distance in mm that is too small to be visible: the last digit of a trace.
 const FINEST_MM: f64 = 1e-7;
 
 /// Interpolated, set and actual contour.
 ///
-/// Points are chosen by Douglas and Peucker (1973), chunk by chunk, all three contours together. When there are too many of
-/// them, they are chosen anew with a larger tolerance; the tolerances add up.
+/// Points are selected by the method of Douglas and Peucker (1973), chunk by chunk, for all three contours together. If
+/// there are too many of them, they are selected again with a larger tolerance; the tolerances add up.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     kept: Vec<Point>,
-    /// Begins with a point that will be kept.
+    /// Begins with a point that is kept in any case.
     tail: Vec<Point>,
     tolerance_mm: f64,
     within_mm: f64,
@@ -65,7 +65,7 @@ impl Track {
             (*least, *greatest) = (least.min(x), greatest.max(x));
         }
         if new_pass {
-            // both ends of a pass stay
+            // both ends of a pass are kept
             self.kept.append(&mut self.tail);
         }
         self.tail.push(point);
@@ -76,17 +76,17 @@ impl Track {
         self.kept.iter().chain(&self.tail)
     }
 
-    /// No point that was left out is farther from the lines between the others than this, in mm.
+    /// Bound in mm of the distance of left-out points from the lines between the others.
     pub(super) const fn within_mm(&self) -> f64 {
         self.within_mm
     }
 
-    /// All points are of one pass.
+    /// Merges all points into one pass.
     pub(super) fn one_pass(&mut self) {
         self.kept.iter_mut().chain(&mut self.tail).for_each(|p| p.pass = 0);
     }
 
-    /// Points that may be kept before the next choice.
+    /// Number of points that may be kept before the next selection.
     fn most(&self) -> usize {
         let [least, greatest] = &self.range_mm;
         let size_mm = greatest.iter().zip(least).map(|(high, low)| high - low).fold(0.0, f64::max);
@@ -94,7 +94,7 @@ impl Track {
         if next_mm > VISIBLE * size_mm { MOST_OF_ALL } else { MOST }
     }
 
-    /// Chooses among the points of the tail; the last one continues as its beginning.
+    /// Selects points of the tail; its last one becomes the beginning of the next tail.
     fn settle(&mut self) {
         thin(&mut self.tail, self.tolerance_mm);
         let last = self.tail.pop();
@@ -105,7 +105,7 @@ impl Track {
             self.within_mm += self.tolerance_mm;
             let mut chosen = Vec::with_capacity(self.kept.len());
             for pass in self.kept.chunk_by(|a, b| a.pass == b.pass) {
-                // in parts: what it takes stays in proportion to the number of points
+                // in parts, which keeps the effort proportional to the number of points
                 for part in pass.chunks(CHUNK) {
                     let mut part = part.to_vec();
                     thin(&mut part, self.tolerance_mm);
@@ -117,7 +117,7 @@ impl Track {
     }
 }
 
-/// Leaves out every point that lies within a tolerance of the line between its neighbours that stay, on all three contours.
+/// Leaves out every point within a tolerance of the line between its remaining neighbours, on all three contours.
 fn thin(points: &mut Vec<Point>, tolerance_mm: f64) {
     if points.len() < 3 {
         return;
@@ -139,8 +139,8 @@ fn thin(points: &mut Vec<Point>, tolerance_mm: f64) {
     points.retain(|_| stays.next().is_some_and(|s| *s));
 }
 
-/// Largest squared distance of a point from the line between two others, of the three contours and of the programmed one: where all
-/// points of a block are left out, so is its end.
+/// Largest squared distance of a point from the line between two others, over the three contours and the programmed
+/// one: the end of a block is left out only if all its points are.
 fn aside_mm2(p: &Point, a: &Point, b: &Point) -> f64 {
     let of = |value: fn(&Point) -> &[f64; 3]| from_line_mm2(value(p), value(a), value(b));
     let contours = of(|p| &p.ipo).max(of(|p| &p.set)).max(of(|p| &p.act));
@@ -161,7 +161,7 @@ fn from_line_mm2(p: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A path that winds and rests: every point of 200,000 is within the stated distance of the track.
+    /// A winding path with rests: each of 200,000 points is within the stated distance of the track.
     #[test]
     fn what_is_left_out_is_within_the_stated_distance() {
         let at = |k: u64| -> Point {
@@ -189,8 +189,8 @@ mod tests {
         assert!(track.within_mm() < 0.01, "{}", track.within_mm());
     }
 
-    /// A comb of 12,000 teeth of 1 mm on 10 mm, driven again and again: its corners stay, though there are more of them than a contour
-    /// has whose thinning cannot be seen.
+    /// A comb with 12,000 teeth of 1 mm on 10 mm, passed repeatedly: its corners are kept, although there are more of
+    /// them than in a contour with invisible reduction.
     #[test]
     fn corners_stay_where_their_loss_would_be_seen() {
         let corner = |i: u64| {
@@ -209,7 +209,7 @@ mod tests {
         }
         assert!(track.within_mm() < 0.05, "{}", track.within_mm());
         assert!(track.points().count() <= MOST_OF_ALL);
-        // the programmed contour has lines along X and along Y alone, but for the way back to the first tooth
+        // all programmed lines are along X or Y, except for the way back to the first tooth
         let ends: Vec<[f64; 3]> = track.points().filter_map(|p| p.target).collect();
         let slanted = |w: &&[[f64; 3]]| {
             let [x, y] = [0, 1].map(|axis| (w[0][axis] - w[1][axis]).abs());
@@ -219,7 +219,7 @@ mod tests {
         assert!(slanted.is_none(), "{slanted:?}");
     }
 
-    /// A square of 400,000 cycles is a handful of points, exact to the last digit, and its corners stay.
+    /// A square of 400,000 cycles needs only a few points, exact to the last digit, and its corners are kept.
     #[test]
     fn straight_lines_need_their_ends() {
         let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0], [0.0, 0.0]];

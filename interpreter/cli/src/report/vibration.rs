@@ -1,4 +1,5 @@
-//! What an elastic machine makes of the set positions: spectrum of the commanded acceleration, and the deflection of a mass on a spring.
+//! Response of an elastic machine to the set positions: spectrum of the commanded acceleration, and deflection of a
+//! mass on a spring.
 
 use super::drawn::Drawn;
 use super::shown::{Shown, Source, name, span, style};
@@ -9,14 +10,14 @@ use kontur_filters::analysis::spring::SpringMass;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 
-/// Points of a spectrum or a deflection; more of them are thinned out to their extremes.
+/// Points of a spectrum or a deflection; longer ones are reduced to their extremes.
 const MOST_POINTS: usize = 4000;
-/// Frequency in Hz up to which a spectrum goes at least, and in multiples of the highest one of a guard.
+/// Lowest upper limit of a spectrum in Hz, and the multiple of the highest guard frequency that it covers.
 const TOP_HZ: f64 = 100.0;
 const TOP_RATIO: f64 = 4.0;
 /// Accelerations in mm/s2 (deg/s2) below this are rounding: the page gets three decimals of them.
 const LEAST: f64 = 0.0005;
-/// The model without a guard to take its numbers from: a machine that is not stiff.
+/// The model if there is no guard to take its values from: a machine with low stiffness.
 const USUAL: VibGuardSettings = VibGuardSettings { mode: 1, freq_hz: 20.0, damping: 0.02 };
 
 /// The frequency and damping of the model of an axis: those of its first guard, or of any. Several runs are runs of one machine.
@@ -160,7 +161,7 @@ pub(super) fn deflection(runs: &[Drawn], run: usize, axis: usize) -> Points {
     thinned(points.collect::<Points>().into_iter(), MOST_POINTS)
 }
 
-/// The largest deflection, and the amplitude when the axis has stopped accelerating for the last time.
+/// The largest deflection, and the amplitude after the last acceleration of the axis.
 fn most_and_left(runs: &[Drawn], run: usize, axis: usize) -> (f64, f64) {
     let samples = &runs[run].recording.accelerations[axis];
     let Some(mut spring) = spring(runs, run, axis) else { return (0.0, 0.0) };
@@ -179,7 +180,7 @@ fn spring(runs: &[Drawn], run: usize, axis: usize) -> Option<SpringMass> {
     SpringMass::new(freq_hz, damping, CycleTime::from_us(runs[run].recording.facts.cycle_us)?)
 }
 
-/// The part of the runs that is shown, if not all.
+/// The part of the runs that is shown, if it is not the whole.
 fn part(runs: &[Drawn]) -> String {
     let kept = runs.iter().map(|r| (r.recording.most_samples, r.recording.cycles()));
     let cut = kept.filter(|(most, cycles)| *cycles > *most as u64).map(|(most, _)| most);

@@ -1,4 +1,4 @@
-//! What a report shows of its runs: the same views in the picture and in the page.
+//! Views of a report on its runs: the same in the picture and in the page.
 
 use super::drawn::Drawn;
 use super::recording::{Kind, Recording, programmed};
@@ -16,7 +16,7 @@ pub(super) const VISIBLE_MM: f64 = 1e-7;
 /// Dashes of the actual position.
 const ACTUAL: &[u8] = &[4, 3];
 
-/// What shares a colour: a pass of a single program, or one of several programs.
+/// Curves of one colour: a pass of a single program, or one of several programs.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub(super) run: usize,
@@ -35,7 +35,7 @@ impl Group {
 pub(super) fn groups(runs: &[Drawn]) -> Vec<Group> {
     let of_run = |s: &Summary| s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
     let errors = runs.iter().any(|r| of_run(&r.summary) > VISIBLE_MM);
-    // an empty list is not worth a line
+    // an empty list does not need a line
     let error = |before: &str, mm: f64| {
         if errors { format!("{before}contour error at most {mm:.4} mm") } else { String::new() }
     };
@@ -136,7 +136,7 @@ fn speeds(runs: &[Drawn], groups: &[Group]) -> Vec<Line<Source>> {
     groups.iter().filter_map(line).collect()
 }
 
-/// One run: an axis has a colour and dashes. Several: a run has a colour, an axis its dashes. What is actual is thin.
+/// One run: an axis has a colour and dashes. Several: a run has a colour, an axis its dashes. Actual values are thin.
 fn curves(runs: &[Drawn], kinds: &[Kind]) -> Vec<Line<Source>> {
     let mut lines = Vec::new();
     for (run, r) in runs.iter().enumerate() {
@@ -168,7 +168,7 @@ fn units(runs: &[Drawn], kinds: &[Kind]) -> String {
     units.join(", ")
 }
 
-/// Least and greatest value of curves, and 0.
+/// Smallest and largest value of curves, including 0.
 fn range(runs: &[Drawn], kinds: &[Kind]) -> (f64, f64) {
     let all = runs.iter().flat_map(|r| {
         let wanted = r.recording.curves.iter().enumerate().filter(|(_, c)| kinds.contains(&c.kind));
@@ -230,11 +230,13 @@ pub(super) fn extent_of(runs: &[Drawn], axis: usize) -> Option<(f64, f64)> {
     })
 }
 
-/// A curve over time: smallest and largest value per pixel in the order of their times, or of each bucket where there are fewer.
+/// A curve over time: smallest and largest value per pixel in the order of their times, or of each bucket if there are
+/// fewer.
 fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) -> Points {
     let per_px = (run.buckets.len() as f64 / pixels).max(1.0);
     let mut points: Points = Vec::new();
-    // of buckets with several cycles nobody knows which value came first: the one next to what is before it
+    // in a bucket of several cycles the order of the two values is unknown: begin with the one next to the previous
+    // point
     let put = |points: &mut Points, [least, greatest]: [[f64; 2]; 2]| {
         let falls = least[0].to_bits() == greatest[0].to_bits()
             && points.last().is_some_and(|p| (p[1] - greatest[1]).abs() < (p[1] - least[1]).abs());
@@ -271,7 +273,7 @@ fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) 
     if let Some(last) = extremes {
         put(&mut points, last);
     }
-    // to its last cycle
+    // up to its last cycle
     if let Some((bucket, low, high)) = end.filter(|(bucket, ..)| bucket.last > bucket.k) {
         let t = run.seconds(bucket.last);
         put(&mut points, [[t, low], [t, high]]);

@@ -1,4 +1,4 @@
-//! The shaping chain of an axis as its lists state it.
+//! The shaping chain of an axis as configured by its lists.
 
 use super::curve::Curve;
 use crate::args::ResponseArgs;
@@ -13,10 +13,10 @@ use kontur_interpreter::diag::Severity;
 use kontur_interpreter::machine::Axis;
 use std::sync::Arc;
 
-/// One curve per axis named, and the machine's cycle.
+/// One curve per given axis, and the cycle of the machine.
 ///
-/// The kernel is the one that is on from program start (`filter_fir.enable`, `vib_guard.active`); an HSC filter waits
-/// for its command and is mentioned only.
+/// The kernel is the one that is on from program start (`filter_fir.enable`, `vib_guard.active`); an HSC filter needs
+/// its command and is only mentioned.
 pub(super) fn curves(
     args: &ResponseArgs,
     console: &mut Console,
@@ -47,10 +47,10 @@ pub(super) fn curves(
         };
         let preset = machine.shaped_as(axis).kernel_preset(machine.cycle);
         let fir = preset.fir.filter(|fir| fir.enable);
-        // as in a run: an active FIR filter keeps the guard off
+        // as in a run: an active FIR filter excludes the guard
         let guard = Some(preset.vib_guard).filter(|guard| guard.active && fir.is_none());
         let guard = guard.map(|g| g.settings);
-        // what gives no kernel has been announced with its ID
+        // settings without a kernel have been reported with their ID
         let kernel = match (guard, fir) {
             (Some(settings), _) => settings.kernel(machine.cycle).ok(),
             (None, Some(fir)) => fir.config.design(machine.cycle).0,
@@ -76,7 +76,7 @@ pub(super) fn curves(
         }
         let mut shaping = Shaping::new(chain.filters.clone(), 0.0);
         let guard = guard.filter(|_| kernel.is_some());
-        // a chain that has never moved takes any kernel
+        // a chain that has never moved accepts any kernel
         let taken = shaping.set_kernel(kernel.map(Arc::new));
         debug_assert!(taken.is_ok());
         curves.push(Curve {

@@ -12,8 +12,8 @@ pub(super) struct Curve {
     pub(super) shaping: Shaping,
     /// Settings of the Vibration Guard, if the kernel is one.
     pub(super) guard: Option<VibGuardSettings>,
-    /// The chain contains standard filters in addition to the kernel.
+    /// Whether the chain contains standard filters in addition to the kernel.
     pub(super) has_filters: bool,
-    /// Order of a mean or FIR filter: many of them draw the contour error over it.
+    /// Order of a mean or FIR filter; with many of them the contour error is drawn over it.
     pub(super) order: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Mistakes of a filter, in words.
+//! Errors of a filter as text.
 
 use kontur_filters::issue::FilterIssue;
 use kontur_interpreter::diag::Id;

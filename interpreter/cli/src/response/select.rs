@@ -1,4 +1,4 @@
-//! From the arguments to the curves they name.
+//! From the arguments to the curves.
 
 use super::curve::Curve;
 use super::describe;
@@ -19,7 +19,7 @@ use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::Severity;
 use std::sync::Arc;
 
-/// All curves in the order filter, guard, fir, hsc, axis, and the cycle they run in.
+/// All curves in the order filter, guard, fir, hsc, axis, and their cycle.
 pub(super) fn curves(
     args: &ResponseArgs,
     console: &mut Console,
@@ -71,7 +71,7 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// Refuses a filter that is off, mentions what is worth knowing.
+    /// Refuses a filter that is off, and reports notes.
     fn report(&mut self, label: &str, issues: &[FilterIssue]) -> Result<(), Error> {
         for issue in issues {
             let text = format!("{label}: {}", describe::issue(issue));
@@ -135,7 +135,7 @@ impl Found<'_> {
         order: Option<f64>,
     ) {
         let mut shaping = Shaping::new(Vec::new(), 0.0);
-        // a chain that has never moved takes any kernel
+        // a chain that has never moved accepts any kernel
         let taken = shaping.set_kernel(Some(Arc::new(kernel)));
         debug_assert!(taken.is_ok());
         self.curves.push(Curve { label, shaping, guard, has_filters: false, order });
@@ -203,11 +203,11 @@ impl Found<'_> {
     }
 }
 
-/// A filter without its prototype; `*` in the label stands for the prototype's name.
+/// A filter without its prototype; `*` in the label is replaced by the name of the prototype.
 struct Family {
     config: FilterConfig,
     label: String,
-    /// Lags and delays have no prototype.
+    /// Whether it is a lag or delay, which has no prototype.
     lag: bool,
 }
 

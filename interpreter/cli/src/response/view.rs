@@ -13,7 +13,7 @@ use kontur_filters::time::CycleTime;
 
 pub(super) use answer::Answer;
 
-/// The view that the arguments ask for.
+/// The view selected by the arguments.
 ///
 /// # Errors
 /// [`Error::Usage`] if the view does not suit a curve.

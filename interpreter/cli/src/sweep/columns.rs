@@ -1,4 +1,4 @@
-//! The rows of a sweep: parameters, how the run ended, results.
+//! The rows of a sweep: parameters, end of the run, results.
 
 use super::rows::Outcome;
 use crate::args::SweepArgs;
@@ -9,11 +9,11 @@ use kontur_interpreter::summary::Summary;
 /// The columns of every row after its parameters.
 pub(super) const STATE: [&str; 3] = ["state", "error", "warnings"];
 
-/// The row of a run under its header: parameters, state, ID of the first error, number of warnings, and the results that
-/// were asked for.
+/// The row of a run with its header: parameters, state, ID of the first error, number of warnings, and the requested
+/// results.
 ///
 /// # Errors
-/// The names of all results, if one was asked for that does not exist.
+/// The names of all results, if an unknown one was requested.
 pub(super) fn row(
     args: &SweepArgs,
     combination: &[usize],
@@ -32,7 +32,7 @@ pub(super) fn row(
     let mut row: Vec<Cell> =
         values(&args.vary, combination).iter().map(|text| value(text)).collect();
     row.extend(state(&outcome.summary));
-    // what has an option of its own is wanted
+    // a result with a separate option is always included
     let measured = |name: &String| args.amplitude.iter().any(|a| a.text == *name);
     let wanted =
         |name: &String| args.columns.is_empty() || args.columns.contains(name) || measured(name);
@@ -43,7 +43,7 @@ pub(super) fn row(
     Ok((header, row))
 }
 
-/// A parameter as a number if it is one, with the decimals that it was given with.
+/// A parameter as a number if it is one, with the decimals as given.
 fn value(text: &str) -> Cell {
     let decimals = text.split_once('.').map_or(0, |(_, behind)| behind.len());
     match text.parse::<f64>() {
@@ -60,7 +60,7 @@ fn state(summary: &Summary) -> [Cell; 3] {
     ]
 }
 
-/// Everything that a run results in.
+/// All results of a run.
 fn results(args: &SweepArgs, outcome: &Outcome) -> Vec<(String, Cell)> {
     let measures = outcome.summary.results().into_iter();
     let mut all: Vec<(String, Cell)> =

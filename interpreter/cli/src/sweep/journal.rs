@@ -1,7 +1,8 @@
 //! The finished rows of a running sweep, so that a stopped one continues where it stopped.
 //!
-//! A file of JSON lines, `NAME.rows` next to the output NAME: the first line states what is swept, every other line is a row,
-//! written when its run has ended. A journal of another sweep, or of files that have changed since, is started again.
+//! A file of JSON lines, `NAME.rows` next to the output NAME. The first line identifies the sweep, every other line is
+//! a row, written when its run has ended. A journal of another sweep, or of files that have changed since, is started
+//! again.
 
 use super::rows::Row;
 use crate::Error;
@@ -11,7 +12,7 @@ use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-/// The beginning of every journal, which no program or table shares.
+/// The beginning of every journal, which no program or table has.
 const HEAD: &[u8] = b"{\"files\":[";
 
 /// The journal of one sweep.
@@ -28,10 +29,10 @@ struct Line {
 }
 
 impl Journal {
-    /// Opens the journal and reads what an earlier sweep of the same left.
+    /// Opens the journal and reads the rows of an earlier, identical sweep.
     ///
     /// # Errors
-    /// The system's; also if the file is something else.
+    /// The system's; also if the file is not a journal.
     pub(super) fn open(path: &Path, args: &SweepArgs, reads: &[PathBuf]) -> Result<Self, Error> {
         let head = head(args, reads);
         Self::begin(path.to_owned(), &head).map_err(|e| Error::io(path.display().to_string(), e))
@@ -71,26 +72,26 @@ impl Journal {
         Ok(Self { path, file, rows })
     }
 
-    /// Number of the run and row of what an earlier sweep finished.
+    /// Number of the run and row of everything that an earlier sweep finished.
     pub(super) fn take_rows(&mut self) -> Vec<(usize, Row)> {
         std::mem::take(&mut self.rows)
     }
 
-    /// Keeps a row.
+    /// Adds a row.
     ///
     /// # Errors
     /// The system's, e.g. a full disk.
     pub(super) fn write(&mut self, run: usize, row: &Row) -> Result<(), Error> {
         let line = serde_json::to_string(&Line { run, row: row.clone() }).unwrap_or_default();
-        // in one piece: a kill leaves whole lines
+        // in one piece, so that a kill leaves whole lines
         let written = self.file.write_all(format!("{line}\n").as_bytes());
         written.map_err(|e| Error::io(self.path.display().to_string(), e))
     }
 
-    /// The rows are in the outputs.
+    /// Removes the journal, once the rows are in the outputs.
     pub(super) fn remove(self) {
         drop(self.file);
-        // what stays does no harm: it says which sweep it belongs to
+        // a remaining file does no harm, as it identifies its sweep
         let _ = std::fs::remove_file(&self.path);
     }
 }

@@ -1,4 +1,4 @@
-//! One run of a sweep: its row, with the amplitudes that are wanted.
+//! One run of a sweep: its row, with the requested amplitudes.
 
 use super::rows::{Outcome, Row};
 use super::{Failure, columns};
@@ -20,7 +20,7 @@ struct Collected<'a> {
     wanted: Vec<Wanted<'a>>,
 }
 
-/// A column whose amplitude is wanted.
+/// A column with a requested amplitude.
 struct Wanted<'a> {
     amplitude: &'a Amplitude,
     column: Column,
@@ -69,7 +69,7 @@ impl Sink for Collected<'_> {
     }
 }
 
-/// Runs one combination: its row, and the files that it has read.
+/// Runs one combination; returns its row, and the files that were read.
 pub(super) fn row(args: &SweepArgs, combination: &[usize]) -> Result<(Row, Vec<PathBuf>), Failure> {
     let mut request = args.simulation.request(&args.program);
     put(&args.vary, combination, &mut request);

@@ -1,4 +1,4 @@
-//! The rows of a sweep as a Parquet file: numbers as numbers, words as strings, nothing where there is no number.
+//! The rows of a sweep as a Parquet file: numbers as numbers, texts as strings, null where there is no number.
 
 use super::rows::Rows;
 use crate::table::Cell;

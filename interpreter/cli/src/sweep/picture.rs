@@ -9,15 +9,15 @@ use crate::chart::view::{Line, Points, View};
 use crate::table::Cell;
 use kontur_interpreter::summary::State;
 
-/// Shown if no results are named.
+/// Results that are drawn if none are given.
 const USUAL: [&str; 2] = ["duration_s", "contour_err_mm"];
-/// Curves beyond these cannot be distinguished.
+/// More curves than this cannot be distinguished.
 const MOST_CURVES: usize = 18;
 
-/// A combination of all parameters but the first.
+/// A combination of all parameters except the first.
 struct Series<'a> {
     rest: &'a [usize],
-    /// Value of the first parameter, and the row, in rising order of the value.
+    /// Value of the first parameter, and the row, in increasing order of the value.
     points: Vec<(f64, usize)>,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn draw(
     for s in &mut series {
         s.points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
-    // after the parameters
+    // the first result column follows the parameters
     let state = args.vary.len();
     let finished =
         |row: usize| rows.cells[row][state] == Cell::Word(State::Finished.name().to_owned());
@@ -88,7 +88,7 @@ pub(super) fn draw(
                 .map(|(number, s)| {
                     let value = |row: usize| {
                         let cell = rows.cells[row][column].number();
-                        // the figures of an aborted run are not results
+                        // values of an aborted run are not results
                         cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
                     };
                     let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
@@ -121,7 +121,7 @@ pub(super) fn draw(
     Ok(plot.draw())
 }
 
-/// Up to where the runs of a series finish, if some do not.
+/// The value up to which the runs of a series finish, if some do not.
 fn end(series: &Series<'_>, finished: impl Fn(usize) -> bool) -> Option<String> {
     let aborted = series.points.iter().find(|p| !finished(p.1))?;
     let last = series.points.iter().rev().find(|p| finished(p.1));

@@ -17,7 +17,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// All combinations of the arguments; `output` and `shard` have no part in it.
+    /// All combinations of the arguments; `output` and `shard` are not used.
     ///
     /// # Errors
     /// [`Error::Usage`] for too many of them, or a parameter given twice.
@@ -31,17 +31,17 @@ impl Plan {
         self.combinations.len()
     }
 
-    /// True if nothing is to be run.
+    /// Whether there are no runs.
     pub const fn is_empty(&self) -> bool {
         self.combinations.is_empty()
     }
 
-    /// Names of what varies: the first columns of every row.
+    /// Names of the varied parameters: the first columns of every row.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.args.vary.iter().map(|v| v.key.as_str())
     }
 
-    /// Does one of the runs, by its number in the order of the table.
+    /// Performs one of the runs, by its number in the order of the table.
     ///
     /// # Errors
     /// [`OpenError`] if it cannot be run; an aborted run has a row.
@@ -55,7 +55,7 @@ impl Plan {
         Ok(done?.0)
     }
 
-    /// Keys of the parameters that make no difference to any row; `rows` are all of them, in their order.
+    /// Keys of the parameters without influence on any row; `rows` are all of them, in order.
     pub fn without_effect(&self, rows: &[Vec<Cell>]) -> Vec<&str> {
         if rows.len() == self.len() {
             idle(&self.args.vary, &self.combinations, rows)

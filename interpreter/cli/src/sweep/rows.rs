@@ -8,9 +8,9 @@ use std::path::PathBuf;
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub(super) summary: Summary,
-    /// In the order of `--amplitude`; not a number if the run did not get that far.
+    /// In the order of `--amplitude`; NaN if the run ended before.
     pub(super) amplitudes: Vec<f64>,
-    /// Files that it has read.
+    /// Files that were read.
     pub(super) reads: Vec<PathBuf>,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// With one more column that says the same in every row.
+    /// Adds a column with the same text in every row.
     pub(super) fn noting(mut self, name: &str, text: &str) -> Self {
         self.header.push(name.to_owned());
         for row in &mut self.cells {

@@ -1,4 +1,5 @@
-//! What would help: the program runs again with one group of parameters a tenth better, and the times are compared line by line.
+//! Proposals: the program is run again with one group of parameters improved by a tenth, and the times are compared
+//! line by line.
 
 use super::{Collector, Help, Reason, Times};
 use crate::files;
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::HashMap;
 
-/// A reason that takes less than this share of the duration is not worth a run.
+/// A reason with less than this share of the duration does not justify a run.
 const WORTHWHILE: f64 = 0.01;
 
 /// Name of a change of a group of parameters by a tenth, and the factor.
@@ -25,7 +26,7 @@ const fn tenth(lever: Lever) -> (&'static str, f64) {
     }
 }
 
-/// A change of the lists and what it saves.
+/// A change of the lists and its saving.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Proposal {
     /// `accelerations +10 % of Y`.
@@ -34,13 +35,14 @@ pub(crate) struct Proposal {
     pub parameters: String,
     /// The settings as for `--set`.
     pub settings: Vec<String>,
-    /// Seconds that the run becomes shorter; below 0: longer.
+    /// Time in s by which the run becomes shorter; negative: longer.
     pub saves_s: f64,
 }
 
-/// Tries out what the reasons suggest, one run each; the longest saving first. The lines get the proposal that helps them most.
+/// Tries the changes suggested by the reasons, with one run each, and sorts them by saving. Each line gets the proposal
+/// with the largest saving for it.
 ///
-/// Nothing is tried for a program or for lists that cannot be read again (standard input, a pipe).
+/// Nothing is tried for a program or lists that cannot be read again (standard input, a pipe).
 pub(crate) fn try_out(times: &mut Times, request: &Request) {
     if files::is_standard(&request.program) || files::regular(&request.program).is_err() {
         return;
@@ -67,7 +69,7 @@ pub(crate) fn try_out(times: &mut Times, request: &Request) {
     times.proposals.sort_by(|a, b| b.saves_s.total_cmp(&a.saves_s));
 }
 
-/// What the reasons suggest, for axes and spindles that are named by one of them or for all path axes.
+/// The changes suggested by the reasons, for the axes and spindles they mention or for all path axes.
 fn wanted(times: &Times, machine: &Machine) -> Vec<Proposal> {
     let axes = &machine.axes[..];
     let share = |reason: Reason, axis: Option<&str>| -> f64 {
@@ -120,7 +122,7 @@ impl Sink for Watch {
     }
 }
 
-/// None if the lists do not allow these settings, or the run does not come to its end with them.
+/// `None` if the lists do not permit these settings, or the run does not finish with them.
 fn run(proposal: Proposal, request: &Request) -> Option<(Proposal, Times)> {
     let mut request = request.clone();
     request.settings.extend(proposal.settings.iter().cloned());

@@ -1,23 +1,23 @@
-//! What a cycle was needed for.
+//! The purpose of a cycle.
 
 use kontur_interpreter::record::{CycleRecord, Rest, SpeedLimit};
 use serde::{Serialize, Serializer};
 
 /// Accelerations below this count as 0, in mm/s2.
 const NO_ACC_MM_S2: f64 = 1e-6;
-/// Share by which an acceleration may change in a cycle and still be constant.
+/// Largest relative change of an acceleration in a cycle that still counts as constant.
 const CONSTANT: f64 = 1e-6;
 
-/// What a cycle was needed for.
+/// The purpose of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Reason {
-    /// The programmed feed is reached.
+    /// The programmed feed rate is reached.
     Feed,
     /// An axis is at its velocity limit.
     AxisV,
     /// The speed changes with constant acceleration: an axis is at its limit.
     AxisA,
-    /// The speed changes while the acceleration is built up or taken away (ramp times, jerk, form of the slope).
+    /// The speed changes while the acceleration is built up or reduced (ramp times, jerk, form of the slope).
     Slope,
     /// Speed of a kink between blocks.
     Corner,
@@ -80,7 +80,7 @@ impl Reason {
 
     fn of_motion(limit: SpeedLimit, v_mm_s: f64, a_mm_s2: f64, j_mm_s3: f64) -> Self {
         if a_mm_s2.abs() > NO_ACC_MM_S2 {
-            // per ms: a jerk that would need more than a thousand seconds to remove the acceleration counts as 0
+            // per ms: a jerk that would take more than a thousand seconds to remove the acceleration counts as 0
             let constant = j_mm_s3.abs() * 1e-3 <= CONSTANT * a_mm_s2.abs();
             return if constant { Self::AxisA } else { Self::Slope };
         }
@@ -94,7 +94,7 @@ impl Reason {
             SpeedLimit::Curve => Self::Curve,
             SpeedLimit::AxDev => Self::AxDev,
             SpeedLimit::Lookahead => Self::Lookahead,
-            // the top of a ramp up and down again
+            // the peak between two ramps
             SpeedLimit::Stop => Self::Slope,
         }
     }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader};
 
-/// Reasons shown of a line; one that takes less than this share of it is left out.
+/// Number of reasons shown per line; one with less than this share of it is left out.
 const REASONS_MAX: usize = 3;
 const REASON_SHARE_MIN: f64 = 0.05;
 
@@ -122,7 +122,7 @@ impl Times {
     /// One row per line in the order of files and lines, one column per reason in s.
     ///
     /// # Errors
-    /// None while it writes to memory.
+    /// None when writing to memory.
     pub(crate) fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let fixed = ["file", "line", "block", "kind", "total_s", "share"].map(str::to_owned);

@@ -1,7 +1,7 @@
 //! A trace file written by a separate thread, so that a run does not wait for formatting and disks.
 //!
-//! Rows go to it in batches, and the empty batches come back: a few of them are all the memory that this takes, and
-//! a run that is faster than its file waits. The rows are the same, and in the same order, as without a thread.
+//! Rows are passed to it in batches, and the empty batches are returned: a few of them are all the memory required, and
+//! a run that is faster than its file waits. The rows are the same, in the same order, as without a thread.
 
 use super::Writer;
 use super::batch::{Batch, Numbers};
@@ -11,13 +11,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Rows of a batch: with fewer of them, waking the threads costs more than a twentieth of a run.
+/// Number of rows in a batch: with fewer of them, waking the threads costs more than a twentieth of a run.
 const ROWS: usize = 1024;
-/// Batches on their way.
+/// Number of batches in circulation.
 const BATCHES: usize = 3;
-/// Rows between two looks at the clock.
+/// Number of rows between two checks of the clock.
 const LOOK_EVERY: usize = 16;
-/// A batch waits no longer than this before it is handed over, and the thread no longer before it flushes.
+/// Longest wait before a batch is handed over, and before the thread flushes.
 const PERIOD: Duration = Duration::from_millis(400);
 
 #[expect(
@@ -46,10 +46,10 @@ impl std::fmt::Debug for Background {
 }
 
 impl Background {
-    /// Gives a writer of rows with these numbers its thread.
+    /// Moves a writer of rows with these numbers to a thread.
     ///
     /// # Errors
-    /// The system's, if there can be no more threads.
+    /// The system's, if no thread can be started.
     pub(super) fn start(writer: Writer, numbers: Numbers) -> io::Result<Self> {
         let (sender, batches) = sync_channel(BATCHES);
         let (back, spare) = sync_channel(BATCHES + 2);
@@ -59,7 +59,7 @@ impl Background {
         Ok(Self { numbers, batch: Batch::default(), sent: now(), sender, spare, thread })
     }
 
-    /// Takes every `decimate`-th of some cycles, from the first one on; false if the thread has ended because of an error, which
+    /// Takes every `decimate`-th cycle, from the first one on; false if the thread has ended because of an error, which
     /// [`Self::end`] returns.
     pub(super) fn write(&mut self, rows: &Rows<'_>, decimate: usize) -> bool {
         let before = self.batch.len();
@@ -67,7 +67,7 @@ impl Background {
         self.look(before)
     }
 
-    /// Hands the batch over, which has had `before` rows, if it is full or has waited for long.
+    /// Hands the batch over, which had `before` rows, if it is full or has waited long enough.
     fn look(&mut self, before: usize) -> bool {
         let now = self.batch.len();
         let looks = now / LOOK_EVERY > before / LOOK_EVERY;
@@ -81,7 +81,7 @@ impl Background {
         self.sender.as_ref().is_some_and(|sender| sender.send(batch).is_ok())
     }
 
-    /// Ends the thread when it has written everything; the writer comes back, with the error that has stopped it.
+    /// Ends the thread when it has written everything; returns the writer, with the error that has stopped it.
     ///
     /// # Errors
     /// If the thread has panicked.
@@ -95,17 +95,17 @@ impl Background {
 }
 
 impl Drop for Background {
-    /// Waits for the thread: what it has not given a name yet, it takes away.
+    /// Waits for the thread, which removes files that have no name yet.
     fn drop(&mut self) {
         self.sender = None;
         if let Some(thread) = self.thread.take() {
-            // a panic has been reported by its own thread
+            // a panic has been reported by the thread itself
             drop(thread.join());
         }
     }
 }
 
-/// Writes until no more batches can come.
+/// Writes until all senders are gone.
 fn work(
     mut writer: Writer,
     batches: &Receiver<Batch>,
@@ -116,7 +116,7 @@ fn work(
             Ok(mut batch) => {
                 let written = writer.write(&batch);
                 batch.clear();
-                // if it is no longer needed, it is not received
+                // a batch that is no longer needed is dropped by the receiver
                 drop(back.try_send(batch));
                 written
             }
@@ -153,7 +153,7 @@ mod tests {
         Background::start(writer, Numbers::of(&columns)).unwrap()
     }
 
-    /// Every record of several batches arrives, in order, the last ones too.
+    /// Every record of several batches arrives, in order, including the last ones.
     #[test]
     fn everything_arrives_in_order() {
         let folder = tempfile::tempdir().unwrap();
@@ -171,7 +171,7 @@ mod tests {
         assert!(times.eq((0..5000).map(|k| format!("{}.{:03}000", k / 1000, k % 1000))));
     }
 
-    /// A run that is given up leaves no file.
+    /// A run that is abandoned leaves no file.
     #[test]
     fn what_is_dropped_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(std::fs::read(folder.path().join("a.csv")).unwrap(), b"old");
     }
 
-    /// The disk is full: the run learns of it, and the error is the system's.
+    /// With a full disk the run is notified, and the error is the system's.
     #[test]
     #[cfg(target_os = "linux")]
     fn an_error_comes_back() {

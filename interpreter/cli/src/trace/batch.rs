@@ -1,9 +1,10 @@
-//! Rows on their way to a file: of each record only what the trace shows, so that little is handed from thread to thread.
+//! Rows on their way to a file: only the values shown by the trace, which keeps the amount of data between the threads
+//! small.
 
 use kontur_interpreter::record::columns::{Column, Content};
 use kontur_interpreter::record::{CycleRecord, Rows, SpeedLimit};
 
-/// What of a cycle is in no numeric column; see [`CycleRecord`].
+/// The values of a cycle that are not in a numeric column; see [`CycleRecord`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Head {
     pub(crate) k: u64,
@@ -20,12 +21,12 @@ impl Head {
     }
 }
 
-/// Where the numeric columns of a trace find their values.
+/// Sources of the numeric columns of a trace.
 #[derive(Clone, Debug)]
 pub(crate) struct Numbers(Vec<Content>);
 
 impl Numbers {
-    /// Of these columns.
+    /// Those of the given columns.
     pub(crate) fn of(columns: &[Column]) -> Self {
         Self(columns.iter().map(|c| c.content).filter(|content| content.is_number()).collect())
     }
@@ -40,7 +41,7 @@ pub(crate) struct Batch {
 }
 
 impl Batch {
-    /// Adds every `decimate`-th of some cycles, from the first one on; the numbers are the same for every row.
+    /// Adds every `decimate`-th cycle, from the first one on; the sources must be the same for every row.
     pub(crate) fn extend(&mut self, Numbers(contents): &Numbers, rows: &Rows<'_>, decimate: usize) {
         let cycles = rows.cycles().iter().step_by(decimate);
         self.heads.extend(cycles.map(Head::of));
@@ -55,13 +56,13 @@ impl Batch {
         self.heads.len()
     }
 
-    /// No rows, keeping the memory.
+    /// Removes all rows but keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.heads.clear();
         self.numbers.iter_mut().for_each(Vec::clear);
     }
 
-    /// What of each row is in no numeric column.
+    /// The values of each row that are not in a numeric column.
     pub(crate) fn heads(&self) -> &[Head] {
         &self.heads
     }
@@ -111,8 +112,8 @@ mod tests {
         }
     }
 
-    /// The values of each row are those that the columns find in the record of its cycle, where the axes run in a row as where
-    /// they go cycle by cycle, for all columns and for some, for each cycle and for some.
+    /// The values of each row equal those in the record of its cycle, for axes computed in a row and cycle by cycle,
+    /// for all columns and for some, for each cycle and for some.
     #[test]
     fn rows_hold_what_columns_show() {
         let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nN10 G01 X5 F3000 M3 S100\nG60 Y3\nG04 0.1\nX0 Y0\nM30\n";

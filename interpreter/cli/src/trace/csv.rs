@@ -9,7 +9,7 @@ use kontur_interpreter::record::columns::{Column, Content};
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-/// Turns rows into lines of CSV.
+/// Converts rows to lines of CSV.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows {
     names: Vec<String>,
@@ -19,7 +19,7 @@ pub(crate) struct Rows {
     files: FileNames,
 }
 
-/// A column that is not a number, and those after it that are: what is read of the columns for every row.
+/// A column that is not a number, and the numeric columns after it: the data read for every row.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
     content: Content,
@@ -28,7 +28,7 @@ struct Stretch {
 }
 
 impl Rows {
-    /// Rows with the given columns, of which the first one is the time.
+    /// Rows with the given columns, the first of which is the time.
     pub(crate) fn new(columns: &[Column], facts: &Facts) -> Self {
         let mut stretches: Vec<Stretch> = Vec::new();
         let mut decimals = Vec::new();
@@ -69,14 +69,14 @@ impl Rows {
         }
     }
 
-    /// Takes the numbers of some rows together, from row `first` of a batch on; returns what else these rows hold.
+    /// Takes the numbers of some rows together, from row `first` of a batch on; returns their other values.
     fn take<'a>(&mut self, batch: &'a Batch, first: usize) -> &'a [Head] {
         let rows = first..batch.len().min(first + NumberTable::ROWS);
         self.numbers.take(batch.numbers(), rows.clone());
         &batch.heads()[rows]
     }
 
-    /// Appends the line of one of the rows that were taken together.
+    /// Appends the line of one of these rows.
     fn push_row(&self, out: &mut Cells, row: usize, head: &Head) {
         let mut from = 0;
         for &Stretch { content, numbers_to } in &self.stretches {
@@ -92,7 +92,7 @@ impl Rows {
                     out.push_bytes(quoted(&self.files.name(head.file)).as_bytes());
                 }
                 Content::Limit => out.push_bytes(head.limit.name().as_bytes()),
-                // those after it
+                // handled as the numbers after a column
                 Content::Axis(..) | Content::Path(_) => {}
             }
             out.push_comma();
@@ -123,7 +123,7 @@ fn quoted(cell: &str) -> String {
 /// The beginning of every trace.
 const START: &[u8] = b"t_s,";
 
-/// Where the lines go.
+/// Destination of the lines.
 #[derive(Debug)]
 pub(crate) enum Target {
     /// A file.
@@ -142,7 +142,7 @@ impl Target {
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            // the run has begun well: the file gets its name
+            // the run has begun: the file gets its name
             Self::File(target) => target.show_over(START),
             Self::Standard(out) => out.flush(),
         }
@@ -155,7 +155,7 @@ impl Target {
         }
     }
 
-    /// Takes a torn line away. Not every target can be cut (a pipe, a device): there it stays, and the error is reported.
+    /// Removes an incomplete line. Pipes and devices cannot be cut; there the line stays, and the error is reported.
     fn cut(&mut self, length: u64) {
         if let Self::File(target) = self
             && let Ok(file) = target.file()
@@ -165,28 +165,28 @@ impl Target {
     }
 }
 
-/// A trace file that holds whole lines at every moment between two writes.
+/// A trace file that contains whole lines only at every moment between two writes.
 #[derive(Debug)]
 pub(crate) struct CsvWriter {
     rows: Rows,
     target: Target,
     buffer: Cells,
-    /// Bytes handed over.
+    /// Number of bytes handed over.
     written: u64,
-    /// Rows in the buffer.
+    /// Number of rows in the buffer.
     waiting: u64,
-    /// When lines were handed over last.
+    /// Time at which lines were last handed over.
     flushed: Instant,
-    /// Lines are missing.
+    /// Whether lines are missing.
     failed: bool,
 }
 
 impl CsvWriter {
-    /// Lines are handed to the system in pieces of this size.
+    /// Size of the pieces in which lines are handed to the system.
     const PIECE: usize = 256 * 1024;
-    /// And at least so often: what a kill can lose is not more.
+    /// Longest time between two pieces, which bounds the loss after a kill.
     const PERIOD: Duration = Duration::from_millis(900);
-    /// Rows between two looks at the clock.
+    /// Number of rows between two checks of the clock.
     const LOOK_EVERY: u64 = 16;
 
     /// Starts a trace with its header.
@@ -199,7 +199,7 @@ impl CsvWriter {
     /// Adds rows.
     ///
     /// # Errors
-    /// The system's, e.g. a full disk; what is in the file then ends with a whole line.
+    /// The system's, e.g. for a full disk; the file then ends with a whole line.
     pub(crate) fn write(&mut self, batch: &Batch) -> io::Result<()> {
         for first in (0..batch.len()).step_by(NumberTable::ROWS) {
             for (row, head) in self.rows.take(batch, first).iter().enumerate() {
@@ -215,7 +215,7 @@ impl CsvWriter {
         Ok(())
     }
 
-    /// Hands every line to the system; a header without a row stays where it is.
+    /// Hands every line to the system; a header without rows is kept back.
     ///
     /// # Errors
     /// As [`CsvWriter::write`].
@@ -245,7 +245,7 @@ impl CsvWriter {
         result
     }
 
-    /// Brings everything to the file, which has its name then, unless there is no row or lines are missing.
+    /// Completes the file, which then has its name unless there are no rows or lines are missing.
     ///
     /// # Errors
     /// As [`CsvWriter::write`].

@@ -1,19 +1,19 @@
 //! Fixed-point formatting of f64 and exact formatting of times.
 //!
-//! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine needs some 30
-//! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
-//! rounding error matters only when the product lands on a tie, and then a fused multiply-add gives its sign.
+//! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine has about 30
+//! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the rounding error of
+//! the product only matters if the product is a tie, and then a fused multiply-add gives its sign.
 //!
-//! The numbers of a column are rounded and divided at their decimal points together ([`NumberTable`]), several in one instruction;
-//! ties and what is too large are left to [`Cells::push_fixed`]. Then each number is written where it belongs, in words of a fixed
-//! length whose last bytes the next number overwrites. Digits that are put together elsewhere first can only be copied once all of
-//! them have been stored, and the processor waits for that.
+//! The numbers of a column are rounded and divided at their decimal points together ([`NumberTable`]), several per
+//! instruction; ties and numbers that are too large are left to [`Cells::push_fixed`]. Each number is then written to
+//! its final place, in words of a fixed length whose last bytes the next number overwrites. Digits assembled elsewhere
+//! could only be copied after all of them have been stored, which stalls the processor.
 
 mod table;
 
 pub(crate) use table::NumberTable;
 
-/// Three decimal digits of 0..=999 as bytes, the first one lowest.
+/// Three decimal digits of 0..=999 as bytes, the first one in the lowest byte.
 static TRIPLES: [u32; 1000] = {
     let mut table = [0; 1000];
     let mut i = 0;
@@ -29,7 +29,7 @@ static TRIPLES: [u32; 1000] = {
 const POWERS: [u64; MOST_DECIMALS + 1] =
     [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 
-/// Most digits after the point that are not left to the standard library.
+/// Largest number of decimals that is not left to the standard library.
 const MOST_DECIMALS: usize = 7;
 
 /// Zero with the largest number of decimals.
@@ -38,22 +38,22 @@ const ZERO: [u8; 16] = *b"0.00000000000000";
 /// Products below this have room for a tie bit: `2^52`.
 const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 
-/// A number in the decimal system.
+/// A number in decimal notation.
 #[derive(Clone, Copy, Debug)]
 struct Divided {
     negative: bool,
     whole: u64,
-    /// What is after the point times `10^7`.
+    /// The fraction times `10^7`.
     part: u32,
 }
 
 impl Divided {
-    /// Writes it at the beginning of a cell, and a comma after it; its length without the comma.
+    /// Writes the number and a comma to the beginning of a cell; returns its length without the comma.
     #[inline]
     fn put(self, cell: &mut Cell, decimals: u8) -> usize {
         let after_point = if decimals > 0 { 1 + usize::from(decimals) } else { 0 };
         let length = if self.whole == 0 && self.part == 0 {
-            // an axis at rest, and a column that is not in use
+            // an axis at rest, or an unused column
             store(cell, 0, ZERO);
             1 + after_point
         } else {
@@ -67,19 +67,19 @@ impl Divided {
     }
 }
 
-/// Text of a table that grows at its end, cell by cell.
+/// Text of a table that grows cell by cell.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cells {
-    /// The text, and room.
+    /// The text, with spare room.
     bytes: Vec<u8>,
     end: usize,
 }
 
-/// Room for any number but those of [`Cells::push_slow`]: 20 digits, sign, point, decimals, comma, and one word.
+/// Room for any number except those of [`Cells::push_slow`]: 20 digits, sign, point, decimals, comma, and one word.
 type Cell = [u8; 48];
 
 impl Cells {
-    /// An empty text with room for so many bytes.
+    /// An empty text with room for a number of bytes.
     pub(crate) fn with_capacity(bytes: usize) -> Self {
         Self { bytes: vec![0; bytes + size_of::<Cell>()], end: 0 }
     }
@@ -88,7 +88,7 @@ impl Cells {
         &self.bytes[..self.end]
     }
 
-    /// The text as bytes of its own.
+    /// The text as a vector of bytes.
     pub(crate) fn into_bytes(mut self) -> Vec<u8> {
         self.bytes.truncate(self.end);
         self.bytes
@@ -99,7 +99,7 @@ impl Cells {
         self.end
     }
 
-    /// No text, keeping the memory.
+    /// Removes the text but keeps the memory.
     pub(crate) const fn clear(&mut self) {
         self.end = 0;
     }
@@ -120,7 +120,7 @@ impl Cells {
         self.push_bytes(b",");
     }
 
-    /// The last byte becomes the end of a line.
+    /// Replaces the last byte by the end of a line.
     pub(crate) fn end_line(&mut self) {
         if let Some(last) = self.bytes[..self.end].last_mut() {
             *last = b'\n';
@@ -132,7 +132,7 @@ impl Cells {
         self.bytes.resize(2 * self.end + more + size_of::<Cell>(), 0);
     }
 
-    /// Appends what `put` writes into a cell; the number of bytes it returns is part of the text.
+    /// Appends what `put` writes into a cell; `put` returns the number of bytes.
     #[inline]
     fn push_cell(&mut self, put: impl FnOnce(&mut Cell) -> usize) {
         loop {
@@ -145,7 +145,8 @@ impl Cells {
         }
     }
 
-    /// Appends what `put` writes into a cell for each item; ends with the first item for which it writes nothing, and returns that.
+    /// Appends what `put` writes into a cell for each item; stops at the first item for which it writes nothing, and
+    /// returns that item.
     #[inline]
     fn push_cells<'a, T>(
         &mut self,
@@ -167,8 +168,8 @@ impl Cells {
 
     /// Appends `value` with `decimals` digits after the point, rounded half away from zero.
     ///
-    /// Zero has no sign. A value that is not finite leaves nothing: an empty cell reads as "not a number" everywhere and
-    /// keeps the columns in place.
+    /// Zero has no sign. For a value that is not finite the cell is empty, which every reader takes as "not a number"
+    /// and which keeps the columns in place.
     pub(crate) fn push_fixed(&mut self, value: f64, decimals: u8) {
         let Some(&power) = POWERS.get(usize::from(decimals)) else {
             return self.push_slow(value, decimals);
@@ -186,7 +187,7 @@ impl Cells {
         }
     }
 
-    /// Values beyond the range of machines, nothing for what is not finite, and more decimals than any column has.
+    /// Values beyond the range of machines, values that are not finite (empty), and more decimals than any column has.
     #[cold]
     fn push_slow(&mut self, value: f64, decimals: u8) {
         if value.is_finite() {
@@ -211,8 +212,8 @@ impl Cells {
     }
 }
 
-/// Writes a point and the seven digits of `part / 10^7`. The word is made in a register: of bytes that are stored one by one it
-/// could not be read before all of them are there.
+/// Writes a point and the seven digits of `part / 10^7`. The word is assembled in a register: bytes stored one by one
+/// could not be read back as a word before all of them are stored.
 #[inline]
 fn put_part(cell: &mut Cell, at: usize, part: u32) {
     let (first, rest) = (part / 1_000_000, part % 1_000_000);
@@ -222,7 +223,7 @@ fn put_part(cell: &mut Cell, at: usize, part: u32) {
     store(cell, at, (u64::from(begin) | middle | end).to_le_bytes());
 }
 
-/// Writes a word; nothing beyond the end of the cell, where no number reaches.
+/// Writes a word, but nothing beyond the end of the cell, which numbers do not reach.
 #[inline]
 fn store<const N: usize>(cell: &mut Cell, at: usize, word: [u8; N]) {
     if let Some(place) = cell.get_mut(at..).and_then(<[u8]>::first_chunk_mut) {
@@ -230,13 +231,13 @@ fn store<const N: usize>(cell: &mut Cell, at: usize, word: [u8; N]) {
     }
 }
 
-/// Writes the digits of `n`, and returns where they end.
+/// Writes the digits of `n`, and returns the position after them.
 #[inline]
 fn put_whole(cell: &mut Cell, at: usize, n: u64) -> usize {
     if n < 1000 { put_short(cell, at, n) } else { put_long(cell, at, n) }
 }
 
-/// The same for up to three of them.
+/// The same for up to three digits.
 #[inline]
 fn put_short(cell: &mut Cell, at: usize, n: u64) -> usize {
     let length = 1 + usize::from(n >= 10) + usize::from(n >= 100);
@@ -245,7 +246,7 @@ fn put_short(cell: &mut Cell, at: usize, n: u64) -> usize {
     at + length
 }
 
-/// The same for more than three of them.
+/// The same for more than three digits.
 fn put_long(cell: &mut Cell, at: usize, n: u64) -> usize {
     let (before, last) = (n / 1000, n % 1000);
     let at = if before < 1000 { put_short(cell, at, before) } else { put_long(cell, at, before) };
@@ -257,7 +258,7 @@ fn put_long(cell: &mut Cell, at: usize, n: u64) -> usize {
 #[inline]
 #[expect(clippy::float_cmp, reason = "a tie is an exact bit pattern")]
 fn round_product(value: f64, scale: f64, product: f64) -> i64 {
-    // truncation is exact, and so is the rest
+    // truncation is exact, and so is the remainder
     let whole = product as i64;
     let rest = (product - whole as f64).abs();
     let outwards = if product < 0.0 { -1 } else { 1 };
@@ -268,7 +269,7 @@ fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     } else {
         rest > 0.5
     };
-    // no branch: which way it is cannot be foreseen
+    // without a branch, which could not be predicted
     whole + outwards * i64::from(away)
 }
 
@@ -277,7 +278,7 @@ mod tests {
     use super::*;
     use kontur_kit::Random;
 
-    /// Alone, and as a number of a table.
+    /// Formatted alone, and as a number of a table.
     fn fixed(value: f64, decimals: u8) -> String {
         let (mut out, mut row) = (Cells::default(), Cells::default());
         out.push_fixed(value, decimals);

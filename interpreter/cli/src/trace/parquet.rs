@@ -1,10 +1,10 @@
 //! The Parquet writer: the columns of the CSV trace with every bit of the numbers.
 //!
-//! Numbers are stored as byte streams (all first bytes, all second bytes, ...), which is what makes smooth curves
-//! compress, lines and block numbers as differences; a dictionary of 64 K different values would cost time and save nothing.
-//! Snappy is the codec because it is plain Rust and every reader knows it. Minimum and maximum of a group are there for the
-//! columns by which readers select rows (time, line, block, words), not for the other numbers: finding them costs more than
-//! splitting their bytes.
+//! Numbers are stored as byte streams (all first bytes, all second bytes, ...), which makes smooth curves compressible;
+//! lines and block numbers are stored as differences. A dictionary of 64 K different values would cost time and save
+//! nothing. The codec is Snappy, which is plain Rust and supported by every reader. Minimum and maximum of a group are
+//! stored for the columns by which readers select rows (time, line, block, words), but not for other numbers: finding
+//! them costs more than splitting their bytes.
 //!
 //! A Parquet file is readable only once its footer is written. So each group of rows goes to a separate file in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
@@ -32,21 +32,21 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
 
-/// Rows that are gathered before they are written.
+/// Number of rows that are collected before they are written.
 const ROWS_PER_GROUP: usize = 65_536;
 
-/// Bytes that are handed to the system at once.
+/// Number of bytes handed to the system at once.
 const PIECE: usize = 1 << 20;
 
-/// The largest buffer that is kept when it is free, see [`keep_free_memory`]: more than that of any page.
+/// Largest buffer that stays allocated when it is free, see [`keep_free_memory`]: more than that of any page.
 const KEPT: usize = 16 << 20;
 
-/// The values of one column that wait to be written.
+/// The values of one column waiting to be written.
 #[derive(Debug)]
 enum Values {
     Number(Vec<f64>),
     Integer(Vec<i64>),
-    /// Integers that may be missing, with a 1 for each that is there.
+    /// Integers that may be missing, with a 1 for each one present.
     Optional(Vec<i64>, Vec<i16>),
     Word(Vec<ByteArray>),
 }
@@ -63,7 +63,7 @@ pub(crate) struct ParquetWriter {
     target: Target,
     /// Path of the trace.
     path: PathBuf,
-    /// Location of the earlier groups, if there are any.
+    /// Folder of the earlier groups, if there are any.
     folder: Option<TempDir>,
     parts: Vec<PathBuf>,
 }
@@ -102,7 +102,7 @@ impl ParquetWriter {
                 }
                 _ => (Physical::DOUBLE, None, Repetition::REQUIRED),
             };
-            // words are few, so they keep their dictionary
+            // there are few different words, so they keep their dictionary
             let encoding = match physical {
                 Physical::DOUBLE => Some(Encoding::BYTE_STREAM_SPLIT),
                 Physical::INT64 => Some(Encoding::DELTA_BINARY_PACKED),
@@ -206,7 +206,7 @@ impl ParquetWriter {
         };
         let path = folder.path().join(format!("{:06}.parquet", self.parts.len() + 1));
         self.folder = Some(folder);
-        // until it is whole it has a name that readers of folders pass over
+        // until it is complete it has a name that readers of folders skip
         let unfinished = folder_of(&path).join(format!(".{:06}.part", self.parts.len() + 1));
         let file = BufWriter::with_capacity(PIECE, File::create(&unfinished)?);
         let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
@@ -231,17 +231,17 @@ impl ParquetWriter {
         Ok(())
     }
 
-    /// Puts everything together under the name of the trace; without a row nothing is written.
+    /// Combines everything under the name of the trace; without rows nothing is written.
     ///
     /// # Errors
-    /// The system's, e.g. a full disk; what was written stays in the folder that the error names.
+    /// The system's, e.g. for a full disk; the data written so far stay in the folder stated in the error.
     pub(crate) fn finish(mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
         let written = if self.rows > 0 { self.write_group() } else { Ok(()) };
         let done = written.and_then(|()| self.join(facts, totals));
         done.map_err(|e| self.kept(e))
     }
 
-    /// An error that says where the parts are, which stay there.
+    /// An error that states the folder of the parts, which are kept.
     fn kept(&mut self, e: io::Error) -> io::Error {
         match &mut self.folder {
             Some(folder) if !self.parts.is_empty() => {
@@ -292,14 +292,14 @@ impl ParquetWriter {
     }
 }
 
-/// Has the memory of a page kept for the next one. Every page takes several buffers of half a megabyte; the C library of GNU gives
-/// such memory back to the system at once, which clears it before each use, until a larger buffer has been freed. Elsewhere
-/// this is a buffer that is never used.
+/// Makes the allocator keep the memory of a page for the next one. Every page takes several buffers of half a megabyte.
+/// The GNU C library returns such memory to the system at once, which clears it before each use, until a larger buffer
+/// has been freed. On other systems this is only an unused buffer.
 fn keep_free_memory() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
 }
 
-/// A word that costs nothing to clone: no count of its users is kept.
+/// A word that is cheap to clone, without a reference count.
 fn word(text: &'static str) -> ByteArray {
     Bytes::from_static(text.as_bytes()).into()
 }

@@ -1,9 +1,9 @@
 //! Two vibrations too far apart for one Vibration Guard: the guard on one of them, a band-stop filter of the axis list on
 //! the other.
 //!
-//! A FIR filter cannot be combined with the guard in one axis, a standard filter of the list can. What both leave of a
-//! vibration is the product of what each of them leaves: the residual of the guard's impulses and the magnitude of the
-//! filter's response at that frequency.
+//! A FIR filter cannot be combined with the guard on one axis, a standard filter of the list can. Together they leave
+//! the product of their separate residuals: that of the impulses of the guard, and the magnitude of the filter response
+//! at the frequency.
 
 use super::task::{Task, command};
 use crate::table::number;
@@ -15,10 +15,10 @@ use kontur_filters::stage::Stage as _;
 
 /// Order of the band-stop filter: flat enough for some percent of uncertainty.
 const ORDER: u32 = 2;
-/// Frequencies of a band at which the product is looked at.
+/// Number of frequencies of a band at which the product is evaluated.
 const STEPS: u32 = 40;
 
-/// Guard and filter with what they leave.
+/// Guard and filter with their residual.
 struct Pair {
     guard: Choice,
     stop: FilterConfig,
@@ -27,10 +27,10 @@ struct Pair {
     left: [f64; 2],
 }
 
-/// The band of some estimates, and the widest quality of a band stop around it.
+/// The band of some estimates, and the highest quality of a band-stop around it.
 fn stop_of(band: VibrationBand) -> FilterConfig {
     let f_hz = (100.0 * (band.low_hz * band.high_hz).sqrt()).round() / 100.0;
-    // the flanks of the stop are two and a half times as far apart as the frequencies
+    // the edges of the stop band are two and a half times as far apart as the frequencies
     let q = f_hz / (2.5 * (band.high_hz - band.low_hz)).max(0.25 * f_hz);
     FilterConfig {
         kind: FilterKind::BandStop,
@@ -60,7 +60,7 @@ fn pair(task: &Task, on_guard: VibrationBand, on_stop: VibrationBand) -> Option<
         let left = [over(on_guard, &guard), over(on_stop, &guard)];
         Some(Pair { guard, stop, delay_cycles: filter.delay_cycles() + guard.delay_cycles, left })
     });
-    // the shortest kernel among those that keep the limit, else the least residual
+    // the shortest kernel of those within the limit, otherwise the smallest residual
     pairs.reduce(|a, b| {
         let [wa, wb] = [&a, &b].map(|p| p.left[0].max(p.left[1]));
         let [ka, kb] = [wa, wb].map(|w| w <= task.limit_ratio);
@@ -73,7 +73,7 @@ fn pair(task: &Task, on_guard: VibrationBand, on_stop: VibrationBand) -> Option<
     })
 }
 
-/// The answer for frequencies that fall into two groups, none if they do not.
+/// The answer for frequencies that fall into two groups, `None` if they do not.
 pub(super) fn answer(task: &Task) -> Option<String> {
     let mut bands: Vec<(f64, f64)> = task.bands_hz.clone();
     bands.sort_by(|a, b| a.0.total_cmp(&b.0));

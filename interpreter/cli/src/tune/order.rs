@@ -1,4 +1,4 @@
-//! The largest order of a filter for a tolerance.
+//! The largest order of a filter within a tolerance.
 
 use super::task::Answer;
 use crate::console::Console;
@@ -29,7 +29,7 @@ pub(super) fn answer(
     {
         let config = FirConfig::new(kind);
         let most = largest_order(&config, tolerance_mm, feed_mm_min / 60.0, cycle);
-        // an odd order delays by half a cycle, which no delay filter matches in an axis without filter
+        // an odd order delays by half a cycle, which the delay filter of an unfiltered axis cannot match
         for order in [most.order, most.order - most.order % 2] {
             let (kernel, _) = FirConfig { order, ..config }.design(cycle);
             let Some(kernel) = kernel.filter(|_| order > 0) else { continue };

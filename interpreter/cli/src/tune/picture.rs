@@ -1,4 +1,4 @@
-//! `tune -o picture.svg`: the recording with what was found in it.
+//! `tune -o picture.svg`: the recording with the findings.
 
 use super::recording::Recording;
 use crate::chart::plot::Plot;
@@ -7,7 +7,7 @@ use crate::chart::view::{Line, Points, View, thinned};
 use crate::spectrum::AmplitudeSpectrum;
 use crate::table::number;
 
-/// Points of a curve; longer ones are thinned out to their extremes.
+/// Largest number of points of a curve; longer ones are reduced to their extremes.
 const MOST_POINTS: usize = 4000;
 
 /// Every recording over time and its spectrum below, with the fitted decays over both.

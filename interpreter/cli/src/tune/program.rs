@@ -1,11 +1,12 @@
 //! The choices evaluated on the user's program: residual vibration, deviation from the contour, machining time.
 //!
-//! Each choice is forced on the run ([`ForcedGuard`]) instead of what the lists say and of MODE, FREQ and DAMPING in the
-//! program's own commands; ON, OFF and `AX_DEV` of the program stay. A program that switches the guard off or filters by
-//! other means can still keep it from acting, so the delays that really acted are compared with those of the kernels.
+//! Each choice is forced on the run ([`ForcedGuard`]) in place of the settings of the lists and of MODE, FREQ and
+//! DAMPING in the commands of the program; ON, OFF and `AX_DEV` of the program stay. The guard may still be ineffective
+//! if the program switches it off or uses other filters, so the delays that occurred are compared with those of the
+//! kernels.
 //!
-//! A program without `AX_DEV` is run once more with each choice that leaves the bound: with the bound as its tolerance.
-//! A choice that keeps the bound anyway is not slowed down by the key.
+//! A program without `AX_DEV` is run once more with each choice that exceeds the bound, with the bound as its
+//! tolerance. A choice that stays within the bound anyway is not slowed down by the key.
 
 use super::task::{Answer, Row, Task, command};
 use crate::args::TuneArgs;
@@ -23,22 +24,22 @@ use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::{Collector, State, Summary};
 use std::path::Path;
 
-/// Deviations are kept to this in mm, as everywhere.
+/// Tolerance in mm for comparing deviations with a bound, as everywhere.
 const SLACK_MM: f64 = 1e-9;
-/// Delays that differ by less are the same, in cycles.
+/// Delays that differ by less, in cycles, count as equal.
 const SAME_DELAY: f64 = 1e-6;
 
-/// The figures of a run with one choice; no choice: the Vibration Guard off.
+/// The results of a run with one choice; without a choice the Vibration Guard is off.
 struct Outcome {
     choice: Option<Choice>,
-    /// `AX_DEV` as the program or the run has it.
+    /// `AX_DEV` as set by the program or the run.
     ax_dev: Option<f64>,
     summary: Summary,
     /// Largest deviation of a path axis from the contour in mm (deg).
     dev_mm: f64,
 }
 
-/// Runs the program with every choice and names the fastest that keeps both bounds.
+/// Runs the program with every choice and reports the fastest one within both bounds.
 pub(super) fn answer(
     task: &Task,
     args: &TuneArgs,
@@ -73,7 +74,7 @@ pub(super) fn answer(
         let ax_dev = own.ax_dev.as_ref().map(|(_, value)| *value).or(ax_dev_mm);
         Ok::<_, Error>(Outcome { choice, ax_dev, summary, dev_mm })
     };
-    // a program that switches the guard on itself has no run without it to compare with
+    // a program that switches the guard on itself cannot be compared with a run without it
     let off = own.on.is_none().then_some(None);
     for choice in off.into_iter().chain(choices(task).into_iter().map(Some)) {
         outcomes.push(try_out(choice, None, outcomes.is_empty())?);
@@ -101,8 +102,8 @@ pub(super) fn answer(
     })
 }
 
-/// Mode by mode the best and the given frequency, and the highest one that keeps the residual: a higher frequency is a
-/// shorter kernel, so nothing between can be faster.
+/// For each mode the best and the given frequency, and the highest one that keeps the residual within its limit: a
+/// higher frequency means a shorter kernel, so nothing in between can be faster.
 fn choices(task: &Task) -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
     for mode in 1..=4 {
@@ -116,8 +117,8 @@ fn choices(task: &Task) -> Vec<Choice> {
     choices
 }
 
-/// The delay of an axis is that of the kernel plus what else filters it, the same in every run. If it is not, another
-/// kernel ran than the one requested.
+/// Checks that the delay of an axis is that of the kernel plus that of its other filters, which is the same in every
+/// run. Otherwise a kernel other than the requested one was in effect.
 fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
     for (i, axis) in machine.axes.iter().enumerate() {
         let finished = outcomes.iter().filter(|o| o.summary.state == State::Finished);
@@ -137,7 +138,7 @@ fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
     Ok(())
 }
 
-/// Limits of the machine and how the program is run.
+/// Limits of the machine and options of the run.
 fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64) -> String {
     let cycle_ms = f64::from(machine.cycle.us()) / 1000.0;
     let mut lines = vec![format!("\nmachine   {}, cycle {cycle_ms} ms", machine.name)];
@@ -236,7 +237,7 @@ fn table(task: &Task, outcomes: &[Outcome], max_dev_mm: f64) -> String {
     table.text()
 }
 
-/// The fastest outcome that keeps both bounds; of equally fast ones the one that leaves least.
+/// The fastest outcome within both bounds; of equally fast ones the one with the smallest residual.
 fn fastest<'a>(task: &Task, outcomes: &'a [Outcome], max_dev_mm: f64) -> Option<&'a Outcome> {
     let left = |o: &Outcome| o.choice.map_or(1.0, |choice| choice.worst_ratio);
     outcomes.iter().filter(|o| o.keeps(task, max_dev_mm)).reduce(|a, b| {
@@ -246,7 +247,7 @@ fn fastest<'a>(task: &Task, outcomes: &'a [Outcome], max_dev_mm: f64) -> Option<
     })
 }
 
-/// The command of the fastest choice that keeps both bounds, and the duration of its run in s.
+/// The command of the fastest choice within both bounds, and the duration of its run in s.
 fn chosen(
     task: &Task,
     outcomes: &[Outcome],

@@ -1,4 +1,4 @@
-//! Which of the choices is proposed, and the command to paste.
+//! The proposed choice and its command.
 
 use super::combined;
 use super::task::{Answer, Row, Task, command};
@@ -7,7 +7,7 @@ use crate::table::{Cell, Table, number};
 use crate::{Error, Exit};
 
 impl Task {
-    /// The proposal and the numbers behind it.
+    /// The proposal and its numbers.
     pub(super) fn answer(&self, rows: &[Row], console: &mut Console) -> Result<Answer, Error> {
         console.print(&self.proposal(rows))?;
         let mut choices = Table::new(&[
@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(rows.len(), 8);
         assert_eq!(task.proposed(&rows).unwrap().settings.mode, 2);
         let text = task.text(&rows);
-        // residuals of FREQ = 6 at 6.9, 6.0 and 5.4 Hz and both ways to state the deviation
+        // residuals of FREQ = 6 at 6.9, 6.0 and 5.4 Hz, and the deviation in both conventions
         for row in ["+15.0", "-10.0", "-13.0", "+11.1"] {
             assert!(text.contains(row), "{row}: {text}");
         }
@@ -132,8 +132,8 @@ mod tests {
         assert!(bounded.proposal(&rows).contains(" DAMPING=0.1 AX_DEV=0.01]\n"));
     }
 
-    /// 4 and 16 Hz: no mode keeps 5 % of both. Guard and band stop together, judged by their steady responses here:
-    /// the product of both magnitudes bounds what is left.
+    /// 4 and 16 Hz: no mode keeps both within 5 %. Guard and band-stop together do; here they are judged by their
+    /// steady-state responses, since the product of both magnitudes bounds the residual.
     #[test]
     fn two_far_vibrations_get_a_combined_answer() {
         let task = task(&[4.0, 16.0]);
@@ -156,7 +156,7 @@ mod tests {
         assert!(!text.contains("none"));
     }
 
-    /// The interval of a measured frequency widens what the proposal has to hold.
+    /// The interval of a measured frequency widens the band that the proposal has to cover.
     #[test]
     fn the_accuracy_of_the_measurement_is_a_margin() {
         let exact = task(&[6.0]);
@@ -173,7 +173,8 @@ mod tests {
         );
     }
 
-    /// Half of a vibration of the other frequency is far more than 5 % of the strongest one; a tenth as strong it is not.
+    /// Half of a vibration of the other frequency is far more than 5 % of the strongest one, but not if it is a tenth
+    /// as strong.
     #[test]
     fn a_second_vibration_that_stays_is_told() {
         let other = |peak_ratio| {

@@ -1,4 +1,5 @@
-//! Natural frequencies and damping from recordings: which columns and times of which files, and what they show together.
+//! Natural frequencies and damping from recordings: selection of columns and times, and the common result of several
+//! files.
 
 use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
@@ -9,19 +10,19 @@ use crate::table::{Table, number};
 use std::ops::Range;
 use std::path::Path;
 
-/// Shorter recordings hold no decay.
+/// Shorter recordings cannot contain a decay.
 const LEAST_SAMPLES: usize = 64;
-/// Longer ones are refused: two minutes at 4 kHz. Their spectra take 130 MB.
+/// Longer recordings are refused: two minutes at 4 kHz. Their spectra take 130 MB.
 const MOST_SAMPLES: usize = 1 << 19;
 
-/// One recording with what it shows.
+/// One recording with its result.
 #[derive(Clone, Debug)]
 pub(super) struct Recording {
     /// File.
     pub(super) name: String,
-    /// Samples in equal steps; missing ones on straight lines.
+    /// Samples at equal steps; missing ones are interpolated linearly.
     pub(super) samples: Vec<f64>,
-    /// Where samples are missing.
+    /// Ranges of missing samples.
     pub(super) missing: Vec<Range<usize>>,
     /// Samples per second.
     pub(super) rate_hz: f64,
@@ -45,7 +46,7 @@ pub(super) struct Measured {
 /// The natural frequencies of the recordings.
 ///
 /// # Errors
-/// [`Error`] if a file cannot be read, has no such column, or holds no decaying vibration.
+/// [`Error`] if a file cannot be read, has no such column, or contains no decaying vibration.
 pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measured, Error> {
     let mut table = Table::new(&["recording", "peak", "frequency Hz", "damping", ""]);
     let (mut all, mut notes, mut dampings) = (Measured::default(), String::new(), Vec::new());
@@ -128,7 +129,7 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
     notes.iter().map(|text| format!("note      {name}: {text}\n")).collect::<Vec<_>>().concat()
 }
 
-/// Whether several recordings agree about a quantity.
+/// Statement on whether several recordings agree about a quantity.
 fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> String {
     let (Some(low), Some(high)) = (
         found.iter().copied().reduce(|a, b| if b.value < a.value { b } else { a }),
@@ -152,7 +153,7 @@ fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> Stri
     }
 }
 
-/// A file, the requested part of it, what it shows, and the time in s after which it first lost samples.
+/// A file, its selected part and result, and the time in s after which the first samples are missing.
 fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));

@@ -1,4 +1,4 @@
-//! The modes to choose from for a vibration, each with its residual vibration, and the command to paste.
+//! The modes to choose from for a vibration, each with its residual vibration, and the proposed command.
 
 use super::vibration::Mode;
 use crate::Exit;
@@ -7,12 +7,12 @@ use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 
-/// What the table of the modes is computed for.
+/// Input of the table of modes.
 #[derive(Clone, Debug)]
 pub(super) struct Task {
     /// Measured natural frequencies in Hz.
     pub(super) freqs_hz: Vec<f64>,
-    /// Where the real ones are: lower and upper end of the confidence interval of each in Hz.
+    /// Ranges of the real frequencies: lower and upper end of the confidence interval of each in Hz.
     pub(super) bands_hz: Vec<(f64, f64)>,
     /// Weaker vibrations of the recordings.
     pub(super) others: Vec<Mode>,
@@ -21,7 +21,7 @@ pub(super) struct Task {
     pub(super) at_hz: f64,
     pub(super) limit_ratio: f64,
     pub(super) feed_mm_min: f64,
-    /// Tolerance in mm that the command to paste carries.
+    /// Tolerance in mm in the proposed command.
     pub(super) max_dev_mm: Option<f64>,
     pub(super) cycle: CycleTime,
 }
@@ -30,22 +30,23 @@ pub(super) struct Task {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
     pub(super) choice: Choice,
-    /// The frequency was given, not found.
+    /// Whether the frequency was given rather than found.
     pub(super) given: bool,
 }
 
-/// The figures of each choice, and the one to take.
+/// The values of each choice, and the one to use.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// One row per choice: settings, residual vibration, contour error, delay; with a program what a run was like.
+    /// One row per choice: settings, residual vibration, contour error, delay; with a program also the results of a
+    /// run.
     pub choices: Table,
-    /// The command to paste; none if no choice meets the request.
+    /// The command to use; `None` if no choice meets the request.
     pub command: Option<String>,
-    /// How the command ends.
+    /// Exit code of the command.
     pub exit: Exit,
 }
 
-/// The middle value; of an even number the mean of both in the middle, 0 without any.
+/// The median; for an even number of values the mean of the two in the middle, 0 without any.
 pub(super) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -172,13 +173,13 @@ impl Task {
         (mode.freq.value, mode.damping.value)
     }
 
-    /// Share of a vibration of this frequency in Hz and damping that a choice leaves.
+    /// Residual share of a vibration of this frequency in Hz and damping under a choice.
     pub(super) fn left_of(&self, choice: &Choice, (real_hz, damping): (f64, f64)) -> Option<f64> {
         let band = VibrationBand { low_hz: real_hz, high_hz: real_hz, damping };
         Some(band.judge(choice.settings, self.cycle)?.worst_ratio)
     }
 
-    /// Weaker vibrations that a choice leaves above the limit of the strongest one.
+    /// Weaker vibrations whose residual under a choice exceeds the limit for the strongest one.
     pub(super) fn beside(&self, choice: &Choice) -> String {
         let loud = |m: &&Mode| {
             self.left_of(choice, Self::vibration(m))
@@ -198,7 +199,7 @@ impl Task {
         self.others.iter().filter(loud).map(line).collect::<Vec<_>>().concat()
     }
 
-    /// The mode with the least contour error among those that keep the limit, at its best frequency.
+    /// The mode with the smallest contour error of those within the limit, at its best frequency.
     pub(super) fn proposed(&self, rows: &[Row]) -> Option<Choice> {
         let best = rows.iter().filter(|row| !row.given).map(|row| row.choice);
         best.filter(|choice| self.keeps(choice))

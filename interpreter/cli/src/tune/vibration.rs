@@ -1,10 +1,10 @@
-//! What vibrates in a recorded signal: frequency and damping with their 95 % intervals, hum, blows, noise.
+//! Vibrations in a recorded signal: frequency and damping with their 95 % intervals, hum, blows, noise.
 //!
-//! A record is cut into its free decays. In each of them vibrations are found one by one ([`detect`]) and fitted
-//! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is not a vibration of the
-//! machine's structure: mains hum and motors are named and left out.
+//! A recording is divided into its free decays. In each of them vibrations are found one by one ([`detect`]) and fitted
+//! together with offset and drift ([`fit`]) until only noise remains. A signal that does not decay is not a vibration
+//! of the machine's structure: mains hum and motors are listed and left out.
 //!
-//! Order of calls: a record with its rate and what to look for, [`analyse`], then the vibrations by their strength.
+//! Order of calls: [`analyse`] with a recording, its rate and the focus, then the vibrations sorted by strength.
 //!
 //! ```
 //! use kontur::tune::vibration::{Focus, analyse};
@@ -25,25 +25,25 @@ pub use fit::Estimate;
 use fit::{Fit, Piece, Vibration};
 use std::ops::Range;
 
-/// Vibrations that are looked for, hum and its harmonics included.
+/// Largest number of vibrations that are searched, including hum and its harmonics.
 const MOST_MODES: usize = 10;
-/// Decays that are fitted.
+/// Largest number of decays that are fitted.
 const MOST_DECAYS: usize = 4;
-/// Samples that are fitted; longer pieces are averaged.
+/// Largest number of samples that are fitted; longer pieces are averaged.
 const MOST_SAMPLES: usize = 16_384;
 /// Vibrations weaker than this share of the strongest one are not reported.
 const LEAST_PEAK_RATIO: f64 = 0.15;
-/// What lasts with less than this share of the swing of the vibrations is not reported: rounding, and what is left of their fit.
+/// Lasting signals below this share of the vibration swing are not reported: rounding, and residuals of their fit.
 const LEAST_LASTING_RATIO: f64 = 1e-3;
-/// A vibration that loses less over the whole piece lasts.
+/// A vibration that loses less than this over the whole piece counts as lasting.
 const LASTING: f64 = 0.3;
-/// More than this is not a vibration to be shaped away but a transient.
+/// With a higher damping it counts as a transient rather than as a vibration to be shaped away.
 const MOST_DAMPING: f64 = 0.3;
-/// A fit that leaves this many times the white noise of the piece is not its whole truth.
+/// A fit that leaves more than this multiple of the white noise of the piece is incomplete.
 const MISFIT: f64 = 1.25;
-/// How often a piece is halved until a fit is.
+/// Number of times that an incompletely fitted piece is halved.
 const HALVINGS: usize = 3;
-/// Samples in a row at the limit that are clipped.
+/// Number of successive samples at the limit that count as clipped.
 const CLIPPED: usize = 3;
 
 /// A decaying vibration.
@@ -57,7 +57,7 @@ pub struct Mode {
     pub peak_ratio: f64,
 }
 
-/// Something that does not decay.
+/// A signal that does not decay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lasting {
     /// Frequency in Hz.
@@ -83,12 +83,12 @@ impl Default for Focus {
     }
 }
 
-/// One free decay: where it is, and the curve that was fitted to it.
+/// One free decay: its samples, and the fitted curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decay {
     /// First sample and the one after the last.
     pub samples: Range<usize>,
-    /// The fit, every so many samples.
+    /// The fit at intervals of `stride` samples.
     pub curve: Vec<f64>,
     /// Samples from one value of the curve to the next.
     pub stride: usize,
@@ -97,24 +97,24 @@ pub struct Decay {
 /// The result for a record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Analysis {
-    /// Decaying vibrations, strongest first; empty: there is none.
+    /// Decaying vibrations, strongest first; possibly none.
     pub modes: Vec<Mode>,
-    /// What lasts.
+    /// Signals that do not decay.
     pub lasting: Vec<Lasting>,
     /// The decays that were fitted, the most energetic first.
     pub decays: Vec<Decay>,
-    /// Root mean square of what is left.
+    /// Root mean square of the residual.
     pub noise: f64,
     /// Largest swing of the fitted vibrations in the first decay.
     pub swing: f64,
     /// Samples at the limit of the recorder.
     pub clipped: usize,
-    /// Frequencies that the decays disagree about: lowest and highest in Hz.
+    /// Lowest and highest frequency in Hz if the decays disagree.
     pub disagree: Option<(f64, f64)>,
 }
 
-/// Looks for vibrations in a record. Samples in `missing` were not recorded: the values there, interpolated between their
-/// neighbours, show where decays begin and end, and are not fitted.
+/// Searches a recording for vibrations. Samples in `missing` were not recorded; their values, interpolated between
+/// neighbours, are used to locate decays but are not fitted.
 pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));
@@ -148,7 +148,7 @@ pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &
     result
 }
 
-/// False where a recorder was at its limit: several samples in a row that are exactly the largest or smallest value.
+/// False where a recorder was at its limit: several successive samples that are exactly the largest or smallest value.
 fn unclipped(samples: &[f64]) -> Vec<bool> {
     let high = samples.iter().copied().fold(f64::MIN, f64::max);
     let low = samples.iter().copied().fold(f64::MAX, f64::min);
@@ -167,7 +167,7 @@ fn unclipped(samples: &[f64]) -> Vec<bool> {
     valid
 }
 
-/// A piece of a record, averaged over so many samples that it is not too long.
+/// A piece of a recording, averaged if it is too long.
 fn piece(
     samples: &[f64],
     valid: &[bool],
@@ -187,7 +187,7 @@ fn piece(
     (Piece { samples: averaged, valid: good, rate_hz: rate_hz / stride as f64 }, stride)
 }
 
-/// Adds vibrations to a fit until noise is left.
+/// Adds vibrations to a fit until only noise remains.
 fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
     let largest = piece.samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     while fit.modes() < MOST_MODES {
@@ -201,7 +201,7 @@ fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
                 && v.freq.value.is_finite()
                 && v.freq.value < 0.5 * piece.rate_hz
         });
-        // a vibration that takes next to nothing is the misfit of another one
+        // a vibration that hardly reduces the residual is the misfit of another one
         if !sound || wider.noise(piece) > 0.999 * fit.noise(piece) {
             break;
         }
@@ -221,7 +221,7 @@ fn of_decay(
     let cut = |range: &Range<usize>| piece(samples, valid, rate_hz, range, top_hz);
     let (mut range, (mut used, mut stride)) = (range.clone(), cut(&range));
     let mut fit = complete(Fit::new(&used), &used, range_hz);
-    // a blow that was not seen spoils the fit of the whole piece, not that of its first part
+    // an undetected blow spoils the fit of the whole piece, but not that of its first part
     for halvings in 1..=HALVINGS {
         let whole = fit.noise(&used) < MISFIT * fit.white(&used);
         let shorter = range.start..range.start + (range.len() >> halvings);
@@ -234,7 +234,7 @@ fn of_decay(
             (range, used, stride, fit) = (shorter, part, part_stride, part_fit);
         }
     }
-    // after the decay there is only noise, and drift that no parabola follows
+    // after the decay there is only noise, and drift that is not a parabola
     let slowest = fit
         .vibrations(&used, |_| 1.0)
         .iter()
@@ -252,7 +252,7 @@ fn of_decay(
     let peak = |v: &Vibration| v.amplitude / v.decay.value.max(1e-9);
     let inside = |v: &&Vibration| v.freq.value > range_hz.0 && v.freq.value < range_hz.1;
     let decaying = || found.iter().filter(|v| decays(v, used.seconds())).filter(inside);
-    // beside a transient what is left of it, and the digits of the file, are not vibrations
+    // next to a transient, its residual and the digits of the file are not vibrations
     let highest = decaying().map(peak).fold(f64::MIN_POSITIVE, f64::max);
     let mut modes: Vec<&Vibration> =
         decaying().filter(|v| v.damping.value < MOST_DAMPING).collect();
@@ -284,7 +284,7 @@ fn of_decay(
     }
 }
 
-/// It is damped, and not just within the accuracy.
+/// Whether it is damped by more than the accuracy.
 fn decays(v: &Vibration, seconds: f64) -> bool {
     v.decay.value > 1.5 * v.decay.half_width && v.decay.value * seconds > LASTING
 }
@@ -296,7 +296,8 @@ fn is_hum(freq_hz: f64) -> bool {
     })
 }
 
-/// Two estimates of the same, weighted by their accuracy; where they exclude each other the interval holds both.
+/// Combines two estimates of the same quantity, weighted by their accuracy; if they exclude each other the interval
+/// covers both.
 fn joined(a: Estimate, b: Estimate) -> Estimate {
     let weight = |e: Estimate| 1.0 / (e.half_width * e.half_width).max(f64::MIN_POSITIVE);
     let (wa, wb) = (weight(a), weight(b));
@@ -308,7 +309,7 @@ fn joined(a: Estimate, b: Estimate) -> Estimate {
 }
 
 impl Analysis {
-    /// Merges in what another decay of the same record shows of the same vibrations.
+    /// Merges the result of another decay of the same recording.
     fn merge(&mut self, other: Self) {
         for mode in &mut self.modes {
             let same = other.modes.iter().find(|m| {

@@ -1,4 +1,4 @@
-"""What is answered at once."""
+"""Requests that are answered at once."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ def check(
     settings: Settings | None = None,
     **options: Unpack[Options],
 ) -> list[Diagnostic]:
-    """Decodes a program without moving anything: every diagnostic, errors too.
+    """Checks a program without moving anything and returns all diagnostics, errors included.
 
-    Raises what :func:`run` raises, but for the program itself.
+    Raises the same as :func:`run`, except for errors of the program itself.
     """
     words = program_words(program, machine, settings, options)
     return [Diagnostic._of(said) for said in _kontur.check(words)]
 
 
 def explain(thing: str) -> str:
-    """What an error ID (``22060``), a parameter (``P-AXIS-00571`` or its key) or a command (``#VIB GUARD``) means.
+    """Explains an error ID (``22060``), a parameter (``P-AXIS-00571`` or its key) or a command (``#VIB GUARD``).
 
-    Raises :class:`UsageError` for an unknown name, with similar ones.
+    Raises :class:`UsageError` for an unknown name, with similar names.
     """
     return _kontur.explain(thing)
 
@@ -92,10 +92,10 @@ def response(
     settings: Settings | None = None,
     cycle_us: int | None = None,
 ) -> Table:
-    """Frequency response of filters, shapers and the chains of axes; or step response, residual vibration, corner.
+    """Frequency response of filters, shapers and the chains of axes; or step response, residual vibration, contour at a corner.
 
     The arguments are those of ``kontur response``, the columns those of its table; column ``curve`` names the curve of a
-    row. What the command says on stderr are warnings here.
+    row. The output of the command on stderr becomes warnings here.
     """
     given = dict(locals())
     del given["settings"], given["guard"]
@@ -106,14 +106,14 @@ def response(
 
 
 class Tuning(Table):
-    """One row per choice: ``mode``, ``freq_hz``, ``residual_ratio``, ``contour_err_mm``, ...; 0 and 1 for no and yes."""
+    """One row per choice: ``mode``, ``freq_hz``, ``residual_ratio``, ``contour_err_mm``, ...; 0 for no and 1 for yes."""
 
     def __init__(self, columns: dict[str, Any], command: str | None, text: str) -> None:
         super().__init__(columns)
         self.command = command
-        """The NC command to paste; None if no choice keeps what was asked for."""
+        """The NC command to paste; None if no choice meets the requirements."""
         self.text = text
-        """What ``kontur tune`` prints."""
+        """The output of ``kontur tune``."""
 
     def __str__(self) -> str:
         return self.text
@@ -140,8 +140,8 @@ def tune(
 ) -> Tuning:
     """Vibration Guard settings from measured frequencies or recordings, or the order of a filter.
 
-    The arguments are those of ``kontur tune``. With ``program`` and ``max_dev`` every choice is run, and the rows say what
-    the runs were like; with ``order_for`` they are orders of filters.
+    The arguments are those of ``kontur tune``. With ``program`` and ``max_dev`` every choice is run, and the rows
+    describe the runs; with ``order_for`` the rows are orders of filters.
     """
     own = dict(locals())
     del own["machine"], own["settings"], own["options"]

@@ -1,4 +1,4 @@
-"""What is said about programs, lists and inputs, and the exceptions that carry it."""
+"""Messages about programs, lists and inputs, and the exceptions that carry them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One message: what ``kontur check --diagnostics json`` prints, and as a string what it prints as text."""
+    """One message of ``kontur check --diagnostics json``; as a string, the same message as text."""
 
     id: str
     """``20008`` (the vendor's number) or ``K-0012`` (kontur's own); see :func:`kontur.explain`."""
@@ -24,7 +24,7 @@ class Diagnostic:
     text: str
     """The message itself."""
     file: str | None
-    """Program, list or input file; None if it belongs to none."""
+    """Program, list or input file; None if the message belongs to none."""
     line: int | None
     """Line of the file, from 1."""
     column: int | None
@@ -32,7 +32,7 @@ class Diagnostic:
     hint: str | None
     """What to do about it."""
     details: dict[str, Any] = field(repr=False, hash=False)
-    """Every field of the JSON form: axis, values, parameter, reaction, cycle, ..."""
+    """All fields of the JSON form: axis, values, parameter, reaction, cycle, ..."""
     rendered: str = field(repr=False, compare=False)
     """The text form with the source line."""
 
@@ -55,7 +55,7 @@ class Diagnostic:
 
     @property
     def is_error(self) -> bool:
-        """The program or list was refused or aborted by it."""
+        """Whether the program or list was refused or aborted because of it."""
         return self.severity == "error"
 
     def __str__(self) -> str:
@@ -63,7 +63,7 @@ class Diagnostic:
 
 
 class Error(Exception):
-    """Anything that kontur refuses. ``diagnostics`` says why, as a list of :class:`Diagnostic`."""
+    """Base class of everything that kontur refuses. ``diagnostics`` gives the reasons as a list of :class:`Diagnostic`."""
 
     diagnostics: list[Diagnostic]
 
@@ -74,12 +74,12 @@ class Error(Exception):
 
     @classmethod
     def of(cls, message: str, said: list[tuple[str, str]]) -> Self:
-        """From what the library says."""
+        """From the messages of the library."""
         return cls(message, map(Diagnostic._of, said))
 
     @classmethod
     def of_lines(cls, message: str, lines: str) -> Self:
-        """From what a command has printed as JSON, one object a line."""
+        """From the JSON output of a command, one object per line."""
         said = [(line, json.loads(line)["text"]) for line in lines.splitlines()]
         return cls.of(message, [s for s in said if "kontur_id" in json.loads(s[0])])
 

@@ -1,4 +1,4 @@
-"""Programs that run."""
+"""Runs of programs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 DEFAULT_SIGNALS = "default"
-"""Groups of columns if nothing is said."""
+"""Groups of columns by default."""
 
 MOST_LINES = 2**32 - 1
 """Lines of a program are counted in 32 bits."""
@@ -28,10 +28,10 @@ MOST_CYCLES = 2**64 - 1
 
 
 class Run(Table):
-    """What a program did: a row per cycle, row ``k`` at ``k`` cycles.
+    """The result of a program: a row per cycle, row ``k`` at the time of ``k`` cycles.
 
     The columns are those of the trace of ``kontur run``. ``block`` is masked where a block has no number; the memory of
-    the others is that of the simulation, not a copy.
+    the other columns is that of the simulation, not a copy.
     """
 
     def __init__(
@@ -45,9 +45,9 @@ class Run(Table):
         self.units = units
         """Unit of every column: ``mm``, ``deg/s``, ``Nm``; empty for words and counts."""
         self.summary: dict[str, Any] = json.loads(summary[0])
-        """What ``kontur run --summary json`` prints."""
+        """The output of ``kontur run --summary json``."""
         self.messages = messages
-        """Every message, the first thousand."""
+        """All messages, up to the first thousand."""
         self._text = summary[1]
 
     def __str__(self) -> str:
@@ -55,14 +55,14 @@ class Run(Table):
 
 
 class Simulation:
-    """A program under way.
+    """A running program.
 
     It is an iterator over its cycles, each a dict from column to value::
 
         for cycle in kontur.start("part.nc", signals="X_set_mm"):
             print(cycle["t_s"], cycle["X_set_mm"])
 
-    and continues in stretches with :meth:`run_until`, whose rows come as columns.
+    and continues in sections with :meth:`run_until`, which returns their rows as columns.
     """
 
     def __init__(self, native: _kontur.Simulation) -> None:
@@ -81,12 +81,12 @@ class Simulation:
         raise StopIteration
 
     def run_until(self, *, line: int | None = None, time_s: float | None = None) -> Run:
-        """Runs on and gives the rows of this stretch; the summary is that of the whole run so far.
+        """Continues the run and returns the rows of this section; the summary is that of the whole run so far.
 
-        ``line``: up to the first cycle in this line of the program (not of a subroutine), or the next time that it is
-        entered. ``time_s``: up to the first cycle that is not earlier. Without both, or if neither comes: to the end.
+        ``line``: up to the first cycle in this line of the program (not of a subroutine), or the next time that the line is
+        entered. ``time_s``: up to the first cycle that is not earlier. Without either, or if neither is reached: to the end.
 
-        Raises :class:`ProgramError` if the program is refused or aborted, with the stretch as its ``run``.
+        Raises :class:`ProgramError` if the program is refused or aborted, with the rows of this section as its ``run``.
         """
         if line is not None and not 1 <= line <= MOST_LINES:
             raise UsageError(f"line: a number from 1 to {MOST_LINES} is expected")
@@ -116,7 +116,7 @@ class Simulation:
 
     @property
     def messages(self) -> list[Diagnostic]:
-        """Every message so far."""
+        """All messages so far."""
         return [Diagnostic._of(said) for said in self._native.messages()]
 
     def _result(self) -> Run:
@@ -150,9 +150,9 @@ def start(
     decimate: int = 1,
     **options: Unpack[Options],
 ) -> Simulation:
-    """Opens a program and stops before its first cycle. Arguments and errors as of :func:`run`.
+    """Opens a program and stops before its first cycle. Arguments and errors are those of :func:`run`.
 
-    A program that the check ahead refuses raises :class:`ProgramError` with its first cycle.
+    A program that is refused by the check before the run raises :class:`ProgramError` at its first cycle.
     """
     words = program_words(program, machine, settings, options)
     if isinstance(decimate, int) and not 1 <= decimate <= MOST_CYCLES:
@@ -172,9 +172,9 @@ def run(
     """Runs a program to its end.
 
     ``machine``: folder with parameter lists, or the start-up list; without it the built-in ``xyz``.
-    ``settings``: list parameters instead of the machine's, ``{"X.getriebe[0].kv": 5000}``.
-    ``signals``: groups or names of columns, separated by commas; ``default`` leaves out what only repeats others.
-    ``decimate``: every so many cycles a row.
+    ``settings``: list parameters that replace those of the machine, ``{"X.getriebe[0].kv": 5000}``.
+    ``signals``: groups or names of columns, separated by commas; ``default`` omits columns that only repeat others.
+    ``decimate``: number of cycles per row.
     Others: see :class:`kontur._words.Options`.
 
     The interpreter lock is released while it computes; Ctrl-C ends it with ``KeyboardInterrupt``.

@@ -1,4 +1,4 @@
-"""One program under every combination of parameters: here, on a Dask cluster, or on Ray."""
+"""One program with all combinations of parameters: on this machine, on a Dask cluster, or on Ray."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Grid = Mapping[str, str | float | Iterable[str | float]]
-"""Key to values: ``{"X.getriebe[0].kv": range(1000, 5000, 500), "*.vib_guard.mode": "1..4"}``."""
+"""Keys and their values: ``{"X.getriebe[0].kv": range(1000, 5000, 500), "*.vib_guard.mode": "1..4"}``."""
 
 _Rows = tuple[list[str], list[list[float | str]]]
 
 _CHUNK_S = 1.0
-"""What a task takes: much longer than to hand it out, much shorter than anybody wants to lose."""
+"""Duration of a task: much longer than its distribution takes, much shorter than a loss that would hurt."""
 
 
 def sweep(
@@ -42,14 +42,14 @@ def sweep(
     settings: Settings | None = None,
     **options: Unpack[Options],
 ) -> Table:
-    """Runs a program under all combinations; the table of ``kontur sweep``, in its order, whoever computed what.
+    """Runs a program with all combinations; the table of ``kontur sweep``, in its order, whichever worker computed what.
 
     ``grid``: list parameters (or ``V.E.NAME``) with their values, or ranges as on the command line (``"20..60:10"``).
     ``client``: None for the cores of this machine, a ``distributed.Client``, or the module ``ray`` (initialised).
-    Workers read program and lists themselves: the paths have to lead to the same files there.
+    Workers read program and lists themselves: the paths must lead to the same files there.
     ``output``: a folder for a Parquet data set with a subfolder per value of each key of the grid; it must be empty.
-    ``columns``, ``amplitude``: as of ``kontur sweep``.
-    ``retries``: how often a failed task is tried again; that a worker is lost is the engine's business.
+    ``columns``, ``amplitude``: as for ``kontur sweep``.
+    ``retries``: how often a failed task is repeated; the loss of a worker is handled by the engine.
 
     A run that ends with an error has a row with its ID. A key whose values make no difference is named in a warning and
     in the column ``without_effect``. Raises what :func:`run` raises if one cannot be started.
@@ -92,7 +92,7 @@ def _values(values: Any) -> str:
 
 @lru_cache(maxsize=1)
 def _plan(words: tuple[str, ...]) -> _kontur.SweepPlan:
-    """The same on every machine, and made once in a worker."""
+    """The plan, which is the same on every machine, built once per worker."""
     return _kontur.SweepPlan(list(words))
 
 

@@ -1,4 +1,4 @@
-"""Columns of results, and their way to pandas, polars and Arrow."""
+"""Columns of results, and their conversion to pandas, polars and Arrow."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Words:
-    """A column of few different words: the number of one for each row."""
+    """A column with few different words: for each row the number of its word."""
 
     def __init__(self, numbers: np.ndarray[Any, Any], words: list[str]) -> None:
         self.numbers, self.words = numbers, words
@@ -42,7 +42,7 @@ class Table:
 
     @property
     def columns(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Every column as a numpy array, in the order of the table."""
+        """All columns as numpy arrays, in the order of the table."""
         return {name: self[name] for name in self._columns}
 
     def __getitem__(self, name: str) -> np.ndarray[Any, Any]:
@@ -66,7 +66,7 @@ class Table:
         return 0
 
     def __eq__(self, other: object) -> bool:
-        """The same columns in the same order with the same values, missing ones included."""
+        """Whether both have the same columns in the same order with the same values, missing ones included."""
         if not isinstance(other, Table):
             return NotImplemented
         names = list(self._columns)

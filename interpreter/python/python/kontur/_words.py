@@ -1,4 +1,4 @@
-"""Options of Python as words of the command line: there they are read, checked and refused, in one place."""
+"""Options of Python as words of the command line, which reads, checks and refuses them in one place."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Settings = Mapping[str, Any] | Iterable[str]
 
 
 class Options(TypedDict, total=False):
-    """How a program is simulated; the options of ``kontur run`` of the same names."""
+    """Options of the simulation; those of ``kontur run`` with the same names."""
 
     path: StrPath | Iterable[StrPath]
     """Folders with global subroutines."""
@@ -24,34 +24,34 @@ class Options(TypedDict, total=False):
     input: StrPath | Iterable[StrPath]
     """Files of real-time inputs."""
     cycle_us: int
-    """Cycle time in microseconds instead of the machine's."""
+    """Cycle time in microseconds, instead of that of the machine."""
     start: Mapping[str, float]
     """Start positions in mm (deg) by axis name."""
     skip: Iterable[int]
     """Active skip levels, 1 to 10."""
     max_time: float
-    """Program time in s after which a program is stopped, default a day."""
+    """Program time in s after which a program is stopped, default one day."""
     max_blocks: int
     """Number of blocks after which a program is stopped, default 1e8."""
     strict: bool
     """Refuse list keys that are not modelled."""
     identity_trafo: bool
-    """Take kinematic transformations as identity, with a warning."""
+    """Treat kinematic transformations as identity, with a warning."""
     techno_times: bool
-    """Wait for M, H and S functions as long as the channel list declares."""
+    """Wait for M, H and S functions for the times declared in the channel list."""
     external: Mapping[str, float | str]
-    """Values of external variables by their name after ``V.E.``."""
+    """Values of external variables by their names after ``V.E.``."""
 
 
 _SIMULATION = frozenset(Options.__annotations__)
-"""What a simulation knows."""
+"""Names of the options of a simulation."""
 
 _SPANS = frozenset({"range", "window"})
-"""Options whose two numbers are the ends of a span."""
+"""Options whose two numbers are the ends of a range."""
 
 
 def text_of(value: Any) -> str:
-    """A value as it is written in a list or on the command line: every digit of a number."""
+    """A value as written in a list or on the command line, with all digits of a number."""
     if isinstance(value, bool):
         return str(int(value))
     if isinstance(value, str):
@@ -68,7 +68,7 @@ def text_of(value: Any) -> str:
 
 
 def words_of(options: Mapping[str, Any]) -> list[str]:
-    """Options as words. None and False leave one out."""
+    """Options as words. None and False omit an option."""
     words = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
@@ -120,7 +120,7 @@ def program_words(
     settings: Settings | None,
     options: Mapping[str, Any],
 ) -> list[str]:
-    """All words for one program; it is a file, whatever its name looks like."""
+    """All words for one program; it is taken as a file, whatever its name looks like."""
     name = os.fspath(program)
     if name == "-":
         name = str(Path(".")) + os.sep + "-"

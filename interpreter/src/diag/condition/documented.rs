@@ -1,4 +1,4 @@
-//! IDs that the documents print and nothing here raises: data for `explain`.
+//! IDs that the documents print but that are not raised here: data for `explain`.
 
 use super::row::{
     Reaction::{self, AbruptStop, ControlledStop, FeedHold, JobAbort, None, ProgramAbort},

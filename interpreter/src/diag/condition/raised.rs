@@ -1,4 +1,4 @@
-//! Conditions that kontur raises, one row each; the rows are in the files below, by their numbers.
+//! Conditions that kontur raises, one row each; the rows are in the files below, by number.
 
 #[macro_use]
 mod words;
@@ -17,7 +17,7 @@ use crate::diag::id::{
     Severity::{Error, Note, Warning},
 };
 
-/// Makes the conditions out of their rows. A row reads
+/// Makes the conditions from their rows. A row has the form
 ///
 /// ```text
 /// Condition = Vendor 20008: SEVERITY REACTION REMEDY ROOT, "meaning", cause "..", hint "..", parameter "..";
@@ -29,11 +29,11 @@ macro_rules! conditions {
         $severity:ident $reaction:ident $remedy:literal $root:literal,
         $meaning:literal $(, cause $cause:literal)? $(, hint $hint:literal)? $(, parameter $parameter:literal)?;
     )*) => {
-        /// A condition that is raised; its row says everything that is always true of it.
+        /// A condition that is raised; its row contains all its constant properties.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Condition {
             $(
-                // a block of text, since meanings hold brackets that would be links
+                // as a text block, because brackets in a meaning would become links
                 #[doc = concat!(stringify!($space), " ", stringify!($number), "\n\n```text\n", $meaning, "\n```")]
                 $condition,
             )*
@@ -58,18 +58,18 @@ macro_rules! conditions {
 }
 
 impl Condition {
-    /// Everything that is always true of it.
+    /// Its constant properties.
     pub const fn row(self) -> &'static Row {
         &ROWS[self as usize]
     }
 }
 
-/// The text of a column that may be left out.
+/// The text of a column that may be left out; empty if it is.
 const fn first<const N: usize>(texts: [&'static str; N]) -> &'static str {
     if N == 0 { "" } else { texts[0] }
 }
 
-/// The same for columns whose absence means something.
+/// The text of a column that may be left out; `None` if it is.
 const fn optional<const N: usize>(texts: [&'static str; N]) -> Option<&'static str> {
     if N == 0 { None } else { Some(texts[0]) }
 }

@@ -2,7 +2,7 @@
 
 use crate::diag::id::{Id, Severity};
 
-/// What the control does at once.
+/// The immediate reaction of the control.
 ///
 /// Source: TF5200 diagnosis manual, reaction classes; the discriminant is the class as printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -10,7 +10,7 @@ use crate::diag::id::{Id, Severity};
 pub enum Reaction {
     /// Class 1: none, the run continues.
     None = 1,
-    /// Class 2: the program is aborted, prepared blocks are still driven.
+    /// Class 2: the program is aborted, prepared blocks are still executed.
     ProgramAbort = 2,
     /// Class 3: the job (loading a list) is aborted.
     JobAbort = 3,
@@ -32,7 +32,7 @@ impl Reaction {
         self as u8
     }
 
-    /// What happens, in words.
+    /// The reaction in words.
     pub const fn text(self) -> &'static str {
         match self {
             Self::None => "none, the run continues",
@@ -49,33 +49,33 @@ impl Reaction {
     }
 }
 
-/// What is known about an ID.
+/// Properties of an ID.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     /// The ID.
     pub id: Id,
     /// Short name of kontur's own conditions (`K-CHAR`), empty for vendor numbers.
     pub name: &'static str,
-    /// Severity unless a diagnostic says otherwise.
+    /// Severity, unless a diagnostic sets another one.
     pub severity: Severity,
-    /// What the control does at once.
+    /// The immediate reaction of the control.
     pub reaction: Reaction,
-    /// Remedy class as the vendor's pages print it.
+    /// Remedy class as printed on the vendor's pages.
     pub remedy: u8,
     /// Root type: 1 NC program, 2 parameter lists, 11 position controller, 0 none.
     pub root: u8,
     /// Meaning in a few words.
     pub meaning: &'static str,
-    /// Cause or rule broken; empty if the meaning says it.
+    /// Cause or violated rule; empty if it follows from the meaning.
     pub cause: &'static str,
-    /// What to do about it, where the place that raises it knows nothing better.
+    /// What to do about it, unless the code that raises it has a better hint.
     pub hint: Option<&'static str>,
-    /// Parameter that decides it, where it is always the same one.
+    /// Parameter concerned, if it is always the same one.
     pub parameter: Option<&'static str>,
 }
 
 impl Row {
-    /// What brings the control back. Source: TF5200 diagnosis manual, interface description.
+    /// How to bring the control back to operation. Source: TF5200 diagnosis manual, interface description.
     pub(crate) const fn remedy_text(&self) -> &'static str {
         match self.remedy {
             1 => "nothing to do, remedied internally",

@@ -5,19 +5,19 @@ use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Param, Whole};
 
-/// Pairs of a group. Source: TF5200 channel parameters, synchro_data (149192587).
+/// Largest number of pairs in a group. Source: TF5200 channel parameters, synchro_data (149192587).
 const PAIRS_MAX: u32 = 15;
 
 /// A pair by the logical numbers of its axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DefaultCoupling {
-    /// Axis that is followed (P-CHAN-00037).
+    /// Master axis (P-CHAN-00037).
     pub master: u32,
-    /// Axis that follows (P-CHAN-00038).
+    /// Slave axis (P-CHAN-00038).
     pub slave: u32,
 }
 
-/// The pairs of group 0, and what is wrong with those that are left out.
+/// The pairs of group 0; the reasons for those that are left out go to the diagnostics.
 ///
 /// Source: TF5200 diagnosis, 20438 (251629195), 20440 (251637899), 20441 (251642251), 20442 (251646603).
 pub(in crate::machine) fn default_couplings(
@@ -29,7 +29,7 @@ pub(in crate::machine) fn default_couplings(
         let [master_at, slave_at] = [of::COUPLING_MASTER.and(i), of::COUPLING_SLAVE.and(i)];
         let pair = DefaultCoupling { master: list.get(master_at), slave: list.get(slave_at) };
         let DefaultCoupling { master, slave } = pair;
-        // Assumption: a list that writes the default of both has no pair here
+        // Assumption: an entry with the defaults of both is not a pair
         if master == 0 && slave == 0 {
             continue;
         }

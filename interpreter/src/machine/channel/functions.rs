@@ -1,10 +1,10 @@
-//! What a channel list says of M, H and S functions: when the path waits for them, and for how long.
+//! Entries of a channel list on M, H and S functions: when the path waits for them, and for how long.
 
 use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Optional, Param, whole};
 
-/// A side of the motion of a block.
+/// Position relative to the motion of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpindleMoment {
     /// Before it.
@@ -13,17 +13,17 @@ pub enum SpindleMoment {
     AfterMotion,
 }
 
-/// Until when a function that takes time has to be acknowledged.
+/// The time by which a function has to be acknowledged.
 ///
 /// Source: TF5200 M and H functions 285997195, 286004619; P-CHAN-00041.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acknowledged {
-    /// NO_SYNCH, MOS and kinds that only inform: the path does not wait.
+    /// NO_SYNCH, MOS and purely informative kinds: the path does not wait.
     Never,
-    /// MVS_SVS: before the motion of the block. Assumption: also the kinds whose place the simulation does not know (MVS_SLM,
+    /// MVS_SVS: before the motion of the block. Assumption: also the kinds whose place is not simulated (MVS_SLM,
     /// MVS_SLP, MEP_SVS, MET_SVS, MNE_SNS without edge banding).
     BeforeMotion,
-    /// MVS_SNS: called before the motion of the block, the path waits at its end for what is left.
+    /// MVS_SNS: called before the motion of the block; the path waits at its end for the remaining time.
     DuringMotion,
     /// MNS_SNS: called after the motion.
     AfterMotion,
@@ -46,8 +46,8 @@ impl Acknowledged {
     }
 }
 
-/// When the functions of a spindle act and whether the path waits for them, until speed, rest or position is reached; `None` where
-/// the list says nothing.
+/// When the functions of a spindle are executed and whether the path waits until speed, standstill or position is
+/// reached; `None` where the list does not state it.
 ///
 /// Source: TF5200 channel parameters, spindle synchronisation (149163787, 287516299); M and H functions 286059787.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,7 +69,7 @@ impl SpindleWaits {
         let moment = |array: Param<Optional>| {
             let bits = parameters.get(array.at(spindle)).and_then(whole)?;
             let known = of::BEFORE_MOTION | of::DURING_MOTION | of::BEHIND_MOTION;
-            // kinds whose place the simulation does not know are not waited for
+            // kinds whose place is not simulated are not waited for
             Some(Acknowledged::of(bits & known))
         };
         Self {
@@ -83,7 +83,7 @@ impl SpindleWaits {
 }
 
 impl SpindleWaits {
-    /// What the list says of an M function.
+    /// The entry of the list for an M function.
     pub(crate) fn of_m(self, number: u32) -> Option<Acknowledged> {
         match number {
             3 => self.m3,
@@ -94,7 +94,7 @@ impl SpindleWaits {
     }
 }
 
-/// Durations of the functions of a spindle in s, where the list declares them above 0.
+/// Durations of the functions of a spindle in s, where the list states them above 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpindleDurations {
     /// M03 (P-CHAN-00044).

@@ -1,4 +1,4 @@
-//! Issues of the configuration of the controller, with Improved Position Control and feedforward.
+//! Issues of the configuration of the controller, including Improved Position Control and feedforward.
 
 use super::about;
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
@@ -175,7 +175,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
     }
 }
 
-/// How the drive of an axis gets an additive input, and which ones it has.
+/// How to give the drive of an axis an additive input, and which ones it has.
 fn additive_hint(axis: &Axis, ident: &str, input: &str) -> String {
     let simulated = axis.get(axis_general::DRIVE) == 4;
     if simulated {
@@ -218,7 +218,7 @@ fn ipc_range(
     cycle: CycleTime,
 ) -> Diagnostic {
     let stage_index = stage as u32;
-    // the first filter that has the value, so that the second one of a stage is named too
+    // the first filter with the value, so that the second one of a stage is named as well
     let of_filter = |first: Place| {
         let second = Place { indices: [first.indices[0], 1], ..first };
         let has = |place: &Place| {

@@ -1,4 +1,4 @@
-//! Gantry couplings of the lists: who may be master and slave, and what the slave takes over.
+//! Gantry couplings of the lists: which axes may be master and slave, and what the slave takes over.
 //!
 //! Source: TF5200 gantry operation, master axis (285690635) and slave axis (285697291); diagnosis 253230731, 260115595,
 //! 260298379, 263000971.
@@ -12,8 +12,8 @@ use super::super::value::Value;
 use super::{Names, error};
 use crate::diag::{Condition, Diagnostic, Severity};
 
-/// 21020 and 110342 for axes of the channel that have a master, K-0031 for slaves without one, and the warnings about what
-/// both sides of a coupling have to agree in.
+/// 21020 and 110342 for axes of the channel with a master, K-0031 for slaves without one, and the warnings about
+/// parameters in which both sides of a coupling have to agree.
 pub(super) fn check(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
     let list = |number: u32| {
         let lists = settled.axes.iter().map(|list| &list.parameters);
@@ -67,7 +67,7 @@ fn is_modulo(axis: &Parameters) -> bool {
     axis.get(MODE) & mode::MODULO != 0
 }
 
-/// Kind and mode of the master are those of the slave.
+/// Gives a slave the kind and mode of its master.
 pub(super) fn take_over(slave: &mut Parameters, master: &Parameters) {
     for param in [KIND, MODE] {
         let Place { row, indices } = param.place();

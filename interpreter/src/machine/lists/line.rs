@@ -1,11 +1,11 @@
-//! Lines of a list: encoding, places, and where a value ends and a comment begins.
+//! Lines of a list: encoding, positions, and the border between value and comment.
 
 use crate::diag::Location;
 use crate::machine::table::Raw;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// A line with its place in the file.
+/// A line with its position in the file.
 pub(super) struct Line<'a> {
     /// The text without the end of line.
     pub(super) text: Cow<'a, str>,
@@ -14,8 +14,8 @@ pub(super) struct Line<'a> {
     utf8: bool,
 }
 
-/// Lines of a file; LF, CR LF and CR end a line as in programs, a byte order mark is skipped, what is not UTF-8 is read as
-/// Latin-1.
+/// Lines of a file. LF, CR LF and CR end a line as in programs, a byte order mark is skipped, and text that is not
+/// UTF-8 is read as Latin-1.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
     let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
     let bytes = &bytes[mark..];
@@ -41,9 +41,9 @@ pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
 }
 
 impl Line<'_> {
-    /// Place of a part of the line.
+    /// Position of a part of the line.
     pub(super) fn location(&self, file: &Arc<str>, part: &str) -> Location {
-        // parts are slices of the line, so the difference of the addresses is the place
+        // parts are slices of the line, so the difference of the addresses is the position
         let start = (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let before = self.text.get(..start).unwrap_or_default();
         let column = before.chars().count();
@@ -60,7 +60,7 @@ impl Line<'_> {
     }
 }
 
-/// A value and what follows it.
+/// A value and the text after it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Parts<'a> {
     /// The value without quotes; `None` if there is none.
@@ -73,7 +73,7 @@ fn is_comment(text: &str) -> bool {
     ["#", "(", "/*"].iter().any(|opener| text.starts_with(opener))
 }
 
-/// Takes the rest of a line (without blanks at its ends) after the key apart.
+/// Divides the rest of a line after the key, without surrounding blanks, into its parts.
 pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     if raw == Raw::Code {
         return Parts { value: Some(code(rest)).filter(|code| !code.is_empty()), dropped: None };
@@ -88,7 +88,8 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     }
     if let Raw::Flags(names) = raw {
         let value = flags(rest);
-        // a further flag that nothing joins is not meant as a comment; after a number its name is one, as in the vendor's lists
+        // a further flag without a joining `|` is not meant as a comment; after a number its name is one, as in the
+        // vendor's lists
         let is_number = value.starts_with(|c: char| c.is_ascii_digit());
         let next = rest[value.len()..].split_whitespace().next().filter(|_| !is_number);
         let flag = |word: &&str| {
@@ -106,7 +107,7 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     Parts { value: Some(&word[..end]), dropped: None }
 }
 
-/// NC code goes to the end of the line: brackets and `#` belong to it.
+/// NC code extends to the end of the line, including brackets and `#`.
 ///
 /// Assumption: a `#` between blanks, and `/*`, begin a comment of the list.
 fn code(rest: &str) -> &str {
@@ -120,7 +121,7 @@ fn code(rest: &str) -> &str {
     inner.filter(|inner| !inner.replace("\\\"", "").contains('"')).unwrap_or(code)
 }
 
-/// What follows remarks in closed brackets: the documents print some between key and value.
+/// The text after remarks in closed brackets: the documents print some between key and value.
 fn behind_remarks(mut rest: &str) -> &str {
     while let Some((_, behind)) = rest.strip_prefix('(').and_then(|r| r.split_once(')')) {
         let behind = behind.trim_start();
@@ -132,7 +133,7 @@ fn behind_remarks(mut rest: &str) -> &str {
     rest
 }
 
-/// After numbers and names any text is a comment, after a text a comment needs its opener.
+/// After numbers and names any text is a comment; after a text a comment needs its opening characters.
 fn leftover(raw: Raw, tail: &str) -> Option<&str> {
     let tail = tail.trim();
     (raw == Raw::Text && !tail.is_empty() && !is_comment(tail)).then_some(tail)
@@ -204,7 +205,7 @@ mod tests {
         let at = all[1].location(&"f".into(), part);
         assert_eq!((at.line, at.column, at.length), (2, 8, 1));
         assert_eq!(bytes[usize::try_from(at.offset).unwrap()], b'5');
-        // every end of line, each alone and the last one missing
+        // every end of line, each alone, and the last one missing
         let bytes = b"a 1\nb 2\r\nc 3\rd 4\r\re 5";
         let text = |line: &Line<'_>| line.text.clone().into_owned();
         let all: Vec<Line<'_>> = lines(bytes).collect();

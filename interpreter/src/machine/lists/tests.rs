@@ -89,7 +89,8 @@ fn every_rule_has_its_message() {
     assert_eq!(value(&list, "final_prog_file"), Some(Value::Text("a b".to_owned())));
 }
 
-/// A list is the same with every end of line: each entry is read, none is taken for the comment of the one before.
+/// A list is the same with every end of line: each entry is read, and none is treated as the comment of the previous
+/// one.
 #[test]
 fn ends_of_lines() {
     let text =
@@ -124,7 +125,8 @@ fn unknown_keys_are_counted_and_named_once() {
     );
 }
 
-/// An index beyond its array is not a misspelt key: the message names the index and the array, not the key itself again.
+/// An index outside its array is not a misspelt key: the message names the index and the array, without repeating the
+/// key.
 #[test]
 fn an_index_beyond_its_array_is_named() {
     for (line, text) in [
@@ -143,7 +145,7 @@ fn an_index_beyond_its_array_is_named() {
     assert_eq!((ids(&said).len(), list.entries.len()), (0, 1));
 }
 
-/// A list of many mistakes of one kind has few messages, the last of which counts the others.
+/// A list with many errors of one kind has few messages, the last of which counts the others.
 #[test]
 fn mistakes_of_one_kind_are_counted() {
     let text = "getriebe[0].kv 3000\n".repeat(1001) + &"[head]\n".repeat(21);

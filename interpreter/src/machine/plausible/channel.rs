@@ -1,4 +1,4 @@
-//! Checks of single entries of a channel list, beyond their ranges.
+//! Checks of single entries of a channel list in addition to their ranges.
 
 use super::finish;
 use crate::diag::{Condition, Diagnostic, ValueKind};
@@ -7,7 +7,7 @@ use crate::machine::table::param::whole;
 use crate::machine::table::{Indices, channel, with_indices};
 use crate::machine::value::Value;
 
-/// All of them.
+/// Runs all of them.
 pub(in crate::machine) fn check(parameters: &mut Parameters, diagnostics: &mut Vec<Diagnostic>) {
     check_feed_unit(parameters, diagnostics);
     check_presets(parameters, diagnostics);
@@ -35,9 +35,9 @@ fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
-/// K-0070: P-CHAN-00108 knows two units.
+/// K-0070: P-CHAN-00108 has two units.
 ///
-/// Assumption: any other value becomes 100, as the page says of 0; it names no unit for the values between the two.
+/// Assumption: any other value becomes 100, as the page says for 0; it gives no unit for values in between.
 fn check_feed_unit(parameters: &mut Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let place = channel::FEED_UNIT.place();
     let Some(setting) = parameters.set_by(place).cloned() else { return };
@@ -69,7 +69,7 @@ fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Vec<Diagnosti
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
 
-/// 21404: P-CHAN-00148 acts only with P-CHAN-00116. Source: TF5200 diagnosis 254536331.
+/// 21404: P-CHAN-00148 is effective only with P-CHAN-00116. Source: TF5200 diagnosis 254536331.
 fn check_several_words(parameters: &mut Parameters, diagnostics: &mut Vec<Diagnostic>) {
     let place = channel::SEVERAL_WORDS.place();
     if !parameters.get(channel::SEVERAL_WORDS) || parameters.get(channel::SEVERAL_DIMENSIONS) {
@@ -86,11 +86,12 @@ fn check_several_words(parameters: &mut Parameters, diagnostics: &mut Vec<Diagno
     diagnostics.push(finish(diagnostic, place.row, setting.at, None));
 }
 
-/// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 and 00027 say.
+/// K-0075: the simulated PLC acknowledges every function at once, so the path does not wait as in P-CHAN-00041 and
+/// 00027.
 fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    // for its spindles the path does wait
+    // for spindle functions the path does wait
     let simulated = channel::BEFORE_MOTION | channel::DURING_MOTION | channel::BEHIND_MOTION;
-    // edge banding has its own messages
+    // edge banding has separate messages
     let waiting = simulated | channel::ELSEWHERE & !channel::AT_SIGNAL;
     let durations = [
         (channel::M_SYNCHRONISATION, channel::M_DURATION),
@@ -101,7 +102,7 @@ fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnost
         (channel::SPINDLE_M19_SYNCHRONISATION, channel::SPINDLE_M19_DURATION),
         (channel::SPINDLE_SPEED_SYNCHRONISATION, channel::SPINDLE_SPEED_DURATION),
     ];
-    // a declared duration is waited for, or named in the summary
+    // a declared duration is waited for, or listed in the summary
     let is_missing = |(i, setting): &(Indices, &Setting)| {
         let mut rows = durations.iter();
         let row =

@@ -7,8 +7,8 @@ use crate::machine::table::{ListKind, channel as of};
 use std::fmt::Write as _;
 
 impl Project<'_> {
-    /// Enters the axes of the first channel by their dialogs, as the tool does, and says where its list has others. Empty
-    /// if no dialog names one: the list of the channel applies.
+    /// Enters the axes of the first channel from their dialogs, as the tool does, and reports differences from its
+    /// list. Empty if no dialog names an axis: the list of the channel then applies.
     pub(super) fn name_axes(
         &mut self,
         content: &mut Content,
@@ -81,7 +81,7 @@ impl Project<'_> {
     }
 }
 
-/// Two axis lists have the same number, others have their own: K-0141.
+/// K-0141: two axis lists have the same number, others have different ones.
 pub(super) fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
     let twice = numbers.iter().enumerate().find(|(i, number)| numbers[..*i].contains(*number));
     let number = twice.map_or(0, |(_, number)| *number);

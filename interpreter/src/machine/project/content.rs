@@ -1,11 +1,11 @@
-//! What the XML of a project holds: texts of lists with their places, and the fields next to them.
+//! Content of the XML of a project: texts of lists with their positions, and the fields next to them.
 
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::chain::SEPARATORS;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::BTreeSet;
 
-/// Elements and texts of one file: with more it is nothing that an engineering tool has written.
+/// Largest number of elements and texts of one file; with more it cannot come from an engineering tool.
 const NODES_MAX: u32 = 1_000_000;
 /// Levels between a list and the fields of its item.
 const LEVELS_MAX: usize = 6;
@@ -24,32 +24,32 @@ pub struct Part {
     pub text: String,
 }
 
-/// The text of a list and its place.
+/// The text of a list and its position.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ListText {
-    /// File that holds it.
+    /// File that contains it.
     pub(super) file: String,
-    /// What its item is called.
+    /// Name of its item.
     pub(super) name: String,
     /// Its lines.
     pub(super) text: String,
-    /// Lines of the file before it.
+    /// Number of lines of the file before it.
     before: usize,
 }
 
 impl ListText {
-    /// A list in a separate file, which may have any end of line.
+    /// A list in a separate file, with any end of line.
     pub(super) fn of(text: &str) -> Self {
         let text = text.replace("\r\n", "\n").replace('\r', "\n");
         Self { text, ..Self::default() }
     }
 
-    /// The text after as many empty lines that its lines have the numbers they have in the file.
+    /// The text after enough empty lines to give its lines their numbers in the file.
     pub(super) fn placed(&self) -> String {
         format!("{}{}", "\n".repeat(self.before), self.text)
     }
 
-    /// Puts an entry after the last line that is read: before the end mark if there is one.
+    /// Inserts an entry after the last line that is read: before the end mark if there is one.
     pub(super) fn enter(&mut self, entry: &str) {
         let lines: Vec<&str> = self.text.split('\n').collect();
         let end = lines.iter().position(|line| is_end(line)).unwrap_or(lines.len());
@@ -58,9 +58,9 @@ impl ListText {
         self.text = lines.join("\n");
     }
 
-    /// Takes the lines of these keys out and puts entries after the rest of the list.
+    /// Removes the lines of these keys and appends entries to the list.
     ///
-    /// A key that ends in `[` stands for the whole array, any other one for itself.
+    /// A key that ends in `[` matches the whole array, any other one only itself.
     pub(super) fn replace(&mut self, keys: &[&str], entries: &str) {
         let is_one = |line: &str| {
             let word = line.split_whitespace().next().unwrap_or_default();
@@ -85,11 +85,11 @@ fn is_end(line: &str) -> bool {
 pub(super) struct AxisItem {
     /// Its list.
     pub(super) list: ListText,
-    /// It is switched off in the tree of the project.
+    /// Whether it is switched off in the tree of the project.
     disabled: bool,
     /// Channel it belongs to from the start, from 1.
     pub(super) channel: Option<u32>,
-    /// Place in that channel, from 0.
+    /// Position in that channel, from 0.
     pub(super) index: u32,
     /// Name in programs.
     pub(super) program_name: String,
@@ -102,17 +102,17 @@ pub(super) struct ChannelItem {
     pub(super) list: ListText,
     /// Its number in the project.
     id: Option<u32>,
-    /// It is switched off in the tree of the project.
+    /// Whether it is switched off in the tree of the project.
     disabled: bool,
     /// List of tools.
     pub(super) tools: Option<ListText>,
     /// List of zero offsets.
     pub(super) zero_offsets: Option<ListText>,
-    /// Elements with entries that nothing here reads.
+    /// Elements with entries that are not read here.
     pub(super) unread: Vec<&'static str>,
 }
 
-/// Everything of the CNC in a project, in the order of its files.
+/// All CNC items of a project, in the order of its files.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Content {
     pub(super) axes: Vec<AxisItem>,
@@ -122,32 +122,32 @@ pub(super) struct Content {
     pub(super) start_up: Option<ListText>,
     /// Cycle of the GEO task in units of 100 ns.
     pub(super) cycle_100ns: Option<u32>,
-    /// Items that are in separate files.
+    /// Items in separate files.
     references: Vec<Reference>,
-    /// The files that were read, by their last names.
+    /// The files that were read, by their base names.
     files: BTreeSet<String>,
 }
 
-/// An item that the project names with the file that holds it.
+/// An item that the project refers to, with the file that contains it.
 #[derive(Clone, Debug)]
 struct Reference {
-    /// The last name of its file in lower case.
+    /// The base name of its file in lower case.
     file: String,
-    /// The file as the project names it.
+    /// The file as written in the project.
     written: String,
-    /// It is an axis, a channel or all of a CNC, and not a terminal or a program of the PLC.
+    /// Whether it is an axis, a channel or a whole CNC rather than a terminal or a PLC program.
     of_cnc: bool,
     id: Option<u32>,
     disabled: bool,
 }
 
-/// The last part of a path, in lower case.
+/// The base name of a path in lower case.
 fn file_name(path: &str) -> String {
     path.rsplit(SEPARATORS).next().unwrap_or_default().to_lowercase()
 }
 
 impl Content {
-    /// Adds what a file holds.
+    /// Adds the content of a file.
     ///
     /// # Errors
     /// K-0141 if it is not XML, or has more axes or channels than a control.
@@ -189,11 +189,12 @@ impl Content {
         Ok(())
     }
 
-    /// Keeps what the project names and has switched on, its channels in the order of their numbers; returns what is left out
-    /// and why.
+    /// Keeps the items that the project refers to and has switched on, with its channels in the order of their numbers;
+    /// returns the items that are left out and the reasons.
     ///
-    /// Assumptions: the references of a project (`File`) say which of the files beside it belong to it, unless they name none
-    /// of those with lists, as among exported items; an item with `Disabled="true"`, or inside one, is not activated.
+    /// Assumptions: the references of a project (`File`) determine which of the files next to it belong to it, unless
+    /// they refer to none of those with lists, as among exported items; an item with `Disabled="true"`, or inside one,
+    /// is not activated.
     pub(super) fn settle(&mut self) -> Vec<String> {
         let named = |list: &ListText| {
             let name = file_name(&list.file);
@@ -232,7 +233,7 @@ impl Content {
         left_out
     }
 
-    /// Files of axes and channels that the project names, has not switched off, and that are not among those that were read.
+    /// Files of axes and channels that the project refers to, has not switched off, and that were not read.
     pub(super) fn missing(&self) -> Vec<&str> {
         self.references
             .iter()
@@ -241,7 +242,7 @@ impl Content {
             .collect()
     }
 
-    /// The cycle of the interpolator's task, which the tool keeps in units of 100 ns.
+    /// Reads the cycle of the interpolator task, which the tool stores in units of 100 ns.
     fn task(&mut self, node: Node<'_, '_>) {
         let name = node.attribute("Name").or_else(|| child(node, "Name")).unwrap_or_default();
         let cycle = node.attribute("CycleTime").and_then(|text| text.trim().parse::<u32>().ok());
@@ -271,12 +272,12 @@ fn no_xml(part: &Part, text: &str, e: &roxmltree::Error) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(Condition::ProjectWrong, format!("no XML: {e}")).at(place))
 }
 
-/// A number in an attribute.
+/// Value of a numeric attribute.
 fn number(node: Node<'_, '_>, attribute: &str) -> Option<u32> {
     node.attribute(attribute)?.trim().parse().ok()
 }
 
-/// An item, or one around it, is switched off in the tree of the project.
+/// Whether an item, or one around it, is switched off in the tree of the project.
 fn is_disabled(node: Node<'_, '_>) -> bool {
     node.ancestors().filter_map(|item| item.attribute("Disabled")).any(|text| text == "true")
 }
@@ -286,7 +287,7 @@ fn texts<'a>(node: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
     node.children().filter(Node::is_text).filter_map(|text| text.text())
 }
 
-/// A text that has entries only a start-up list has.
+/// Whether a text has entries that occur only in a start-up list.
 fn is_start_up(node: Node<'_, '_>) -> bool {
     let begins = |line: &str| {
         ["configuration.channel[", "kanal_anzahl", "zahl_mds", "error_protocol_mode"]
@@ -330,7 +331,7 @@ fn near<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
     None
 }
 
-/// What the item of a list is called.
+/// Name of the item of a list.
 fn name(node: Node<'_, '_>, otherwise: &str) -> String {
     let named = ["ItemName", "Name"].iter().find_map(|tag| near(node, tag)?.text());
     named.map(str::trim).filter(|name| !name.is_empty()).unwrap_or(otherwise).to_owned()

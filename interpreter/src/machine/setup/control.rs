@@ -40,7 +40,7 @@ impl Drive {
     }
 }
 
-/// Everything downstream of the set position but Improved Position Control, as the list states it.
+/// Everything downstream of the set position except Improved Position Control, as configured by the list.
 pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisControlConfig {
     let limits = axis.dynamics();
     let j_max_mm_s3 = limits.a_max_mm_s2 / axis.tr_min_s();
@@ -76,7 +76,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
     }
 }
 
-/// Keys that say something about another gear stage or another kind of drive (K-0075).
+/// Reports keys that belong to another gear stage or another kind of drive (K-0075).
 fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) {
     let mut tell = |place: Place, what: &str, hint: &str| {
         let condition = Condition::ListNoEffect;
@@ -112,7 +112,7 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
             getriebe[0].wegaufz and wegaufn, or getriebe[0].incr_per_rev";
         tell(Place { row: setting.row, indices }, "resolution of the motor encoder", hint);
     }
-    // the default of the vendor's lists says nothing about another drive
+    // the default in the vendor's lists does not indicate another drive
     let said = axis.set_by(of::FF_SHIFT).and_then(|s| s.value.number());
     if drive != Drive::Profidrive && said.is_some_and(|x| x > 0.0 && (x - 3.0).abs() > 0.0) {
         tell(
@@ -132,7 +132,7 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
     }
 }
 
-/// Both in the units of the list.
+/// Quotient of two parameters in the units of the list.
 fn quotient(axis: &Axis, numerator: Param<Number>, denominator: Param<Number>) -> f64 {
     axis.listed(numerator) / axis.listed(denominator)
 }
@@ -180,12 +180,12 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
         default_active: axis.get(of::FF_ALWAYS_ON),
         global_disable: axis.get(of::FF_NEVER_ON),
         without_delay: axis.get(of::FF_WITHOUT_DELAY),
-        // P-AXIS-00165 holds for PROFIdrive only, whatever the default
+        // P-AXIS-00165 applies to PROFIdrive only, whatever the default
         shift_cycles: if drive == Drive::Profidrive { axis.get(of::FF_SHIFT) as usize } else { 0 },
     }
 }
 
-/// Additive inputs: of the simulated drive by kontur's switches, of a bus drive by what its telegram carries.
+/// Additive inputs: for the simulated drive by kontur's switches, for a bus drive by the content of its telegram.
 ///
 /// The manual's listing for torque prints `S_0_0037` again; lists copied from it are accepted with a note (70351).
 fn additive_inputs(
@@ -225,10 +225,10 @@ fn additive_inputs(
     }
 }
 
-/// Where the position loop is closed (P-AXIS-00320).
+/// The place where the position loop is closed (P-AXIS-00320).
 ///
-/// A simulated or analogue drive takes speed commands only. Assumption: the list names no telegram of set positions
-/// (PROFIdrive, CANopen), so `operation_mode` decides for them as the manual says it does for SERCOS, and
+/// A simulated or analogue drive only accepts speed commands. Assumption: the list describes no telegram of set
+/// positions (PROFIdrive, CANopen), so `operation_mode` decides for them as the manual says it does for SERCOS, and
 /// `DRIVE_DEFAULT` means what the commissioning manual prints as the usual case of each bus.
 fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop {
     let param = axis_control::OPERATION_MODE;
@@ -269,11 +269,11 @@ fn position(axis: &Axis, v_max_mm_s: f64, diagnostics: &mut Vec<Diagnostic>) -> 
     }
 }
 
-/// The gain that depends on speed, `None` unless P-AXIS-00244 switches it on.
+/// The speed-dependent gain, `None` unless P-AXIS-00244 switches it on.
 ///
-/// Source: TF5200 axis parameters, pages 117792395 and 117789195: SERCOS and CANopen drives have it only while the control
-/// closes the loop. Assumption: values without the switch, which no list of the engineering tool has, are a mistake; with the
-/// switch at 0 they are prepared.
+/// Source: TF5200 axis parameters, pages 117792395 and 117789195: SERCOS and CANopen drives have it only while the
+/// control closes the loop. Assumption: values without the switch, which do not occur in lists of the engineering tool,
+/// are a mistake; with the switch at 0 they are merely prepared.
 fn dynamic_kv(
     axis: &Axis,
     closed_in: PositionLoop,
@@ -314,7 +314,7 @@ fn dynamic_kv(
     Some(DynamicKv { v1_mm_s, kv1_per_s, v2_mm_s, kv2_per_s })
 }
 
-/// Direct if the list configures a second measuring system or `kontur.lis` says so.
+/// Direct if the list configures a second measuring system or `kontur.lis` selects it.
 fn encoder(axis: &Axis) -> Encoder {
     let listed = [axis_control::ENCODER_NUM, axis_control::ENCODER_DENOM]
         .iter()
@@ -322,11 +322,11 @@ fn encoder(axis: &Axis) -> Encoder {
     if listed || axis.get(kontur::LOAD_ENCODER) { Encoder::Direct } else { Encoder::Motor }
 }
 
-/// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, else
-/// `R = incr_per_rev i / f` as soon as P-AXIS-00362 or P-AXIS-00363 is not 1, else P-AXIS-00234/00233.
+/// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, otherwise
+/// `R = incr_per_rev i / f` if P-AXIS-00362 or P-AXIS-00363 is not 1, otherwise P-AXIS-00234/00233.
 ///
-/// Assumption: an axis whose list says nothing about its measuring system reads without steps, so that what a trace shows
-/// are the effects that the list asks for.
+/// Assumption: an axis without measuring system parameters in its list reads without steps, so that a trace only shows
+/// effects that the list configures.
 fn increment_mm(axis: &Axis) -> f64 {
     let quotient_of_set = |numerator: Place, denominator: Place| {
         let set = [numerator, denominator].iter().any(|place| axis.set_by(*place).is_some());

@@ -34,22 +34,22 @@ pub struct FirPreset {
     pub config: FirConfig,
 }
 
-/// The additional interface of an axis (`lr_param.add_interface`): a position from outside that is added after the axis
+/// The additional interface of an axis (`lr_param.add_interface`): an external position that is added after the axis
 /// filters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdditionalInterface {
-    /// Filter that the position passes, if it is on.
+    /// Filter for the position, if it is on.
     pub filter: Option<AxisFilter>,
 }
 
-/// What the list says about the kernel slot of an axis.
+/// The kernel slot of an axis as configured by the list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KernelPreset {
     /// Vibration Guard.
     pub vib_guard: VibGuardPreset,
     /// FIR filter; `None` if it has no type (P-AXIS-00586).
     pub fir: Option<FirPreset>,
-    /// HSC filter that `#FILTER ON [HSC]` makes effective (`filter[0]`).
+    /// HSC filter that `#FILTER ON [HSC]` switches on (`filter[0]`).
     pub hsc: Option<HscConfig>,
 }
 
@@ -82,7 +82,7 @@ pub(super) fn additional(
     Some(AdditionalInterface { filter })
 }
 
-/// One filter of the list, with a type if it is `typed`; what no entry of the list can mean leaves it off.
+/// One filter of the list, with a type if it is `typed`; off if its entry is meaningless.
 fn entry(
     axis: &Axis,
     keys: &of::FilterKeys,
@@ -139,7 +139,7 @@ fn entry(
     }
 }
 
-/// The kernel slot as the list states it.
+/// The kernel slot as configured by the list.
 pub(super) fn preset(axis: &Axis, cycle: CycleTime) -> KernelPreset {
     KernelPreset {
         vib_guard: VibGuardPreset {
@@ -174,7 +174,7 @@ fn fir(axis: &Axis) -> Option<FirPreset> {
     Some(FirPreset { enable: axis.get(of::FIR_FILTER.enable), config })
 }
 
-/// What is wrong with the kernels that are on from program start, and with the HSC filter.
+/// Reports errors of the kernels that are on from program start, and of the HSC filter.
 pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) {
     let preset = preset(axis, cycle);
     check_fir_kind(axis, diagnostics);
@@ -191,7 +191,7 @@ pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec
     }
 }
 
-/// A type of FIR filter that does not exist (P-AXIS-00586).
+/// Reports an undefined type of FIR filter (P-AXIS-00586).
 pub(super) fn check_fir_kind(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let number = axis.get(of::FIR_FILTER.kind);
     if number > 4 {
@@ -201,7 +201,7 @@ pub(super) fn check_fir_kind(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Kernels that the list of a gantry slave states and its master has not: they have no effect.
+/// Reports kernels in the list of a gantry slave that its master does not have: they have no effect.
 pub(super) fn check_slave(
     slave: &Axis,
     master: &Axis,

@@ -13,7 +13,7 @@ use kontur_filters::time::CycleTime;
 /// Largest P-AXIS-00757.
 const MOST_LIMIT: f64 = 2000.0;
 
-/// The function as the list states it.
+/// The function as configured by the list.
 pub(super) fn config(axis: &Axis) -> IpcConfig {
     IpcConfig {
         enable: axis.get(of::IPC_ENABLE),
@@ -24,7 +24,7 @@ pub(super) fn config(axis: &Axis) -> IpcConfig {
     }
 }
 
-/// What no configuration can hold: modes that do not exist, and a limit above the range of P-AXIS-00757.
+/// Reports values outside every configuration: undefined modes, and a limit above the range of P-AXIS-00757.
 pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for stage in 0..IpcConfig::MAX_STAGES {

@@ -7,7 +7,7 @@ use kontur_filters::control::monitor::{
     ExactStopConfig, LagMonitorConfig, LagMonitorType, SetpointMonitorConfig, Thresholds,
 };
 
-/// The monitor of the lag; the default of its delay (P-AXIS-00191) holds for digital drives.
+/// The lag monitor; the default of its delay (P-AXIS-00191) applies to digital drives.
 pub(super) fn lag(axis: &Axis, digital: bool) -> LagMonitorConfig {
     let delay = digital || axis.set_by(axis_drive::LAG_DELAY).is_some();
     LagMonitorConfig {
@@ -27,7 +27,7 @@ pub(super) fn lag(axis: &Axis, digital: bool) -> LagMonitorConfig {
     }
 }
 
-/// P-AXIS-00532 applies; below 0 the older P-AXIS-00151 does. 0 in either switches off.
+/// P-AXIS-00532 applies, or the older P-AXIS-00151 if it is negative. 0 switches the monitor off.
 pub(super) fn exact_stop(axis: &Axis) -> ExactStopConfig {
     let time_s = axis.get(axis_control::SETTLING_TIME);
     let time_s = if time_s < 0.0 { axis.get(axis_control::SETTLING_TIME_OLD) } else { time_s };
@@ -39,7 +39,7 @@ pub(super) fn exact_stop(axis: &Axis) -> ExactStopConfig {
     }
 }
 
-/// The monitor of the set positions under these limits.
+/// The monitor of the set positions for these limits.
 pub(super) fn setpoint(
     axis: &Axis,
     v_max_mm_s: f64,

@@ -9,7 +9,7 @@ use kontur_filters::control::plant::{
     Disturbance, ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig,
 };
 
-/// The simulated axis as the lists state it.
+/// The simulated axis as configured by the lists.
 pub(super) fn config(axis: &Axis) -> PlantConfig {
     let amplitude_mm_s2 = axis.get(of::DISTURBANCE_AMPLITUDE);
     let disturbance = Disturbance {
@@ -24,7 +24,7 @@ pub(super) fn config(axis: &Axis) -> PlantConfig {
     }
 }
 
-/// The first key in `kontur.lis` that says something about another model than that of the axis, and which one reads it.
+/// The first key in `kontur.lis` that belongs to a model other than that of the axis, and the model that reads it.
 pub(super) fn of_another_model(axis: &Axis) -> Option<(Place, &'static str)> {
     const TWO_MASS: &str = "TWO_MASS";
     const BOTH: &str = "TWO_MASS and MODAL";
@@ -38,7 +38,7 @@ pub(super) fn of_another_model(axis: &Axis) -> Option<(Place, &'static str)> {
         (of::RESONANCE, TWO_MASS),
         (of::DAMPING, TWO_MASS),
     ];
-    // a model that is tried beside the list's
+    // a model that is tried instead of the one in the list
     let model_by = axis.set_by(of::PLANT_MODEL.at(axis.number()));
     if model_by.and_then(|by| by.at.as_ref()).is_some_and(|at| &*at.file == OVERRIDE) {
         return None;
@@ -54,7 +54,7 @@ pub(super) fn of_another_model(axis: &Axis) -> Option<(Place, &'static str)> {
     })
 }
 
-/// The first parameter of the vendor's simulated drive that a list changes, where `kontur.lis` gives another model.
+/// The first parameter of the vendor's simulated drive that a list changes although `kontur.lis` selects another model.
 pub(super) fn of_the_simulated_drive(axis: &Axis) -> Option<(Indices, &Setting)> {
     const READERS: [Place; 5] = [
         axis_drive::SIMU_FOLLOWS.place(),

@@ -1,5 +1,5 @@
-//! Axis lists: compensations and weightings of the control that are not simulated. A list that switches one on gets a message, see
-//! [`inert`](crate::machine); their other values are read and ignored.
+//! Axis lists: compensations and weightings of the control that are not simulated. If a list switches one on, a message
+//! says so, see [`inert`](crate::machine); their other values are read and ignored.
 
 use super::param::parameters;
 use super::row::{Bound, Raw, axis};

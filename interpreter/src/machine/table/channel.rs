@@ -21,13 +21,13 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
     ("MEP_SVS", 0x100_0000),
     ("MET_SVS", 0x200_0000),
     ("FAW_SYNCH", 0x1000_0000),
-    // no document read prints their numbers; they ask for no acknowledgement, as MOS does
+    // the documents do not print their numbers; they need no acknowledgement, like MOS
     ("MOS_TS", 0x1),
     ("MEP_MOS", 0x1),
     ("MET_MOS", 0x1),
 ];
 
-/// Bits of [`SYNCHRONISATION`] that let the path wait before the motion of the block: MVS_SVS.
+/// Bits of [`SYNCHRONISATION`] for which the path waits before the motion of the block: MVS_SVS.
 pub(crate) const BEFORE_MOTION: u32 = 0x2;
 
 /// MVS_SNS: called before the motion, waited for after it.
@@ -39,7 +39,7 @@ pub(crate) const BEHIND_MOTION: u32 = 0x8;
 /// MNE_SNS: called by the signal of edge banding.
 pub(crate) const AT_SIGNAL: u32 = 0x20;
 
-/// Those that let it wait at another place: MNE_SNS, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS.
+/// Bits for which it waits elsewhere: MNE_SNS, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS.
 pub(crate) const ELSEWHERE: u32 = AT_SIGNAL | 0x4000 | 0x8000 | 0x100_0000 | 0x200_0000;
 
 /// Overrides of rapid blocks (P-CHAN-00181).

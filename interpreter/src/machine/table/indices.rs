@@ -3,7 +3,7 @@
 /// Indices of a key from left to right, 0 where it has fewer than two.
 pub type Indices = [u32; 2];
 
-/// A key of the table with indices put in: `filter[i].order`, `[2, 0]` gives `filter[2].order`.
+/// A key of the table with its indices inserted: `filter[i].order`, `[2, 0]` gives `filter[2].order`.
 pub(crate) fn with_indices(key: &str, indices: Indices) -> String {
     let mut text = String::with_capacity(key.len());
     let mut indices = indices.into_iter();

@@ -1,4 +1,4 @@
-//! `kontur.lis`: what vendor lists do not contain. The index of `kontur.axis[i]` is the logical axis number.
+//! `kontur.lis`: parameters beyond the vendor's lists. The index of `kontur.axis[i]` is the logical axis number.
 
 use super::param::parameters;
 use super::row::{Bound, Correction, Default, Raw, own};

@@ -90,7 +90,8 @@ pub(crate) fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
     BY_SHAPE.get(&shape)?.iter().find(|r| r.list == list).copied()
 }
 
-/// Letters of a last name from which on two of them may be wrong: with fewer it would be another word (`lose` and `load`).
+/// Number of letters of a last name from which on two of them may be wrong: in a shorter one that gives a different
+/// word (`lose` and `load`).
 const LONG_NAME: usize = 6;
 
 /// Keys that differ from `shape` by at most two letters, best first; by at most one if their last names are short.
@@ -159,7 +160,7 @@ mod tests {
         }
     }
 
-    /// Every row is found by its ID and by its key with and without regard to case, in its own list alone.
+    /// Every row is found by its ID and by its key, in any case, but only in its own list.
     #[test]
     fn rows_are_found() {
         for row in rows() {
@@ -194,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Two wrong letters of a short name make another word, so nothing is proposed.
+    /// Two wrong letters of a short name make a different word, so nothing is suggested.
     #[test]
     fn other_words_are_not_proposed() {
         assert_eq!(misspelt(Some(ListKind::Axis), "getriebe[].losee"), ["getriebe[i].lose"]);

@@ -18,15 +18,15 @@ macro_rules! parameters {
 }
 pub(super) use parameters;
 
-/// A number that always has a value: the list's or the default of the row. Read in mm (deg), s and ratios.
+/// A number that always has a value: that of the list or the default of the row. Read in mm (deg), s and ratios.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Number {}
 
-/// A number that a list may leave open. Read in mm (deg), s and ratios.
+/// A number without default that a list may leave out. Read in mm (deg), s and ratios.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Optional {}
 
-/// A whole number with a default: a count, a selection or bits; 0 for what is none.
+/// A whole number with a default: a count, a selection or bits; 0 if it is not a whole number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Whole {}
 
@@ -52,7 +52,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// A parameter and the type of its values; the indices of its key are 0 unless others are named.
+/// A parameter with the type of its values; the indices of its key are 0 unless given.
 #[derive(Debug)]
 pub(crate) struct Param<K> {
     place: Place,
@@ -139,7 +139,7 @@ const fn has_default(row: &Row) -> bool {
     matches!(row.default, Default::Number(_) | Default::Of(_))
 }
 
-/// A list number that is a whole number of the type UNS32.
+/// Converts a list number that is a whole number of the type UNS32.
 pub(crate) fn whole(x: f64) -> Option<u32> {
     (0.0..=f64::from(u32::MAX)).contains(&x).then_some(x as u32)
 }

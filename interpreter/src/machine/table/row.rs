@@ -1,4 +1,4 @@
-//! One row of the parameter table, and the words in which it is written.
+//! One row of the parameter table, and the functions that define it.
 
 use crate::diag::Condition;
 
@@ -83,23 +83,23 @@ impl Raw {
 /// One end of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// Only the data type limits.
+    /// Limited by the data type only.
     None,
-    /// This value is allowed.
+    /// This value is permitted.
     At(f64),
-    /// This value is no longer allowed.
+    /// This value is no longer permitted.
     Beyond(f64),
-    /// The value of another parameter is allowed.
+    /// The value of another parameter is permitted.
     Of(&'static str),
-    /// The value of another parameter is no longer allowed.
+    /// The value of another parameter is no longer permitted.
     BeyondOf(&'static str),
-    /// A multiple of another parameter is allowed.
+    /// A multiple of another parameter is permitted.
     Times(f64, &'static str),
-    /// The smallest of some parameters is allowed.
+    /// The smallest of several parameters is permitted.
     LeastOf(&'static [&'static str]),
-    /// The greatest of some parameters is allowed.
+    /// The largest of several parameters is permitted.
     GreatestOf(&'static [&'static str]),
-    /// So many cycles, in us, are no longer allowed.
+    /// This number of cycles, in us, is no longer permitted.
     BeyondCycles(f64),
     /// Depends on other words of the function; checked where the function is set up.
     Text(&'static str),
@@ -122,7 +122,7 @@ impl std::fmt::Display for Bound {
     }
 }
 
-/// What replaces a value out of range.
+/// The replacement of a value out of range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Correction {
     /// The default.
@@ -131,9 +131,9 @@ pub enum Correction {
     Limit,
     /// This value.
     Value(f64),
-    /// Nothing: the value stays and switches its function off.
+    /// None: the value stays and switches its function off.
     Keep,
-    /// Nothing: the machine is refused.
+    /// None: the machine is refused.
     Refuse,
 }
 
@@ -142,11 +142,11 @@ pub enum Correction {
 pub struct Reaction {
     /// ID of the message.
     pub condition: Condition,
-    /// What happens with the value.
+    /// How the value is corrected.
     pub correction: Correction,
 }
 
-/// Value of a parameter that no list names.
+/// Value of a parameter that no list states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Default {
     /// None: the parameter is absent.
@@ -164,9 +164,9 @@ pub enum Default {
 /// One parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// ID (`P-AXIS-00212`); empty where the documents print none.
+    /// ID (`P-AXIS-00212`); empty if the documents do not print one.
     pub id: &'static str,
-    /// Key with `[i]`, `[j]`, `[k]` for indices; empty if no document prints it (row for `explain` only).
+    /// Key with `[i]`, `[j]`, `[k]` for indices; empty if the documents do not print it (row for `explain` only).
     pub key: &'static str,
     /// Its list.
     pub list: ListKind,
@@ -180,15 +180,15 @@ pub struct Row {
     pub high: Bound,
     /// A value with a special meaning outside the range, usually 0 = "as ...".
     pub special: Option<f64>,
-    /// Value if no list names it.
+    /// Value if no list states it.
     pub default: Default,
-    /// Unit for linear axes (and everything that is not an axis), `-` if none.
+    /// Unit for linear axes (and for everything except axes), `-` if none.
     pub unit: &'static str,
     /// Unit for rotary axes and spindles.
     pub unit_rotary: &'static str,
     /// Axis types: letters of `TRS` (translatory, rotary, spindle), empty outside axis lists.
     pub axes: &'static str,
-    /// Drive types the manual names; empty: all. kontur lets every simulated drive use every parameter.
+    /// Drive types in the manual; empty: all. In kontur every simulated drive can use every parameter.
     pub drives: &'static str,
     /// Reaction below the range.
     pub below: Reaction,
@@ -196,11 +196,11 @@ pub struct Row {
     pub above: Reaction,
     /// The range is checked where the function is set up, since it depends on other words.
     pub at_setup: bool,
-    /// Document.
+    /// Source document.
     pub source: &'static str,
 }
 
-/// Reaction where no document names an ID: limited, with kontur's own number.
+/// Reaction where the documents give no ID: limited, with a number of kontur's own.
 const UNDOCUMENTED: Reaction =
     Reaction { condition: Condition::ListRange, correction: Correction::Limit };
 
@@ -345,7 +345,7 @@ impl Row {
         self
     }
 
-    /// Document, if it is not the manual of the list.
+    /// Source document, if it is not the manual of the list.
     pub(super) const fn source(mut self, source: &'static str) -> Self {
         self.source = source;
         self

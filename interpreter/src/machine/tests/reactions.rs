@@ -1,4 +1,4 @@
-//! What becomes of values that are out of range, do not fit together or have no effect.
+//! Handling of values that are out of range, inconsistent or without effect.
 
 use super::*;
 
@@ -94,7 +94,7 @@ fn documented_reactions_to_values_out_of_range() {
         let mut files = Memory::machine();
         files.put("m/lists/y.lis", &format!("kopf.achs_nr 1\n{line}\n"));
         let (machine, mut warnings) = files.load(&[]).unwrap();
-        // a corrected value may still not be a recommended one
+        // a corrected value may still differ from the recommended one
         warnings.retain(|d| d.id != Condition::ListAdvice);
         let found: Vec<String> = warnings.iter().map(|d| d.id.to_string()).collect();
         assert_eq!(found, [id], "{line}");
@@ -150,7 +150,7 @@ fn rules_over_several_parameters() {
     let (x, ids) = check("kenngr.swe_neg 100\nkenngr.swe_pos 100\n");
     assert_eq!(ids, ["110110", "110110"]);
     assert_eq!(x.software_limits_mm(), Some((-10000.0, 10000.0)));
-    // the sampling time of the simulated drive is written and is not the cycle
+    // the sampling time of the simulated drive is given and differs from the cycle
     let (_, ids) = check("antr.simu.zeitkonstante_z 1\nantr.simu.zeitkonstante_n 100\n");
     assert_eq!(ids, ["K-0032"]);
     let (_, ids) = check("antr.simu.zeitkonstante_z 1\nantr.simu.zeitkonstante_n 1000\n");
@@ -211,8 +211,8 @@ fn counts_limit_what_is_used() {
     assert_eq!(files.ids(&[]), ["K-0074"]);
 }
 
-/// Pairs of the coupling group of the channel list, by an independent rule: a pair stays if both numbers are not 0 and
-/// differ, its slave has no master yet, and no axis is both (20438, 20440 to 20442).
+/// Pairs of the coupling group of the channel list, by an independent rule: a pair is kept if both numbers are not 0
+/// and differ, its slave has no master yet, and no axis is both (20438, 20440 to 20442).
 #[test]
 fn default_couplings_keep_the_pairs_that_fit() {
     let pair = |i: u32, master: u32, slave: u32| {

@@ -9,7 +9,7 @@ use kontur_filters::ring::Ring;
 use kontur_filters::shaping;
 use kontur_filters::stage::Stage;
 
-/// Where a chain is before a row of cycles that may have to be taken back.
+/// State of a chain before a row of cycles that may have to be undone.
 #[derive(Debug)]
 pub(crate) struct Mark {
     shaping: shaping::Mark,
@@ -19,7 +19,7 @@ pub(crate) struct Mark {
 }
 
 impl AxisChain {
-    /// The additional position of this cycle; nothing if the interface is off.
+    /// The additional position of this cycle; 0 if the interface is off.
     fn additional_mm(&mut self) -> f64 {
         let x = self.inputs.additional_mm;
         let additional_mm = match &mut self.additional {
@@ -30,13 +30,13 @@ impl AxisChain {
         additional_mm + self.wear_mm
     }
 
-    /// It runs no more than one cycle at a time: it awaits a stop, or what is added to its position may change.
+    /// Whether only single cycles are possible: a stop is awaited, or the additional position may change.
     pub(crate) fn goes_alone(&self) -> bool {
         let filtered = |a: &AdditionalInterface| a.filter.is_some();
         self.control.goes_alone() || self.additional.as_ref().is_some_and(filtered)
     }
 
-    /// Marks where the chain is, in the place of an earlier mark: no row can be taken back any more than to here.
+    /// Saves the state of the chain, replacing an earlier mark; rows before it can no longer be undone.
     pub(crate) fn mark(&self, mark: &mut Option<Mark>) {
         let mark = mark.get_or_insert_with(|| Mark {
             shaping: shaping::Mark::default(),
@@ -48,7 +48,7 @@ impl AxisChain {
         mark.derived = [self.set, self.vel, self.acc];
     }
 
-    /// Takes back the last row, if it is the only one since the mark.
+    /// Undoes the last row, which must be the only one since the mark.
     pub(crate) fn return_to(&mut self, mark: &Mark) {
         self.ipo.take_back(self.moved);
         self.shaping.return_to(&mark.shaping, self.moved);
@@ -56,12 +56,12 @@ impl AxisChain {
         [self.set, self.vel, self.acc] = mark.derived;
     }
 
-    /// Cycles in a row with these interpolated setpoints, at most [`Ring::ROOM`]. The number up to the first one in which the
-    /// monitors have raised something, see [`Self::faults`]: if it is not the last one, the row has to be
-    /// [taken back](Self::return_to).
+    /// Runs a row of cycles with these interpolated setpoints, at most [`Ring::ROOM`]. Returns the number of cycles up
+    /// to the first one in which the monitors raised a fault, see [`Self::faults`]. If it is not the last one, the row
+    /// has to be [undone](Self::return_to).
     ///
-    /// What is asked for of each cycle is written to the columns, and the record of the last one in the place of that of the
-    /// cycle before.
+    /// Requested quantities of each cycle are written to the columns; the record of the last cycle replaces that of the
+    /// previous one.
     pub(crate) fn run(
         &mut self,
         ipo: &[f64],
@@ -112,7 +112,7 @@ impl AxisChain {
         rested + count
     }
 
-    /// Writes the columns of what lies before the control, where they are asked for.
+    /// Writes the requested columns of the quantities before the control.
     fn show(&self, ipo: &[f64], set: &[f64], additional_mm: f64, columns: &mut AxisColumns<'_>) {
         let n = ipo.len();
         for (quantity, values) in [(Quantity::Ipo, ipo), (Quantity::Set, set)] {
@@ -149,7 +149,7 @@ impl AxisChain {
         }
     }
 
-    /// One cycle: what a row of one does, without what rows cost.
+    /// One cycle: the same as a row of one, at lower cost.
     pub(crate) fn step(
         &mut self,
         ipo: f64,
@@ -176,16 +176,16 @@ impl AxisChain {
         *record = recorded([ipo, set, vel, acc, jerk, err], additional_mm, &out);
     }
 
-    /// What the monitors have raised in the last cycle of [`Self::run`] or [`Self::step`], if anything.
+    /// Faults that the monitors raised in the last cycle of [`Self::run`] or [`Self::step`], if any.
     pub(crate) fn faults(&self) -> Option<&Faults> {
         self.faulty.then(|| self.control.faults())
     }
 
-    /// A cycle with these values would leave the record of the last one as it is.
+    /// Whether a cycle with these values would leave the record of the last one unchanged.
     ///
-    /// Sampled setpoints and differences are shorter than what the kernel remembers and the rest of the control.
+    /// Sampled setpoints and differences have a shorter memory than the kernel and the rest of the control.
     fn rests_under(&self, ipo: f64, gain: f64, jerk_limited: bool) -> bool {
-        // an axis that moves fails here
+        // a moving axis fails here
         if !self.shaping.rests_under(ipo) {
             return false;
         }
@@ -199,7 +199,7 @@ impl AxisChain {
     }
 }
 
-/// What the control shows: values that are computed together are written together.
+/// Columns of the control: values that are computed together are written together.
 struct ShownControl<'a> {
     positions: bool,
     control: bool,
@@ -227,7 +227,7 @@ impl<'a> ShownControl<'a> {
         Quantity::TorqueNm,
     ];
 
-    /// The columns of so many cycles; none if nobody reads them.
+    /// The columns of this number of cycles; `None` if nobody reads them.
     fn of(columns: &'a mut AxisColumns<'_>, rows: usize) -> Option<Self> {
         let [positions, control, drive] = [
             columns.has_any(Asked::of(&Self::POSITIONS)),
@@ -270,7 +270,7 @@ impl<'a> ShownControl<'a> {
     }
 }
 
-/// Differences of values from one cycle to the next, per second; `before`: the value in the cycle before the first.
+/// Differences of successive values per second; `before` is the value in the cycle before the first.
 fn differences(of: &[f64], before: f64, cycle_s: f64, out: &mut [f64]) {
     let [first, others @ ..] = out else { return };
     *first = (of[0] - before) / cycle_s;
@@ -279,7 +279,8 @@ fn differences(of: &[f64], before: f64, cycle_s: f64, out: &mut [f64]) {
     }
 }
 
-/// The record of a cycle: interpolated setpoint, set position, its three derivatives, `err`, and what the control has made of it.
+/// The record of a cycle: interpolated setpoint, set position with its three derivatives, `err`, and the output of the
+/// control.
 #[inline]
 fn recorded(
     [ipo, set, vel, acc, jerk, err]: [f64; 6],
@@ -308,7 +309,7 @@ fn recorded(
         settling_s: out.settling_s,
         tcp: out.tcp_mm,
         tcp_acc: out.tcp_acc_mm_s2,
-        // of the block, not of the axis
+        // set by the block, not by the axis
         target: 0.0,
         cmd_drive: out.drive.command,
         vff_drive: out.drive.feedforward,
@@ -318,24 +319,25 @@ fn recorded(
     }
 }
 
-/// Interpolated setpoint of the moment that the mean delay points to, `ago` cycles before the newest, linear between two samples.
+/// Interpolated setpoint at the time given by the mean delay, `ago` cycles before the newest, linear between two
+/// samples.
 fn aligned(ipo: &Ring, (whole, part): (u32, f64), ago: u32) -> f64 {
     let newer = ipo.past(whole + ago);
     if part > 0.0 { newer + part * (ipo.past(whole + 1 + ago) - newer) } else { newer }
 }
 
-/// Derivatives of set positions, asked for in rising order.
+/// Derivatives of set positions, read in increasing order.
 struct Derived<'a> {
     set: &'a [f64],
     cycle_s: f64,
-    /// The first cycle not asked for yet; in the one before it set position, velocity, acceleration and jerk.
+    /// The first cycle that has not been read; the values of the cycle before it follow.
     next: usize,
     before_mm: f64,
     now: [f64; 3],
 }
 
 impl<'a> Derived<'a> {
-    /// With set position, velocity and acceleration in the cycle before.
+    /// Starts with set position, velocity and acceleration in the previous cycle.
     fn new(set: &'a [f64], [before_mm, vel, acc]: [f64; 3], cycle_s: f64) -> Self {
         Self { set, cycle_s, next: 0, before_mm, now: [vel, acc, 0.0] }
     }

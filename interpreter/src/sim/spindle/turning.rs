@@ -1,10 +1,11 @@
-//! How the speed of a spindle changes: accelerations and ramp times of its list.
+//! Changes of the speed of a spindle, with the accelerations and ramp times of its list.
 //!
-//! Source: TF5200 axis parameters, P-AXIS-00270: since V2.11.2800 the slope type no longer matters; a ramp time shorter than
-//! the cycle is none, others make the speed non-linear. P-AXIS-00556: the accelerations are those of the jerk-limited slope.
+//! Source: TF5200 axis parameters, P-AXIS-00270: since V2.11.2800 the slope type no longer matters; a ramp time shorter
+//! than the cycle does not count, others make the speed non-linear. P-AXIS-00556: the accelerations are those of the
+//! jerk-limited slope.
 //!
-//! Assumptions: each of the four ramp times is judged separately; ramps are straight, and short ones keep their jerk; on the
-//! way to the other sense of rotation the acceleration is zero at rest; a change under way keeps its weight (G130).
+//! Assumptions: each of the four ramp times is judged separately; ramps are linear, and short ones keep their jerk; on
+//! a reversal the acceleration is zero at standstill; a change under way keeps its weight (G130).
 
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::FeedSlope;
@@ -29,7 +30,7 @@ struct Change {
     at_s: f64,
 }
 
-/// Speed and angle of a spindle that turns freely.
+/// Speed and angle of a freely turning spindle.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Turning {
     speed_deg_s: f64,
@@ -37,7 +38,7 @@ pub(super) struct Turning {
 }
 
 impl Turning {
-    /// Turns with this speed.
+    /// Turning at this speed.
     pub(super) fn at(speed_deg_s: f64) -> Self {
         Self { speed_deg_s, change: None }
     }
@@ -47,19 +48,19 @@ impl Turning {
         self.speed_deg_s
     }
 
-    /// It has its speed and changes it at once.
+    /// Changes the speed at once.
     pub(super) fn set_speed(&mut self, speed_deg_s: f64, cycle: CycleTime) -> f64 {
         let way_deg = 0.5 * (self.speed_deg_s + speed_deg_s) * cycle.seconds();
         self.speed_deg_s = speed_deg_s;
         way_deg
     }
 
-    /// No change is under way.
+    /// Whether no change is under way.
     pub(super) fn is_steady(&self) -> bool {
         self.change.is_none()
     }
 
-    /// One cycle towards a speed: the way in deg. `limits` are asked for where a change begins.
+    /// One cycle towards a speed; returns the way in deg. `limits` is only called where a change begins.
     pub(super) fn step(
         &mut self,
         target_deg_s: f64,
@@ -67,7 +68,7 @@ impl Turning {
         cycle: CycleTime,
     ) -> f64 {
         let (mut left_s, mut way_deg) = (cycle.seconds(), 0.0);
-        // to rest, from there to the speed of the other sense, and what is left of the cycle at that speed
+        // to standstill, from there to the speed in the other direction, and the rest of the cycle at that speed
         for _ in 0..3 {
             self.head_for(target_deg_s, &limits);
             let Some(change) = &mut self.change else { break };
@@ -87,7 +88,7 @@ impl Turning {
         way_deg + self.speed_deg_s * left_s
     }
 
-    /// Plans the way to a speed, where it is another one than that of the change under way.
+    /// Plans a change to a speed that differs from that of the change under way.
     fn head_for(&mut self, target_deg_s: f64, limits: impl Fn() -> SlopeLimits) {
         let now = self.change.as_ref();
         let sense = match now {
@@ -95,7 +96,7 @@ impl Turning {
             None if self.speed_deg_s == 0.0 => target_deg_s.signum(),
             None => self.speed_deg_s.signum(),
         };
-        // through rest to the other sense of rotation
+        // through standstill to the other direction of rotation
         let target_deg_s = if target_deg_s * sense < 0.0 { 0.0 } else { target_deg_s };
         let aimed = now.map_or(self.speed_deg_s, |change| change.target_deg_s);
         if aimed.to_bits() == target_deg_s.to_bits() {
@@ -105,7 +106,7 @@ impl Turning {
             let state = change.profile.at(change.at_s);
             (state.v_mm_s, state.a_mm_s2)
         });
-        // where the acceleration leaves no room, the current change continues
+        // where the acceleration leaves no room, the present change continues
         if let Some(profile) = limits().change_of_speed(v, a, target_deg_s.abs()) {
             self.change = Some(Change { profile, target_deg_s, sense, at_s: 0.0 });
         }

@@ -1,5 +1,5 @@
-//! The point of a curve that is nearest to another point: samples of the sub-intervals that can hold it, then bisection and
-//! Newton beside the best of them.
+//! The point of a curve nearest to another point: samples of the sub-intervals that can contain it, then bisection and
+//! Newton's method next to the best sample.
 
 use super::{Cell, PolyPath};
 use crate::axis::AxisVec;
@@ -22,13 +22,13 @@ impl Cell {
     }
 }
 
-/// Bound of the distance of a piece between two parameters from its point in the middle: the Taylor polynomial there has
-/// the values `sum a_k t^k` with `|t|` up to half the width.
+/// Bound of the distance between a piece on a parameter range and its point in the middle: the Taylor polynomial there
+/// has the values `sum a_k t^k` with `|t|` up to half the width.
 pub(super) fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let of_axis = |c: &[f64; 6]| {
         let mut a = *c;
-        // Horner once for each coefficient shifts the polynomial to the middle
+        // one Horner pass per coefficient shifts the polynomial to the middle
         for k in 0..a.len() {
             for j in (k..a.len() - 1).rev() {
                 a[j] += middle * a[j + 1];
@@ -36,7 +36,7 @@ pub(super) fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
         }
         a[1..].iter().rev().fold(0.0, |sum, a| (sum + a.abs()) * half)
     };
-    // rounding is far below the last part
+    // the margin is far above the rounding error
     piece.iter().map(of_axis).map(|r| r * r).sum::<f64>().sqrt() * (1.0 + 1e-9)
 }
 
@@ -68,7 +68,7 @@ impl PolyPath {
             q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
         };
         let step = |cell: &Cell| (cell.to - cell.from) / SAMPLES as f64;
-        // only these sub-intervals can hold the nearest sample: every point of the others is further away
+        // only these sub-intervals can contain the nearest sample: in the others every point is further away
         let to_middle = |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
         let middles: SmallVec<[f64; 64]> =
             self.middles.chunks_exact(self.start.len()).map(to_middle).collect();
@@ -87,7 +87,7 @@ impl PolyPath {
                 }
             }
         }
-        // a sample at the border of a sub-interval may have the nearest point in the next one
+        // if the best sample is at the border of a sub-interval, the nearest point may be in the next one
         let (_, i, x) = best;
         let mut nearest = (f64::INFINITY, i, x);
         for j in i.saturating_sub(1)..(i + 2).min(self.cells.len()) {
@@ -107,7 +107,7 @@ impl PolyPath {
         (nearest.1, nearest.2)
     }
 
-    /// Zero of the derivative of the squared distance between two parameters, by bisection and Newton.
+    /// Zero of the derivative of the squared distance between two parameter values, by bisection and Newton's method.
     fn closest(&self, piece: usize, point: &[f64], low: f64, high: f64) -> f64 {
         let slopes = |x: f64| -> (f64, f64) {
             let (mut first, mut second) = (0.0, 0.0);

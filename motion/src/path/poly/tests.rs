@@ -1,7 +1,7 @@
 use super::*;
 use kontur_kit::Random;
 
-/// `x` runs as `3 u`, `y` as `u^2 - u^5`, slaved `z` as `7 u^3`.
+/// `x = 3 u`, `y = u^2 - u^5`, slaved `z = 7 u^3`.
 fn sample() -> PolyPath {
     let x = [10.0, 3.0, 0.0, 0.0, 0.0, 0.0];
     let y = [5.0, 0.0, 1.0, 0.0, 0.0, -1.0];
@@ -88,8 +88,8 @@ fn ends_are_exact_and_the_nearest_point_is_found() {
     }
 }
 
-/// Random curves of several pieces: no point of 20,000 is nearer than the one that is found, wherever one looks from, every
-/// point of a sub-interval lies within its radius, and what is near a path length is near its point.
+/// Random curves of several pieces: none of 20,000 points is nearer than the one found, from any point of view; every
+/// point of a sub-interval is within its radius, and [`PolyPath::near`] is close to the exact point.
 #[test]
 fn nothing_is_nearer_than_the_nearest_point() {
     let mut random = Random::from_state(7);
@@ -164,8 +164,8 @@ fn no_sample_exceeds_the_extremes() {
     }
 }
 
-/// Random quintics in several pieces: no dense sample lies beyond the extent, and one comes as near to it as its spacing lets;
-/// a parabola by its closed form.
+/// Random quintics in several pieces: no dense sample is outside the extent, and one comes as close to it as the
+/// spacing of the samples permits; a parabola by its closed form.
 #[test]
 fn the_extent_of_an_axis_holds_every_sample() {
     let parabola = [0.0, 4.0, -4.0, 0.0, 0.0, 0.0];
@@ -199,7 +199,7 @@ fn the_extent_of_an_axis_holds_every_sample() {
             });
             let (least, most) =
                 samples.fold((f64::MAX, f64::MIN), |(a, b), x| (x.min(a), x.max(b)));
-            // a second derivative of up to 2200 over half a spacing
+            // a second derivative of up to 2200 over half the spacing
             let miss = 0.125 * 2200.0 / f64::from(n * n);
             assert!(low <= least + 2e-9 && least - low < miss, "{low} {least}");
             assert!(high >= most - 2e-9 && high - most < miss, "{high} {most}");

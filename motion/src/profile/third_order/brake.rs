@@ -1,4 +1,4 @@
-//! Brake: brings a state that is outside its limits, or cannot help leaving them, back inside.
+//! Brake: brings a state that is outside its limits, or bound to leave them, back inside.
 //!
 //! The cases are those of Ruckig (Copyright (c) 2021 Lars Berscheid, MIT License, see the notice in
 //! `RUCKIG-LICENSE`), in units with jerk 1.
@@ -41,14 +41,14 @@ impl Brake {
     }
 }
 
-/// Velocity above its limit, or bound to get there although the acceleration is reduced at once.
+/// Whether the velocity is above its limit, or bound to get there even if the acceleration is reduced at once.
 fn leaves(p: &Problem) -> bool {
     let rounding = 1e-14 * (1.0 + p.v0.abs());
     let too_fast = p.v0 > p.v_max + rounding && p.v0 - 0.5 * p.a0 * p.a0 > p.v_min;
     too_fast || (p.a0 > 0.0 && settled_velocity(p.v0, p.a0) > p.v_max + rounding)
 }
 
-/// Acceleration above its limit: down to the limit, or further if the velocity demands it.
+/// Acceleration above its limit: reduced to the limit, or further if the velocity requires it.
 fn lower_acceleration(p: &Problem) -> [f64; 2] {
     let ramp = p.a0 - p.a_max;
     let v_at_limit = p.v0 + 0.5 * (p.a0 * p.a0 - p.a_max * p.a_max);
@@ -63,8 +63,8 @@ fn lower_acceleration(p: &Problem) -> [f64; 2] {
     }
 }
 
-/// Reduces the acceleration until the velocity is at its upper limit, at most so far that it can still be
-/// stopped above the lower one.
+/// Reduces the acceleration until the velocity is at its upper limit, but at most so far that the velocity can still be
+/// stopped above the lower limit.
 fn lower(p: &Problem) -> [f64; 2] {
     let to_a_min = p.a0 - p.a_min;
     let to_v_max = p.a0 + (p.a0 * p.a0 + 2.0 * (p.v0 - p.v_max)).max(0.0).sqrt();

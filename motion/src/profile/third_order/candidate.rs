@@ -1,18 +1,18 @@
-//! A possible solution, and the check every solution has to pass.
+//! A possible solution, and the check that every solution has to pass.
 
 use super::scaled::Problem;
 
 /// Jerk of the seven phases of a profile towards higher positions.
 const UP_DOWN_DOWN_UP: [f64; 7] = [1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0];
 
-/// Error of the final velocity and excess over limits that is rounding, in the problem's units.
+/// Tolerance for rounding of the final velocity and of limits, in the units of the problem.
 const ROUNDING: f64 = 1e-12;
 
 /// Error of the final displacement, relative to the distance travelled. Solved candidates are far better; a
 /// single bump of acceleration has no freedom left to meet a position that is itself rounded.
 const DISTANCE_ERROR: f64 = 1e-10;
 
-/// Error of the final displacement, relative to the terms it is the sum of; they may cancel.
+/// Error of the final displacement relative to the terms of its sum, which may cancel.
 const CANCELLATION: f64 = 1e-13;
 
 const SIXTH: f64 = 1.0 / 6.0;
@@ -26,7 +26,7 @@ pub(super) struct Candidate {
     pub(super) duration: f64,
 }
 
-/// Acceleration after a phase; what is left of a ramp to zero is rounding, and would add up over a long cruise.
+/// Acceleration after a phase. A residue of a ramp to zero is rounding and would add up over a long cruise.
 fn ramped(a: f64, change: f64) -> f64 {
     let next = a + change;
     if next.abs() <= 1e-14 * change.abs() { 0.0 } else { next }
@@ -46,8 +46,8 @@ pub(super) fn displacement<const N: usize>(mut v: f64, mut a: f64, t: &[f64; N])
 impl Candidate {
     /// Integrates the phases and compares with the problem: times not negative, final state met, limits kept.
     ///
-    /// Velocity limits hold from the moment the velocity is inside: a brake may have
-    /// to end before; until then it must not move further out.
+    /// Velocity limits apply from the moment the velocity is inside, since a brake may have to end earlier; until then
+    /// the velocity must not move further out.
     pub(super) fn checked(problem: &Problem, mut t: [f64; 7]) -> Option<Self> {
         let total: f64 = t.iter().map(|t| t.abs()).sum();
         let least = -ROUNDING * (1.0 + total);
@@ -115,7 +115,7 @@ impl Candidate {
         self
     }
 
-    /// The same phases run backwards and mirrored; the jerks are the same either way.
+    /// The same phases reversed and mirrored; the jerks are the same in both cases.
     pub(super) fn reversed(mut self) -> Self {
         self.t.reverse();
         self

@@ -1,11 +1,11 @@
 //! Step 1: the fastest profile.
 //!
-//! Three facts make it short. The displacements possible in a given duration are an interval that starts, at the
+//! Three properties make it short. The displacements possible in a given duration are an interval that starts, at the
 //! shortest duration, with the single displacement of the fastest change of velocity; so
-//! - a larger displacement is first met by a profile towards higher positions, a smaller one by its mirror image,
+//! - a larger displacement is first reached by a profile towards higher positions, a smaller one by its mirror image,
 //!   unless durations just above the shortest are followed by impossible ones (`isolated`);
-//! - a profile through a peak velocity (`peak`) is the fastest of its direction if nothing on the way moves back;
-//! - only where the acceleration stays on one side of zero in its falling ramp, quartics have to be solved.
+//! - a profile through a peak velocity (`peak`) is the fastest in its direction if it never reverses;
+//! - quartics only have to be solved where the acceleration stays on one side of zero in its falling ramp.
 //!
 //! With `a1` the peak of the acceleration (phases 1..3) and `a2` its lowest value (phases 3..7), those are
 //! - `free`: no limit reached, `a1² - a2²` follows from the change of velocity, `x = a1 - a2` solves a quartic;
@@ -26,14 +26,14 @@ pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
     let mut search = Search { best: None };
     let change = FastestChange::new(problem, &mirror);
     let surplus = problem.distance - change.distance;
-    // where the change is a single ramp, rounding moves it by the root of the precision
+    // where the change is a single ramp, rounding moves it by the square root of the precision
     let near = 1e-6 * (1.0 + problem.distance.abs()) + problem.distance_rounding;
     let [up, down] = [(problem, false), (&mirror, true)];
-    // out there a peak may lie beyond its limit, and the facts above do not hold
+    // outside the limits a peak may exceed its limit, and the properties above do not hold
     let outside = problem.v0 > problem.v_max || problem.v0 < problem.v_min;
     let proven = !change.isolated && !outside;
     if surplus.abs() <= near || !proven {
-        // a single bump has no freedom left: rounding may have closed every other way
+        // a single bump has no freedom left: rounding may have excluded every other profile
         for (p, mirrored) in [up, down] {
             search.bumps(p, mirrored);
         }
@@ -52,7 +52,7 @@ pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
         }
     }
     if search.best.is_none() {
-        // rounding has closed these ways: whatever passes the check
+        // rounding has excluded these profiles: accept any that passes the check
         for (p, mirrored) in [up, down] {
             search.bumps(p, mirrored);
             search.quartics(p, mirrored, f64::INFINITY);
@@ -61,11 +61,11 @@ pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
     search.best
 }
 
-/// The fastest change of velocity and acceleration, whatever the displacement.
+/// The fastest change of velocity and acceleration, with any displacement.
 struct FastestChange {
     distance: f64,
-    /// Slightly longer durations are possible, but not all of them: the acceleration has one sign, and coming to zero
-    /// on the way would already change the velocity too much.
+    /// Slightly longer durations are possible, but not all of them: the acceleration has one sign, and bringing it to
+    /// zero on the way would already change the velocity too much.
     isolated: bool,
 }
 
@@ -92,7 +92,7 @@ fn bump_square(problem: &Problem) -> f64 {
     ve - v0 + 0.5 * (a0 * a0 + ae * ae)
 }
 
-/// Acceleration goes up to a peak and down to its final value.
+/// The acceleration rises to a peak and falls to its final value.
 fn bump(problem: &Problem, square: f64, peak: f64) -> [f64; 3] {
     let Problem { a0, ae, a_max, .. } = *problem;
     if peak > a_max {
@@ -104,7 +104,7 @@ fn bump(problem: &Problem, square: f64, peak: f64) -> [f64; 3] {
     }
 }
 
-/// Nothing between start and end moves towards lower positions.
+/// Whether the motion never moves towards lower positions between start and end.
 fn never_reverses(problem: &Problem) -> bool {
     let Problem { v0, a0, ve, ae, .. } = *problem;
     let (rising, falling) = (a0.min(0.0), ae.max(0.0));
@@ -130,8 +130,8 @@ impl Search {
         t.is_some_and(|t| self.offer(problem, t, mirrored, false))
     }
 
-    /// Profiles that do not pass a peak velocity: the falling ramp starts below zero or ends above it. `margin` widens
-    /// the range of its length beyond that.
+    /// Profiles without a peak velocity: the falling ramp starts below zero or ends above it. `margin` widens the range
+    /// of its length beyond that.
     fn quartics(&mut self, problem: &Problem, mirrored: bool, margin: f64) {
         let Problem { a0, ae, .. } = *problem;
         let everything = margin.is_infinite();
@@ -162,7 +162,7 @@ impl Search {
             let middle = 0.5 * squares / x;
             [middle + 0.5 * x - a0, 0.0, x, 0.0, 0.0, 0.0, 0.5 * x - middle + ae]
         };
-        // longer ramps go through zero
+        // longer ramps pass through zero
         let longest = (a_max - a_min).min(margin * squares.abs().sqrt());
         for x in roots_in(&c, (a0 - ae).max(0.0), longest) {
             if x > 0.0 {
@@ -190,7 +190,7 @@ impl Search {
         ];
         let hold = (0.5 * (s0 - se) + ve - v0) / a;
         let times = |x: f64| [a - a0, hold - 2.0 * x + x * x / a, x, 0.0, 0.0, 0.0, ae - a + x];
-        // longer ramps go through zero
+        // longer ramps pass through zero
         let longest = (a - a_min).min(margin * a);
         for x in roots_in(&c, (a - ae).max(0.0), longest) {
             let x = polished(problem, x, &times, quartic_slope(&c, x) / (2.0 * a));
@@ -213,7 +213,7 @@ fn quartic_slope(c: &[f64; 5], x: f64) -> f64 {
     ((4.0 * c[0] * x + 3.0 * c[1]) * x + 2.0 * c[2]) * x + c[3]
 }
 
-/// Newton steps on the integrated displacement itself, as long as they reduce its error.
+/// Newton steps on the integrated displacement, as long as they reduce its error.
 fn polished(problem: &Problem, x: f64, times: &impl Fn(f64) -> [f64; 7], slope: f64) -> f64 {
     let error = |x: f64| displacement(problem.v0, problem.a0, &times(x)) - problem.distance;
     let (mut x, mut e) = (x, error(x));

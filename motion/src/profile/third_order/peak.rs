@@ -1,9 +1,9 @@
-//! Profiles through a peak velocity at zero acceleration: the common case, found without trying.
+//! Profiles through a peak velocity at zero acceleration: the common case, solved without trial.
 //!
-//! The change of speed up to the peak and the one down from it are independent, and the displacement of both is a
-//! closed form of the peak velocity `v`. It grows with `v` (next to a reversal it may fall first, but then crosses
-//! the wanted one only once), so comparing it at the velocities where a limit comes into play shows which limits
-//! are reached; only the equation of that case is solved.
+//! The changes of speed up to the peak and down from it are independent, and the displacement of both is a closed form
+//! of the peak velocity `v`. It increases with `v` (close to a reversal it may decrease first, but then crosses the
+//! wanted one only once). Comparing it at the velocities where a limit takes effect therefore shows which limits are
+//! reached, and only the equation of that case is solved.
 
 use super::scaled::{Problem, settled_velocity};
 use crate::profile::roots::increasing_root;
@@ -58,7 +58,7 @@ impl Rise {
         if v > self.plateau_velocity() {
             self.plateau(v)
         } else {
-            // nothing to gain: straight down; the time is that of `a0` so that exactly zero is left
+            // no velocity to gain: straight down; the time is that of `a0` so that exactly zero remains
             self.ramps((v - self.base).max(0.0).sqrt().max(self.a0))
         }
     }
@@ -77,7 +77,7 @@ impl Peak {
     /// `None` if the peak velocity cannot be inside its limit.
     pub(super) fn new(problem: &Problem) -> Option<Self> {
         let Problem { distance, v0, a0, ve, ae, v_max, a_max, a_min, .. } = *problem;
-        // profiles with their peak below the settled velocities do not exist
+        // there are no profiles with a peak below the settled velocities
         let lowest = settled_velocity(v0, a0).max(settled_velocity(ve, -ae));
         let allowed = lowest <= v_max * (1.0 + 1e-12) + 1e-12;
         let (up, down) = (Rise::new(v0, a0, a_max), Rise::new(ve, -ae, -a_min));
@@ -85,7 +85,7 @@ impl Peak {
     }
 
     /// Phases of the profile with the wanted displacement, which is not below that of the fastest change of velocity;
-    /// `None` if it is below what the lowest peak gives.
+    /// `None` if it is below that of the lowest peak.
     pub(super) fn times(&self) -> Option<[f64; 7]> {
         let Self { up, down, .. } = self;
         let missing = |v: f64| self.distance - up.displacement(v) - down.displacement(v);
@@ -94,7 +94,7 @@ impl Peak {
         if cruise >= 0.0 {
             return (hi > 0.0).then(|| self.cruise(cruise));
         }
-        // otherwise the lowest peak belongs to the fastest change of velocity, with which the caller has compared
+        // otherwise the lowest peak belongs to the fastest change of velocity, which the caller has compared with
         let compare = up.a0 < 0.0 || down.a0 < 0.0;
         if compare && missing(lo) < 0.0 {
             return None;
@@ -127,10 +127,10 @@ impl Peak {
         Some(joined(first, 0.0, last))
     }
 
-    /// At the highest velocity for a distance.
+    /// At the highest velocity, for a distance.
     fn cruise(&self, distance: f64) -> [f64; 7] {
         let [first, last] = [self.up, self.down].map(|rise| rise.to_velocity(self.v_max));
-        // what rounding makes of the limit: over a long cruise the difference would show
+        // the rounded value of the limit: over a long cruise the difference would matter
         let Rise { a0, base, .. } = self.up;
         let [t0, t1, t2] = first;
         let a1 = a0 + t0;
@@ -144,7 +144,7 @@ impl Peak {
         let a = 0.5 / up.limit + 0.5 / down.limit;
         let b = 0.5 * (up.limit + down.limit);
         let c = up.plateau_offset + down.plateau_offset - self.distance;
-        // without a difference of nearly equal numbers
+        // avoids a difference of nearly equal numbers
         -2.0 * c / (b + (b * b - 4.0 * a * c).max(0.0).sqrt())
     }
 

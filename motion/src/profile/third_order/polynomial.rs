@@ -8,9 +8,9 @@ pub(super) type Roots = SmallVec<[f64; 6]>;
 
 /// Roots of `c[0] x^n + ... + c[n]` in `lo..=hi`.
 ///
-/// The roots of the derivative cut the interval into monotonic pieces, each with at most one root that a
-/// safeguarded Newton iteration finds. Unlike the closed forms of degree three and four this loses no digits
-/// and no root near a double one; an extremum that touches zero within rounding counts as a root.
+/// The roots of the derivative divide the interval into monotonic pieces, each with at most one root, which a
+/// safeguarded Newton iteration finds. Unlike the closed forms of degree three and four this loses neither digits nor
+/// roots near a double root; an extremum that touches zero within rounding counts as a root.
 pub(super) fn roots_in(c: &[f64], lo: f64, hi: f64) -> Roots {
     let mut found = Roots::new();
     match *c {
@@ -66,7 +66,7 @@ fn isolated(c: &[f64], lo: f64, hi: f64) -> Roots {
     found
 }
 
-/// Takes `x` as a root if the value there is within rounding.
+/// Adds `x` as a root if the value there is within rounding.
 fn touching(c: &[f64], (x, f): (f64, f64), found: &mut Roots) {
     let scale = c.iter().fold(0.0, |sum, value| sum * x.abs() + value.abs());
     if f.abs() <= 32.0 * f64::EPSILON * scale {

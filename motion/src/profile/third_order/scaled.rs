@@ -12,7 +12,7 @@ pub(super) struct Units {
 }
 
 impl Units {
-    /// The time in which the jerk alone makes the largest of all given differences; `None` if there is none.
+    /// The time in which the jerk alone produces the largest of all given differences; `None` if there is none.
     pub(super) fn of(start: &MotionState, end: &MotionState, jerk: f64) -> Option<Self> {
         let distance = (end.p_mm - start.p_mm).abs();
         let velocity = start.v_mm_s.abs().max(end.v_mm_s.abs());
@@ -25,9 +25,9 @@ impl Units {
     }
 }
 
-/// Cube root within 6 %, from a third of the exponent: a unit need not be exact.
+/// Cube root within 6 %, from a third of the exponent; a unit need not be exact.
 fn rough_cbrt(x: f64) -> f64 {
-    // two thirds of the bits of 1.0, less what evens out the error within an octave
+    // two thirds of the bits of 1.0, less a correction that balances the error within an octave
     const OFFSET: u64 = 0x2a9f_7893_782d_a1ce;
     if x > 0.0 { f64::from_bits(x.to_bits() / 3 + OFFSET) } else { 0.0 }
 }
@@ -49,7 +49,7 @@ pub(super) struct Problem {
     pub(super) v_min: f64,
     pub(super) a_max: f64,
     pub(super) a_min: f64,
-    /// Rounding of the displacement, from the size of the positions.
+    /// Rounding error of the displacement, from the magnitude of the positions.
     pub(super) distance_rounding: f64,
 }
 
@@ -93,7 +93,7 @@ impl Problem {
         }
     }
 
-    /// The same motion run backwards and mirrored: displacement, velocities and jerks keep their sign.
+    /// The same motion reversed and mirrored: displacement, velocities and jerks keep their sign.
     pub(super) fn reversed(&self) -> Self {
         Self {
             v0: self.ve,

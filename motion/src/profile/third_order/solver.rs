@@ -6,7 +6,7 @@ use super::scaled::{Problem, Units};
 use super::task::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};
 
 impl ThirdOrderLimits {
-    /// The phases of the fastest motion from `start` to `target`; none if there is nothing to do.
+    /// The phases of the fastest motion from `start` to `target`; none if they are equal.
     ///
     /// # Errors
     /// [`ThirdOrderError::Limits`], [`ThirdOrderError::State`], [`ThirdOrderError::Target`] for a request that
@@ -41,7 +41,7 @@ impl ThirdOrderLimits {
     }
 }
 
-/// The target is inside the limits and so is the motion just before it.
+/// Whether the target is inside the limits, as is the motion just before it.
 fn target_is_admissible(p: &Problem) -> bool {
     let rounding = 1e-12;
     let before = p.ve - 0.5 * p.ae * p.ae.abs();

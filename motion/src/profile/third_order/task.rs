@@ -24,7 +24,7 @@ impl MotionState {
 pub struct ThirdOrderLimits {
     /// Highest velocity in mm/s, `> 0`.
     pub v_max_mm_s: f64,
-    /// Lowest velocity in mm/s, `<= 0`; 0 forbids moving back.
+    /// Lowest velocity in mm/s, `<= 0`; 0 forbids reversing.
     pub v_min_mm_s: f64,
     /// Highest acceleration in mm/s2, `> 0`.
     pub a_max_mm_s2: f64,
@@ -48,7 +48,7 @@ impl ThirdOrderLimits {
     }
 }
 
-/// Why there is no profile.
+/// Reasons why there is no profile.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ThirdOrderError {
@@ -66,5 +66,5 @@ pub enum ThirdOrderError {
     NotFound,
 }
 
-/// Durations in s and jerks in mm/s3 of the phases of a motion, empty phases left out.
+/// Durations in s and jerks in mm/s3 of the phases of a motion, without empty phases.
 pub type ThirdOrderPhases = SmallVec<[(f64, f64); 9]>;

@@ -1,23 +1,23 @@
-//! The lower one of rise and fall, connected where the one changes to the other.
+//! The lower of rise and fall, with a connection where one changes to the other.
 
 use super::super::{Block, SLACK};
 use super::STEPS_PER_RAMP;
 use super::hill::Hill;
 use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits};
 
-/// Relative excess of the rise over the fall from which on they cross: both may miss a limit they run along by less.
+/// Relative excess of the rise over the fall from which on they cross; both may miss a limit that they follow by less.
 const CROSSING: f64 = 1e-3;
-/// Widths, in phases on either side, at which a connection is tried.
+/// Widths, in phases on either side, with which a connection is tried.
 const WIDTHS: [usize; 16] = [0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48, 64, 96, 128];
-/// Parts of the jerk that are tried where the whole of it leaves no way: a sine-square ramp that is shorter than one of
-/// the rise is ahead of it at first.
+/// Shares of the jerk that are tried if there is no connection with the full jerk: a sine-square ramp shorter than one
+/// of the rise is ahead of it at first.
 const GENTLER: [f64; 4] = [0.7, 0.5, 0.35, 0.25];
-/// Rounds in which the length of a connection with sine-square ramps is made to fit.
+/// Rounds in which the length of a connection with sine-square ramps is adjusted.
 const ROUNDS: u32 = 12;
-/// Length in mm by which a connection may miss its end: rounding.
+/// Length in mm by which a connection may miss its end, as rounding.
 const MISS_MM: f64 = 1e-11;
 
-/// The speed from `v0` along the rise and the fall; `None` if no connection fits.
+/// The speed from `v0` along rise and fall; `None` if no connection fits.
 pub(super) fn lower_one(
     cells: &[Block],
     dt: f64,
@@ -30,15 +30,15 @@ pub(super) fn lower_one(
     Some(join.out)
 }
 
-/// How much of what has been put out stays before a connection, its phases, and where on the fall it ends.
+/// Number of output phases that are kept before a connection, its phases, and where it ends on the fall.
 type Connection = (usize, Vec<Phase>, usize);
 
-/// What a connection may use.
+/// Limits of a connection.
 #[derive(Clone, Copy)]
 struct Way {
-    /// Up to the highest limit of the blocks it passes, else not above the lowest one.
+    /// Whether it may reach the highest limit of the blocks it passes; otherwise it stays below the lowest one.
     free: bool,
-    /// Part of the jerk.
+    /// Share of the jerk.
     jerk: f64,
 }
 
@@ -48,14 +48,14 @@ struct Join<'a> {
     fall: Vec<Phase>,
     out: Vec<Phase>,
     dt: f64,
-    /// Number of phases put out up to the last place at which both are cut.
+    /// Number of phases output up to the last point at which both are cut.
     base: usize,
 }
 
 impl Join<'_> {
     fn run(&mut self, v0: f64) -> Option<()> {
         let length = self.cells.last()?.end;
-        // the block in which the rise gets above the fall next; inside a block between two limits both may bulge
+        // the block in which the rise next exceeds the fall; inside a block between two limits both may bulge
         let (mut r, mut c) = (0, 0);
         for _ in 0..=4 * self.cells.len() {
             while let Some(cell) = self.cells.get(c) {
@@ -67,7 +67,7 @@ impl Join<'_> {
                 }
                 c += 1;
             }
-            // on the rise up to where it does
+            // follow the rise up to that point
             let quiet = c.checked_sub(1).map_or(0.0, |c| self.cells[c].end) * (1.0 - 1e-12);
             while let Some(next) = self.rise.get(r) {
                 let end = next.end();
@@ -83,13 +83,13 @@ impl Join<'_> {
             }
             let here = self.out.last().map_or(Phase::state(0.0, v0, 0.0), Phase::end);
             let (to, cut) = self.connect(here, v0)?;
-            // on the fall, until it is cut
+            // follow the fall until it is cut
             self.out.extend_from_slice(&self.fall[to..cut]);
             self.base = self.out.len();
             if cut == self.fall.len() {
                 return Some(());
             }
-            // both are cut at the same place
+            // both have to be cut at the same point
             let at = self.fall[cut - 1].end();
             r = self.rise.partition_point(|p| p.s < at.s - 1e-12 * length);
             c = self.cells.partition_point(|cell| cell.end <= at.s + 1e-12 * length);
@@ -101,8 +101,8 @@ impl Join<'_> {
         None
     }
 
-    /// Replaces the end of what has been put out by a connection to the fall; returns the phases of the fall after it
-    /// up to where it is cut.
+    /// Replaces the end of the output by a connection to the fall; returns the range of phases of the fall after it, up
+    /// to its cut.
     fn connect(&mut self, here: Phase, v0: f64) -> Option<(usize, usize)> {
         let slack = 1e-12 * self.cells.last()?.end;
         let ahead = self.fall.partition_point(|p| p.s <= here.s + slack).max(1);
@@ -116,7 +116,7 @@ impl Join<'_> {
         };
         let closest = |way: Way| self.closest(ahead, cut, v0, way);
         let first = closest(Way { free: true, jerk: 1.0 });
-        // it rounds off the peak: that costs less than the longest ramp
+        // it rounds off the peak, which costs less than the longest ramp
         let is_good = |found: &Connection| loss(found) <= STEPS_PER_RAMP * self.dt;
         let best = if first.as_ref().is_some_and(is_good) {
             first
@@ -134,7 +134,7 @@ impl Join<'_> {
         Some((to, cut))
     }
 
-    /// A connection as close as possible, both sides alike first.
+    /// The closest possible connection, symmetric widths first.
     fn closest(&self, ahead: usize, cut: usize, v0: f64, way: Way) -> Option<Connection> {
         for width in WIDTHS {
             let other = WIDTHS.into_iter().take_while(|w| *w < width);
@@ -175,7 +175,7 @@ impl Join<'_> {
         Some((self.base, hill.highest(between)?, cut))
     }
 
-    /// The fastest third-order profile between two states, if it keeps every limit.
+    /// The fastest third-order profile between two states, if it is within every limit.
     fn between(&self, from: &Phase, to: &Phase, way: Way) -> Option<Vec<Phase>> {
         #[cfg(test)]
         crate::closed_forms::add();
@@ -217,7 +217,7 @@ impl Join<'_> {
             if phase.lowest() < -1e-9 {
                 return None;
             }
-            // the highest speed in every block it passes, and at the boundaries
+            // compare the highest speed in every block it passes, and the speeds at the boundaries
             let mut part = *phase;
             loop {
                 let cell = &self.cells[c];
@@ -246,8 +246,8 @@ impl Join<'_> {
 
     /// The fastest third-order profile between two states.
     ///
-    /// With sine-square ramps in the place of its ramps it gains the same speed over another length; so it is asked for
-    /// the length that makes up for the difference.
+    /// With sine-square ramps in place of its ramps it reaches the same speed over a different length, so it is planned
+    /// for a length that compensates for the difference.
     fn fastest(from: &Phase, to: &Phase, limits: &ThirdOrderLimits) -> Option<Vec<Phase>> {
         let state = |p: &Phase| MotionState { p_mm: p.s, v_mm_s: p.v, a_mm_s2: p.a };
         let mut target = state(to);
@@ -273,7 +273,7 @@ fn time(phases: &[Phase]) -> f64 {
     phases.iter().map(|p| p.t).sum()
 }
 
-/// True if two states are the same up to rounding.
+/// Whether two states are equal up to rounding.
 fn coincide(a: &Phase, b: &Phase) -> bool {
     (a.s - b.s).abs() <= 1e-12 * b.s
         && (a.v - b.v).abs() <= SLACK * b.v

@@ -1,19 +1,19 @@
 //! One hill of the speed: up to a height at which the acceleration is zero, and down from it.
 //!
-//! A sine-square ramp cannot be left before its end, so the rise may have no state from which the acceleration can still
-//! end below the fall; a connection then crawls along the lowest limit. Here rise and fall are planned anew below a
-//! height, the highest one at which they meet; the lower it is, the more room is between them.
+//! A sine-square ramp has to be completed, so the rise may have no state from which the acceleration can still end
+//! below the fall; a connection would then follow the lowest limit. Here rise and fall are planned again below a
+//! height, the highest one at which they meet; the lower the height, the more room between them.
 
 use super::super::{Block, SLACK, mirror};
 use super::rise::Rise;
 use crate::profile::Phase;
 
-/// Halvings of the range of heights.
+/// Bisection steps for the height.
 const ROUNDS: u32 = 12;
-/// Relative difference of the speeds of rise and fall at their height: a rise ends just below its limit.
+/// Relative difference of the speeds of rise and fall at their height, since a rise ends just below its limit.
 const LEVEL: f64 = 0.02;
 
-/// A part of a stretch with the states at its ends, their accelerations zero.
+/// A part of a stretch with the states at its ends, both with zero acceleration.
 pub(super) struct Hill<'a> {
     pub(super) cells: &'a [Block],
     pub(super) dt: f64,
@@ -87,8 +87,8 @@ impl Hill<'_> {
     }
 }
 
-/// The phases of a rise from speed `v` up to where it stays at the height, and its state there; `None` if it does not get
-/// there, or only after a limit that cuts it.
+/// The phases of a rise from speed `v` up to where it stays at the height, and its state there; `None` if it does not
+/// reach the height, or only after a limit that cuts it.
 fn climb(mut rise: Vec<Phase>, mut v: f64, height: f64) -> Option<(Vec<Phase>, Phase)> {
     let stays = |p: &Phase| p.a.abs() <= 1e-9 && p.j.abs() <= 1e-9;
     let level = rise.iter().position(|p| stays(p) && p.v >= height * (1.0 - LEVEL))?;

@@ -1,13 +1,13 @@
-//! The rise: as fast as the blocks allow, never reducing the speed.
+//! The rise: as fast as the blocks permit, without ever reducing the speed.
 
 use super::super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
 
-/// Steps per stretch beyond which it is refused, plus as many per block: the path would crawl.
+/// Number of steps per stretch, in addition to as many per block, beyond which a rise is refused as too slow.
 const MOST_STEPS: usize = 20_000;
-/// Rounds of bisection of the acceleration in a step.
+/// Bisection steps for the acceleration in a step.
 const ROUNDS: u32 = 10;
-/// Steps that a sine-square ramp up is tried over first.
+/// Numbers of steps over which a sine-square ramp up is tried first.
 const LONG_STEPS: [f64; 3] = [8.0, 4.0, 2.0];
 
 /// The blocks, the duration of a step and the shape of the ramps.
@@ -17,7 +17,7 @@ pub(super) struct Rise<'a> {
 }
 
 impl Rise<'_> {
-    /// Phases from `v0` with acceleration zero to the end; cut where a limit drops. `None`: a crawl.
+    /// Phases from `v0` with zero acceleration to the end, cut where a limit drops. `None` if the speed gets too low.
     pub(super) fn run(&self, v0: f64) -> Option<Vec<Phase>> {
         let cells = self.cells;
         let mut out = Vec::with_capacity(4 * cells.len());
@@ -28,7 +28,7 @@ impl Rise<'_> {
             }
             let step = self.step(c, &here);
             let flat = step.is_none();
-            // as fast as allowed: to the end of the block
+            // as fast as permitted: to the end of the block
             if flat && here.v <= 0.0 {
                 return None;
             }
@@ -40,7 +40,7 @@ impl Rise<'_> {
                 if end.s < cell.end && !flat {
                     break;
                 }
-                // the boundary is crossed: cut if it, or what follows, is slower
+                // the boundary is crossed: cut if it, or the next block, is slower
                 let limit = cell.cap.min(cells.get(c + 1).map_or(f64::INFINITY, |n| n.v));
                 let last = c + 1 == cells.len();
                 if last || flat || end.v > limit || phase.v > limit {
@@ -66,7 +66,8 @@ impl Rise<'_> {
         Some(out)
     }
 
-    /// The next step, to the largest acceleration that leaves a way; `None`: no more speed in this block.
+    /// The next step, to the largest acceleration after which the limits can be kept; `None` if the speed cannot rise
+    /// any more in this block.
     fn step(&self, c: usize, here: &Phase) -> Option<Phase> {
         let Block { acc, jerks: [up, down, ..], .. } = self.cells[c];
         let (a, dt) = (here.a, self.dt);
@@ -96,16 +97,16 @@ impl Rise<'_> {
             }
         }
         match best {
-            // a creep towards the limit would never end
+            // approaching the limit in ever smaller steps would never end
             Some(next) if a > 0.0 || next > 2e-3 * up * dt => Some(to(next, dt)),
-            // the ramp down that the step before has been checked with
+            // the ramp down that was checked with the previous step
             _ if a <= 0.0 => None,
             _ => Some(to(0.0, a / down)),
         }
     }
 
-    /// True if a step, and the ramp to zero after it, stay below the limits ahead of speed `v`. A limit below `v` cuts
-    /// the rise and does not concern it.
+    /// Whether a step, and the ramp to zero after it, stay below the limits ahead that are not below speed `v`; a limit
+    /// below `v` cuts the rise.
     fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
         crate::closed_forms::add();
@@ -143,7 +144,7 @@ impl Rise<'_> {
         self.lands(c, &end.ramp(RampShape::Sin2, -down, end.a / down), v)
     }
 
-    /// The last part of a ramp to zero acceleration.
+    /// Whether the last part of a ramp to zero acceleration stays below these limits.
     fn lands(&self, mut c: usize, phase: &Phase, v: f64) -> bool {
         let end = phase.end();
         loop {
@@ -171,7 +172,7 @@ impl Rise<'_> {
 }
 
 impl Block {
-    /// True if a phase of a rise that continues after the block is too fast at its end.
+    /// Whether a phase of a rise that continues after the block is too fast at its end.
     fn is_exceeded(&self, phase: &Phase) -> bool {
         let most = self.v * (1.0 + SLACK);
         phase.end().v > most && phase.after(phase.time_at(self.end)).v > most

@@ -1,35 +1,38 @@
-//! Smoothing spline of third differences: how noisy a row of points is, and where the points lie without the noise.
+//! Smoothing spline of third differences: the noise of a row of points, and the points without it.
 //!
-//! The displacements `d` of the points `p` make `sum w |d|^2 + sum l^6 |p''' + d'''|^2` smallest, the third derivatives
-//! being divided differences over the distances along the polygon (Whittaker and Henderson's graduation; Reinsch 1967 for
-//! the spline of it). Of a wave of the length `2 pi / k` the points keep `1 / (1 + (k l)^6)` where all `w = 1`: what is
-//! shorter than `2 pi l` goes, and a circle of radius `r` loses no more than `l^6 / r^5`. A third difference is the jerk that
-//! the path asks for at constant speed. `l` is shorter where the points turn in a small radius: were the loss of the order of the
-//! room, the bounds of the points would shape the curve instead of the spline, with a kink in its curvature at each of them.
+//! The displacements `d` of the points `p` minimise `sum w |d|^2 + sum l^6 |p''' + d'''|^2`, where the third
+//! derivatives are divided differences over the distances along the polygon (Whittaker and Henderson's graduation;
+//! Reinsch 1967 for the corresponding spline). For all `w = 1` a wave of length `2 pi / k` keeps `1 / (1 + (k l)^6)` of
+//! its amplitude: waves shorter than `2 pi l` vanish, and a circle of radius `r` shrinks by at most `l^6 / r^5`. A
+//! third difference is the jerk of the path at constant speed.
 //!
-//! No point moves farther than its room: the weights of those that would grow until they do not (multipliers of the bounds).
+//! `l` is shorter where the path has a small radius. A circle that would shrink by as much as its points may move would be
+//! shaped by those limits instead of the spline, with a jump of the curvature at each of them.
+//!
+//! Every displacement stays within its limit: the weights of points that would exceed it are increased until they do
+//! not (multipliers of the bounds).
 
 use std::iter::zip;
 
 /// The length `l`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
-    /// At most so many average distances of neighbours.
+    /// Upper bound as a multiple of the average distance between neighbours.
     points: f64,
-    /// At most so much in the unit of the distances.
+    /// Upper bound in the unit of the distances.
     whole: f64,
 }
 
 impl Reach {
-    /// Not so far that a circle of this curvature would lose more than a part of the room of its points.
+    /// Limited so that a circle of this curvature shrinks by no more than [`SHRINKS`] of the limit of its points.
     fn on_a_bend(self, bend: f64, room: f64) -> Self {
-        let most = libm::pow(LOST * room / libm::pow(bend, 5.0), 1.0 / 6.0);
+        let most = libm::pow(SHRINKS * room / libm::pow(bend, 5.0), 1.0 / 6.0);
         Self { whole: if bend > 0.0 { self.whole.min(most) } else { self.whole }, ..self }
     }
 }
 
-/// Curvature around every point, in the unit of the distances: of points so far apart that noise has little part in it, and the
-/// largest one around.
+/// Largest curvature around every point, in the reciprocal unit of the distances, from points so far apart that noise
+/// hardly changes it.
 fn bends(knots: &[f64], axes: &[Vec<f64>]) -> Vec<f64> {
     let count = knots.len();
     let mut own = vec![0.0; count];
@@ -50,30 +53,32 @@ fn bends(knots: &[f64], axes: &[Vec<f64>]) -> Vec<f64> {
     (0..count).map(around).collect()
 }
 
-/// For points on a path in mm: rounding hurts at chords below this length, and what it bends there is shorter.
+/// For points on a path in mm: rounding matters for chords below this length, and the bends it causes are shorter.
 pub(super) const PATH: Reach = Reach { points: 20.0, whole: 0.4 };
 /// For distances over the number of the point.
 pub(super) const STEPS: Reach = Reach { points: 8.0, whole: f64::INFINITY };
-/// Part of the room of its points that a circle may lose; with a tenth a circle of 1 mm in chords of 0.02 mm takes 13 % longer.
-const LOST: f64 = 0.02;
-/// Distance in mm of points whose curvature counts: a rounding of three decimals is 0.05 1/mm of it.
+/// Share of the limit of its points by which a circle may shrink. With a tenth a circle of 1 mm in chords of 0.02 mm
+/// takes 13 % longer.
+const SHRINKS: f64 = 0.02;
+/// Distance in mm of the points that a curvature is taken from: rounding to three decimals changes it by up to 0.05 1/mm.
 const SPAN: f64 = 0.2;
-/// Rounds of weights, and the part of its room that they bring a point to; an excess after the last one is cut off. As many for
-/// every row in which a point needs a weight, so that no point depends on how difficult distant ones are.
+/// Rounds of weights, and the share of its limit to which they bring a point; an excess after the last round is cut
+/// off. The number is the same for every row in which a point needs a weight, so that no point depends on how difficult
+/// distant ones are.
 const ROUNDS: usize = 12;
 const AIM: f64 = 0.9;
-/// Points in a difference that shows noise, and points on either side for which the largest one of them counts: rounded
-/// coordinates that hardly change keep their value for many points, and their noise is in the steps between.
+/// Number of points in a difference that measures noise, and of points on either side for which the largest one counts:
+/// rounded coordinates that hardly change keep their value for many points, and their noise is in the steps between.
 const STENCIL: usize = 9;
 const SPREAD: usize = 64;
 
 /// Rows of a symmetric matrix: the diagonal, and the three elements before it.
 type Bands = Vec<[f64; 4]>;
 
-/// Size of what is not smooth around every point, in the unit of the coordinates.
+/// Magnitude of the roughness around every point, in the unit of the coordinates.
 ///
-/// It is the eighth divided difference, divided by the root of the sum of the squares of its factors: of independent errors
-/// it is their standard deviation, of a circle with steps of `t` rad it is `r t^8 / 113`.
+/// It is the eighth divided difference, divided by the root of the sum of the squares of its factors. For independent
+/// errors it is their standard deviation, for a circle with steps of `t` rad it is `r t^8 / 113`.
 pub(super) fn roughness(knots: &[f64], axes: &[Vec<f64>]) -> Vec<f64> {
     let count = knots.len();
     let mut own = vec![0.0; count];
@@ -106,16 +111,17 @@ fn third(knots: &[f64], first: usize, reach: Reach) -> [f64; 4] {
     })
 }
 
-/// The same of coordinates. Difference by difference, so that it is exactly 0 where they are all equal.
+/// The third derivative of coordinates, difference by difference, so that it is exactly 0 where they are all equal.
 fn third_of(knots: &[f64], factors: &[f64; 4], p: &[f64]) -> f64 {
     let slope = |i: usize| (p[i + 1] - p[i]) / (knots[i + 1] - knots[i]);
     let bend = |i: usize| (slope(i + 1) - slope(i)) / (knots[i + 2] - knots[i]);
     let whole = (bend(1) - bend(0)) / (knots[3] - knots[0]);
-    // the last factor is that of the whole without its division
+    // the last factor contains `whole` as a divisor
     factors[3] * (knots[3] - knots[0]) * (knots[3] - knots[1]) * (knots[3] - knots[2]) * whole
 }
 
-/// Displacements of the points along every axis. `room` is what a point may move at most; one without stays.
+/// Displacements of the points along every axis. `room` is the largest permitted displacement of a point; with 0 it
+/// stays.
 pub(super) fn displacements(
     knots: &[f64],
     axes: &[Vec<f64>],
@@ -174,7 +180,7 @@ pub(super) fn size(displacements: &[Vec<f64>], i: usize) -> f64 {
     displacements.iter().map(|d| d[i] * d[i]).sum::<f64>().sqrt()
 }
 
-/// What the third derivatives of the programmed points pull at each of them.
+/// The pull of the third derivatives of the programmed points on each of them.
 fn pull(knots: &[f64], thirds: &[[f64; 4]], p: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; p.len()];
     for (j, factors) in thirds.iter().enumerate() {
@@ -199,8 +205,8 @@ fn penalty(thirds: &[[f64; 4]], count: usize) -> Bands {
     out
 }
 
-/// The matrix with the weights, as factors `L D L^T`: `D` in the place of the diagonal. Points without room keep to
-/// themselves.
+/// The matrix with the weights, as factors `L D L^T` with `D` in place of the diagonal. Points with `room` 0 are
+/// decoupled.
 fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
     let mut out = penalty.clone();
     for i in 0..out.len() {
@@ -215,7 +221,7 @@ fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
                 row[back] = 0.0;
                 continue;
             }
-            // row[far] still holds the product with the diagonal
+            // row[far] still contains the product with the diagonal
             let before = &out[i - back];
             let known: f64 =
                 (back + 1..4.min(i + 1)).map(|far| row[far] * before[far - back]).sum();
@@ -231,7 +237,7 @@ fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
     out
 }
 
-/// The solution for a right side, in its place.
+/// Solves for a right-hand side, in place.
 fn solve(factors: &Bands, x: &mut [f64]) {
     let count = x.len();
     for i in 0..count {

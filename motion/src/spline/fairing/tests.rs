@@ -1,4 +1,4 @@
-//! What moves, how far, and what stays.
+//! Which points move, how far, and which stay.
 
 use super::*;
 use crate::example::{ChannelDynamics, Feed};
@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 type Points = Vec<Vec<f64>>;
 
-/// Axes of which the first ones are in the feed group.
+/// Axes, the first ones in the feed group.
 fn dynamics(axes: usize, feed_axes: usize) -> Arc<ChannelDynamics> {
     let feed_axes = (0..axes).map(|i| i < feed_axes).collect();
     Arc::new(ChannelDynamics {
@@ -15,7 +15,7 @@ fn dynamics(axes: usize, feed_axes: usize) -> Arc<ChannelDynamics> {
     })
 }
 
-/// The blocks of a polygon in all axes, with what `change` makes of each of them.
+/// The blocks of a polygon in all axes, each modified by `change`.
 fn blocks(
     points: &[Vec<f64>],
     feed_axes: usize,
@@ -57,7 +57,7 @@ fn within(path_dev_mm: f64) -> SplineSettings {
     SplineSettings { path_dev_mm, ..SplineSettings::default() }
 }
 
-/// Points of the faired polygon; it stays one, and all blocks come out.
+/// Points of the faired polygon, after checking that it is connected and that all blocks come out.
 fn faired(points: &[Vec<f64>], feed_axes: usize, settings: SplineSettings) -> Points {
     let out = through(blocks(points, feed_axes, settings, |_, _| {}));
     assert!(out.windows(2).all(|w| w[0].path.end() == w[1].path.start()));
@@ -122,7 +122,8 @@ fn roughest(points: &[Vec<f64>]) -> f64 {
     points.windows(4).map(third).fold(0.0, f64::max)
 }
 
-/// A hundredth of the smallest tolerance that leaves the spline alone is more than smooth points move.
+/// A hundredth of the smallest tolerance that does not affect the spline is more than the displacement of smooth
+/// points.
 #[test]
 fn points_of_smooth_curves_stay() {
     for chord in [0.02, 0.05, 0.1, 0.3, 0.9] {
@@ -157,19 +158,19 @@ fn straight_lines_stay_exactly_straight() {
             at
         })
         .collect();
-    // along an axis, rounded: the others do not move at all
+    // along an axis, rounded: the other axes do not move at all
     let points: Points = along.iter().map(|s| vec![*s, 5.123, -7.0]).collect();
     for p in [points.clone(), rounded(&points, 3)] {
         let out = faired(&p, 3, within(0.05));
         assert!(out.iter().all(|q| q[1].to_bits() == 5.123_f64.to_bits()));
         assert!(out.iter().all(|q| q[2].to_bits() == (-7.0_f64).to_bits()));
     }
-    // askew
+    // at an angle
     let points: Points = along.iter().map(|s| vec![0.6 * s, 0.8 * s, 0.1 * s]).collect();
     assert!(largest_way(&points, &faired(&points, 3, within(0.05))) < 1e-12);
 }
 
-/// Rounding goes: a fiftieth of its third differences is left, and the points are nearer to the curve.
+/// Rounding disappears: a fiftieth of its third differences remains, and the points are nearer to the curve.
 #[test]
 fn rounding_goes() {
     for (decimals, grain) in [(3, 1e-3), (4, 1e-4)] {
@@ -179,7 +180,7 @@ fn rounding_goes() {
                 let points = rounded(&exact, decimals);
                 let out = faired(&points, 2, within(0.05));
                 assert!(largest_way(&points, &out) <= 3.0 * grain);
-                // both ends stay where rounding left them, and the way there takes some points
+                // both ends stay at their rounded position, and the transition takes some points
                 let (from, to) = (points.len() / 4, 3 * points.len() / 4);
                 let [before, left] = [&points, &out].map(|p| roughest(&p[from..to]));
                 let own = chord * chord * chord / (r * r);
@@ -202,18 +203,19 @@ fn rounding_goes() {
     }
 }
 
-/// A line of a slope of 1 in 2500, rounded: steps of 1 um that are 50 points apart.
+/// A line with a slope of 1 in 2500, rounded: steps of 1 um, 50 points apart.
 #[test]
 fn rounding_that_is_rare_goes() {
     let points: Points =
         (0..2000).map(|i| f64::from(i) * 0.05).map(|x| vec![x, x / 2500.0]).collect();
     let out = faired(&rounded(&points, 3), 2, within(0.05));
     assert!(roughest(&out) < 0.02e-3, "{}", roughest(&out));
-    // but for the ends, which stay
+    // apart from the ends, which stay
     assert!(largest_way(&points[60..1940], &out[60..1940]) < 0.6e-3);
 }
 
-/// Noise far above the room: nothing moves by more than a tenth of the tolerances, and the tolerances shrink by it.
+/// Noise far above the limit: no displacement exceeds a tenth of the tolerances, and the tolerances shrink by the
+/// displacement.
 #[test]
 fn the_room_is_kept_and_taken_off() {
     for (path_dev_mm, track_dev_deg) in [(0.2, 5.0), (0.01, 0.01), (0.002, 0.3), (0.0, 0.0)] {
@@ -298,13 +300,13 @@ fn what_stays() {
     let end_speed = |i: usize, b: &mut Block| b.end_velocity_mm_s = (i == 99).then_some(10.0);
     let out = ends(&through(blocks(&points, 2, within(0.1), end_speed)));
     assert_eq!(points[100], out[100]);
-    // a new feed is not a condition
+    // a new feed rate is not a different condition
     let given =
         blocks(&points, 2, within(0.1), |i, b| b.feed = Feed::PathVelocity(50.0 + i as f64));
     assert_eq!(ends(&through(given)), faired(&points, 2, within(0.1)));
 }
 
-/// The same contour seen otherwise: reversed, mirrored, with other axes, and cut into chunks at other points.
+/// The same contour in other representations: reversed, mirrored, with other axes, and divided at other points.
 #[test]
 fn the_way_of_looking_at_it_changes_nothing() {
     let points = rounded(&sampled(0.011, wave), 3);
@@ -326,7 +328,7 @@ fn the_way_of_looking_at_it_changes_nothing() {
     assert!(off < 1e-6, "other chunks: {off}");
 }
 
-/// Edges of the size of the noise neither vanish nor turn back.
+/// Edges of the size of the noise neither vanish nor reverse.
 #[test]
 fn the_shortest_edges_keep_their_order() {
     let mut points = rounded(&sampled(0.1, circle(10.0)), 3);

@@ -72,13 +72,13 @@ fn delays_are_recognised() {
             assert!(!o.equal);
         }
     }
-    // more rows than are looked back
+    // one row more than the comparison looks back
     let n = MOST_ROWS + 1;
     let o = outcome(HEADER, &ramp(5, 3 * n), HEADER, &ramp(5 + n, 3 * n));
     assert_eq!(o.shift_cycles, None);
 }
 
-/// A pause of another length between two motions, with the columns in another order.
+/// A pause of different length between two motions, with the columns in a different order.
 #[test]
 fn a_longer_pause_is_a_delay_of_the_rest() {
     let trace = |pause: usize, columns: [usize; 3]| -> Vec<String> {
@@ -99,7 +99,7 @@ fn a_longer_pause_is_a_delay_of_the_rest() {
     }
 }
 
-/// Two traces that differ at their very end are at rest afterwards: no delay explains that.
+/// Two traces that differ at their very end and rest afterwards: this is not a delay.
 #[test]
 fn a_standstill_is_no_delay() {
     let rows = |end: f64| -> Vec<String> {
@@ -112,7 +112,7 @@ fn a_standstill_is_no_delay() {
     assert_eq!(o.shift_cycles, None);
 }
 
-/// A line added to a program that only waits shifts all lines after it, and what the speed was held by before it.
+/// A line inserted before a wait shifts the numbers of all later lines, and the speed reason before it differs.
 #[test]
 fn a_new_line_is_a_delay_of_the_numbers() {
     let trace = |pause: usize, line: u32, reason: &str| -> Vec<String> {
@@ -129,10 +129,10 @@ fn a_new_line_is_a_delay_of_the_numbers() {
     let o = outcome(header, &a, header, &b);
     assert_eq!((o.shift_cycles, o.shift_leaves_texts), (Some(25), true));
     assert_eq!(o.first.unwrap().column, "v_limit");
-    // without another line nothing is left
+    // without the additional line there is no difference
     let o = outcome(header, &a, header, &trace(35, 4, "corner"));
     assert_eq!((o.shift_cycles, o.shift_leaves_texts), (Some(25), false));
-    // a line alone is not a delay
+    // a difference in the line alone is not a delay
     let o = outcome(header, &a, header, &trace(10, 5, "corner"));
     assert_eq!((o.shift_cycles, o.columns.len()), (None, 1));
 }

@@ -1,20 +1,20 @@
-//! By how much a recording begins before the trace.
+//! Time by which a recording begins before the trace.
 
 use super::signals::{Recorded, Trace, statistics};
 use realfft::RealFftPlanner;
 
-/// Steps of the search for the part of a cycle: 2 cycles shrink to a ten-thousandth.
+/// Golden-section steps for the fraction of a cycle: 2 cycles are reduced to a ten-thousandth.
 const GOLDEN_STEPS: usize = 21;
-/// Cycles by which the correlation may be aside.
+/// Number of cycles by which the correlation may be off.
 const SLIDE_CYCLES: usize = 50;
-/// A shift between two cycles is taken if it lowers the difference to this part.
+/// A fractional shift is used if it reduces the difference to this share.
 const BETTER: f64 = 0.95;
-/// A motion that repeats itself correlates at many shifts: those count whose correlation is this part of the best one.
+/// A periodic motion correlates at many shifts; those with at least this share of the best correlation are candidates.
 const NEAR_BEST: f64 = 0.8;
-/// So many of them at most are compared.
+/// Largest number of candidates.
 const CANDIDATES: usize = 32;
 
-/// Cycles by which the recording begins earlier, in whole cycles unless a part of one fits better.
+/// Cycles by which the recording begins earlier, a whole number unless a fraction fits better.
 pub(super) fn find(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
     let misfit = |shift_cycles: f64| -> f64 {
         let pairs = trace.columns.iter().zip(recorded);
@@ -22,7 +22,7 @@ pub(super) fn find(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
     };
     let candidates = coarse_shifts(trace, recorded, cycle_s);
     let fits = candidates.iter().map(|shift| (*shift, misfit(*shift)));
-    // the first of equal ones correlates best
+    // the first of equally good ones has the best correlation
     let best = fits.reduce(|a, b| if b.1 < a.1 { b } else { a });
     fine_shift(&misfit, best.map_or(0.0, |(shift, _)| shift.round()))
 }
@@ -38,17 +38,17 @@ pub(super) fn cycle_of(times_s: &[f64]) -> Option<f64> {
     Some(*median).filter(|s| *s > 0.0)
 }
 
-/// Differences of a signal in equal steps; what is not a number counts as constant.
+/// Differences of a signal sampled at equal steps; missing values count as constant.
 fn speeds(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let step = |w: &[f64]| if (w[1] - w[0]).is_finite() { w[1] - w[0] } else { 0.0 };
     values.windows(2).map(step).collect()
 }
 
-/// Cycles by which the recording may begin earlier: where the speeds correlate best over all pairs, and where they do so
-/// nearly as well, the best first.
+/// Candidate shifts in cycles by which the recording may begin earlier: where the speeds correlate best over all pairs,
+/// and where they correlate nearly as well, best first.
 ///
-/// Of every pair both signals count by their energy, so that a fast axis does not drown the others.
+/// Both signals of every pair are weighted by their energy, so that a fast axis does not dominate the others.
 fn coarse_shifts(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> Vec<f64> {
     let rows = trace.times_s.len();
     let longest =
@@ -68,7 +68,7 @@ fn coarse_shifts(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> Vec<f64>
         let [a, b] = signals.map(|mut signal| {
             signal.resize(length, 0.0);
             let mut spectrum = forward.make_output_vec();
-            // both buffers have the lengths that the plan asks for
+            // both buffers have the lengths required by the plan
             let done = forward.process(&mut signal, &mut spectrum);
             debug_assert!(done.is_ok());
             spectrum
@@ -79,7 +79,7 @@ fn coarse_shifts(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> Vec<f64>
         }
     }
     let mut correlation = back.make_output_vec();
-    // the two lines without a partner are real but for rounding
+    // the two unpaired lines are real up to rounding
     for edge in [0, product.len() - 1] {
         product[edge].im = 0.0;
     }
@@ -94,7 +94,7 @@ fn coarse_shifts(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> Vec<f64>
     peaks.sort_by(|a, b| at(*b).total_cmp(&at(*a)));
     peaks.truncate(CANDIDATES);
     let shift = |i: usize| {
-        // the parabola through the peak and its neighbours
+        // parabola through the peak and its neighbours
         let (before, after) = (at(i + length - 1), at(i + 1));
         let part = 0.5 * (before - after) / (before - 2.0 * at(i) + after);
         let place = i as f64 + if part.is_finite() { part } else { 0.0 };
@@ -103,8 +103,8 @@ fn coarse_shifts(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> Vec<f64>
     peaks.into_iter().map(shift).collect()
 }
 
-/// The whole number of cycles near another one at which the misfit is least: a channel that begins in the midst of the motion
-/// draws the correlation some cycles aside.
+/// The whole number of cycles with the smallest misfit near another one: a channel that begins during the motion shifts
+/// the correlation by some cycles.
 fn slide(from: f64, misfit: &impl Fn(f64) -> f64) -> f64 {
     let (mut place, mut least) = (from, misfit(from));
     for _ in 0..SLIDE_CYCLES {
@@ -118,10 +118,10 @@ fn slide(from: f64, misfit: &impl Fn(f64) -> f64) -> f64 {
     place
 }
 
-/// The same with a part of a cycle, if that fits better than the whole number.
+/// The shift refined by a fraction of a cycle, if that fits better than the whole number.
 fn fine_shift(misfit: &impl Fn(f64) -> f64, whole: f64) -> f64 {
     let whole = slide(whole, misfit);
-    // golden section: near the best fit the misfit has one minimum
+    // golden section: close to the best fit the misfit has a single minimum
     let ratio = 0.5 * (libm::sqrt(5.0) - 1.0);
     let (mut low, mut high) = (whole - 1.0, whole + 1.0);
     let (mut inner, mut outer) = (high - ratio * (high - low), low + ratio * (high - low));

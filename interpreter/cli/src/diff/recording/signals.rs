@@ -8,7 +8,7 @@ use crate::recorded::{self, Channel, DropOut, Even};
 /// Longest signals that are compared, in cycles: more than an hour at 1 ms.
 pub(super) const MOST_CYCLES: usize = 1 << 22;
 
-/// Cycles between two samples from which on a recording has fewer samples than the trace has rows.
+/// Cycles between two samples from which on a recording is sampled more coarsely than the trace.
 const COARSE: f64 = 1.5;
 
 /// The paired columns of a trace.
@@ -26,10 +26,10 @@ impl Trace {
     }
 }
 
-/// A channel in the steps of its recording, in the units of the trace.
+/// A channel at the sampling times of its recording, in the units of the trace.
 pub(super) struct Recorded {
     pub(super) values: Vec<f64>,
-    /// Time of the first sample in the clock that all channels have in common.
+    /// Time of the first sample on the common clock of all channels.
     begin_s: f64,
     step_s: f64,
     pub(super) drop_outs: Vec<DropOut>,
@@ -41,15 +41,15 @@ impl Recorded {
         self.begin_s + self.step_s * self.values.len().saturating_sub(1) as f64
     }
 
-    /// Number of the sample at a time, with its part.
+    /// Fractional index of a time.
     pub(super) fn place(&self, time_s: f64) -> f64 {
         (time_s - self.begin_s) / self.step_s
     }
 
-    /// Linear between the samples; `None` outside, and where samples are missing.
+    /// Linear interpolation between the samples; `None` outside, and where samples are missing.
     fn at(&self, time_s: f64) -> Option<f64> {
         let near_s = 1e-3 * self.step_s;
-        // in the order of time: only the last one that has begun can hold the moment
+        // in the order of time: only the last one that has begun can contain it
         let begun = self.drop_outs.partition_point(|d| d.after_s + near_s < time_s);
         let last = begun.checked_sub(1).map(|i| &self.drop_outs[i]);
         let missing = |d: &DropOut| {
@@ -58,7 +58,7 @@ impl Recorded {
         if last.is_some_and(missing) { None } else { self.between(time_s) }
     }
 
-    /// The same with what is missing filled in.
+    /// Linear interpolation across missing samples.
     pub(super) fn between(&self, time_s: f64) -> Option<f64> {
         let place = self.place(time_s);
         let last = self.values.len().checked_sub(1)?;
@@ -133,17 +133,17 @@ pub(super) fn read(table: &mut Table, pairings: &[Pairing]) -> Result<Trace, Err
     Ok(trace)
 }
 
-/// Sums over the rows that both signals have.
+/// Statistics over the rows that both signals cover.
 pub(super) struct Statistics {
     pub(super) rows: usize,
-    /// Of recording - trace.
+    /// Mean of recording - trace.
     pub(super) mean: f64,
     /// Root mean square around that.
     pub(super) rms: f64,
 }
 
-/// The signals row by row: row of the trace and both values. A recording with fewer samples than rows is compared at its samples:
-/// between them its value is not known.
+/// The signals row by row: row of the trace and both values. A recording that is sampled more coarsely than the rows is
+/// compared at its samples, since its value in between is unknown.
 pub(super) fn rows<'a>(
     times_s: &'a [f64],
     a: &'a [f64],
@@ -169,7 +169,7 @@ pub(super) fn rows<'a>(
     all.filter(|(_, a, b)| a.is_finite() && b.is_finite())
 }
 
-/// Nearest row to a time, and the value of the trace then.
+/// Nearest row to a time, and the value of the trace at that time.
 fn sampled(times_s: &[f64], a: &[f64], time_s: f64) -> Option<(usize, f64)> {
     let next = times_s.partition_point(|t| *t <= time_s).clamp(1, times_s.len() - 1);
     let (before_s, after_s) = (times_s[next - 1], times_s[next]);

@@ -31,7 +31,7 @@ fn long_runs_keep_their_extremes() {
         r.add(&record);
     }
     assert!(r.buckets.len() < MOST_BUCKETS && r.buckets.len() > MOST_BUCKETS / 4);
-    // one after the other, up to the last cycle
+    // consecutive, up to the last cycle
     assert!(r.buckets.windows(2).all(|w| w[0].last + 1 == w[1].k));
     assert_eq!(r.buckets.last().unwrap().last, n - 1);
     let error = r.curves.iter().position(|c| c.kind == Kind::ContourError).unwrap();
@@ -63,7 +63,8 @@ fn passes_end_at_a_stop_where_they_began() {
     assert!(r.points().all(|p| p.pass == 0));
 }
 
-/// An L of two edges of 1 mm, sampled every 0.3 mm: no sample in the corner, or one on the curve that rounds it.
+/// An L with two edges of 1 mm, sampled every 0.3 mm: with a sample missing at the corner, or on the curve that rounds
+/// it.
 #[test]
 fn corners_stay_where_they_are_programmed() {
     for rounded in [false, true] {
@@ -88,7 +89,7 @@ fn corners_stay_where_they_are_programmed() {
         let apart = |(p, q): (&[f64; 2], &[f64; 2])| libm::hypot(p[0] - q[0], p[1] - q[1]);
         assert!(path.iter().zip(&ends).all(|pair| apart(pair) < 1e-9), "{path:?}");
     }
-    // a circle is its points
+    // a circle consists of its points
     let arc = vec![Point::default(); 5];
     assert_eq!(programmed(&arc, [0, 1]).len(), 6);
 }

@@ -1,18 +1,18 @@
-//! The answer of a view, and the words and frequencies that the views share.
+//! The result of a view, and texts and frequencies that the views share.
 
 use super::super::curve::Curve;
 use crate::chart::plot::Plot;
 use crate::table::Table;
 use kontur_filters::time::CycleTime;
 
-/// A view: numbers and their picture.
+/// A view as numbers and picture.
 #[derive(Debug)]
 pub(in crate::response) struct Answer {
     pub(in crate::response) table: Table,
     pub(in crate::response) plot: Plot,
 }
 
-/// Cycle time in words.
+/// Cycle time as text.
 pub(super) fn cycle_text(cycle: CycleTime) -> String {
     format!("cycle {} ms", f64::from(cycle.us()) / 1000.0)
 }

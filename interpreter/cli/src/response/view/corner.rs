@@ -11,7 +11,7 @@ use kontur_filters::analysis::corner::CornerPath;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 
-/// More paths than this cannot be distinguished; the picture then draws the error over the order.
+/// More paths than this cannot be distinguished; the picture then shows the error over the order.
 const MOST_PATHS: usize = 12;
 
 pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Result<Answer, Error> {
@@ -87,7 +87,7 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
     Ok(Answer { table, plot })
 }
 
-/// The paths around the corner, some errors wide.
+/// The paths around the corner, in a window of a few times the error.
 fn contour(paths: &[CornerPath], worst: f64) -> View<Points> {
     let reach = (6.0 * worst).max(1e-6);
     let programmed = vec![[-4.0 * reach, 0.0], [0.0, 0.0], [0.0, 4.0 * reach]];

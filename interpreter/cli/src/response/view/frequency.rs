@@ -12,11 +12,11 @@ use kontur_filters::response::Angle;
 use kontur_filters::time::CycleTime;
 
 const STEPS: u32 = 800;
-/// Below this in dB the picture ends.
+/// Lower end of the picture in dB.
 const FLOOR_DB: f64 = -80.0;
-/// Frequencies with a magnitude above this in dB pass.
+/// Frequencies with a magnitude above this in dB count as passed.
 const PASSING_DB: f64 = -12.0;
-/// Magnitudes below this in dB are zeros with a meaningless phase.
+/// Magnitudes below this in dB count as zeros, whose phase is meaningless.
 const ZERO_DB: f64 = -200.0;
 
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +65,7 @@ pub(super) fn view(
     };
     let high = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max);
     let low = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(-3.0, f64::min);
-    // near a zero the group delay has no bound; the picture shows what the frequencies get that pass
+    // close to a zero the group delay is unbounded; the picture shows it for the passed frequencies
     let passing = magnitude.iter().zip(&delay).flat_map(|(m, d)| m.points.iter().zip(&d.points));
     let shown = passing.filter(|(m, _)| m[1] > PASSING_DB).map(|(_, d)| d[1]).chain([0.0]);
     let shown = around(shown, 0.1);
@@ -113,8 +113,8 @@ impl Sample {
     }
 }
 
-/// The curve with its phase continued beyond 180 degrees: from one frequency to the next the group delay says by how
-/// many turns.
+/// The curve with its phase continued beyond 180 degrees; the group delay gives the number of turns between two
+/// frequencies.
 fn samples(curve: &Curve, range: (f64, f64), cycle: CycleTime) -> Vec<Sample> {
     let mut samples: Vec<Sample> = Vec::new();
     let mut last: Option<Sample> = None;
@@ -145,10 +145,10 @@ fn samples(curve: &Curve, range: (f64, f64), cycle: CycleTime) -> Vec<Sample> {
     samples
 }
 
-/// A filter that blocks slow signals has no phase to start from at 0 Hz: turns are added so that the phase lies within
-/// 180 degrees of 0 where most of the signal passes.
+/// A filter that blocks slow signals has no phase at 0 Hz to start from; turns are added to bring the phase within 180
+/// degrees of 0 where most of the signal passes.
 fn anchor(samples: &mut [Sample]) {
-    /// A pass band ripples less than this.
+    /// Ripple of a passband, at most.
     const RIPPLE_DB: f64 = 0.5;
     let Some(first) = samples.first().copied() else { return };
     let most = samples

@@ -1,6 +1,6 @@
 //! Residual vibration after a shaper, over the real natural frequency of the machine.
 //!
-//! The vendor's table normalises the set frequency by the real one, its worked example the real one by the set one:
+//! The vendor's table normalises the set frequency by the real one, its worked example the real one by the set one;
 //! table and picture show both.
 
 use super::super::curve::Curve;

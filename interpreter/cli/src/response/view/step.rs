@@ -32,7 +32,7 @@ pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> Answer {
                 Cell::Number(time(k), 6),
                 Cell::Number(output, 9),
             ]);
-            // a set position holds for a cycle
+            // a set position is held for a cycle
             let held = points.last().map_or(output, |last: &[f64; 2]| last[1]);
             points.extend([[1000.0 * time(k), held], [1000.0 * time(k), output]]);
         }

@@ -1,18 +1,19 @@
-//! Columns of numbers as cells of rows: the numbers of a column are rounded together, and those of a row written together.
+//! Columns of numbers as cells of rows: the numbers of a column are rounded together, those of a row are written
+//! together.
 
 use super::{Cell, Cells, Divided, EXACT_BELOW, MOST_DECIMALS, POWERS};
 use std::ops::Range;
 
-/// `1.5 * 2^52`: added to a number below `2^51` it leaves its whole part, rounded, in the lowest bits.
+/// `1.5 * 2^52`: added to a number below `2^51` it leaves the rounded integer part in the lowest bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Sign of a number in the word of its whole part.
+/// Sign bit of a number, stored with its integer part.
 const SIGN: u64 = 1 << 63;
 
-/// In the place of a whole part where [`NumberTable::take`] does not round.
+/// Marks an integer part that [`NumberTable::take`] has not rounded.
 const UNROUNDED: u64 = u64::MAX;
 
-/// The numbers of some rows of a table after those of others, each column with its own number of decimals.
+/// The numbers of several rows of a table, each column with its number of decimals.
 #[derive(Clone, Debug)]
 pub(crate) struct NumberTable {
     columns: Vec<NumberColumn>,
@@ -22,24 +23,24 @@ pub(crate) struct NumberTable {
 #[derive(Clone, Debug)]
 struct NumberColumn {
     decimals: u8,
-    /// `10^decimals`, its inverse, and what is left of `10^7`.
+    /// `10^decimals`, its inverse, and the remaining factor up to `10^7`.
     power: f64,
     inverse: f64,
     fill: f64,
     values: [f64; NumberTable::ROWS],
-    /// Of every number its sign and what is before its point, and what is after it times `10^7`.
+    /// For every number its sign and integer part, and its fraction times `10^7`.
     wholes: [u64; NumberTable::ROWS],
     parts: [u64; NumberTable::ROWS],
 }
 
 impl NumberTable {
-    /// Rows that are taken together.
+    /// Number of rows that are processed together.
     pub(crate) const ROWS: usize = 16;
 
-    /// For columns with so many decimals.
+    /// For columns with these numbers of decimals.
     pub(crate) fn new(decimals: &[u8]) -> Self {
         let column = |decimals: &u8| {
-            // more decimals than are rounded here: not a number, which is not rounded
+            // with more decimals than supported the power is NaN, for which nothing is rounded
             let power = POWERS.get(usize::from(*decimals)).map_or(f64::NAN, |power| *power as f64);
             NumberColumn {
                 decimals: *decimals,
@@ -54,7 +55,7 @@ impl NumberTable {
         Self { columns: decimals.iter().map(column).collect() }
     }
 
-    /// Takes the numbers of some rows, [`Self::ROWS`] at the most.
+    /// Takes the numbers of some rows, at most [`Self::ROWS`].
     pub(crate) fn take(&mut self, columns: &[Vec<f64>], rows: Range<usize>) {
         for (column, values) in self.columns.iter_mut().zip(columns) {
             column.take(&values[rows.clone()]);
@@ -75,19 +76,19 @@ impl NumberTable {
 }
 
 impl NumberColumn {
-    /// A number that lies on a tie, is too large or not finite is marked.
+    /// Marks numbers that are ties, too large or not finite.
     fn take(&mut self, values: &[f64]) {
         self.values[..values.len()].copy_from_slice(values);
         let Self { power, inverse, fill, .. } = *self;
         let found = self.wholes.iter_mut().zip(&mut self.parts);
         for (value, (whole, part)) in self.values.iter().zip(found) {
-            // no branches, so that several of them are done at once
+            // without branches, so that several numbers are processed at once
             let product = value * power;
             let rounded = (product + ROUNDER) - ROUNDER;
-            // not a number fails both
+            // NaN fails both comparisons
             let known = (product - rounded).abs() < 0.5 && product.abs() < 0.5 * EXACT_BELOW;
             let magnitude = rounded.abs();
-            // one too large where more than half is left; products of whole numbers below 2^53 are exact
+            // one too large if more than half remains; products of whole numbers below 2^53 are exact
             let about = (magnitude * inverse + ROUNDER) - ROUNDER;
             let left = magnitude - about * power;
             let (before, after) =
@@ -102,10 +103,10 @@ impl NumberColumn {
         }
     }
 
-    /// Writes a number and a comma at the beginning of a cell: their length, or none if the number is marked.
+    /// Writes a number and a comma to the beginning of a cell; returns their length, or `None` if the number is marked.
     #[inline]
     fn put(&self, cell: &mut Cell, row: usize) -> Option<usize> {
-        // the compiler sees that there is such a row
+        // for the compiler: the index is in range
         let row = row % NumberTable::ROWS;
         let (whole, part) = (self.wholes[row], self.parts[row] as u32);
         let number = Divided { negative: whole & SIGN != 0, whole: whole & !SIGN, part };

@@ -6,7 +6,7 @@ use kontur_interpreter::job::AxisFacts;
 use kontur_interpreter::record::columns;
 use kontur_interpreter::record::{AxisRecord, CycleRecord, PathRecord};
 
-/// Rows written before an error stay at the location that the error names.
+/// Rows written before an error stay at the location stated in the error.
 #[test]
 fn parts_outlive_an_error() {
     let facts = Facts { cycle_us: 1000, ..Facts::default() };
@@ -21,7 +21,7 @@ fn parts_outlive_an_error() {
         writer.write(&row).unwrap();
     }
     let part = writer.parts[0].clone();
-    // no file can be created where a folder is
+    // a file cannot be created in place of a folder
     std::fs::create_dir(part.with_file_name(".000002.part")).unwrap();
     let mut more = (0..ROWS_PER_GROUP).map(|_| writer.write(&row));
     let error = more.find_map(Result::err).unwrap();
@@ -59,7 +59,7 @@ fn reads_back_bit_by_bit() {
         axes: vec![AxisRecord { ipo: position(k), ..AxisRecord::default() }],
         ..CycleRecord::default()
     };
-    // batches that do not end where groups do
+    // batches that do not end at group boundaries
     for first in (0..rows).step_by(700) {
         let mut batch = Batch::default();
         (first..rows.min(first + 700)).for_each(|k| batch.push(&Numbers::of(&columns), &record(k)));

@@ -1,16 +1,16 @@
-//! The vibration that explains most of the residual of a fit, and whether it is more than noise.
+//! The vibration that explains most of the residual of a fit, and whether it exceeds noise.
 //!
-//! The residual is correlated with `e^(-s t - i w t)` for every line of the spectrum and several decays `s`; the share of
-//! its energy that such a vibration takes, over the noise, is the likelihood ratio. White noise alone exceeds a bound
+//! The residual is correlated with `e^(-s t - i w t)` for every line of the spectrum and several decays `s`. The energy
+//! that such a vibration removes, relative to the noise, is the likelihood ratio; white noise alone exceeds a bound
 //! with a known probability.
 
 use realfft::RealFftPlanner;
 
-/// Probability with which noise alone passes for a vibration.
+/// Probability that noise alone is taken for a vibration.
 const FALSE_ALARM: f64 = 1e-3;
-/// Decays tried: from lasting to gone after some samples, each this many times the one before.
+/// Ratio of successive decays that are tried, from lasting to gone after some samples.
 const DECAY_FACTOR: f64 = 2.0;
-/// Zeros after the record, as multiples of it.
+/// Length of the zero padding as a multiple of the recording.
 const PADDING: usize = 2;
 
 /// The vibration that was found.
@@ -22,7 +22,7 @@ pub(super) struct Candidate {
     pub(super) decay: f64,
 }
 
-/// Variance of the white part of a record: the median of its lines, which few vibrations do not move.
+/// Variance of the white part of a recording: the median of its lines, which few vibrations hardly affect.
 fn white_variance(power: &[f64]) -> f64 {
     let mut sorted = power.to_vec();
     if sorted.is_empty() {
@@ -30,11 +30,11 @@ fn white_variance(power: &[f64]) -> f64 {
     }
     let middle = sorted.len() / 2;
     let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
-    // the lines of white noise are distributed exponentially
+    // the lines of white noise are exponentially distributed
     *median / std::f64::consts::LN_2
 }
 
-/// Powers of the lines of a record, its energy for scale: white noise of variance 1 gives 1 on average.
+/// Powers of the lines of a recording, scaled by its energy: 1 on average for white noise of variance 1.
 struct Lines {
     power: Vec<f64>,
     step_hz: f64,
@@ -46,14 +46,14 @@ fn lines(samples: impl Iterator<Item = f64>, count: usize, energy: f64, rate_hz:
     padded.resize(length, 0.0);
     let transform = RealFftPlanner::new().plan_fft_forward(length);
     let mut values = transform.make_output_vec();
-    // both buffers have the lengths that the plan asks for
+    // both buffers have the lengths required by the plan
     let done = transform.process(&mut padded, &mut values);
     debug_assert!(done.is_ok());
     let power = values.iter().map(|v| v.norm_sqr() / energy).collect();
     Lines { power, step_hz: rate_hz / length as f64 }
 }
 
-/// The strongest vibration of a residual in a range of frequencies in Hz; none if it may be noise. The residual is 0
+/// The strongest vibration of a residual in a range of frequencies in Hz; `None` if it may be noise. The residual is 0
 /// where samples are not `valid`.
 pub(super) fn strongest(
     residual: &[f64],
@@ -81,7 +81,7 @@ pub(super) fn strongest(
         }
         for (i, power) in of.power.iter().enumerate() {
             let freq_hz = i as f64 * of.step_hz;
-            // what decays within a third of its period does not vibrate
+            // a signal that decays within a third of its period does not vibrate
             if freq_hz < low_hz || freq_hz > high_hz || decay > 2.5 * freq_hz {
                 continue;
             }
@@ -95,15 +95,15 @@ pub(super) fn strongest(
     (power / noise > libm::log(tried / FALSE_ALARM)).then_some(candidate)
 }
 
-/// Root mean square of the white part of a residual of which `count` samples are valid and the others are 0.
+/// Root mean square of the white part of a residual with `count` valid samples; the others are 0.
 pub(super) fn white(residual: &[f64], count: usize, rate_hz: f64) -> f64 {
     let of = lines(residual.iter().copied(), residual.len(), count.max(1) as f64, rate_hz);
     white_variance(&of.power[1..]).sqrt()
 }
 
-/// How much denser than its mean a residual is around a frequency in Hz.
+/// Ratio of the spectral density of a residual around a frequency in Hz to its mean.
 pub(super) fn density(residual: &[f64], rate_hz: f64) -> impl Fn(f64) -> f64 + use<> {
-    /// Lines on either side that are averaged.
+    /// Number of lines on either side that are averaged.
     const AROUND: usize = 16;
     let of = lines(residual.iter().copied(), residual.len(), residual.len() as f64, rate_hz);
     let mean = of.power.iter().sum::<f64>() / of.power.len().max(1) as f64;

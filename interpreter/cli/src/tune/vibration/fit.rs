@@ -1,31 +1,31 @@
-//! Vibrations fitted to a piece of a record by least squares.
+//! Least-squares fit of vibrations to a piece of a recording.
 //!
-//! The piece is taken as `c0 + c1 t + c2 t^2 + sum e^(-s t) (a cos w t + b sin w t)`: offset and drift, and vibrations that
-//! decay (`s > 0`) or last (`s` about 0: mains hum, a motor). Levenberg and Marquardt's method improves all
-//! coefficients together, so that neither drift nor neighbouring vibrations bend a damping. The inverse of the normal
-//! equations at the end is the Cramer-Rao bound of the coefficients.
+//! The piece is modelled as `c0 + c1 t + c2 t^2 + sum e^(-s t) (a cos w t + b sin w t)`: offset and drift, and
+//! vibrations that decay (`s > 0`) or last (`s` about 0: mains hum, a motor). The method of Levenberg and Marquardt
+//! improves all coefficients together, so that neither drift nor neighbouring vibrations bias a damping. The inverse of
+//! the normal equations at the end is the Cramer-Rao bound of the coefficients.
 
 use super::detect;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
-/// Coefficients of offset and drift.
+/// Number of coefficients of offset and drift.
 const DRIFT: usize = 3;
-/// Coefficients of one vibration.
+/// Number of coefficients of one vibration.
 const PER_MODE: usize = 4;
-/// Steps tried.
+/// Largest number of steps.
 const STEPS: usize = 40;
-/// Samples from one exact value of a vibration to the next.
+/// Number of samples from one exact value of a vibration to the next.
 const TURNS: usize = 64;
-/// Relative gain of a step at which the fit has ended.
+/// Relative gain of a step below which the fit has converged.
 const CONVERGED_RATIO: f64 = 1e-9;
 
-/// A piece of a record; time 0 is its first sample.
+/// A piece of a recording; time 0 is its first sample.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     /// The samples.
     pub(super) samples: Vec<f64>,
-    /// False where the sample says nothing: the recorder was at its limit.
+    /// False where the sample is unusable: the recorder was at its limit.
     pub(super) valid: Vec<bool>,
     /// Samples per second.
     pub(super) rate_hz: f64,
@@ -36,7 +36,7 @@ impl Piece {
         self.samples.len() as f64 / self.rate_hz
     }
 
-    /// Samples that count.
+    /// Number of valid samples.
     fn count(&self) -> usize {
         self.valid.iter().filter(|v| **v).count()
     }
@@ -47,7 +47,7 @@ impl Piece {
 pub struct Estimate {
     /// Value.
     pub value: f64,
-    /// Half width of the interval that holds the true value in 95 of 100 cases.
+    /// Half width of the interval that contains the true value in 95 of 100 cases.
     pub half_width: f64,
 }
 
@@ -71,7 +71,7 @@ pub(super) struct Vibration {
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
     p: Vec<f64>,
-    /// Unit of the drift's time: powers of seconds would make the equations ill-conditioned.
+    /// Unit of the drift time in s; powers of seconds would make the equations ill-conditioned.
     seconds: f64,
 }
 
@@ -110,7 +110,7 @@ impl Fit {
         next
     }
 
-    /// Goes over the samples of a piece: index, value of the fit, and its derivatives by the coefficients.
+    /// Visits the samples of a piece: index, value of the fit, and its derivatives with respect to the coefficients.
     fn over(&self, piece: &Piece, mut visit: impl FnMut(usize, f64, &[f64])) {
         let e_cos_sin = |s: f64, w: f64, t: f64| {
             let e = libm::exp(-s * t);
@@ -130,7 +130,8 @@ impl Fit {
             for (k, [a, b, s, w]) in modes.iter().enumerate() {
                 let [cos, sin] = waves[k];
                 let [turn_cos, turn_sin] = turns[k];
-                // a turn by one sample costs a tenth of the functions; these keep its rounding from adding up
+                // a rotation by one sample costs a tenth of the functions; exact values in between keep its rounding
+                // from accumulating
                 let [cos, sin] = if i % TURNS == 0 {
                     e_cos_sin(*s, *w, t)
                 } else {
@@ -151,7 +152,7 @@ impl Fit {
         }
     }
 
-    /// What the fit leaves of the piece; 0 where samples do not count.
+    /// Residual of the fit on the piece; 0 at invalid samples.
     pub(super) fn residual(&self, piece: &Piece) -> Vec<f64> {
         let mut residual = Vec::with_capacity(piece.samples.len());
         self.over(piece, |i, value, _| {
@@ -175,7 +176,7 @@ impl Fit {
     fn normal(&self, piece: &Piece, used: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
         let n = used.len();
         let mut right = DVector::zeros(n);
-        // lower triangle, row by row: this is where the time goes
+        // lower triangle, row by row: the most expensive part
         let mut sums = vec![0.0; n * (n + 1) / 2];
         let mut picked = vec![0.0; n];
         self.over(piece, |i, value, row| {
@@ -247,19 +248,19 @@ impl Fit {
         }
     }
 
-    /// Root mean square of the white part of what is left.
+    /// Root mean square of the white part of the residual.
     pub(super) fn white(&self, piece: &Piece) -> f64 {
         detect::white(&self.residual(piece), piece.count(), piece.rate_hz)
     }
 
-    /// Root mean square of what is left.
+    /// Root mean square of the residual.
     pub(super) fn noise(&self, piece: &Piece) -> f64 {
         let free = piece.count().saturating_sub(self.p.len()).max(1);
         (self.error(piece) / free as f64).sqrt()
     }
 
-    /// The vibrations with their intervals. `density` is how much denser than on average the residual is at a
-    /// frequency: where the model is not the whole truth the intervals grow with it.
+    /// The vibrations with their intervals. `density` is the ratio of the residual's spectral density at a frequency to
+    /// its mean: where the model is incomplete the intervals grow with it.
     pub(super) fn vibrations(&self, piece: &Piece, density: impl Fn(f64) -> f64) -> Vec<Vibration> {
         let all: Vec<usize> = (0..self.p.len()).collect();
         let (matrix, _) = self.normal(piece, &all);
@@ -275,7 +276,7 @@ impl Fit {
                 let (i, j) = (DRIFT + PER_MODE * m + 2, DRIFT + PER_MODE * m + 3);
                 let undamped = libm::hypot(s, w);
                 let grow = density(w.abs() / TAU).max(1.0);
-                // gradients by s and w
+                // gradients with respect to s and w
                 let spread = |ds: f64, dw: f64| {
                     let v = ds * ds * covariance(i, i)
                         + 2.0 * ds * dw * covariance(i, j)
@@ -304,7 +305,7 @@ impl Fit {
 mod tests {
     use super::*;
 
-    /// Without noise the fit is exact, from a start that is some percent off, on a quadratic drift.
+    /// Without noise the fit is exact, from a start that is off by a few percent, on a quadratic drift.
     #[test]
     fn two_vibrations_are_found_again() {
         let real = [(8.0, 0.03, 1.0), (11.0, 0.08, 0.7)];

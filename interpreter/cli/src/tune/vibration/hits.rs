@@ -1,7 +1,7 @@
-//! Where the free decays of a record are: drift and hum are removed first, then blows are found by their energy.
+//! Free decays of a recording: drift and hum are removed first, then blows are found by their energy.
 //!
-//! A blow is where the energy of the time after rises against that of the time before. The windows are longer than the
-//! beats of neighbouring vibrations, so that a beat is not a blow.
+//! A blow is a point after which the energy is higher than before. The windows are longer than the beats of
+//! neighbouring vibrations, so that a beat does not count as a blow.
 
 use super::detect;
 use std::f64::consts::TAU;
@@ -9,24 +9,24 @@ use std::ops::Range;
 
 /// Nominal frequencies of the mains in Hz.
 pub(super) const MAINS_HZ: [f64; 2] = [50.0, 60.0];
-/// Relative distance from a multiple of the mains that counts as one: what grids keep.
+/// Relative distance from a multiple of the mains frequency that counts as equal: the accuracy of grids.
 pub(super) const MAINS_RATIO: f64 = 0.006;
-/// Multiples of the mains looked at.
+/// Number of multiples of the mains frequency that are examined.
 const HARMONICS: u32 = 20;
-/// Parts of a record in which a hum must be equally strong.
+/// Number of parts of a recording in which a hum must be equally strong.
 const PARTS: usize = 8;
 /// Shortest window of the energies in s.
 const WINDOW_S: f64 = 0.4;
-/// Length in s of the pieces in which a short vibration is looked for.
+/// Length in s of the pieces that are searched for a short vibration.
 const PART_S: f64 = 0.5;
-/// Rise of the energy at a blow.
+/// Rise of the energy at a blow, as a ratio.
 const RISE: f64 = 1.8;
-/// Shorter pieces hold no decay.
+/// Shorter pieces cannot contain a decay.
 const LEAST_SAMPLES: usize = 64;
-/// Blows weaker than this share of the strongest one's energy are not looked at.
+/// Blows with less than this share of the strongest one's energy are ignored.
 const LEAST_ENERGY: f64 = 0.1;
 
-/// Takes offset, linear and quadratic drift out of a record.
+/// Removes offset, linear and quadratic drift from a recording.
 fn without_drift(samples: &[f64]) -> Vec<f64> {
     let n = samples.len() as f64;
     // Legendre polynomials over -1 .. 1: nearly orthogonal on a fine grid
@@ -49,7 +49,7 @@ fn without_drift(samples: &[f64]) -> Vec<f64> {
     samples.iter().enumerate().map(|(i, x)| x - drift(i)).collect()
 }
 
-/// Complex amplitude of a frequency in a part of a record, under a Hann window; phases count from its first sample.
+/// Complex amplitude of a frequency in a part of a recording, under a Hann window; phases refer to its first sample.
 fn amplitude(
     samples: &[f64],
     from: usize,
@@ -68,7 +68,7 @@ fn amplitude(
     sum.map(|x| 2.0 * x / n)
 }
 
-/// Takes multiples of the mains out of a record that are equally strong everywhere.
+/// Removes multiples of the mains frequency that are equally strong in all parts of a recording.
 fn without_hum(samples: &mut [f64], rate_hz: f64) {
     let n = samples.len();
     let parts: Vec<Range<usize>> = (0..PARTS).map(|p| p * n / PARTS..(p + 1) * n / PARTS).collect();
@@ -87,7 +87,7 @@ fn without_hum(samples: &mut [f64], rate_hz: f64) {
             if median <= 0.0 || sizes[0] < 0.6 * median || sizes[PARTS - 1] > 1.6 * median {
                 continue;
             }
-            // the mean step of the phase from part to part is what the grid is off by
+            // the mean phase step from part to part gives the deviation of the grid frequency
             let mut turn = [0.0, 0.0];
             for pair in parts_of.windows(2) {
                 turn[0] += pair[1][0] * pair[0][0] + pair[1][1] * pair[0][1];
@@ -107,12 +107,12 @@ fn without_hum(samples: &mut [f64], rate_hz: f64) {
     }
 }
 
-/// Free decays of a record, the most energetic first: from after a blow to the next one.
+/// Free decays of a recording, the most energetic first: from a blow to the next one.
 pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<Range<usize>> {
     let mut clean = without_drift(samples);
     without_hum(&mut clean, rate_hz);
     let n = clean.len();
-    // a short vibration drowns in the noise of a long record: then piece by piece
+    // a short vibration disappears in the noise of a long recording, which is then searched piece by piece
     let part = ((PART_S * rate_hz) as usize).clamp(LEAST_SAMPLES, n);
     let parts = || (0..=n - part).step_by((part / 2).max(1)).map(|i| &clean[i..i + part]);
     let loudest =
@@ -125,11 +125,11 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
     for (i, x) in clean.iter().enumerate() {
         sums[i + 1] = sums[i] + x * x;
     }
-    // mean power of what was left of the samples in a range
+    // mean residual power of the samples in a range
     let power = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from).max(1) as f64;
     let after = |i: usize| power(i, (i + window).min(n));
     let quiet = (0..n - window).step_by((window / 2).max(1)).map(after).fold(f64::MAX, f64::min);
-    // a record that begins with its vibration has nothing before it
+    // a recording that begins with its vibration has nothing before it
     let before = |i: usize| {
         let seen = i.min(window);
         let unseen = (window - seen) as f64 * quiet;
@@ -137,7 +137,7 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
     };
     let rise = |i: usize| after(i) / (before(i) + f64::MIN_POSITIVE);
     let loud = (0..n - window).map(after).fold(0.0, f64::max);
-    // one period beginning with the blow has more energy than any other; the long windows only say that there is one
+    // the period that begins with the blow has more energy than any other; the long windows only show that there is one
     let one = (period as usize).max(1);
     let front = |i: usize| power(i, (i + one).min(n));
     let last = n - LEAST_SAMPLES.min(n);
@@ -161,10 +161,10 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
         .iter()
         .zip(ends)
         .filter_map(|(start, end)| {
-            // after the largest swing the blow itself is over
+            // the blow is over after the largest swing
             let near = *start..(start + one + 1).min(end);
             let top = near.reduce(|a, b| if clean[b].abs() > clean[a].abs() { b } else { a })?;
-            // the sharp front of the next blow begins a little before its energy
+            // the steep front of the next blow begins slightly before its energy rises
             let end =
                 if end < n { end.saturating_sub((0.05 * window as f64) as usize) } else { end };
             (end > top + LEAST_SAMPLES).then(|| (sums[end] - sums[top], top + 1..end))

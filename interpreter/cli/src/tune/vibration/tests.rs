@@ -1,10 +1,10 @@
-//! Synthetic recordings with a known truth, made here and by nothing that is under test.
+//! Synthetic recordings with known content, generated independently of the code under test.
 
 use super::{Analysis, Focus, analyse};
 use kontur_kit::Random;
 use std::f64::consts::TAU;
 
-/// What a recording suffers from.
+/// Disturbances of a recording.
 const KINDS: [&str; 9] =
     ["plain", "drift", "hum", "noise", "long", "clip", "hits", "two", "pre-trigger"];
 
@@ -15,7 +15,7 @@ struct Record {
     truth: Vec<(f64, f64)>,
 }
 
-/// Value of a vibration that a blow started `t` ago.
+/// Value of a vibration excited by a blow `t` s ago.
 fn swing(t: f64, (f, z): (f64, f64), phase: f64) -> f64 {
     let w = TAU * f;
     libm::exp(-z * w * t) * libm::sin(w * (1.0 - z * z).sqrt() * t + phase)
@@ -77,8 +77,8 @@ fn record(kind: &str, r: &mut Random) -> Record {
     Record { samples, rate_hz, truth }
 }
 
-/// 207 recordings: the frequency within 1 % and the damping within 20 % in nearly all of them (noise of 20 % leaves a few
-/// that hold no more), and intervals of 95 % that cover 90 to 98 %.
+/// 207 recordings: the frequency within 1 % and the damping within 20 % in nearly all of them (noise of 20 % leaves a
+/// few that do not permit more), and 95 % intervals that cover 90 to 98 %.
 #[test]
 fn two_hundred_recordings() {
     let mut r = Random::new(1);
@@ -130,7 +130,7 @@ fn found(x: impl Fn(f64) -> f64, noise: f64) -> Analysis {
     analyse(&samples(x, noise), &[], 1000.0, &Focus::default())
 }
 
-/// Noise, hum with harmonics, drift, a constant: no vibration of the machine.
+/// Noise, hum with harmonics, drift, a constant: not a vibration of the machine.
 #[test]
 fn what_does_not_decay_is_no_vibration() {
     let hum = |t: f64| libm::sin(TAU * 50.0 * t) + 0.3 * libm::sin(TAU * 150.0 * t);
@@ -145,7 +145,7 @@ fn what_does_not_decay_is_no_vibration() {
     assert_eq!(analyse(&[0.0; 10], &[], 1000.0, &Focus::default()).modes, []);
 }
 
-/// A decaying vibration on the mains frequency itself is one.
+/// A decaying vibration at the mains frequency itself is a vibration.
 #[test]
 fn a_vibration_at_the_mains_frequency_decays() {
     let of = found(|t| swing(t, (50.0, 0.02), 0.5), 0.02);
@@ -153,8 +153,9 @@ fn a_vibration_at_the_mains_frequency_decays() {
     assert!((of.modes[0].damping.value / 0.02 - 1.0).abs() < 0.1, "{of:?}");
 }
 
-/// What a recorder lost is not made up: with a tenth of the samples missing here and there, or half a second in the middle
-/// of the decay, the vibration is found as accurately as the samples allow; a line across the gap would bend it.
+/// Missing samples are not made up: with a tenth of the samples missing in places, or half a second in the middle of
+/// the decay, the vibration is found as accurately as the samples permit; interpolation across the gap would distort
+/// it.
 #[test]
 fn missing_samples_are_left_out() {
     let x = |t: f64| swing(t, (8.0, 0.02), 0.3) + 0.8 * swing(t, (21.0, 0.03), 1.0);
@@ -191,7 +192,7 @@ fn maxima_that_halve() {
     );
 }
 
-/// Damping to 5 % beside a neighbour and noise. Conformance: I034.
+/// Damping to 5 % next to another vibration and noise. Conformance: I034.
 #[test]
 fn two_modes() {
     let of = found(|t| swing(t, (8.0, 0.03), 0.0) + 0.5 * swing(t, (35.0, 0.02), 1.0), 0.01);
@@ -201,7 +202,7 @@ fn two_modes() {
         assert!((mode.damping.value / z - 1.0).abs() < 0.05, "{of:?}");
     }
     assert!(of.modes[1].peak_ratio < 1.0);
-    // range and window leave the rest out
+    // range and window exclude the rest
     let both = samples(|t| swing(t, (8.0, 0.03), 0.0) + 0.5 * swing(t, (35.0, 0.02), 1.0), 0.01);
     let high = Focus { range_hz: (20.0, 60.0), ..Focus::default() };
     let of = analyse(&both, &[], 1000.0, &high);
@@ -211,8 +212,8 @@ fn two_modes() {
     );
 }
 
-/// A decay without noise, its eighth decimal rounded: up to a damping of 0.3 it is found, above it is a transient, and the
-/// rounding beside it is not a vibration.
+/// A decay without noise, rounded to eight decimals: up to a damping of 0.3 it is found, above that it is a transient,
+/// and the rounding next to it is not a vibration.
 #[test]
 fn the_digits_of_a_file_are_no_vibration() {
     for (z, is_vibration) in [(0.04, true), (0.15, true), (0.28, true), (0.32, false), (0.4, false)]

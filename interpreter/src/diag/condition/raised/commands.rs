@@ -1,6 +1,6 @@
 //! Commands, calls, variables and systems of a program: the vendor's numbers from 21000 to 49999.
 
-/// Hands these rows, after those that it got, to the next macro of the list.
+/// Passes these rows, appended to the ones received, to the next macro of the list.
 macro_rules! commands {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*

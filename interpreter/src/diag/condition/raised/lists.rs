@@ -1,6 +1,6 @@
 //! Parameters of axis and channel lists: the vendor's numbers from 100000 on.
 
-/// Hands these rows, after those that it got, to the next macro of the list.
+/// Passes these rows, appended to the ones received, to the next macro of the list.
 macro_rules! lists {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*

@@ -1,6 +1,6 @@
 //! Path, axes, drives and compensation while they move: the vendor's numbers from 50000 to 99999.
 
-/// Hands these rows, after those that it got, to the next macro of the list.
+/// Passes these rows, appended to the ones received, to the next macro of the list.
 macro_rules! motion {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*

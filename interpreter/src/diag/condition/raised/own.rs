@@ -1,6 +1,6 @@
-//! What no document of the vendor numbers: kontur's own conditions. Numbers are appended and never reused.
+//! Conditions without a number in the vendor's documents: kontur's own. Numbers are appended and never reused.
 
-/// Hands these rows, after those that it got, to the next macro of the list.
+/// Passes these rows, appended to the ones received, to the next macro of the list.
 macro_rules! own {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*

@@ -1,6 +1,6 @@
 //! Start-up and the words of a program: the vendor's numbers up to 20999.
 
-/// Hands these rows, after those that it got, to the next macro of the list.
+/// Passes these rows, appended to the ones received, to the next macro of the list.
 macro_rules! words {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
