@@ -5,6 +5,7 @@ use crate::machine::SpindleLimits;
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;
 use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
@@ -55,6 +56,34 @@ pub(crate) enum Step {
         /// They act at the end of the last motion.
         events: Vec<Event>,
     },
+}
+
+impl Step {
+    /// True if the program goes forward in time by it. A loop of steps that do not would run for ever.
+    pub(crate) fn takes_time(&self, cycle: CycleTime) -> bool {
+        match self {
+            Self::Motion { .. } => true,
+            Self::End { .. } => false,
+            Self::Sync { what, .. } => match what {
+                Sync::Dwell { seconds } | Sync::Technology { seconds } => {
+                    (seconds / cycle.seconds()).round() >= 1.0
+                }
+                Sync::Independent { .. }
+                | Sync::Spindle { .. }
+                | Sync::Measured { .. }
+                | Sync::ThreadEnd => true,
+                Sync::ExactStop { .. }
+                | Sync::Stop
+                | Sync::FlushWait
+                | Sync::ProgramStop { .. }
+                | Sync::Shaping(_)
+                | Sync::ReadActual
+                | Sync::TakeActual
+                | Sync::SetPosition { .. }
+                | Sync::MachineData { .. } => false,
+            },
+        }
+    }
 }
 
 /// What happens while the path is at rest.

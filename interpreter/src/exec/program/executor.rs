@@ -14,7 +14,7 @@ use super::state::{Level, Sequences, Target};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels};
-use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
+use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step};
 use crate::exec::values::timers::TimerAct;
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
@@ -197,8 +197,7 @@ impl Executor {
         }
         loop {
             if let Some(step) = self.decoder.contour.pop() {
-                // a stop takes no time
-                if !matches!(step, Step::Sync { what: Sync::Stop, .. }) {
+                if step.takes_time(self.decoder.machine.cycle) {
                     self.budget.moved();
                 }
                 return step;

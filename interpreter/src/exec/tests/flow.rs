@@ -20,6 +20,28 @@ fn jumps_back_are_loops() {
     assert_eq!(by_goto.end, by_while.end);
 }
 
+/// Stops in place and dwells below half a cycle take no time, so a loop of them is one without motion.
+#[test]
+fn a_loop_of_stops_is_stopped() {
+    use super::{Options, machine, run_with};
+    use crate::source::MemorySources;
+    for block in [
+        "G60",
+        "G04 0.0004",
+        "#TIME 0",
+        "#FLUSH WAIT",
+        "#CHANNEL INIT [CMDPOS]",
+        "M0",
+        "#VIB GUARD OFF",
+    ] {
+        let options = Options { max_blocks: 20_000, max_blocks_at_rest: 500, ..Options::default() };
+        let text = format!("$WHILE 1\n{block}\n$ENDWHILE\nM30\n");
+        let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options);
+        assert_eq!(run.ids().last().map(String::as_str), Some("K-0017"), "{block}");
+        assert!(run.steps.len() < 1100, "{block}: {}", run.steps.len());
+    }
+}
+
 /// Functions and messages are handed over a thousand at a time, and a loop of them is one without motion.
 #[test]
 fn events_without_motion_are_handed_over_and_the_loop_is_stopped() {
