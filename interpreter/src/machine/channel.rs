@@ -153,6 +153,8 @@ pub struct Channel {
     pub g_groups: BTreeMap<u32, u32>,
     /// Durations of M functions in s (P-CHAN-00040).
     pub m_durations_s: BTreeMap<u32, f64>,
+    /// Axes and spindles to which M functions go (P-CHAN-00039).
+    pub m_outputs: BTreeMap<u32, Box<str>>,
     /// When the path waits for M functions, where the list says so (P-CHAN-00041).
     pub m_waits: BTreeMap<u32, Acknowledged>,
     /// The same for H functions (P-CHAN-00027).
@@ -314,6 +316,7 @@ impl Channel {
                 .filter_map(|(group, g)| Some((group, whole(g)?)))
                 .collect(),
             m_durations_s: table(of::M_DURATION),
+            m_outputs: texts(p, of::M_OUTPUT),
             m_waits: waits(of::M_SYNCHRONISATION),
             h_waits: waits(of::H_SYNCHRONISATION),
             m_at_signal: table(of::M_SYNCHRONISATION)
@@ -374,6 +377,13 @@ impl Channel {
 }
 
 /// The macros of the list that have both a name and a text.
+/// The entries of an array of texts.
+fn texts(p: &Parameters, array: Param<Text>) -> BTreeMap<u32, Box<str>> {
+    let listed = p.settings().filter(|(_, s)| s.row.key == array.place().row.key);
+    let named = listed.filter_map(|(i, s)| Some((i[0], s.value.text()?.into())));
+    named.filter(|(_, name): &(u32, Box<str>)| !name.is_empty()).collect()
+}
+
 fn macros(p: &Parameters) -> BTreeMap<Box<str>, Box<str>> {
     let named = p.settings().filter(|(_, s)| s.row.key == of::MACRO_NAME.place().row.key);
     let both = |(i, setting): (Indices, &Setting)| {

@@ -185,6 +185,11 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "#CONTOUR MODE to or from DIST_SOFT while contouring is active (G261)";
         return Err(Fault::new(Condition::SoftContouringActive, text, call.span()));
     }
+    let master = decoder.machine.axes.iter().find(|axis| axis.is_gantry_master());
+    if let (Mode::DistSoft, Some(master)) = (settings.mode, master) {
+        let text = format!("#CONTOUR MODE [DIST_SOFT]: {} is a gantry master", master.name());
+        return Err(Fault::new(Condition::SoftContouringOfMaster, text, call.span()));
+    }
     decoder.contour.contouring = settings;
     for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
         if let Some(span) = at {

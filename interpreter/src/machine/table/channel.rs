@@ -85,8 +85,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
-    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i goes; read and ignored, it changes no motion")
-        .source("TF5200 M and H functions 286205579");
+    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i goes: it changes no motion, but the axis cannot move independently in the block of the function")
+        .source("TF5200 M and H functions 286205579"), as M_OUTPUT: Text;
     chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i goes; read and ignored, it changes no motion")
         .source("TF5200 M and H functions 286205579");
     chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; MNE_SNS acts with G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")

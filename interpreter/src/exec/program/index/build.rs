@@ -8,6 +8,7 @@ use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
+use crate::exec::program::jumps::LABEL_MAX;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
 use std::collections::{BTreeMap, BTreeSet};
@@ -229,6 +230,15 @@ impl Builder<'_> {
         let Some(section) = self.section else { return };
         let parent = self.stack.last().copied();
         let place = LabelPlace { position: raw.position, parent };
+        if let LabelKind::Number(n) = label
+            && n > LABEL_MAX
+        {
+            let text = format!("the number of the label is above {LABEL_MAX}");
+            let d = Diagnostic::new(Condition::LabelNumberTooLarge, text);
+            let digits = raw.text[at..].find(':').unwrap_or(1);
+            self.report(raw, at, digits, d);
+            return;
+        }
         if self.index.labels.get(section, &label).is_some() {
             let shown = match &label {
                 LabelKind::Number(n) => format!("N{n}:"),
