@@ -167,6 +167,8 @@ pub struct Channel {
     pub spindle_durations_s: Vec<SpindleDurations>,
     /// For which functions of each spindle the path waits, in the order of the list.
     pub spindle_waits: Vec<SpindleWaits>,
+    /// Spindles that the PLC turns (P-CHAN-00069).
+    pub plc_spindles: Vec<bool>,
     /// Macros of every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
     pub macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169) and G800 to G839 (P-CHAN-00187), by G number.
@@ -325,6 +327,7 @@ impl Channel {
                 .collect(),
             h_durations_s: table(of::H_DURATION),
             spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
+            plc_spindles: (0..SPINDLES).map(|i| p.get(of::PLC_SPINDLE.at(i))).collect(),
             spindle_waits: (0..SPINDLES).map(|i| SpindleWaits::of(p, i)).collect(),
             macros: macros(p),
             g8x_programs: (80..)

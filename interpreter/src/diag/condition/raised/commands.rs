@@ -29,6 +29,7 @@ macro_rules! commands {
     FunctionOfIndependent = Vendor 21179: Error ProgramAbort 3 1, "M function of an axis in the block in which this axis moves independently", cause "M31 X[INDP_SYN ..] with m_default_outp_ax_name[31] X", hint "write them into two blocks", parameter "P-CHAN-00039";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after words of its block", cause "N10 X100 [NAME] Y200", hint "a label comes first in its block: N10 [NAME] X100 Y200";
     InternalFunction = Vendor 21192: Error ProgramAbort 3 1, "M function of the control in the bracket of an axis or spindle", cause "X[M30]", hint "write it outside the bracket: M2, M17, M29 and M30 control the program, M3, M4, M5, M19 and M40 to M45 spindles";
+    PlcSpindle = Vendor 21202: Error ProgramAbort 3 1, "command that a spindle of the PLC does not take", cause "S[M3 REV100 G130=50] with plc_control 1", hint "leave it out, or set P-CHAN-00069 to 0", parameter "P-CHAN-00069";
     FeedGroupDefault = Vendor 21209: Warning None 1 1, "no feed axes defined, the main axes are taken", cause "#FGROUP without axes, no default_feed_axis in the channel list", hint "name the feed axes: #FGROUP [X, Y]", parameter "P-CHAN-00011";
     ArrayWithoutIndex = Vendor 21216: Error ProgramAbort 3 1, "index of an array is missing", cause "P1 = V.P.TAB", hint "write V.P.TAB[0]";
     TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "keys are written in the bracket of the command: #SLOPE [TYPE=TRAPEZ]";

@@ -59,6 +59,7 @@ macro_rules! lists {
     SplineWithContouring = Vendor 120255: Error ProgramAbort 3 0, "spline together with contouring or #HSC", cause "G151 under G261", hint "write G260 or #HSC OFF before G151";
     CouplingWithContouring = Vendor 120333: Error ProgramAbort 3 0, "axis coupling switched while contouring is active", cause "#ENABLE AX LINK under G261", hint "write G260 before it";
     SplineInSurface = Vendor 120370: Error ProgramAbort 3 0, "spline selected while free-form surface mode is active", cause "G151 after #HSC ON [BSPLINE]", hint "write #HSC OFF before G151";
+    HscModeWhileOn = Vendor 120378: Error ProgramAbort 6 1, "mode of #HSC changed while it is on", cause "#HSC ON [OPMODE=1], then #HSC [BSPLINE]", hint "write #HSC OFF before it";
     FeedGroupOfArc = Vendor 120462: Warning None 1 1, "feed group does not fit an arc", cause "#FGROUP [X] and G02 in the plane X, Y", hint "#FGROUP names all axes of the arc, or none of the main axes";
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
     AreaOverlaps = Vendor 120477: Error ProgramAbort 6 1, "sides of a control area cross each other", hint "write the corners in their order round the area";
@@ -74,7 +75,7 @@ macro_rules! lists {
     AreaAxisMissing = Vendor 120740: Error ProgramAbort 6 1, "axis of a control area that is not in the channel", cause "#PUT AX [Y] before #CONTROL AREA ON", hint "call the axis back with #CALL AX";
     AreaAxisAlone = Vendor 120742: Error ProgramAbort 6 1, "independent axis of a control area", cause "X[INDP_ASYN ..] while an area of X is watched", hint "write #CONTROL AREA OFF [ID=..] before it";
     AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis that is not allowed in the circle of a control area", cause "G02 with an axis that is not a main axis", hint "the base of CIRC lies in main axes";
-    TimeInSpline = Vendor 120847: Warning None 1 1, "G93 in a B-spline, F counts as under G94", cause "#HSC ON [BSPLINE], then G93", hint "write #HSC ON [SURFACE ..], or G94 with F in mm/min";
+    TimeInSpline = Vendor 120847: Warning None 1 1, "G93 in a B-spline, F counts as under G94", cause "#HSC ON [BSPLINE], then G93", hint "write G94 with F in mm/min before #HSC";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "numbers are written 10, -10, 1.5 or 0x101";
         }

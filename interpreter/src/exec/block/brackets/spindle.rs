@@ -122,6 +122,16 @@ impl Decoder {
                 Err(fault) => unknown = unknown.or(Some(fault)),
             }
         }
+        let of_plc = self.motion.spindles[spindle]
+            .index
+            .and_then(|i| self.machine.channel.plc_spindles.get(i));
+        let own = |i: &SpindleItem| {
+            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
+        };
+        if let (Some(true), Some((_, span))) = (of_plc, items.iter().find(|(i, _)| !own(i))) {
+            let text = "a spindle of the PLC takes M3, M4, M5, M19, REV and POS only";
+            return Err(Fault::new(Condition::PlcSpindle, text, *span));
+        }
         let feedforward =
             |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
         let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
