@@ -162,6 +162,7 @@ macro_rules! words {
     MaskedGroupFormat = Vendor 20583: Error ProgramAbort 3 1, "group of G160 outside the data format", cause "G160=-1 X1", hint "groups are whole numbers from 0";
     MaskedGroup = Vendor 20584: Error ProgramAbort 3 1, "group of G160 is not in the table of zero offsets", cause "G160=500 X1", hint "groups are 0 to 96";
     ZeroOffsetDefault = Vendor 20585: Error ProgramAbort 6 2, "default zero offset outside the groups", cause "default_index 200", hint "groups are 0 to 96", parameter "P-ZERO-00002";
+    ConditionalNesting = Vendor 20590: Error ProgramAbort 3 1, "#IF nested too deeply", hint "move a part into a subroutine";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetTooLarge = Vendor 20604: Error ProgramAbort 3 1, "position of #PSET outside the data format", cause "#PSET X94967296", hint "coordinates reach up to 214748.3647 mm or deg";
     PresetWithPath = Vendor 20607: Error ProgramAbort 3 1, "#PSET or #PRESET in the block of a function of the path", cause "G01 F1000 #PSET X200", hint "write the G function in a separate block";

@@ -271,7 +271,7 @@ impl Builder<'_> {
                 self.index.entries.change(id, |e| e.open = Some(id));
                 self.conditional.push(self.stack.clone());
                 self.conditional_open.push(id);
-                self.nested(raw, head, self.conditional_open.len());
+                self.nested(raw, head, self.conditional_open.len(), Condition::ConditionalNesting);
             }
             "ELSE" | "ENDIF" => {
                 let Some(open) = self.conditional_open.last().copied() else {
@@ -357,7 +357,7 @@ impl Builder<'_> {
         if keyword.closer().is_some() {
             self.index.entries.change(id, |e| e.open = Some(id));
             self.stack.push(id);
-            self.nested(raw, head, self.stack.len());
+            self.nested(raw, head, self.stack.len(), Condition::ControlNesting);
             return;
         }
         let Some(opener) = keyword.opener() else { return };
@@ -413,11 +413,11 @@ impl Builder<'_> {
         }
     }
 
-    /// 20211 for a statement that is nested too deep.
-    fn nested(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, depth: usize) {
+    /// 20211 for a control statement that is nested too deep, 20590 for `#IF`. Assumption: one limit for both, neither is printed.
+    fn nested(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, depth: usize, condition: Condition) {
         if depth > NESTING_MAX {
             let text = format!("control statements nested more than {NESTING_MAX} deep");
-            let d = Diagnostic::new(Condition::ControlNesting, text);
+            let d = Diagnostic::new(condition, text);
             self.report(raw, head.at, word(&head.rest[1..]).len() + 1, d);
             self.gives_up |= depth > NESTING_READ;
         }
