@@ -221,7 +221,7 @@ impl Parser {
             problems.extend(invalid.map(|s| problem::invalid(text, *s).severity(severity)));
         }
         if let Some(at) = masked.too_deep {
-            problems.push(problem::too_deep(at));
+            problems.push(problem::too_deep(text, at));
             return Block::default();
         }
         let rule = match mode {
@@ -267,7 +267,9 @@ impl Parser {
                 if mode == Mode::Declaration && found.condition == Condition::Syntax {
                     found.condition = Condition::DeclarationCharacter;
                     let first = masked.text.trim_ascii_start().as_bytes().first();
-                    if !matches!(first, Some(b'V' | b'v' | b'P' | b'p' | b'@')) {
+                    if matches!(first, Some(b'R' | b'r')) {
+                        found.condition = Condition::RadiusArray;
+                    } else if !matches!(first, Some(b'V' | b'v' | b'P' | b'p' | b'@')) {
                         found = found.hint("is #ENDVAR missing before it?");
                     }
                 }

@@ -8,6 +8,7 @@
 mod areas;
 mod axes;
 mod compensation;
+mod configuration;
 mod contour;
 mod corner;
 mod couplings;
@@ -241,9 +242,9 @@ const ROWS: &[Row] = &[
     ignored("TOOL LIFE READ"),
     ignored("TOOL LIFE REMOVE"),
     ignored("EXPL SYN"),
-    unsupported("LOAD CONFIG"),
-    ignored("SAVE CONFIG"),
-    unsupported("CLEAR CONFIG"),
+    configuration::LOAD_CONFIG,
+    configuration::SAVE_CONFIG,
+    configuration::CLEAR_CONFIG,
     ignored("CACHE"),
     ignored("DISTANCE PROG START"),
     ignored("DIST TO GO"),
@@ -365,6 +366,9 @@ impl Decoder {
             Act::OffOnly if command.on == Some(false) => Ok(()),
             Act::OffOnly | Act::Unsupported => Err(refused::refused(self, &call)),
             Act::Ignored(text) => {
+                if let Some(fault) = refused::keys_wrong(&call) {
+                    return Err(fault);
+                }
                 let text = format!("{}: {text}", call.title());
                 self.report.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));
                 Ok(())

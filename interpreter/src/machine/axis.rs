@@ -70,6 +70,16 @@ impl Axis {
         self.mode_bits() & mode::FACE_TURNING != 0
     }
 
+    /// The axis turns the workpiece under `#CYL` and `#FACE` (P-AXIS-00015, bit 0x200).
+    pub(crate) fn is_c_axis(&self) -> bool {
+        self.mode_bits() & mode::C_AXIS != 0
+    }
+
+    /// The axis is the master of a gantry (P-AXIS-00015, bit 0x10000).
+    pub(crate) fn is_gantry_master(&self) -> bool {
+        self.mode_bits() & mode::GANTRY_MASTER != 0
+    }
+
     /// Mode of the axis in bits (P-AXIS-00015), see [`mode`].
     pub(crate) fn mode_bits(&self) -> u32 {
         self.get(axis_general::MODE)

@@ -25,7 +25,7 @@ impl Machine {
     ///
     /// # Errors
     /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 numbers that do
-    /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110472, 110597, 120178.
+    /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110076, 110268, 110270, 110472, 120178.
     pub fn load(
         files: &dyn ListFiles,
         start_up: &str,

@@ -154,6 +154,8 @@ pub struct Channel {
     pub g_groups: BTreeMap<u32, u32>,
     /// Durations of M functions in s (P-CHAN-00040).
     pub m_durations_s: BTreeMap<u32, f64>,
+    /// Axes and spindles to which M functions go (P-CHAN-00039).
+    pub m_outputs: BTreeMap<u32, Box<str>>,
     /// When the path waits for M functions, where the list says so (P-CHAN-00041).
     pub m_waits: BTreeMap<u32, Acknowledged>,
     /// When the path waits for H functions, if the list states it (P-CHAN-00027).
@@ -166,6 +168,8 @@ pub struct Channel {
     pub spindle_durations_s: Vec<SpindleDurations>,
     /// The functions of each spindle for which the path waits, in the order of the list.
     pub spindle_waits: Vec<SpindleWaits>,
+    /// Spindles that the PLC turns (P-CHAN-00069).
+    pub plc_spindles: Vec<bool>,
     /// Macros available in every program (P-CHAN-00085), with their NC code (P-CHAN-00062).
     pub macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169) and G800 to G839 (P-CHAN-00187), by G number.
@@ -315,6 +319,7 @@ impl Channel {
                 .filter_map(|(group, g)| Some((group, whole(g)?)))
                 .collect(),
             m_durations_s: table(of::M_DURATION),
+            m_outputs: texts(p, of::M_OUTPUT),
             m_waits: waits(of::M_SYNCHRONISATION),
             h_waits: waits(of::H_SYNCHRONISATION),
             m_at_signal: table(of::M_SYNCHRONISATION)
@@ -323,6 +328,7 @@ impl Channel {
                 .collect(),
             h_durations_s: table(of::H_DURATION),
             spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
+            plc_spindles: (0..SPINDLES).map(|i| p.get(of::PLC_SPINDLE.at(i))).collect(),
             spindle_waits: (0..SPINDLES).map(|i| SpindleWaits::of(p, i)).collect(),
             macros: macros(p),
             g8x_programs: (80..)
@@ -375,6 +381,13 @@ impl Channel {
 }
 
 /// The macros of the list that have both a name and a text.
+/// The entries of an array of texts.
+fn texts(p: &Parameters, array: Param<Text>) -> BTreeMap<u32, Box<str>> {
+    let listed = p.settings().filter(|(_, s)| s.row.key == array.place().row.key);
+    let named = listed.filter_map(|(i, s)| Some((i[0], s.value.text()?.into())));
+    named.filter(|(_, name): &(u32, Box<str>)| !name.is_empty()).collect()
+}
+
 fn macros(p: &Parameters) -> BTreeMap<Box<str>, Box<str>> {
     let named = p.settings().filter(|(_, s)| s.row.key == of::MACRO_NAME.place().row.key);
     let both = |(i, setting): (Indices, &Setting)| {

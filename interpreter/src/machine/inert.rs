@@ -36,6 +36,7 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00004", "S words change no gear"),
     ("P-CHAN-00016", "D takes the data of the tool list"),
     ("P-CHAN-00052", "M40 to M45 change no gear, the spindle keeps the limits of its first one"),
+    ("P-CHAN-00069", "the spindle turns as one of the control does"),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
     ("P-CHAN-00190", "the limits do not depend on the length of a motion"),
     ("P-CHAN-00230", "the limits do not depend on the radius of an arc"),

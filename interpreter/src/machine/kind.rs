@@ -26,6 +26,8 @@ pub(super) mod mode {
     pub(in crate::machine) const LONGITUDINAL_TURNING: u32 = 0x80;
     /// Master of a gantry coupling.
     pub(in crate::machine) const GANTRY_MASTER: u32 = 0x1_0000;
+    /// C axis: `#CYL` and `#FACE` turn the workpiece with it.
+    pub(in crate::machine) const C_AXIS: u32 = 0x200;
     /// Slave of a gantry coupling.
     pub(in crate::machine) const GANTRY_SLAVE: u32 = 0x2_0000;
 }

@@ -324,10 +324,9 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         let problem = if *number == 0 {
             Some(format!("{name}: logical axis number 0 is not allowed"))
         } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
-            // the manual has no number for two spindles
             condition = match (first.spindle, named.spindle) {
                 (false, false) => Condition::PathAxisNumberTwice,
-                (true, true) => Condition::ListLink,
+                (true, true) => Condition::SpindleNumberTwice,
                 _ => Condition::SpindleIsPathAxis,
             };
             Some(format!("{name}: logical axis number {number} is that of {} already", first.name))

@@ -65,11 +65,18 @@ pub(super) fn invalid(text: &str, span: Span) -> Problem {
         .hint("characters outside the dialect are allowed only in comments and strings")
 }
 
-/// 20386 for the bracket at `at`.
-pub(super) fn too_deep(at: usize) -> Problem {
+/// 20386 for the bracket at `at`, 20927 if it is that of a parameter.
+///
+/// Assumption: the limit of both is the same, 20927 prints none.
+pub(super) fn too_deep(text: &str, at: usize) -> Problem {
     let limit = super::NESTING_MAX;
     let span = Span::new(at, at + 1);
-    Problem::new(Condition::BracketNesting, span, format!("brackets nested more than {limit} deep"))
+    let (condition, what) = if text[..at].trim_ascii_end().ends_with(['P', 'p']) {
+        (Condition::ParameterNesting, "parameters")
+    } else {
+        (Condition::BracketNesting, "brackets")
+    };
+    Problem::new(condition, span, format!("{what} nested more than {limit} deep"))
 }
 
 /// Something like `[1,2] + 3` in the brackets of a command.

@@ -108,6 +108,19 @@ impl Decoder {
                 if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
                     return Err(self.axis_twice(axis, group.span));
                 }
+                let name = self.names.name(axis);
+                let outputs = &self.machine.channel.m_outputs;
+                let of_axis = words.m.iter().find(|m| {
+                    outputs.get(&m.number).is_some_and(|output| output.eq_ignore_ascii_case(name))
+                });
+                if let Some(m) = of_axis {
+                    let text = format!(
+                        "M{} of the list goes to {name}, which moves independently",
+                        m.number
+                    );
+                    return Err(Fault::new(Condition::FunctionOfIndependent, text, m.span)
+                        .with(|d| d.parameter("P-CHAN-00039")));
+                }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
             // OSC_ON: as the diagnosis manual writes it, 120470
@@ -142,6 +155,10 @@ impl Decoder {
                 _,
             )) => {
                 self.lifting(word, *span)?;
+                if spindle::is_internal(&word.text) {
+                    let text = format!("{} in the bracket of an axis", word.text);
+                    return Err(Fault::new(Condition::InternalFunction, text, *span));
+                }
                 let name = self.names.name(axis);
                 Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
             }

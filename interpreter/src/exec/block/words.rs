@@ -171,12 +171,12 @@ impl Decoder {
                 Ok(())
             }
             WordKind::Hash(hash) => {
-                let angles = ["ANG", "CANG", "FRC"];
-                if angles.contains(&&*hash.name)
+                let keys = ["ANG", "CANG", "FRC", "CHR", "CHF", "RND"];
+                if keys.contains(&&*hash.name)
                     && block.hashes.iter().any(|(other, _, _)| other.name == hash.name)
                 {
                     let text = format!("#{} twice in one block", hash.name);
-                    return Err(Fault::new(Condition::Syntax, text, span));
+                    return Err(Fault::new(Condition::BlockKeyTwice, text, span));
                 }
                 let value = match &hash.value {
                     Some(expr) => Some(self.number(expr)?),
@@ -443,6 +443,10 @@ fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
         second.group.name()
     );
     let dwells = first.act == Act::Dwell && second.act == Act::Dwell;
-    let condition = if dwells { Condition::DwellTwice } else { second.group.duplicate() };
+    let condition = match (dwells, first.number, second.number) {
+        (true, _, _) => Condition::DwellTwice,
+        (false, 310, 310) => Condition::InterruptibleTwice,
+        _ => second.group.duplicate(),
+    };
     Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, second.number, "-"))
 }

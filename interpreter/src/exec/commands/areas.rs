@@ -22,7 +22,7 @@ const ID_MAX: f64 = 20.0;
 arguments! {
     /// Keys of `#CONTROL AREA BEGIN`.
     struct AreaArguments {
-        id: Number "ID" in between(1.0, ID_MAX).whole().or(Condition::AreaId), "", "";
+        id: Number "ID" in between(0.0, ID_MAX).whole().or(Condition::AreaId), "", "from 1";
         work: Flag "WORK", "", "the tool stays in the area";
         prot: Flag "PROT", "", "the tool does not touch the area";
         poly: Flag "POLY", "", "a closed contour of lines follows";
@@ -76,7 +76,11 @@ fn begin(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = format!("{title}: {what} is missing");
         Fault::new(Condition::AreaWrong, text, span)
     };
-    let Some((number, _)) = keys.id else { return Err(missing("ID")) };
+    let Some((number, at)) = keys.id else { return Err(missing("ID")) };
+    if number == 0.0 {
+        let text = format!("{title}: ID=0 is no area");
+        return Err(Fault::new(Condition::AreaIdZero, text, at));
+    }
     let purpose = match (keys.work, keys.prot) {
         (Some(_), None) => Purpose::Workspace,
         (None, Some(_)) => Purpose::Protection,

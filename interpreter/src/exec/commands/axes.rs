@@ -146,13 +146,24 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     }
     call.no_more_words()?;
     let mut members = vec![false; decoder.machine.axes.len()];
-    let Some(group) = call.command.groups.first() else {
+    let named = match call.command.groups.first() {
+        Some(group) => decoder.names.all_in_command(std::slice::from_ref(group))?,
+        None => Vec::new(),
+    };
+    if named.is_empty() {
         decoder.motion.feed_axes_named = false;
         default_feed_group(decoder);
+        if !decoder.machine.channel.lists_feed_axes {
+            let text = "#FGROUP without axes: the list names none either, the main axes count";
+            decoder.report.note(Fault::new(Condition::FeedGroupDefault, text, call.span()));
+        }
         return Ok(());
-    };
-    for axis in decoder.names.all_in_command(std::slice::from_ref(group))? {
-        members[axis] = true;
+    }
+    for axis in named {
+        if std::mem::replace(&mut members[axis], true) {
+            let text = format!("#FGROUP: {} twice", decoder.names.name(axis));
+            return Err(Fault::new(Condition::FeedGroupTwice, text, call.span()));
+        }
     }
     (decoder.motion.feed_axes, decoder.motion.feed_axes_named) = (members, true);
     decoder.motion.dynamics_changed();

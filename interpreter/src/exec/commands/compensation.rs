@@ -3,12 +3,13 @@
 //! Source: TF5200 programming manual, programmable additional options of TRC.
 
 use super::keys::arguments;
-use super::range::{at_least, between};
+use super::range::between;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
 
 /// Value of `TANGENTIAL_LIMIT` without a word, in degrees.
@@ -129,7 +130,7 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 arguments! {
     /// Keys of `#TANGFEED`.
     struct TangfeedArguments {
-        rmin: Number "RMIN" in at_least(0.0).or(Condition::TangentialRadius), "mm (G70: inch)", "arcs of a smaller radius keep F at the tool's centre; default 0";
+        rmin: Number "RMIN", "mm (G70: inch)", "arcs of a smaller radius keep F at the tool's centre; default 0";
     }
 }
 
@@ -144,10 +145,30 @@ pub(super) const TANGFEED: Row = Row::run("TANGFEED", tangential_feed)
 fn tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let keys = TangfeedArguments::read(decoder, &call.title(), call.command.groups.first())?;
-    if let Some((radius, _)) = keys.rmin {
-        decoder.modal.engagement_radius_mm = radius * decoder.modal.unit_mm();
+    if let Some((radius, at)) = keys.rmin {
+        set_least_radius(decoder, call, radius, at)?;
     }
     Ok(())
+}
+
+/// The least radius of the tangential feed; 20963 below 0, 20962 outside the data format.
+fn set_least_radius(
+    decoder: &mut Decoder,
+    call: &Call<'_>,
+    radius: f64,
+    span: Span,
+) -> Outcome<()> {
+    let radius_mm = radius * decoder.modal.unit_mm();
+    let (condition, what) = match radius_mm {
+        r if r < 0.0 => (Condition::TangentialRadiusNegative, "is negative"),
+        r if r > LARGEST_MM => (Condition::TangentialRadius, "is outside the data format"),
+        _ => {
+            decoder.modal.engagement_radius_mm = radius_mm;
+            return Ok(());
+        }
+    };
+    let text = format!("{}: the least radius {radius} {what}", call.title());
+    Err(Fault::new(condition, text, span))
 }
 
 /// Row of `#SET TANGFEED RMIN`.
@@ -168,10 +189,5 @@ fn set_tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
         }
     };
-    if value < 0.0 {
-        let text = format!("#SET TANGFEED RMIN: {value} is negative");
-        return Err(Fault::new(Condition::Range, text, call.span()));
-    }
-    decoder.modal.engagement_radius_mm = value * decoder.modal.unit_mm();
-    Ok(())
+    set_least_radius(decoder, call, value, call.span())
 }

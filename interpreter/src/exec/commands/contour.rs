@@ -24,6 +24,7 @@ arguments! {
         ptp: Flag "PTP", "", "PATH_DEV or PATH_DIST";
         auto_dev: Flag "AUTO_DEV", "", "as DEV";
         auto_vel: MaybeNumber "AUTO_VEL", "", "not supported";
+        vel: MaybeNumber "VEL", "", "of AUTO_VEL, not supported";
         path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 1";
         pre_dist: Number "PRE_DIST" in at_least(0.0), "mm", "default 1";
         post_dist: Number "POST_DIST" in at_least(0.0), "mm", "default 1";
@@ -139,8 +140,8 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut settings = decoder.contour.contouring;
     let group = points(decoder, call.command.groups.first(), &mut settings)?;
     let keys = ContourArguments::read(decoder, &call.title(), group.as_ref())?;
-    let unsupported = keys.auto_vel.map(|(_, at)| at).or(keys.sym_dist.map(|(_, at)| at));
-    if let Some(span) = unsupported {
+    let [mode, speed] = [keys.auto_vel, keys.vel].map(|key| key.map(|(_, at)| at));
+    if let Some(span) = mode.or(speed).or(keys.sym_dist.map(|(_, at)| at)) {
         return Err(Fault::unsupported("#CONTOUR MODE [AUTO_VEL] and [SYM_DIST]", span));
     }
     at_least_an_increment(Condition::PathDevTooSmall, "PATH_DEV", keys.path_dev, unit)?;
@@ -184,6 +185,11 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if decoder.modal.contouring && soft && old != settings.mode {
         let text = "#CONTOUR MODE to or from DIST_SOFT while contouring is active (G261)";
         return Err(Fault::new(Condition::SoftContouringActive, text, call.span()));
+    }
+    let master = decoder.machine.axes.iter().find(|axis| axis.is_gantry_master());
+    if let (Mode::DistSoft, Some(master)) = (settings.mode, master) {
+        let text = format!("#CONTOUR MODE [DIST_SOFT]: {} is a gantry master", master.name());
+        return Err(Fault::new(Condition::SoftContouringOfMaster, text, call.span()));
     }
     decoder.contour.contouring = settings;
     for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
@@ -273,6 +279,7 @@ arguments! {
         _auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "always so here";
         max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks stay";
         max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners stay";
+        surface: Flag "SURFACE", "", "not supported";
         opmode: Number "OPMODE", "", "1: corners within CONTERROR";
         conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
     }
@@ -293,15 +300,31 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let unit = decoder.tolerance_unit_mm();
     let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let mut hsc = decoder.contour.hsc;
-    if let Some((mode, span)) = keys.opmode {
-        match crate::exec::values::number::whole(mode, 1, 2) {
-            Some(1) => hsc.rounds_corners = true,
-            Some(_) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
-            None => {
-                let text = format!("OPMODE={mode}, allowed are 1 and 2");
-                return Err(Fault::new(Condition::Range, text, span));
-            }
+    let opmode = keys
+        .opmode
+        .map(|(mode, span)| (crate::exec::values::number::whole(mode, 1, 2), mode, span));
+    let active = hsc.on && call.command.on != Some(false);
+    let other = match (keys.bspline, opmode) {
+        (Some(span), _) => hsc.rounds_corners.then_some(span),
+        (None, Some((Some(1), _, span))) => (!hsc.rounds_corners).then_some(span),
+        (None, Some((Some(2), _, span))) => Some(span),
+        _ => keys.surface,
+    };
+    if let (true, Some(span)) = (active, other) {
+        let text = "#HSC: another mode while it is on";
+        return Err(Fault::new(Condition::HscModeWhileOn, text, span));
+    }
+    if let Some(span) = keys.surface {
+        return Err(Fault::unsupported("#HSC [SURFACE]", span));
+    }
+    match opmode {
+        Some((Some(1), _, _)) => hsc.rounds_corners = true,
+        Some((Some(_), _, span)) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
+        Some((None, mode, span)) => {
+            let text = format!("OPMODE={mode}, allowed are 1 and 2");
+            return Err(Fault::new(Condition::Range, text, span));
         }
+        None => {}
     }
     if keys.bspline.is_some() {
         hsc.rounds_corners = false;

@@ -307,18 +307,47 @@ pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "#TLC ON while tool radius compensation is active";
         return Err(Fault::new(Condition::LengthWithCompensation, text, call.span()));
     }
-    let names = call.command.groups.iter().flat_map(|group| &group.items);
-    let unknown = names.filter(|_| call.name != "TLC").find_map(|item| match &item.kind {
-        ItemKind::Flag(word) if decoder.names.of_name(&word.text).is_none() => Some(word),
-        _ => None,
-    });
-    if let Some(word) = unknown {
-        let text = format!("{}: unknown axis {}", call.title(), word.text);
-        return Err(
-            Fault::new(Condition::CommandAxisUnknown, text, word.span).hint(decoder.names.hint())
-        );
+    if call.name != "TLC" {
+        rotary_surface(decoder, call)?;
     }
     Err(super::refused::refused(decoder, call))
+}
+
+/// What the manual calls a mistake in `#CYL [Z, C, X60]` and `#FACE [X, C]`: the axes of the surface, and the radius of the
+/// cylinder as a word of the third one.
+fn rotary_surface(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    let mut named = Vec::new();
+    for item in call.command.groups.iter().flat_map(|group| &group.items) {
+        let ItemKind::Flag(word) = &item.kind else { continue };
+        let (name, radius) = match word.split_number() {
+            Some((name, number)) if decoder.names.of_name(&word.text).is_none() => {
+                (name, Some(number))
+            }
+            _ => (&*word.text, None),
+        };
+        let Some(axis) = decoder.names.of_name(name) else {
+            let text = format!("{}: unknown axis {}", call.title(), word.text);
+            let fault = Fault::new(Condition::CommandAxisUnknown, text, word.span);
+            return Err(fault.hint(decoder.names.hint()));
+        };
+        match radius {
+            Some(radius) if radius <= 0.0 => {
+                let text = format!("{}: the radius {radius} is no radius", call.title());
+                return Err(Fault::new(Condition::CylinderRadius, text, word.span));
+            }
+            Some(_) => {}
+            None => named.push(axis),
+        }
+    }
+    let surface = named.get(..2).unwrap_or_default();
+    let rotating = surface.iter().filter(|axis| decoder.machine.axes[**axis].is_c_axis()).count();
+    let (condition, what) = match (surface.len(), rotating) {
+        (2, 0) => (Condition::NoCAxis, "neither axis is a C axis"),
+        (2, 2) if call.name == "FACE" => (Condition::TwoCAxes, "both axes are C axes"),
+        _ => return Ok(()),
+    };
+    let text = format!("{}: {what} (kenngr.achs_mode 0x200)", call.title());
+    Err(Fault::new(condition, text, call.span()))
 }
 
 /// `#TRAFO`, `#RTCP`, `#KIN ID`, `#PTP`, `#ORI MODE`: kinematics.

@@ -16,6 +16,7 @@ const KEY_TWICE: &[(&str, Condition)] = &[
     ("FACE", Condition::FaceKeyTwice),
     ("IDENT", Condition::IdentKeyTwice),
     ("MCS TO WCS", Condition::ConversionTwice),
+    ("SINGLE STEP", Condition::SingleStepTwice),
     ("TGC", Condition::HeightKeyTwice),
     ("TOOL DEF", Condition::ToolKeyTwice),
     ("WCS TO MCS", Condition::ConversionTwice),
@@ -27,11 +28,8 @@ pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
         let text = format!("{}: there is nothing in its brackets", call.title());
         return Fault::new(Condition::EmptyBracket, text, call.span());
     }
-    if let Some((_, condition)) = KEY_TWICE.iter().find(|(name, _)| *name == call.name)
-        && let Some(key) = key_twice(call.command)
-    {
-        let text = format!("{}: {} twice", call.title(), key.text);
-        return Fault::new(*condition, text, key.span);
+    if let Some(fault) = keys_wrong(call) {
+        return fault;
     }
     if matches!(call.name, "WCS TO MCS" | "MCS TO WCS")
         && decoder.geometry.coordinates.systems() > 0
@@ -95,6 +93,19 @@ fn real_time_loop(decoder: &mut Decoder, call: &Call<'_>) -> Option<Box<Fault>> 
         return fault(Condition::LoopEndWithoutLoop, "without #RT WHILE");
     }
     None
+}
+
+/// A key twice, or two that exclude each other, in a command that the simulation does not carry out.
+pub(super) fn keys_wrong(call: &Call<'_>) -> Option<Box<Fault>> {
+    let (_, condition) = KEY_TWICE.iter().find(|(name, _)| *name == call.name)?;
+    if let Some(key) = key_twice(call.command) {
+        let text = format!("{}: {} twice", call.title(), key.text);
+        return Some(Fault::new(*condition, text, key.span));
+    }
+    let written = |name: &str| keys(call.command).find(|key| key.is(name));
+    let (Some(_), Some(second)) = (written("ENABLE"), written("DISABLE")) else { return None };
+    let text = format!("{}: ENABLE and DISABLE exclude each other", call.title());
+    Some(Fault::new(*condition, text, second.span))
 }
 
 /// Names of the items in brackets.

@@ -107,6 +107,10 @@ impl<'c> Words<'c> {
                 return Err(Fault::new(Condition::SignalNumberTwice, text, span));
             }
             "ID" => self.id = Some(value),
+            "COUNT" if self.count.is_some() => {
+                let text = format!("{}: COUNT twice", call.title());
+                return Err(Fault::new(Condition::SignalCountTwice, text, span));
+            }
             "COUNT" => self.count = Some(value),
             _ => self.channels.push(value),
         }

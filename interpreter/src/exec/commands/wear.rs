@@ -51,6 +51,15 @@ fn wear(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         ("WEAR_CONST_TOOL", keys.wear_const_tool),
     ])?;
     let mut setting = decoder.motion.wear;
+    let refused = match (call.command.on, setting.on) {
+        (Some(false), false) => Some((Condition::WearNotOn, "OFF without ON")),
+        (Some(true), true) => Some((Condition::WearOnTwice, "ON while it is on")),
+        (None, true) => Some((Condition::WearSetWhileOn, "settings while it is on")),
+        _ => None,
+    };
+    if let Some((condition, what)) = refused {
+        return Err(Fault::new(condition, format!("#OTC: {what}"), call.span()));
+    }
     if keys.radius.or(keys.length).is_some() {
         setting.radius = keys.radius.is_some();
     }

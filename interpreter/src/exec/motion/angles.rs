@@ -67,7 +67,7 @@ impl Decoder {
         let plane = [main[0], main[1]].map(|m| self.geometry.coordinates.main_axis(m));
         let [Some(first), Some(second)] = plane else {
             let text = "the plane of #ANG has no axis in the channel";
-            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+            return Err(Fault::new(Condition::MainAxisMissing, text, span));
         };
         let word = |axis: usize| words.axes.iter().position(|(a, _, _)| *a == axis);
         let here = [first, second].map(|axis| self.geometry.coordinates.programmed(axis));

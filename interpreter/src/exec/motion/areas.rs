@@ -43,7 +43,8 @@ impl Decoder {
             return Err(Fault::new(Condition::AreaInThread, text, span));
         }
         if areas.is_defining() {
-            return Err(wrong("the control area before this one has no #CONTROL AREA END", span));
+            let text = "the control area before this one has no #CONTROL AREA END";
+            return Err(Fault::new(Condition::AreaOpen, text, span));
         }
         if areas.is_active(number) {
             return Err(wrong(format!("control area {number} is active: it cannot change"), span));
@@ -109,7 +110,9 @@ impl Decoder {
     /// `#CONTROL AREA END`.
     pub(in crate::exec) fn end_area(&mut self, span: Span) -> Outcome<()> {
         let Some(draft) = self.motion.areas.draft.take() else {
-            return Err(wrong("#CONTROL AREA END without BEGIN", span));
+            let text = "#CONTROL AREA END without BEGIN, ignored";
+            self.report.note(Fault::new(Condition::AreaNotBegun, text, span));
+            return Ok(());
         };
         self.geometry.coordinates.set_target(&draft.before);
         let area = self.area_of(*draft, span)?;

@@ -93,7 +93,7 @@ impl Decoder {
             };
             return Err(Fault::new(condition, text, at));
         }
-        let axis = self.face_turning_axis(at)?;
+        let axis = self.face_turning_axis("G96", Condition::CuttingWithoutFaceAxis, at)?;
         self.no_spindle_override("G96", at)?;
         let listed = self.motion.spindles[0].index.and_then(|i| self.machine.spindles.get(i));
         let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else {
@@ -127,13 +127,24 @@ impl Decoder {
     }
 
     /// The one axis of the plane that P-AXIS-00015 marks.
-    fn marked_face_axis(&self) -> Option<usize> {
+    ///
+    /// # Errors
+    /// `none` if there is none, 20064 if both are marked.
+    fn face_turning_axis(&self, function: &str, none: Condition, span: Span) -> Outcome<usize> {
         let [a, b, _] = self.modal.plane.main_axes();
         let axes = [a, b].into_iter().filter_map(|m| self.geometry.coordinates.main_axis(m));
         let mut marked = axes.filter(|i| self.machine.axes[*i].is_face_turning());
+        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
         match (marked.next(), marked.next()) {
-            (Some(axis), None) => Some(axis),
-            _ => None,
+            (Some(axis), None) => Ok(axis),
+            (Some(_), Some(_)) => {
+                let text = format!("{function} needs one face turning axis, the plane has two");
+                Err(Fault::new(Condition::TwoFaceTurningAxes, text, span).hint(hint))
+            }
+            (None, _) => {
+                let text = format!("{function} needs a face turning axis, the plane has none");
+                Err(Fault::new(none, text, span).hint(hint))
+            }
         }
     }
 
@@ -147,10 +158,7 @@ impl Decoder {
             self.modal.diameter = None;
             return Ok(());
         }
-        let Some(axis) = self.marked_face_axis() else {
-            let text = "G51 needs exactly one face turning axis in the plane";
-            return Err(Fault::new(Condition::NoFaceTurningAxis, text, span));
-        };
+        let axis = self.face_turning_axis("G51", Condition::NoFaceTurningAxis, span)?;
         if self.machine.channel.offsets_in_diameters {
             let what = "diameter programming with offsets in diameters (P-CHAN-00091)";
             return Err(Fault::unsupported(what, span));
@@ -173,15 +181,6 @@ impl Decoder {
             self.modal.diameter == Some(axis) && self.machine.axes[axis].takes_diameters(absolute);
         let unit = self.axis_unit(axis) * if halves { 0.5 } else { 1.0 };
         unit * self.geometry.scale.factor(axis)
-    }
-
-    fn face_turning_axis(&self, span: Span) -> Outcome<usize> {
-        if let Some(axis) = self.marked_face_axis() {
-            return Ok(axis);
-        }
-        let text = "G96 needs exactly one face turning axis in the plane";
-        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
-        Err(Fault::new(Condition::FaceTurningAxis, text, span).hint(hint))
     }
 
     /// Informs the simulation.

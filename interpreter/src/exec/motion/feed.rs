@@ -30,6 +30,10 @@ impl Decoder {
             // the block is left out, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
+        if self.feed_type() != self.modal.feed_type {
+            let text = "G93 in a B-spline: F counts in mm/min";
+            self.report.note_once("120847", Fault::new(Condition::TimeInSpline, text, span));
+        }
         let main = &self.motion.spindles[0];
         if self.modal.feed_type == FeedType::PerRevolution
             && main.index.is_some()
@@ -44,9 +48,17 @@ impl Decoder {
         self.feed_from(word.value, unit_mm, span)
     }
 
+    /// The feed type that counts: in a B-spline that of G94 takes the place of G93 (120847).
+    fn feed_type(&self) -> FeedType {
+        match self.modal.feed_type {
+            FeedType::Time if self.contour.hsc.spline().is_some() => FeedType::PerMinute,
+            other => other,
+        }
+    }
+
     /// Feed that a value above 0 means under the active feed type, with the unit of a way in mm.
     pub(in crate::exec) fn feed_from(&self, value: f64, unit_mm: f64, span: Span) -> Outcome<Feed> {
-        Ok(match self.modal.feed_type {
+        Ok(match self.feed_type() {
             FeedType::PerMinute => {
                 Feed::PathVelocity(value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0)
             }

@@ -39,10 +39,8 @@ fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
 /// Sets a word that may appear once.
 fn once<T>(slot: &mut Option<T>, value: T, what: &str, span: Span) -> Outcome<()> {
     if slot.replace(value).is_some() {
-        return Err(wrong(
-            format!("{what} twice in a bracket: the axis would move as the last one says"),
-            span,
-        ));
+        let text = format!("{what} twice in a bracket: the axis would move as the last one says");
+        return Err(Fault::new(Condition::IndependentRedundant, text, span));
     }
     Ok(())
 }
@@ -148,6 +146,11 @@ impl Decoder {
     }
 
     fn independent_flag(&self, axis: usize, word: &Ident, words: &mut Words) -> Outcome<()> {
+        let kind = self.motion.measuring.kind;
+        if word.is("G100") && !matches!(kind, 1 | 2 | 7) {
+            let text = format!("G100 of an independent axis with measuring type {kind}");
+            return Err(Fault::new(Condition::IndependentMeasuring, text, word.span));
+        }
         if UNSUPPORTED.iter().any(|w| word.is(w)) {
             let what = format!("{} of an independent axis", word.text);
             return Err(Fault::unsupported(what, word.span));

@@ -163,7 +163,8 @@ impl Decoder {
             return Err(Fault::new(Condition::NoMeasuringAxis, text, g.span).hint(hint));
         }
         if self.modal.compensation != Compensation::Off {
-            return Err(Fault::unsupported("measuring with tool radius compensation", g.span));
+            let text = "a measuring run while tool radius compensation is active";
+            return Err(Fault::new(Condition::MeasuringCompensated, text, g.span));
         }
         if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
             let text = "a measuring run while contouring is on";

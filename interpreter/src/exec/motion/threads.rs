@@ -196,6 +196,12 @@ impl Decoder {
     fn pitch(&self, path: &Path, span: Span) -> Outcome<(usize, f64)> {
         let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
         let mut best: Option<(usize, f64)> = None;
+        let pitches = self.motion.threads.pitch_mm.iter().enumerate();
+        let absent = |main| self.geometry.coordinates.main_axis(main).is_none();
+        if pitches.clone().any(|(main, pitch)| pitch.is_some() && absent(main)) {
+            let text = "the channel has no axis for the pitch of the thread (I, J or K)";
+            return Err(Fault::new(Condition::PitchAxisMissing, text, span));
+        }
         for (main, pitch) in self.motion.threads.pitch_mm.iter().enumerate() {
             let (Some(pitch), Some(axis)) = (pitch, self.geometry.coordinates.main_axis(main))
             else {

@@ -37,9 +37,7 @@ impl Decoder {
         let Some(index) = self.motion.spindles.iter().position(of_number) else {
             let text = format!("D{data}: no spindle has the logical number {number}");
             let hint = "P-TOOL-00012 of the tool is kopf.achs_nr of a spindle";
-            let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
-            self.report.note_once("P-TOOL-00012", fault.with(|d| d.parameter("P-TOOL-00012")));
-            return Ok(());
+            return Err(Fault::new(Condition::ToolSpindleUnknown, text, span).hint(hint));
         };
         let name = self.motion.spindles[index].name.clone();
         if limits.max_deg_s <= 0.0 || limits.acc_deg_s2 <= 0.0 {

@@ -212,8 +212,8 @@ impl Executor {
     }
 }
 
-/// Highest number of a label. Assumption: that of a block number of 32 bits; 20838 prints no limit.
-const LABEL_MAX: u64 = u32::MAX as u64;
+/// Highest number of a label. Assumption: that of a block number of 32 bits; 20834 and 20838 print no limit.
+pub(in crate::exec::program) const LABEL_MAX: u64 = u32::MAX as u64;
 
 fn label_too_large(number: f64, span: Span) -> Box<Fault> {
     let text = format!("label N{number} is outside the data format");

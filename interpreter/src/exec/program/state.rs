@@ -116,10 +116,21 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) blocks_ahead: [f64; 2],
     /// `#RETAIN CYCLE CHANGES`, or what cycles do: the cycle in work gives nothing back.
     pub(in crate::exec) retain_cycle_changes: bool,
+    /// What `#SAVE CONFIG` has saved in this run.
+    pub(in crate::exec) saved: SavedConfiguration,
     /// `#RT WHILE` without its end so far.
     pub(in crate::exec) real_time_loop: Option<Span>,
     /// `#FILE EXIST`.
     pub(in crate::exec) searched: Searched,
+}
+
+/// What `#SAVE CONFIG` has saved: a run begins without what earlier programs left.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::exec) struct SavedConfiguration {
+    /// The axes of the channel.
+    pub(in crate::exec) axes: bool,
+    /// The axis couplings that are switched on.
+    pub(in crate::exec) couplings: bool,
 }
 
 impl Calls {

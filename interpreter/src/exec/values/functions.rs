@@ -28,6 +28,12 @@ fn arity(function: Function) -> (usize, usize) {
     }
 }
 
+/// 21459.
+fn argument_type(function: Function, expected: &str, span: Span) -> Box<Fault> {
+    let text = format!("{} takes {expected}", function.name());
+    Fault::new(Condition::ArgumentType, text, span)
+}
+
 /// Value of a call.
 pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
     let (low, high) = arity(call.function);
@@ -38,7 +44,13 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
         let condition = if n < low { Condition::TooFewArguments } else { Condition::Syntax };
         return Err(Fault::new(condition, text, span));
     }
-    let arg = |i: usize| decoder.number(&call.arguments[i]);
+    let arg = |i: usize| {
+        let argument = &call.arguments[i];
+        match decoder.value(argument)? {
+            Value::Number(x) => Ok(x),
+            Value::Text(_) => Err(argument_type(call.function, "a number", argument.span)),
+        }
+    };
     let place = || {
         if let ExprKind::Place(place) = &call.arguments[0].kind {
             return Ok(&**place);
@@ -220,9 +232,7 @@ const INTEGER_MAX: f64 = u32::MAX as f64;
 fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
     let text = |i: usize| match decoder.value(&call.arguments[i])? {
         Value::Text(text) => Ok(text.chars().collect::<Vec<char>>()),
-        Value::Number(_) => {
-            Err(Fault::new(Condition::TextExpected, "a text is expected", call.arguments[i].span))
-        }
+        Value::Number(_) => Err(argument_type(call.function, "a text", call.arguments[i].span)),
     };
     let count = |i: usize| {
         let x = decoder.number(&call.arguments[i])?;

@@ -85,14 +85,16 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
-    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i goes; read and ignored, it changes no motion")
-        .source("TF5200 M and H functions 286205579");
+    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i goes: it changes no motion, but the axis cannot move independently in the block of the function")
+        .source("TF5200 M and H functions 286205579"), as M_OUTPUT: Text;
     chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i goes; read and ignored, it changes no motion")
         .source("TF5200 M and H functions 286205579");
     chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; MNE_SNS acts with G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
+    chan("P-CHAN-00069", "spindel[i].plc_control", Raw::Boolean, "the PLC turns the spindle: its bracket takes M3, M4, M5, M19, REV and POS only; simulated as a spindle of the control")
+        .default(0.0).source("TF5200 channel parameters"), as PLC_SPINDLE: Switch;
     chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
     chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")

@@ -5,6 +5,7 @@ macro_rules! lists {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     DeadTime = Vendor 110040: Warning None 1 2, "dead time of the simulated drive above the maximum, limited to 5", cause "P-AXIS-00194", hint "write 0 to 5 cycles";
+    AxisNumberZero = Vendor 110076: Error JobAbort 7 2, "logical axis number is 0", cause "P-AXIS-00016", hint "kopf.achs_nr is 1 or more";
     AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
     ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
     ResolutionPath = Vendor 110086: Warning None 1 2, "encoder resolution (path) is 0, set to 1", cause "P-AXIS-00233", hint "write 1 or more";
@@ -17,6 +18,8 @@ macro_rules! lists {
     FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
     GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
     FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "types are LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2, HSC_MEAN";
+    TimeBaseUnknown = Vendor 110268: Error JobAbort 7 2, "unknown time base of the speed scaling", cause "antr.v_time_base 9", hint "0 per minute, 1 per second, 2 per sampling interval", parameter "P-AXIS-00207";
+    SpeedScaleDenominator = Vendor 110270: Error JobAbort 7 2, "denominator of the speed scaling is 0", cause "antr.v_reso_denom 0", hint "write 1 or more", parameter "P-AXIS-00205";
     GeometricRampTime = Vendor 110276: Warning None 1 2, "geometric ramp time below the shortest ramp time, limited", hint "raise P-AXIS-00199, or lower P-AXIS-00201", parameter "P-AXIS-00199";
     SpindleWithoutType = Vendor 110304: Error ProgramAbort 7 2, "spindle of the channel list whose axis list is not that of a spindle", hint "kenngr.achs_typ ACHSTYP_SPINDEL makes an axis a spindle", parameter "P-AXIS-00018";
     GantryMasterOfMaster = Vendor 110342: Error JobAbort 7 2, "gantry master that has a master itself", cause "kenngr.achs_mode with the bit 0x10000 beside kenngr.gantry_ax_nr", hint "set kenngr.gantry_ax_nr of a master to 0", parameter "P-AXIS-00070";
@@ -33,7 +36,6 @@ macro_rules! lists {
     HscNotFirst = Vendor 110501: Warning None 1 2, "HSC filter is not filter[0], filter off", cause "P-AXIS-00153", hint "write it as filter[0]";
     DeadBand = Vendor 110528: Warning None 1 2, "dead band of the position controller above the window, limited", cause "P-AXIS-00395, P-AXIS-00236", hint "write a dead band up to getriebe[i].window";
     GearRatio = Vendor 110579: Warning None 1 2, "gear ratio: output revolutions are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more";
-    AxisNumberZero = Vendor 110597: Error JobAbort 7 2, "list for axis number 0, not loaded", cause "P-AXIS-00016", hint "kopf.achs_nr is 1 or more";
     WithoutDelayNeedsVelocityOnly = Vendor 110624: Warning None 1 2, "feedforward without delay together with acceleration or jerk, these are switched off", cause "P-AXIS-00566, P-AXIS-00223", hint "allow velocity feedforward only (P-AXIS-00223 VEL), or drop feedforward_without_delay";
     WeightMode = Vendor 120020: Error ProgramAbort 6 0, "unknown mode of the weights of ramp times", cause "#SET SLOPE PROFIL [1,7,0]", hint "0 all, 1 to 4 one of the ramp times";
     FirstStageZero = Vendor 120028: Warning None 1 2, "acceleration of stage 1 weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00011";
@@ -48,7 +50,7 @@ macro_rules! lists {
     CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";
     CuttingSpeedNegative = Vendor 120167: Error ProgramAbort 6 1, "cutting speed not above 0", cause "G96 S-5", hint "S is the cutting speed in m/min under G96";
     CuttingSpeedMax = Vendor 120169: Error ProgramAbort 3 1, "highest spindle speed of G196 not above 0", hint "G196 S2500";
-    FaceTurningAxis = Vendor 120170: Error ProgramAbort 6 1, "G96 without exactly one face turning axis in the plane", cause "G96 S100, P-AXIS-00015 without the bit 0x40", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
+    PitchAxisMissing = Vendor 120173: Error ProgramAbort 6 1, "pitch of a thread along a main axis that the channel does not have", cause "#PUT AX [Z], then G33 X10 K1", hint "I, J and K are pitches along the first, second and third main axis";
     SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "P-CHAN-00073", hint "0 all, 1 to 4 one of the ramp times", parameter "P-CHAN-00073";
     SplineWithoutMainAxis = Vendor 120180: Error ProgramAbort 6 0, "a point of a spline moves no main axis", cause "G151 with tracking axes alone", hint "move tracking axes together with main axes";
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
@@ -57,6 +59,7 @@ macro_rules! lists {
     SplineWithContouring = Vendor 120255: Error ProgramAbort 3 0, "spline together with contouring or #HSC", cause "G151 under G261", hint "write G260 or #HSC OFF before G151";
     CouplingWithContouring = Vendor 120333: Error ProgramAbort 3 0, "axis coupling switched while contouring is active", cause "#ENABLE AX LINK under G261", hint "write G260 before it";
     SplineInSurface = Vendor 120370: Error ProgramAbort 3 0, "spline selected while free-form surface mode is active", cause "G151 after #HSC ON [BSPLINE]", hint "write #HSC OFF before G151";
+    HscModeWhileOn = Vendor 120378: Error ProgramAbort 6 1, "mode of #HSC changed while it is on", cause "#HSC ON [OPMODE=1], then #HSC [BSPLINE]", hint "write #HSC OFF before it";
     FeedGroupOfArc = Vendor 120462: Warning None 1 1, "feed group does not fit an arc", cause "#FGROUP [X] and G02 in the plane X, Y", hint "#FGROUP names all axes of the arc, or none of the main axes";
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
     AreaOverlaps = Vendor 120477: Error ProgramAbort 6 1, "sides of a control area cross each other", hint "write the corners in their order round the area";
@@ -72,6 +75,7 @@ macro_rules! lists {
     AreaAxisMissing = Vendor 120740: Error ProgramAbort 6 1, "axis of a control area that is not in the channel", cause "#PUT AX [Y] before #CONTROL AREA ON", hint "call the axis back with #CALL AX";
     AreaAxisAlone = Vendor 120742: Error ProgramAbort 6 1, "independent axis of a control area", cause "X[INDP_ASYN ..] while an area of X is watched", hint "write #CONTROL AREA OFF [ID=..] before it";
     AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis that is not allowed in the circle of a control area", cause "G02 with an axis that is not a main axis", hint "the base of CIRC lies in main axes";
+    TimeInSpline = Vendor 120847: Warning None 1 1, "G93 in a B-spline, F counts as under G94", cause "#HSC ON [BSPLINE], then G93", hint "write G94 with F in mm/min before #HSC";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "numbers are written 10, -10, 1.5 or 0x101";
         }

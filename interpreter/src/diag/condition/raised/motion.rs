@@ -24,6 +24,7 @@ macro_rules! motion {
     FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";
     FilterOrderTooHigh = Vendor 50911: Warning None 1 0, "filter order too high", hint "lower the order";
     FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
+    FlushInOptional = Vendor 51081: Error ProgramAbort 6 1, "#FLUSH WAIT in a sequence that may be skipped", cause "#FLUSH WAIT between #OPTIONAL EXECUTION ON and OFF", hint "write it before ON or after OFF";
     SpindleSpeedError = Vendor 60101: Error AllStop 6 0, "spindle speed limit exceeded", cause "+9 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpindleSpeedWarning = Vendor 60102: Warning None 1 0, "spindle speed above the warning level", cause "+5 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpindleAtRestAtFeed = Vendor 60131: Error AllStop 6 0, "feed per revolution with a spindle at rest", cause "G95 before M3 and S", hint "start the spindle first: S1000 M3";

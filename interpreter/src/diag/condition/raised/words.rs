@@ -20,7 +20,9 @@ macro_rules! words {
     AxesWithoutManual = Vendor 20037: Error ProgramAbort 3 1, "#ACHSE without G200, G201 or G202", hint "write G201 #ACHSE[X]";
     ManualWithoutAxis = Vendor 20038: Error ProgramAbort 3 1, "G201 without an axis", hint "write G201 X1 or G201 #ACHSE[X]";
     NoFaceTurningAxis = Vendor 20042: Error ProgramAbort 3 1, "no face turning axis in the plane of G51", hint "set the bit 0x40 of P-AXIS-00015 for exactly one axis of the plane", parameter "P-AXIS-00015";
+    MeasuringCompensated = Vendor 20049: Error ProgramAbort 3 1, "measuring run while tool radius compensation is active", cause "G100 between G41 and G40", hint "write G40 before it";
     CentreTooFar = Vendor 20054: Error ProgramAbort 3 1, "centre of an arc by its radius outside the data format", cause "G02 X1 R1000000", hint "coordinates of the centre reach up to 214748.3647 mm: a straight line does the same";
+    TwoFaceTurningAxes = Vendor 20064: Error ProgramAbort 3 1, "two face turning axes in one plane", hint "set the bit 0x40 of P-AXIS-00015 for one axis of the plane only", parameter "P-AXIS-00015";
     ToolRadiusTwice = Vendor 20083: Error ProgramAbort 3 1, "tool radius written in the block of a D word", cause "D1 V.G.WZ_AKT.R=3", hint "write the radius in a later block";
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
@@ -118,6 +120,7 @@ macro_rules! words {
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
     SpindleNameTwice = Vendor 20419: Error JobAbort 1 2, "two spindles of the channel list have one name", hint "give every spindle its own name", parameter "P-CHAN-00007";
+    SpindleNumberTwice = Vendor 20420: Error JobAbort 1 2, "two spindles of the channel list have one logical number", cause "spindel[1].log_achs_nr 4 beside spindel[0]", hint "give every spindle its own number, the one in its axis list", parameter "P-CHAN-00036";
     PathAxisNumberTwice = Vendor 20423: Error JobAbort 1 2, "two path axes of the channel list have one logical number", cause "gruppe[0].achse[1].log_achs_nr 1 beside achse[0]", hint "give every axis its own number, the one in its axis list", parameter "P-CHAN-00035";
     PathAxisNameTwice = Vendor 20424: Error JobAbort 1 2, "two path axes of the channel list have one name", hint "give every axis its own name", parameter "P-CHAN-00006";
     PathAxisName = Vendor 20425: Warning None 1 2, "axis name of the channel list too long or with a wrong first letter, replaced", cause "gruppe[0].achse[0].bezeichnung K", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters", parameter "P-CHAN-00006";
@@ -159,6 +162,7 @@ macro_rules! words {
     MaskedGroupFormat = Vendor 20583: Error ProgramAbort 3 1, "group of G160 outside the data format", cause "G160=-1 X1", hint "groups are whole numbers from 0";
     MaskedGroup = Vendor 20584: Error ProgramAbort 3 1, "group of G160 is not in the table of zero offsets", cause "G160=500 X1", hint "groups are 0 to 96";
     ZeroOffsetDefault = Vendor 20585: Error ProgramAbort 6 2, "default zero offset outside the groups", cause "default_index 200", hint "groups are 0 to 96", parameter "P-ZERO-00002";
+    ConditionalNesting = Vendor 20590: Error ProgramAbort 3 1, "#IF nested too deeply", hint "move a part into a subroutine";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetTooLarge = Vendor 20604: Error ProgramAbort 3 1, "position of #PSET outside the data format", cause "#PSET X94967296", hint "coordinates reach up to 214748.3647 mm or deg";
     PresetWithPath = Vendor 20607: Error ProgramAbort 3 1, "#PSET or #PRESET in the block of a function of the path", cause "G01 F1000 #PSET X200", hint "write the G function in a separate block";
@@ -167,6 +171,7 @@ macro_rules! words {
     PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before it";
     MacroNameLength = Vendor 20614: Error ProgramAbort 3 1, "name of a macro too long", cause "P-CHAN-00511, 30 characters by default", hint "shorten the name", parameter "P-CHAN-00511";
     CuttingSpeedLimited = Vendor 20633: Warning None 1 1, "too near to the turning centre for G96: spindle speed limited", cause "G96 at X0", hint "select G96 further out, or raise G196";
+    CuttingWithoutFaceAxis = Vendor 20634: Error ProgramAbort 3 1, "G96 without a face turning axis in the plane", cause "G96 S100, P-AXIS-00015 without the bit 0x40", hint "set the bit 0x40 of P-AXIS-00015 for one axis of the plane", parameter "P-AXIS-00015";
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
     TappingWithSpeedLimit = Vendor 20637: Error ProgramAbort 3 1, "tapping and G196 in one block", hint "write G196 in another block";
@@ -205,6 +210,7 @@ macro_rules! words {
     CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "five systems are stored at most, with numbers above 0";
     NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
     ActiveSystemDefined = Vendor 20825: Error ProgramAbort 3 1, "active coordinate system defined anew", cause "#CS ON [1][..] while system 1 is active", hint "write #CS OFF before it, or take another number";
+    LabelNumberTooLarge = Vendor 20834: Error ProgramAbort 3 1, "number of a label outside the data format", cause "N99999999999: X2", hint "label numbers are at most 4294967295";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
     LabelTooLarge = Vendor 20838: Error ProgramAbort 3 1, "label number outside the data format", cause "$GOTO N99999999999", hint "label numbers are at most 4294967295";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "$GOTO is not followed by a label", hint "write $GOTO N20 or $GOTO [NAME]";
@@ -218,6 +224,9 @@ macro_rules! words {
     ExistArgument = Vendor 20868: Error ProgramAbort 3 1, "EXIST without the name of a parameter or variable", hint "write EXIST[P1] or EXIST[V.P.NAME]";
     CommandAxisUnknown = Vendor 20875: Error ProgramAbort 3 1, "unknown axis in #FACE or #CYL", cause "#CYL [X, J] on a machine without an axis J", hint "name axes of the channel";
     SpindleAxisComma = Vendor 20880: Error ProgramAbort 3 1, "comma missing in #CAX", cause "#CAX[S C]", hint "#CAX[S,C]";
+    TwoCAxes = Vendor 20885: Error ProgramAbort 3 1, "both axes of #FACE are C axes", cause "#FACE [C, B]", hint "one of the two is a linear axis", parameter "P-AXIS-00015";
+    NoCAxis = Vendor 20886: Error ProgramAbort 3 1, "no C axis among the axes of #CYL or #FACE", cause "#CYL [Z, X, X60]", hint "the axis list of the C axis has kenngr.achs_mode 0x204", parameter "P-AXIS-00015";
+    CylinderRadius = Vendor 20902: Error ProgramAbort 3 1, "radius of the cylinder of #CYL not above 0", cause "#CYL [Z, C, X0]", hint "write the radius after the third axis: X60";
     DeclarationCharacter = Vendor 20904: Error ProgramAbort 3 1, "wrong character in the declaration of a variable or parameter", cause "V.L.TAB[2]=[1;2]", hint "write V.P.NAME : TYPE = value; values of arrays are separated by commas";
     VariableIndex = Vendor 20906: Error ProgramAbort 3 1, "index outside an array variable", hint "indices begin at 0; SIZEOF[V.P.NAME] is the size";
     VariableType = Vendor 20908: Error ProgramAbort 3 1, "variable type cannot be declared", hint "types are BOOLEAN, SGN08, UNS08, SGN16, UNS16, SGN32, UNS32, REAL64, STRING[n]";
@@ -228,18 +237,22 @@ macro_rules! words {
     ParameterExists = Vendor 20919: Error ProgramAbort 3 1, "parameter exists already", cause "two #VAR of one array", hint "leave the second declaration out, or remove the parameter by #DELETE before it";
     ArrayNotDeclared = Vendor 20921: Error ProgramAbort 3 1, "P array not declared", hint "declare it between #VAR and #ENDVAR";
     ParameterUnknown = Vendor 20925: Error ProgramAbort 3 1, "unknown parameter", cause "read before it was written, or with other dimensions than declared", hint "assign a value before it is read: P1=5";
+    ParameterNesting = Vendor 20927: Error ProgramAbort 3 1, "parameters nested too deeply", cause "P2=P[P[P[..]]]", hint "read a part of it into another parameter before";
     DeletedNotOwn = Vendor 20931: Error ProgramAbort 3 1, "#DELETE of a variable that the program has not defined", cause "#DELETE V.A.ABS.X", hint "only P parameters and V.P, V.L, V.S, V.CYC can be deleted";
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] checks whether it exists";
     DeletedAbove = Vendor 20933: Error ProgramAbort 3 1, "V.CYC variable to be deleted belongs to a level above", cause "#DELETE V.CYC.NAME in a cycle below the one that has created it", hint "delete it in the program that has created it, or leave it to the end of that program";
+    InterruptibleTwice = Vendor 20953: Error ProgramAbort 3 1, "G310 twice in one block", hint "leave one of the two out";
     MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 with G100 or G310", hint "measuring runs are straight";
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     WayAfterDirection = Vendor 20958: Error ProgramAbort 3 1, "negative way of a modulo axis in relative programming", cause "G91 C--200, C-[P1] with a negative P1", hint "the first sign is the direction, the way after it is positive: C+200 or C-200";
-    TangentialRadius = Vendor 20962: Error ProgramAbort 3 1, "least radius of #TANGFEED outside the data format", cause "#TANGFEED [RMIN=-5]", hint "a radius is 0 or more";
+    TangentialRadius = Vendor 20962: Error ProgramAbort 3 1, "least radius of #TANGFEED outside the data format", cause "#TANGFEED [RMIN=300000]", hint "a radius is at most 214748.3647 mm";
+    TangentialRadiusNegative = Vendor 20963: Error ProgramAbort 3 1, "least radius of #TANGFEED is negative", cause "#TANGFEED [RMIN=-5]", hint "a radius is 0 or more";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
     SpindleName = Vendor 20971: Warning None 1 2, "spindle name of the channel list that does not begin with S, S is used", cause "spindel[0].bezeichnung C", hint "names of spindles begin with S", parameter "P-CHAN-00007";
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
     TwoDecelerations = Vendor 20977: Error ProgramAbort 3 1, "two of G09/G900/G901", hint "one of G09, G900, G901 per block";
+    RadiusArray = Vendor 20981: Error ProgramAbort 3 1, "array of R parameters", cause "#VAR R20[3] = [1,2,3]", hint "declare P or V.P variables: R is a radius";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before it";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "M3 and M4 set the direction, REV and SPEED are positive";
     SignalNumber = Vendor 20995: Error ProgramAbort 3 1, "negative number of a signal", cause "#SIGNAL [ID=-1]", hint "numbers of signals are 0 or above";

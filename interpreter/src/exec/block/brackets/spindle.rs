@@ -45,6 +45,18 @@ arguments! {
     }
 }
 
+/// M functions of the control, which are not those of an axis or spindle (21192). M0 and M1 may be.
+pub(super) fn is_internal(word: &str) -> bool {
+    let number = word.get(1..).and_then(|digits| digits.parse().ok());
+    is_function(word, 'M') && matches!(number, Some(2..=5 | 17 | 19 | 29 | 30))
+}
+
+/// `G01`, `M30`: a letter and a number.
+fn is_function(word: &str, letter: char) -> bool {
+    let digits = word.strip_prefix([letter, letter.to_ascii_lowercase()]);
+    digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()))
+}
+
 /// What one item of a spindle bracket means.
 enum SpindleItem {
     /// M3, M4, M5, M19.
@@ -109,6 +121,16 @@ impl Decoder {
                 Ok(known) => items.push((known, item.span)),
                 Err(fault) => unknown = unknown.or(Some(fault)),
             }
+        }
+        let of_plc = self.motion.spindles[spindle]
+            .index
+            .and_then(|i| self.machine.channel.plc_spindles.get(i));
+        let own = |i: &SpindleItem| {
+            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
+        };
+        if let (Some(true), Some((_, span))) = (of_plc, items.iter().find(|(i, _)| !own(i))) {
+            let text = "a spindle of the PLC takes M3, M4, M5, M19, REV and POS only";
+            return Err(Fault::new(Condition::PlcSpindle, text, *span));
         }
         let feedforward =
             |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
@@ -293,6 +315,14 @@ impl Decoder {
             (other, _) if OTHER_WORDS.iter().any(|w| other.starts_with(w)) => {
                 let name = format!("{other} in a spindle bracket");
                 return Err(Fault::unsupported(name, item.span));
+            }
+            (other, _) if is_internal(other) => {
+                let text = format!("{other} in a spindle bracket: it controls the program");
+                return Err(Fault::new(Condition::InternalFunction, text, item.span));
+            }
+            (other, _) if is_function(other, 'G') => {
+                let text = format!("{other} is no function of a spindle");
+                return Err(Fault::new(Condition::SpindleCommand, text, item.span));
             }
             (other, _) => return Err(unknown(other)),
         })

@@ -352,6 +352,13 @@ impl Executor {
             self.optional_execution(command);
         }
         self.decoder.report.location = self.here(command.span);
+        let skips = self.levels.iter().any(|level| level.optional.is_some());
+        if skips && command.is("FLUSH WAIT") {
+            let text = "#FLUSH WAIT between #OPTIONAL EXECUTION ON and OFF";
+            let fault = Fault::new(Condition::FlushInOptional, text, command.span);
+            self.decoder.report.note(fault);
+            return;
+        }
         let outcome = self.decoder.execute_command(command);
         self.decoder.report.keep(outcome);
     }

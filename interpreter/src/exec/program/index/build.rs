@@ -8,6 +8,7 @@ use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
+use crate::exec::program::jumps::LABEL_MAX;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
 use std::collections::{BTreeMap, BTreeSet};
@@ -229,6 +230,15 @@ impl Builder<'_> {
         let Some(section) = self.section else { return };
         let parent = self.stack.last().copied();
         let place = LabelPlace { position: raw.position, parent };
+        if let LabelKind::Number(n) = label
+            && n > LABEL_MAX
+        {
+            let text = format!("the number of the label is above {LABEL_MAX}");
+            let d = Diagnostic::new(Condition::LabelNumberTooLarge, text);
+            let digits = raw.text[at..].find(':').unwrap_or(1);
+            self.report(raw, at, digits, d);
+            return;
+        }
         if self.index.labels.get(section, &label).is_some() {
             let shown = match &label {
                 LabelKind::Number(n) => format!("N{n}:"),
@@ -261,7 +271,7 @@ impl Builder<'_> {
                 self.index.entries.change(id, |e| e.open = Some(id));
                 self.conditional.push(self.stack.clone());
                 self.conditional_open.push(id);
-                self.nested(raw, head, self.conditional_open.len());
+                self.nested(raw, head, self.conditional_open.len(), Condition::ConditionalNesting);
             }
             "ELSE" | "ENDIF" => {
                 let Some(open) = self.conditional_open.last().copied() else {
@@ -347,7 +357,7 @@ impl Builder<'_> {
         if keyword.closer().is_some() {
             self.index.entries.change(id, |e| e.open = Some(id));
             self.stack.push(id);
-            self.nested(raw, head, self.stack.len());
+            self.nested(raw, head, self.stack.len(), Condition::ControlNesting);
             return;
         }
         let Some(opener) = keyword.opener() else { return };
@@ -403,11 +413,11 @@ impl Builder<'_> {
         }
     }
 
-    /// 20211 for a statement that is nested too deep.
-    fn nested(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, depth: usize) {
+    /// 20211 for a control statement that is nested too deep, 20590 for `#IF`. Assumption: one limit for both, neither is printed.
+    fn nested(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, depth: usize, condition: Condition) {
         if depth > NESTING_MAX {
             let text = format!("control statements nested more than {NESTING_MAX} deep");
-            let d = Diagnostic::new(Condition::ControlNesting, text);
+            let d = Diagnostic::new(condition, text);
             self.report(raw, head.at, word(&head.rest[1..]).len() + 1, d);
             self.gives_up |= depth > NESTING_READ;
         }

@@ -31,7 +31,7 @@ pub(super) fn head(text: &str) -> Head<'_> {
             let number = &behind[..length];
             rest = blank(&behind[length..]);
             if let Some(behind) = rest.strip_prefix(':') {
-                label = number.parse().ok().map(LabelKind::Number);
+                label = Some(LabelKind::Number(number.parse().unwrap_or(u64::MAX)));
                 rest = blank(behind);
             }
         } else if let Some(number) = behind.strip_prefix(['P', 'p']) {

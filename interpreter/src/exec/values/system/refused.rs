@@ -23,6 +23,7 @@ const CLASSES: &[(&str, &str)] = &[
 /// functions before their place (148946059); number of the commanding channel of a job manager (1139945739); block type
 /// (tccncprogramming 15557116555); ADS access (312808843).
 const OTHERS: &[(&str, &str, &str)] = &[
+    ("A", "RETRACT_ACS_POS", "tools are not retracted after a fault"),
     ("A", "WCS", "the page names the variable and not the system that it counts in"),
     ("G", "VOLCOMP", "volumetric compensation is not simulated"),
     ("G", "M_FCT", "outputs before their place are not simulated"),

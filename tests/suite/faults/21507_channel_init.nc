@@ -1,4 +1,4 @@
 ; check: exit 1
-; error 21972 at 3:23
+; error 21507 at 3:23
 #CHANNEL INIT [CMDPOS CMDPOS]
 M30

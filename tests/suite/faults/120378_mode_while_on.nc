@@ -1,0 +1,8 @@
+; check: exit 1
+; error 120378 at 5:10
+G01 X1 F1000
+#HSC ON [OPMODE=1 CONTERROR=0.1]
+#HSC ON [BSPLINE]
+X20
+#HSC OFF
+M30

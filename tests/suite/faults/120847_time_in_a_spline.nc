@@ -1,0 +1,8 @@
+; check: exit 0
+; warning 120847 at 5:8
+G01 X1 F1000
+#HSC ON [BSPLINE PATH_DEV=0.1]
+G93 F1 X10 Y1
+X20 Y0 F1000
+#HSC OFF
+M30

@@ -1,0 +1,8 @@
+; check: exit 1
+; error 20049 at 6:1
+G00 X0 Y0
+V.G.WZ_AKT.R=1
+G41 G01 X100 F1000
+G100 X0
+G40 X-50
+M30

@@ -1,0 +1,6 @@
+; check: exit 1
+; error 20953 at 4:6
+#MEAS MODE [5]
+G310 G310 X10 F100 $GOTO N40
+N40: X20
+M30

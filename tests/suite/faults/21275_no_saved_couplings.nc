@@ -1,0 +1,6 @@
+; check: exit 1
+; error 21275 at 5:15
+#SAVE CONFIG [AX AXLINK]
+#CLEAR CONFIG
+#LOAD CONFIG [AXLINK]
+M30

@@ -1,0 +1,4 @@
+; check: exit 1
+; error 21292 at 3:22
+#CONTROL AREA BEGIN [ID=0 WORK POLY MIN_EXCUR=0 MAX_EXCUR=10]
+M30

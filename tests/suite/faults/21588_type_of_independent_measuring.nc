@@ -1,0 +1,5 @@
+; check: exit 1
+; error 21588 at 4:12
+#MEAS MODE [3]
+X[INDP_SYN G100 G90 POS=100 FEED=500]
+M30

@@ -1,0 +1,6 @@
+; check: exit 1
+; error 21743 at 4:22
+; error 21743 at 5:22
+#SINGLE STEP [ENABLE ENABLE]
+#SINGLE STEP [ENABLE DISABLE]
+M30

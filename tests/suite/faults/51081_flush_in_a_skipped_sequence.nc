@@ -1,0 +1,8 @@
+; check: exit 1
+; warning K-0100 at 4:1
+; error 51081 at 6:1
+#OPTIONAL EXECUTION ON
+G01 X10 F1000
+#FLUSH WAIT
+#OPTIONAL EXECUTION OFF
+M30

@@ -1,0 +1,6 @@
+; check: exit 1
+; page 253352587 diagnosis 21067, wrong
+; error 21067 at 5:30
+N05 F1000 G01 X5
+N10 X10 Y11 Z[INDP_SYN POS50 POS40 G01 FEED100 G90]
+N20 M30

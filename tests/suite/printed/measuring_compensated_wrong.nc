@@ -1,0 +1,9 @@
+; check: exit 1
+; page 250645643 diagnosis 20049, wrong
+; error 20049 at 7:5
+N10 G00 X0 Y0 Z0
+N15 V.G.WZ_AKT.R=1
+N20 G41 G01 X100 F1000
+N30 G100 X0
+N40 G40 X-50
+N50 M30

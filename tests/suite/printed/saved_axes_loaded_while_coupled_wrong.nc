@@ -1,0 +1,9 @@
+; check: exit 1
+; page 254018443 diagnosis 21277, wrong
+; error 21277 at 8:6
+N10 #SET AX [X,1,0][Y,2,1][B,3,3]
+N20 G00 X0 Y0
+N30 #SET AX LINK[1, B=X]
+N40 #ENABLE AX LINK[1]
+N100 #LOAD CONFIG [AX]
+N1000 M30

@@ -1,0 +1,9 @@
+; run -m ../../tests/suite/machines/grinding: exit 0
+; page 254475403 diagnosis 21390, right
+; end X200 Y0
+N05 G01 X100 F10000
+N08 D1
+N10 #OTC ON [LENGTH CONT WEAR_CONST_TOOL]
+N20 G01 X200
+N900 #OTC OFF
+N1000 M30
