@@ -5,7 +5,7 @@
 
 use kontur_interpreter::diag::render;
 use kontur_interpreter::job::{Job, MachineLists, Run, Sink};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::{Asked, Quantity, Rows};
 use kontur_interpreter::source::MemorySources;
 use std::error::Error;
 use std::io::{self, BufWriter, Write};
@@ -18,12 +18,19 @@ struct Table<W>(W);
 impl<W: Write> Sink for Table<W> {
     type Stop = io::Error;
 
-    fn cycle(&mut self, record: &CycleRecord) -> io::Result<()> {
-        write!(self.0, "{},{}", record.k, record.line)?;
-        for axis in record.axes.iter().take(3) {
-            write!(self.0, ",{:.7}", axis.set)?;
+    fn reads(&self) -> Option<Asked> {
+        Some(Asked::of(&[Quantity::Set]))
+    }
+
+    fn rows(&mut self, rows: &Rows<'_>) -> io::Result<()> {
+        for (i, cycle) in rows.cycles().iter().enumerate() {
+            write!(self.0, "{},{}", cycle.k, cycle.line)?;
+            for axis in 0..3 {
+                write!(self.0, ",{:.7}", rows.column(axis, Quantity::Set)[i])?;
+            }
+            writeln!(self.0)?;
         }
-        writeln!(self.0)
+        Ok(())
     }
 
     fn pause(&mut self, run: &mut Run) -> io::Result<()> {

@@ -38,7 +38,7 @@ pub use crate::record::facts::{Apart, AxisFacts, Facts, FileNames};
 pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
 pub use apart::Work;
 pub use lists::MachineLists;
-pub use run::{Reads, Run, Sink};
+pub use run::{Run, Sink};
 
 use crate::diag::{Condition, Diagnostic};
 use crate::exec;

@@ -237,16 +237,11 @@ impl Simulation {
             return 0;
         }
         if !read && !self.is_measured() {
-            return 1 + self.take_all();
+            return 1 + self.take_computed(None);
         }
-        self.show(rows, samples);
-        let mut count = 1;
-        while self.batch.is_pending() {
-            self.take_computed();
-            self.show(rows, samples);
-            count += 1;
-        }
-        count
+        let position = self.planner.setpoint().position.clone();
+        self.show(&position, rows, samples);
+        1 + self.take_computed(Some((rows, samples)))
     }
 
     /// Computes the next cycle, and the axes of up to `most` cycles including this one; see [`Self::next_cycles`].

@@ -1,21 +1,19 @@
-//! The summary of a run, accumulated from its records.
+//! The summary of a run, accumulated from its columns.
 //!
-//! Order of calls: a started run, [`Collector::add`] for each record, [`Collector::message`] for each message,
-//! [`Collector::finish`].
+//! Order of calls: a started run, [`Collector::add`] for all its cycles, [`Collector::message`] for each message,
+//! [`Collector::finish`]. As the sink of a run a collector does all but the last one.
 //!
 //! ```
 //! use kontur_interpreter::job::{Job, MachineLists};
-//! use kontur_interpreter::record::CycleRecord;
 //! use kontur_interpreter::source::MemorySources;
 //! use kontur_interpreter::summary::{Collector, State};
 //!
 //! let (machine, _) = MachineLists::default().load().unwrap();
 //! let sources = MemorySources::new().with("part.nc", "N10 G01 X10 F1000\nN20 M30\n");
 //! let mut run = Job::new(machine, sources, "part.nc").start().unwrap();
-//! // a collector sees every record, then the messages, and ends with what only the run knows
+//! // a collector sees every cycle and every message, and ends with what only the run knows
 //! let mut collector = Collector::new(run.facts());
-//! let Ok(()) = run.to_end(&mut |record: &CycleRecord| collector.add(record));
-//! run.take_diagnostics().iter().for_each(|said| collector.message(said));
+//! let Ok(()) = run.to_end(&mut collector);
 //! let summary = collector.finish(&run.totals());
 //! assert_eq!(summary.state, State::Finished);
 //! assert_eq!(summary.path_length_mm, 10.0);
@@ -27,10 +25,11 @@ mod ripple;
 mod text;
 
 use crate::diag::Diagnostic;
-use crate::job::{Facts, SettledStop, Totals};
+use crate::job::{Facts, Run, SettledStop, Sink, Totals};
 use crate::record::{Asked, AxisRecord, CycleRecord, Quantity, Rest, Rows, SpeedLimit};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 
 pub use results::Measure;
 pub use ripple::SpeedRipple;
@@ -165,7 +164,7 @@ pub struct Summary {
     pub messages_omitted: u64,
 }
 
-/// Collects a summary, cycle by cycle.
+/// Collects a summary.
 #[derive(Clone, Debug)]
 pub struct Collector {
     facts: Facts,
@@ -210,21 +209,8 @@ impl Collector {
         ])
     }
 
-    /// Adds a cycle.
-    pub fn add(&mut self, record: &CycleRecord) {
-        for (most, axis) in self.axes.iter_mut().zip(&record.axes) {
-            most.vel = most.vel.max(axis.vel.abs());
-            most.acc = most.acc.max(axis.acc.abs());
-            most.jerk = most.jerk.max(axis.jerk.abs());
-            most.err = most.err.max(axis.err.abs());
-            most.dev = most.dev.max(axis.dev_both_ways);
-            most.lag = most.lag.max(axis.lag.abs());
-        }
-        self.add_whole(record, |axis| record.axes.get(axis).map(|axis| axis.ipo));
-    }
-
     /// Adds cycles with the columns of [`Self::asked`].
-    pub fn add_rows(&mut self, rows: &Rows<'_>) {
+    pub fn add(&mut self, rows: &Rows<'_>) {
         for (i, most) in self.axes.iter_mut().enumerate() {
             let magnitude = |before: f64, quantity| {
                 let column = rows.column(i, quantity).iter();
@@ -345,6 +331,24 @@ impl Collector {
             machine: facts.machine,
             cycle_us: facts.cycle_us,
         }
+    }
+}
+
+impl Sink for Collector {
+    type Stop = Infallible;
+
+    fn reads(&self) -> Option<Asked> {
+        Some(Self::asked())
+    }
+
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Infallible> {
+        self.add(rows);
+        Ok(())
+    }
+
+    fn pause(&mut self, run: &mut Run) -> Result<(), Infallible> {
+        run.take_diagnostics().iter().for_each(|said| self.message(said));
+        Ok(())
     }
 }
 

@@ -1,11 +1,11 @@
 //! Setpoints of cycles that are final, read ahead of their output.
 //!
 //! What follows the planner does with one axis after the other what it would do cycle by cycle: it reads the setpoints of many
-//! cycles at once, as columns, and takes one cycle after the other when everything of it is computed. Reading changes nothing, so
-//! what was read and not taken is as if it had never been read.
+//! cycles at once, as columns, and takes them together when everything of them is computed. Reading changes nothing, so what was
+//! read and not taken is as if it had never been read.
 //!
 //! Order of calls: [`Planner::look_ahead`](crate::planner::Planner::look_ahead), then
-//! [`Planner::take`](crate::planner::Planner::take) for the first cycles of what was read, in their order, with nothing in between.
+//! [`Planner::take`](crate::planner::Planner::take) for the first cycles of what was read, with nothing in between.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -23,10 +23,11 @@
 //! assert_eq!((ahead.len(), planner.setpoint().k), (20, 1));
 //! let mut single = planner.clone();
 //! for i in 0..ahead.len() {
-//!     planner.take(&ahead, i, i);
+//!     let mut many = planner.clone();
+//!     many.take(&ahead, i);
 //!     single.advance().unwrap();
-//!     assert_eq!(planner.setpoint().position[0].to_bits(), ahead.positions(0)[i].to_bits());
-//!     assert_eq!(planner.setpoint().position, single.setpoint().position);
+//!     assert_eq!(many.setpoint().position[0].to_bits(), ahead.positions(0)[i].to_bits());
+//!     assert_eq!(many.setpoint().position, single.setpoint().position);
 //! }
 //! ```
 
@@ -46,15 +47,21 @@ pub struct Ahead {
     state: PathState,
 }
 
-/// What holds for all axes in a cycle, see [`PathState`].
+/// What holds for all axes in a cycle, as in a [`Setpoint`](crate::planner::Setpoint).
 #[derive(Clone, Copy, Debug)]
-struct Row {
-    s: f64,
-    v: f64,
-    a: f64,
-    j: f64,
-    limit: SpeedLimit,
-    seq: u64,
+pub struct Row {
+    /// Path length of the program in mm.
+    pub s_mm: f64,
+    /// Path velocity in mm/s.
+    pub v_mm_s: f64,
+    /// Path acceleration in mm/s2.
+    pub a_mm_s2: f64,
+    /// Path jerk in mm/s3.
+    pub j_mm_s3: f64,
+    /// What holds the speed down.
+    pub limit: SpeedLimit,
+    /// Number of the block.
+    pub seq: u64,
     /// Number of the entry of the timeline in which it lies.
     entry: usize,
 }
@@ -75,14 +82,9 @@ impl Ahead {
         &self.positions[axis * self.most..][..self.rows.len()]
     }
 
-    /// Number of the block in which a cycle lies.
-    pub fn seq(&self, i: usize) -> u64 {
-        self.rows[i].seq
-    }
-
-    /// Path length of the program in a cycle in mm.
-    pub fn s_mm(&self, i: usize) -> f64 {
-        self.rows[i].s
+    /// What holds for all axes in a cycle.
+    pub fn row(&self, i: usize) -> Row {
+        self.rows[i]
     }
 
     /// Reads up to `most` cycles from `k` on, as far as the timeline extends, but only up to block `before`.
@@ -115,8 +117,9 @@ impl Ahead {
                 for (axis, x) in self.state.position.iter().enumerate() {
                     self.positions[axis * most + row] = *x;
                 }
-                let PathState { s, v, a, j, limit, seq, .. } = self.state;
-                self.rows.push(Row { s, v, a, j, limit, seq, entry });
+                let PathState { s: s_mm, v: v_mm_s, a: a_mm_s2, j: j_mm_s3, limit, seq, .. } =
+                    self.state;
+                self.rows.push(Row { s_mm, v_mm_s, a_mm_s2, j_mm_s3, limit, seq, entry });
                 k += 1;
                 if row + 1 == most || !walk.covers(k) {
                     break;
@@ -127,16 +130,15 @@ impl Ahead {
 
     /// State of cycle `i`.
     pub(crate) fn state(&self, i: usize, out: &mut PathState) {
-        let Row { s, v, a, j, limit, seq, .. } = self.rows[i];
+        let Row { s_mm: s, v_mm_s: v, a_mm_s2: a, j_mm_s3: j, limit, seq, .. } = self.rows[i];
         for (axis, x) in out.position.iter_mut().enumerate() {
             *x = self.positions[axis * self.most + i];
         }
         (out.s, out.v, out.a, out.j, out.limit, out.seq) = (s, v, a, j, limit, seq);
     }
 
-    /// Number of entries of the timeline that are over in cycle `last`, but not in the one before `first`.
-    pub(crate) fn entries(&self, first: usize, last: usize) -> usize {
-        let before = first.checked_sub(1).map_or(0, |before| self.rows[before].entry);
-        self.rows[last].entry - before
+    /// Number of entries of the timeline that are over in a cycle.
+    pub(crate) fn entries(&self, i: usize) -> usize {
+        self.rows[i].entry
     }
 }

@@ -157,8 +157,12 @@ impl Contour {
         let Some(last) = count.checked_sub(1).and_then(|i| self.blocks.get(i)) else {
             return count;
         };
-        let same = |b: &&Passed| b.queued.block.seq == last.queued.block.seq;
-        count + self.blocks.range(count..).take_while(same).count()
+        let same = |b: &Passed| b.queued.block.seq == last.queued.block.seq;
+        let mut end = count;
+        while self.blocks.get(end).is_some_and(same) {
+            end += 1;
+        }
+        end
     }
 
     /// Components of the shortest vector to `point` from the contour between two times (cycles), and where it starts.

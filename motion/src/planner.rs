@@ -307,18 +307,16 @@ impl Planner {
         out.read((&self.timeline, self.cycle), axes, k, most, before);
     }
 
-    /// Produces setpoints `first` to `last` of those that were read, see [`crate::ahead`]: what only one cycle shows is that of the
-    /// last one.
-    pub fn take(&mut self, ahead: &Ahead, first: usize, last: usize) {
-        let passed = ahead.entries(first, last);
-        self.timeline.drop_first(passed);
-        let remembered = (last + 1).saturating_sub(self.monitor.remembers());
-        for i in first.max(remembered)..last {
+    /// Produces the first setpoints of those that were read, up to number `last`, see [`crate::ahead`]: that one is what remains.
+    pub fn take(&mut self, ahead: &Ahead, last: usize) {
+        self.timeline.drop_first(ahead.entries(last));
+        let count = last + 1;
+        for i in count.saturating_sub(self.monitor.remembers())..last {
             ahead.state(i, &mut self.state);
             self.monitor.record(&self.state.position, self.state.s);
         }
         ahead.state(last, &mut self.state);
-        self.output(self.setpoint.k + (last - first + 1) as u64);
+        self.output(self.setpoint.k + count as u64);
     }
 
     /// Repeats the present position for one more cycle; only at rest.

@@ -20,7 +20,7 @@
 //! let limits = RampedLimits::new(RampShape::Trapez, false, 3500.0, 3500.0, [0.03; 4]);
 //! let slope = SlopeLimits::Ramped(limits);
 //! let profile = slope.plan(0.0, 0.0, 200.0, 100.0).unwrap();
-//! one ramp in addition to length / speed: v / a + tr, during which the mean speed is half
+//! // one ramp in addition to length / speed: v / a + tr, during which the mean speed is half
 //! let expected = 100.0 / 200.0 + 200.0 / 3500.0 + 0.03;
 //! assert!((profile.duration() - expected).abs() < 1e-9);
 //! assert!((profile.at(0.25).v_mm_s - 200.0).abs() < 1e-9);

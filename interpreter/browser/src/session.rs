@@ -2,12 +2,13 @@
 
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::explain::explain;
-use kontur_interpreter::job::{ForcedGuard, Job, MachineLists, Options, Run};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::job::{ForcedGuard, Job, MachineLists, Options, Run, Sink};
 use kontur_interpreter::record::columns::{self, Column};
+use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::source::MemorySources;
 use kontur_interpreter::summary::{Collector, Summary};
 use serde::{Deserialize, Serialize};
+use std::convert::Infallible;
 
 /// Name of the program in messages.
 const PROGRAM: &str = "part.nc";
@@ -153,11 +154,38 @@ impl Request {
 #[derive(Debug)]
 struct UnderWay {
     run: Run,
-    columns: Vec<Column>,
-    values: Vec<Vec<f64>>,
-    collector: Option<Collector>,
+    shown: Shown,
     messages: Vec<Diagnostic>,
     max_rows: usize,
+}
+
+/// What the page shows of it.
+#[derive(Debug)]
+struct Shown {
+    columns: Vec<Column>,
+    /// Numbers of each column, and the line of every row.
+    values: Vec<Vec<f64>>,
+    lines: Vec<f64>,
+    collector: Option<Collector>,
+}
+
+impl Sink for Shown {
+    type Stop = Infallible;
+
+    fn reads(&self) -> Option<Asked> {
+        Some(columns::asked(&self.columns).and(Collector::asked()))
+    }
+
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Infallible> {
+        self.lines.extend(rows.cycles().iter().map(|cycle| f64::from(cycle.line)));
+        for (column, values) in self.columns.iter().zip(&mut self.values) {
+            column.content.extend(values, rows, 1);
+        }
+        if let Some(collector) = &mut self.collector {
+            collector.add(rows);
+        }
+        Ok(())
+    }
 }
 
 /// Answers requests; holds at most one run.
@@ -252,54 +280,47 @@ impl Session {
                 })
                 .collect(),
         });
-        let values = vec![Vec::new(); columns.len() + 1];
-        let collector = Some(Collector::new(run.facts()));
+        let shown = Shown {
+            values: vec![Vec::new(); columns.len()],
+            lines: Vec::new(),
+            collector: Some(Collector::new(run.facts())),
+            columns,
+        };
         let max_rows = usize::try_from(request.max_rows).unwrap_or(usize::MAX);
-        self.under_way =
-            Some(UnderWay { run, columns, values, collector, messages: Vec::new(), max_rows });
+        self.under_way = Some(UnderWay { run, shown, messages: Vec::new(), max_rows });
         answer
     }
 
     /// Computes up to so many cycles; true while there are more.
     pub fn advance(&mut self, cycles: u32) -> bool {
-        let Some(UnderWay { run, columns, values, collector, messages, max_rows }) =
-            &mut self.under_way
-        else {
+        let Some(UnderWay { run, shown, messages, max_rows }) = &mut self.under_way else {
             return false;
         };
-        let room = max_rows.saturating_sub(values[0].len());
+        let room = max_rows.saturating_sub(shown.lines.len());
         let cycles = u64::from(cycles).min(u64::try_from(room).unwrap_or(u64::MAX));
-        let (lines, numbers) = values.split_at_mut(1);
-        let Ok(()) = run.advance(cycles, &mut |record: &CycleRecord| {
-            lines[0].push(f64::from(record.line));
-            for (column, values) in columns.iter().zip(numbers.iter_mut()) {
-                values.push(column.number(record).unwrap_or(f64::NAN));
-            }
-            if let Some(collector) = collector.as_mut() {
-                collector.add(record);
-            }
-        });
+        let Ok(()) = run.advance(cycles, shown);
         // a program may say the same in every pass of a loop
         let said = run.take_diagnostics();
         let known = messages.len();
         messages.extend(said.into_iter().take(1000_usize.saturating_sub(known)));
-        !run.is_over() && values[0].len() < *max_rows
+        !run.is_over() && shown.lines.len() < *max_rows
     }
 
     /// Summary and messages of the run, to its end or to where it was left.
     pub fn finish(&mut self) -> String {
-        let Some(UnderWay { run, collector, messages: said, .. }) = &mut self.under_way else {
+        let Some(UnderWay { run, shown, messages: said, .. }) = &mut self.under_way else {
             return wrong(&"no run is under way");
         };
         let cut = !run.is_over();
-        let summary = collector.take().map(|collector| collector.finish(&run.totals()));
+        let summary = shown.collector.take().map(|collector| collector.finish(&run.totals()));
         json(&Finished { cut, messages: messages(&*said), summary })
     }
 
     /// Values of a column of the run in the order of the request; after them the line of every row. Empty for others.
     pub fn column(&self, i: usize) -> &[f64] {
-        let Some(UnderWay { columns, values, .. }) = &self.under_way else { return &[] };
-        let i = if i == columns.len() { 0 } else { i + 1 };
-        values.get(i).map_or(&[], Vec::as_slice)
+        let Some(UnderWay { shown: Shown { values, lines, .. }, .. }) = &self.under_way else {
+            return &[];
+        };
+        if i == values.len() { lines } else { values.get(i).map_or(&[], Vec::as_slice) }
     }
 }

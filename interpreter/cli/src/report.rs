@@ -25,7 +25,7 @@ use crate::target::keep_apart;
 use crate::{Error, Exit, times};
 use drawn::Drawn;
 use kontur_interpreter::diag::render::printable;
-use kontur_interpreter::record::{Asked, Rows};
+use kontur_interpreter::record::Rows;
 use kontur_interpreter::summary::{Collector, State, Summary};
 use page::Beside;
 use recording::Recording;
@@ -71,15 +71,11 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
         let cycle_s = run.facts().cycle_s();
         let is_drawn = |t: f64| args.window.is_none_or(|(from, to)| t >= from && t <= to);
         let take = |rows: &Rows<'_>| {
-            rows.each(|record| {
-                times.add(record);
-                if is_drawn(record.k as f64 * cycle_s) {
-                    recording.add(record);
-                }
-                Ok(())
-            })
+            times.add(rows);
+            recording.add(&rows.during(|k| is_drawn(k as f64 * cycle_s)));
+            Ok(())
         };
-        let take = Some((Asked::ALL, take));
+        let take = Some((times::Collector::asked().and(Recording::asked()), take));
         drive(&mut run, Shown::ALONE, console, Some(&mut summary), take)?;
         // including the subroutines that the run reached
         keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;

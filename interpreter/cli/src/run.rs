@@ -8,10 +8,9 @@ use crate::request::{OpenError, Opened};
 use crate::target::{create_all, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
-use kontur_interpreter::job::{Reads, Run, Sink, Totals, Work};
+use kontur_interpreter::job::{Run, Sink, Totals, Work};
 use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::Collector;
-use std::convert::Infallible;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread::{Builder, available_parallelism};
@@ -39,14 +38,11 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
     let takes = times.is_some() || !traces.is_empty();
-    let of_times = if times.is_some() { Asked::ALL } else { Asked::NONE };
+    let of_times = if times.is_some() { times::Collector::asked() } else { Asked::NONE };
     let asked = traces.iter().fold(of_times, |asked, trace| asked.and(trace.asked()));
     let take = |rows: &Rows<'_>| {
         if let Some(times) = &mut times {
-            let Ok(()) = rows.each(|record| {
-                times.add(record);
-                Ok::<(), Infallible>(())
-            });
+            times.add(rows);
         }
         traces.iter_mut().try_for_each(|t| go_on_without(t.write(rows), alone))
     };
@@ -163,18 +159,15 @@ struct Watch<'a, F> {
 impl<F: FnMut(&Rows<'_>) -> Result<(), Error>> Sink for Watch<'_, F> {
     type Stop = Error;
 
-    fn reads(&self) -> Reads {
+    fn reads(&self) -> Option<Asked> {
         let of_summary = self.summary.is_some().then(Collector::asked);
-        match (of_summary, &self.take) {
-            (None, None) => Reads::Nothing,
-            (asked, None) => Reads::Columns(asked.unwrap_or_default()),
-            (asked, Some((others, _))) => Reads::Columns(asked.unwrap_or_default().and(*others)),
-        }
+        let others = self.take.as_ref().map(|(asked, _)| *asked);
+        of_summary.into_iter().chain(others).reduce(Asked::and)
     }
 
     fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Error> {
         if let Some(summary) = &mut self.summary {
-            summary.add_rows(rows);
+            summary.add(rows);
         }
         self.take.as_mut().map_or(Ok(()), |(_, take)| take(rows))
     }

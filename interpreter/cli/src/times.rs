@@ -10,7 +10,7 @@ mod reason;
 mod render;
 
 use kontur_interpreter::job::{Facts, FileNames};
-use kontur_interpreter::record::{AxisRecord, CycleRecord, Motion, SpeedLimit};
+use kontur_interpreter::record::{Asked, CycleRecord, Motion, Quantity, Rows, SpeedLimit};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 
@@ -54,15 +54,16 @@ impl Reached {
         Self { position: none, velocity: none, acceleration: none, torque: none }
     };
 
-    fn add(&mut self, axis: &AxisRecord) {
-        widen(&mut self.position, axis.set);
-        widen(&mut self.velocity, axis.vel);
-        widen(&mut self.acceleration, axis.acc);
-        widen(&mut self.torque, axis.torque_n_m);
+    fn add(&mut self, rows: &Rows<'_>, axis: usize) {
+        let column = |quantity| rows.column(axis, quantity).iter();
+        column(Quantity::Set).for_each(|x| widen(&mut self.position, *x));
+        column(Quantity::Vel).for_each(|x| widen(&mut self.velocity, *x));
+        column(Quantity::Acc).for_each(|x| widen(&mut self.acceleration, *x));
+        column(Quantity::TorqueNm).for_each(|x| widen(&mut self.torque, *x));
     }
 }
 
-/// Collects the times, record by record. It takes about 100 bytes for each line that moves or waits.
+/// Collects the times. It takes about 100 bytes for each line that moves or waits.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
     facts: Facts,
@@ -71,8 +72,8 @@ pub(crate) struct Collector {
     /// Index of the line of the previous cycle.
     current: usize,
     reached: Vec<Reached>,
-    /// Interpolated positions of the last two cycles.
-    before: [Vec<f64>; 2],
+    /// Interpolated positions of the last cycle and of the two before it.
+    ipo: [Vec<f64>; 3],
     last_k: Option<u64>,
 }
 
@@ -85,16 +86,31 @@ impl Collector {
             index: HashMap::new(),
             current: 0,
             reached: vec![Reached::NOTHING; facts.axes.len()],
-            before: [Vec::new(), Vec::new()],
+            ipo: [const { Vec::new() }; 3],
             last_k: None,
         }
     }
 
-    /// Adds a cycle.
-    pub(crate) fn add(&mut self, record: &CycleRecord) {
-        for (reached, axis) in self.reached.iter_mut().zip(&record.axes) {
-            reached.add(axis);
+    /// What it reads of the axes.
+    pub(crate) fn asked() -> Asked {
+        use Quantity::{Acc, Ipo, Set, TorqueNm, Vel};
+        Asked::of(&[Ipo, Set, Vel, Acc, TorqueNm])
+    }
+
+    /// Adds cycles with the columns of [`Self::asked`].
+    pub(crate) fn add(&mut self, rows: &Rows<'_>) {
+        for (axis, reached) in self.reached.iter_mut().enumerate() {
+            reached.add(rows, axis);
         }
+        for (i, cycle) in rows.cycles().iter().enumerate() {
+            self.ipo.rotate_right(1);
+            self.ipo[0].clear();
+            self.ipo[0].extend((0..rows.axes()).map(|axis| rows.column(axis, Quantity::Ipo)[i]));
+            self.add_cycle(cycle);
+        }
+    }
+
+    fn add_cycle(&mut self, record: &CycleRecord) {
         if let Some(before) = self.last_k {
             let reason = Reason::of(record);
             let axis = match reason {
@@ -109,10 +125,6 @@ impl Collector {
             self.count(record, key, record.k.saturating_sub(before));
         }
         self.last_k = Some(record.k);
-        let [newer, older] = &mut self.before;
-        std::mem::swap(newer, older);
-        newer.clear();
-        newer.extend(record.axes.iter().map(|a| a.ipo));
     }
 
     fn count(&mut self, record: &CycleRecord, key: Key, cycles: u64) {
@@ -137,13 +149,13 @@ impl Collector {
 
     /// The path axis with the largest share of its velocity or acceleration limit; in tapping this may be the spindle.
     fn nearest_to_its_limit(&self, record: &CycleRecord, acceleration: bool) -> Option<u8> {
-        let [newer, older] = &self.before;
-        let axes = self.facts.axes.iter().zip(&record.axes).enumerate();
+        let [now, newer, older] = &self.ipo;
+        let axes = self.facts.axes.iter().zip(now).enumerate();
         let tapping = record.path.spindle.map(usize::from);
         let shares = axes
             .filter(|(i, (facts, _))| !facts.spindle || tapping == Some(*i))
-            .filter_map(|(i, (facts, axis))| {
-                let step = axis.ipo - newer.get(i)?;
+            .filter_map(|(i, (facts, now))| {
+                let step = now - newer.get(i)?;
                 let share = if acceleration {
                     (step - (newer.get(i)? - older.get(i)?)).abs() / facts.a_max
                 } else {

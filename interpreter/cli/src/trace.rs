@@ -147,12 +147,9 @@ impl Trace {
     /// [`Error::Io`], e.g. for a full disk, about these or earlier cycles.
     pub(crate) fn write(&mut self, rows: &Rows<'_>) -> Result<(), Error> {
         let Way::Thread(thread) = &mut self.way else { return Ok(()) };
-        let shown = |k: u64| k.is_multiple_of(self.decimate);
-        let Some(first) = rows.cycles().iter().position(|cycle| shown(cycle.k)) else {
-            return Ok(());
-        };
         let decimate = usize::try_from(self.decimate).unwrap_or(usize::MAX);
-        if thread.write(&rows.after(first), decimate) { Ok(()) } else { self.end() }
+        let shown = rows.from_multiple_of(self.decimate);
+        if thread.write(&shown, decimate) { Ok(()) } else { self.end() }
     }
 
     /// Ends the thread.

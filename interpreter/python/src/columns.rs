@@ -1,8 +1,8 @@
 //! Columns of a trace in memory, and their way to numpy without a copy.
 
 use kontur_interpreter::job::Facts;
-use kontur_interpreter::record::columns::{Column, Content};
-use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use kontur_interpreter::record::columns::{self, Column, Content};
+use kontur_interpreter::record::{Asked, CycleRecord, Rows, SpeedLimit};
 use numpy::IntoPyArray as _;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyNone};
@@ -46,30 +46,36 @@ impl Columns {
         Self { which: columns, values, cycle_us: u64::from(facts.cycle_us), rows: 0 }
     }
 
-    /// There is room for one more row.
-    pub(crate) fn has_room(&self) -> bool {
-        (self.rows + 1) * self.which.len() * size_of::<f64>() <= MOST_BYTES
+    /// What they need of the axes.
+    pub(crate) fn asked(&self) -> Asked {
+        columns::asked(&self.which)
     }
 
-    fn time_s(&self, record: &CycleRecord) -> f64 {
-        record.k.saturating_mul(self.cycle_us) as f64 / 1e6
+    /// There is room for this many more rows.
+    pub(crate) fn room(&self) -> usize {
+        let most = MOST_BYTES / (self.which.len() * size_of::<f64>());
+        most.saturating_sub(self.rows)
     }
 
-    pub(crate) fn push(&mut self, record: &CycleRecord) {
-        let time_s = self.time_s(record);
-        self.rows += 1;
+    /// Adds every `decimate`-th of some cycles, from the first one on.
+    pub(crate) fn extend(&mut self, rows: &Rows<'_>, decimate: usize) {
+        let cycles = || rows.cycles().iter().step_by(decimate);
+        let blocks = || cycles().map(|c| c.block.and_then(|n| i64::try_from(n).ok()));
+        self.rows += cycles().len();
+        let cycle_us = self.cycle_us;
         for (column, values) in self.which.iter().zip(&mut self.values) {
-            match (values, &column.content) {
-                (Values::Number(v), Content::Time) => v.push(time_s),
-                (Values::Number(v), _) => v.push(column.number(record).unwrap_or_default()),
-                (Values::Integer(v), _) => v.push(i64::from(record.line)),
-                (Values::Optional(v, missing), _) => {
-                    let block = record.block.and_then(|n| i64::try_from(n).ok());
-                    v.push(block.unwrap_or_default());
-                    missing.push(block.is_none());
+            match (values, column.content) {
+                (Values::Number(v), Content::Time) => {
+                    v.extend(cycles().map(|c| time_s(c, cycle_us)));
                 }
-                (Values::Word(v), Content::File) => v.push(record.file),
-                (Values::Word(v), _) => v.push(limit_number(record.path.limit)),
+                (Values::Number(v), content) => content.extend(v, rows, decimate),
+                (Values::Integer(v), _) => v.extend(cycles().map(|c| i64::from(c.line))),
+                (Values::Optional(v, missing), _) => {
+                    v.extend(blocks().map(Option::unwrap_or_default));
+                    missing.extend(blocks().map(|block| block.is_none()));
+                }
+                (Values::Word(v), Content::File) => v.extend(cycles().map(|c| c.file)),
+                (Values::Word(v), _) => v.extend(cycles().map(|c| limit_number(c.path.limit))),
             }
         }
     }
@@ -112,7 +118,7 @@ impl Columns {
         for column in &self.which {
             let name = &column.name;
             match column.content {
-                Content::Time => all.set_item(name, self.time_s(record))?,
+                Content::Time => all.set_item(name, time_s(record, self.cycle_us))?,
                 Content::Line => all.set_item(name, record.line)?,
                 Content::Block => match record.block {
                     Some(n) => all.set_item(name, n)?,
@@ -132,6 +138,10 @@ impl Columns {
     pub(crate) fn units(&self) -> Vec<(String, String)> {
         self.which.iter().map(|c| (c.name.clone(), c.unit.clone())).collect()
     }
+}
+
+fn time_s(record: &CycleRecord, cycle_us: u64) -> f64 {
+    record.k.saturating_mul(cycle_us) as f64 / 1e6
 }
 
 fn limit_number(limit: SpeedLimit) -> u32 {

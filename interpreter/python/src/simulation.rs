@@ -5,8 +5,8 @@ use crate::errors::{self, Said, said};
 use crate::{arguments, interruptible};
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::{Run, Sink, Stop};
-use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::select;
+use kontur_interpreter::record::{Asked, CycleRecord, Rows};
 use kontur_interpreter::summary::{self, Collector, Summary};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -33,8 +33,8 @@ struct State {
 /// Messages beyond these are counted by the summary.
 const MOST_MESSAGES: usize = 1000;
 
-/// Where a stretch ends.
-#[derive(Clone, Copy, Debug)]
+/// Where a stretch ends, at the latest with the run.
+#[derive(Clone, Copy, Debug, Default)]
 struct Until {
     /// In the first cycle of this line of the program.
     line: Option<u32>,
@@ -49,30 +49,56 @@ enum Ended {
 
 struct Gather<'a> {
     until: Until,
+    /// File and line of the last cycle.
     last: (u32, u32),
     decimate: u64,
     columns: &'a mut Columns,
+    /// The rows go to the columns.
+    keeps: bool,
     summary: &'a mut Collector,
     messages: &'a mut Vec<Diagnostic>,
+}
+
+impl Gather<'_> {
+    /// Number of the first cycle at which the stretch ends.
+    fn end(&self, cycles: &[CycleRecord]) -> Option<usize> {
+        let mut last = self.last;
+        cycles.iter().position(|cycle| {
+            let before = std::mem::replace(&mut last, (cycle.file, cycle.line));
+            // file 0 is the program itself
+            let entered = self.until.line.is_some_and(|line| last == (0, line) && before != last);
+            entered || self.until.k.is_some_and(|k| cycle.k >= k)
+        })
+    }
 }
 
 impl Sink for Gather<'_> {
     type Stop = Ended;
 
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Ended> {
-        self.summary.add(record);
-        if record.k.is_multiple_of(self.decimate) {
-            if !self.columns.has_room() {
-                return Err(Ended::Full);
-            }
-            self.columns.push(record);
+    fn reads(&self) -> Option<Asked> {
+        Some(self.columns.asked().and(Collector::asked()))
+    }
+
+    fn takes(&self, cycles: &[CycleRecord]) -> usize {
+        let end = self.end(cycles).map_or(cycles.len(), |end| end + 1);
+        end.min(self.columns.room())
+    }
+
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Ended> {
+        self.summary.add(rows);
+        let decimate = usize::try_from(self.decimate).unwrap_or(usize::MAX);
+        if self.keeps {
+            self.columns.extend(&rows.from_multiple_of(self.decimate), decimate);
         }
-        let before = std::mem::replace(&mut self.last, (record.file, record.line));
-        // file 0 is the program itself
-        let entered =
-            self.until.line.is_some_and(|line| self.last == (0, line) && before != self.last);
-        let late = self.until.k.is_some_and(|k| record.k >= k);
-        if entered || late { Err(Ended::Reached) } else { Ok(()) }
+        let reached = self.end(rows.cycles()).is_some();
+        if let Some(last) = rows.cycles().last() {
+            self.last = (last.file, last.line);
+        }
+        match reached {
+            true => Err(Ended::Reached),
+            false if self.keeps && self.columns.room() == 0 => Err(Ended::Full),
+            false => Ok(()),
+        }
     }
 
     fn pause(&mut self, run: &mut Run) -> Result<(), Ended> {
@@ -99,6 +125,13 @@ impl Simulation {
 impl State {
     fn keep(&mut self) {
         keep(&mut self.run, &mut self.summary, &mut self.messages);
+    }
+
+    /// The run, and what takes its next cycles.
+    fn gather(&mut self, until: Until, keeps: bool) -> (&mut Run, Gather<'_>) {
+        let Self { run, decimate, columns, summary, messages, .. } = self;
+        let (last, decimate) = ((run.record().file, run.record().line), *decimate);
+        (run, Gather { until, last, decimate, columns, keeps, summary, messages })
     }
 
     fn finished(&self) -> Summary {
@@ -130,17 +163,16 @@ impl Simulation {
     /// Computes cycles up to a line, a time, or the end.
     #[pyo3(signature = (line=None, time_s=None))]
     fn advance(&mut self, py: Python<'_>, line: Option<u32>, time_s: Option<f64>) -> PyResult<()> {
-        let State { run, stop, decimate, columns, summary, messages } = self.state();
-        let cycle_s = run.facts().cycle_s();
+        let state = self.state();
+        let stop = state.stop.clone();
+        let cycle_s = state.run.facts().cycle_s();
         // a hair below: a time is written in decimals
         let k = time_s.map(|t| (t / cycle_s - 1e-6).ceil().max(0.0) as u64);
-        if k.is_some_and(|k| summary.cycles() > 0 && run.record().k >= k) {
+        if k.is_some_and(|k| state.summary.cycles() > 0 && state.run.record().k >= k) {
             return Ok(());
         }
-        let until = Until { line, k };
-        let last = (run.record().file, run.record().line);
-        let mut gather = Gather { until, last, decimate: *decimate, columns, summary, messages };
-        match interruptible(py, stop, || run.to_end(&mut gather))? {
+        let (run, mut gather) = state.gather(Until { line, k }, true);
+        match interruptible(py, &stop, || run.to_end(&mut gather))? {
             Ok(()) | Err(Ended::Reached) => Ok(()),
             Err(Ended::Full) => Err(PyMemoryError::new_err(
                 "more than 2 GiB of columns: choose signals, decimate, or continue in parts with run_until",
@@ -152,12 +184,11 @@ impl Simulation {
     fn next_cycle<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let state = self.state();
         loop {
-            let mut taken = false;
-            let summary = &mut state.summary;
-            let Ok(()) = state.run.advance(1, &mut |record: &CycleRecord| {
-                summary.add(record);
-                taken = true;
-            });
+            let before = state.summary.cycles();
+            let (run, mut gather) = state.gather(Until::default(), false);
+            // it ends with the cycle
+            let (Ok(()) | Err(_)) = run.advance(1, &mut gather);
+            let taken = state.summary.cycles() > before;
             let k = state.run.record().k;
             if !taken || k.is_multiple_of(Run::STRETCH) {
                 state.keep();

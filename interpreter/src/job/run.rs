@@ -11,54 +11,27 @@ use std::convert::Infallible;
 use std::fmt;
 use std::sync::Arc;
 
-/// What a [`Sink`] reads of the cycles of a run; what nobody reads is not written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reads {
-    /// Nothing: no cycle is handed to it.
-    Nothing,
-    /// Every cycle, one at a time.
-    Cycles,
-    /// Many cycles at once, with columns of these quantities.
-    Columns(Asked),
-}
-
-impl Reads {
-    const fn asked(self) -> Option<Asked> {
-        match self {
-            Self::Nothing => None,
-            Self::Cycles => Some(Asked::ALL),
-            Self::Columns(asked) => Some(asked),
-        }
-    }
-}
-
-/// Takes the cycles of a run, in order: one at a time or as columns. A closure that takes a [`CycleRecord`] is one.
+/// Takes the cycles of a run, in order, many at once. A closure that takes a [`CycleRecord`] is one: it sees them one at a time.
 pub trait Sink {
     /// The reason why it stops the run.
     type Stop;
 
-    /// What it reads, the same until the run ends.
-    fn reads(&self) -> Reads {
-        Reads::Cycles
+    /// What it reads of the axes, the same until the run ends: what nobody reads is not written. With `None` no cycle is handed
+    /// to it.
+    fn reads(&self) -> Option<Asked> {
+        Some(Asked::ALL)
     }
 
-    /// Takes a cycle, if it reads [`Reads::Cycles`].
-    ///
-    /// # Errors
-    /// Ends the loop; the cycle counts as taken.
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Self::Stop> {
-        let _ = record;
-        Ok(())
+    /// How many of the next cycles it takes at once: all of them, or those up to one at which it may stop. One is the least.
+    fn takes(&self, cycles: &[CycleRecord]) -> usize {
+        cycles.len()
     }
 
-    /// Takes cycles, if it reads [`Reads::Columns`].
+    /// Takes cycles.
     ///
     /// # Errors
     /// Ends the loop; the cycles count as taken.
-    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Self::Stop> {
-        let _ = rows;
-        Ok(())
-    }
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Self::Stop>;
 
     /// Called between two stretches of at most [`Run::STRETCH`] cycles and at the end of the run, to take its messages,
     /// check a clock, or stop the run. Messages that are not taken are kept.
@@ -74,9 +47,11 @@ pub trait Sink {
 impl<F: FnMut(&CycleRecord)> Sink for F {
     type Stop = Infallible;
 
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Infallible> {
-        self(record);
-        Ok(())
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Infallible> {
+        rows.each(|record| {
+            self(record);
+            Ok(())
+        })
     }
 }
 
@@ -237,7 +212,7 @@ impl Run {
         sink: &mut S,
     ) -> Result<(), S::Stop> {
         if !self.over && self.simulation.is_measured() {
-            let asked = sink.reads().asked();
+            let asked = sink.reads();
             self.apart = Apart::begin(asked, &mut self.measuring, start);
         }
         let ended = self.to_end(sink);
@@ -255,7 +230,7 @@ impl Run {
         let mut left = cycles;
         while left > 0 && !self.over {
             let most = usize::try_from(left).unwrap_or(usize::MAX);
-            if self.stretch.is_over() && !self.next_stretch(most, sink.reads().asked()) {
+            if self.stretch.is_over() && !self.next_stretch(most, sink.reads()) {
                 self.over = true;
                 self.look_for_changes();
                 break;
@@ -289,15 +264,11 @@ impl Run {
     /// Passes up to `most` of the computed cycles to a sink.
     fn hand_over<S: Sink>(&mut self, most: usize, sink: &mut S) -> Result<(), S::Stop> {
         let Self { stretch: Stretch { rows, count, taken, last, .. }, shown, .. } = self;
-        let (first, end) = (*taken, (*count).min(taken.saturating_add(most)));
-        let reads = sink.reads();
-        if reads == Reads::Cycles {
-            for i in first..end {
-                rows.part(i..i + 1).read(0, shown);
-                *taken = i + 1;
-                sink.cycle(shown)?;
-            }
-            return Ok(());
+        let (first, mut end) = (*taken, (*count).min(taken.saturating_add(most)));
+        let reads = sink.reads().is_some();
+        if reads {
+            let cycles = rows.part(first..end).cycles();
+            end = first + sink.takes(cycles).clamp(1, cycles.len());
         }
         *taken = end;
         if end == *count {
@@ -305,7 +276,7 @@ impl Run {
         } else if let Some(before) = end.checked_sub(1).filter(|before| *before < rows.len()) {
             rows.part(before..end).read(0, shown);
         }
-        if matches!(reads, Reads::Columns(_)) { sink.rows(&rows.part(first..end)) } else { Ok(()) }
+        if reads { sink.rows(&rows.part(first..end)) } else { Ok(()) }
     }
 
     /// Takes the messages up to the last cycle that was taken.

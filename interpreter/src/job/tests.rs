@@ -39,9 +39,13 @@ fn one_loop_however_it_is_cut() {
     }
     impl Sink for Stops {
         type Stop = u64;
-        fn cycle(&mut self, record: &CycleRecord) -> Result<(), u64> {
-            self.cycles.push(record.k);
-            if record.k == self.at { Err(record.k) } else { Ok(()) }
+        fn takes(&self, cycles: &[CycleRecord]) -> usize {
+            let at = cycles.iter().position(|cycle| cycle.k == self.at);
+            at.map_or(cycles.len(), |at| at + 1)
+        }
+        fn rows(&mut self, rows: &Rows<'_>) -> Result<(), u64> {
+            self.cycles.extend(rows.cycles().iter().map(|cycle| cycle.k));
+            if self.cycles.last() == Some(&self.at) { Err(self.at) } else { Ok(()) }
         }
         fn pause(&mut self, run: &mut Run) -> Result<(), u64> {
             self.pauses.push(run.record().k);
@@ -128,10 +132,10 @@ fn cycles_that_nobody_reads_are_driven_alike() {
     }
     impl Sink for Pauses {
         type Stop = std::convert::Infallible;
-        fn reads(&self) -> Reads {
-            if self.reads { Reads::Cycles } else { Reads::Nothing }
+        fn reads(&self) -> Option<Asked> {
+            self.reads.then_some(Asked::ALL)
         }
-        fn cycle(&mut self, _: &CycleRecord) -> Result<(), Self::Stop> {
+        fn rows(&mut self, _: &Rows<'_>) -> Result<(), Self::Stop> {
             assert!(self.reads);
             Ok(())
         }
@@ -198,8 +202,8 @@ fn columns_are_the_records_of_their_cycles() {
     struct Columns(Asked, Vec<CycleRecord>, Vec<Vec<Vec<f64>>>);
     impl Sink for Columns {
         type Stop = std::convert::Infallible;
-        fn reads(&self) -> Reads {
-            Reads::Columns(self.0)
+        fn reads(&self) -> Option<Asked> {
+            Some(self.0)
         }
         fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Self::Stop> {
             let Self(asked, records, columns) = self;

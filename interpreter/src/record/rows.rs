@@ -163,11 +163,21 @@ impl<'a> Rows<'a> {
         self.rows.is_empty()
     }
 
-    /// Those from number `first` on.
+    /// Those of a span of time: from the first to the last one whose count is in it.
     #[must_use]
-    pub fn after(&self, first: usize) -> Self {
-        let start = self.rows.end.min(self.rows.start + first);
-        Self { buffer: self.buffer, rows: start..self.rows.end }
+    pub fn during(&self, is_in_it: impl Fn(u64) -> bool) -> Self {
+        let inside = |cycle: &CycleRecord| is_in_it(cycle.k);
+        let first = self.cycles().iter().position(inside).unwrap_or(self.len());
+        let last = self.cycles().iter().rposition(inside).map_or(first, |last| last + 1);
+        Self { buffer: self.buffer, rows: self.rows.start + first..self.rows.start + last }
+    }
+
+    /// Those from the first one on whose count is a multiple of `n`, of which every `n`-th is another multiple.
+    #[must_use]
+    pub fn from_multiple_of(&self, n: u64) -> Self {
+        let shown = |cycle: &CycleRecord| cycle.k.is_multiple_of(n);
+        let first = self.cycles().iter().position(shown).unwrap_or(self.len());
+        Self { buffer: self.buffer, rows: self.rows.start + first..self.rows.end }
     }
 
     /// Number of axes.
@@ -187,20 +197,18 @@ impl<'a> Rows<'a> {
     /// Reads a single cycle; values that were not requested are NaN.
     pub fn read(&self, i: usize, record: &mut CycleRecord) {
         let row = self.rows.start + i;
+        let RowBuffer { asked, axes: count, cycles, values } = self.buffer;
         let mut axes = std::mem::take(&mut record.axes);
-        axes.resize(self.buffer.axes, AxisRecord::default());
-        let all = self.buffer.asked == Asked::ALL;
-        for (axis, values) in
-            axes.iter_mut().zip(self.buffer.values.chunks(Quantity::COUNT * STRIDE))
-        {
+        axes.resize(*count, AxisRecord::default());
+        for (axis, values) in axes.iter_mut().zip(values.chunks(Quantity::COUNT * STRIDE)) {
             for quantity in Quantity::ALL {
-                let known = all || self.buffer.asked.has(*quantity);
+                let known = asked.has(*quantity);
                 let value =
                     if known { values[*quantity as usize * STRIDE + row] } else { f64::NAN };
                 *quantity.of_mut(axis) = value;
             }
         }
-        *record = CycleRecord { axes, ..self.buffer.cycles[row] };
+        *record = CycleRecord { axes, ..cycles[row] };
     }
 
     /// Reads the cycles one by one.

@@ -4,8 +4,9 @@ use super::spindle::Spindle;
 use super::{Phase, Simulation};
 use crate::exec::{ShapingSetup, SourceRef};
 use crate::machine::{Axis, Machine};
-use crate::record::{PathRecord, Rest, RowBuffer};
+use crate::record::{CycleRecord, PathRecord, Rest, RowBuffer};
 use kontur_filters::kernel::Kernel;
+use kontur_motion::ahead::Row;
 use std::sync::Arc;
 
 /// Source of the setpoint of a chain.
@@ -146,6 +147,24 @@ impl Simulation {
                 }
             }
         }
+    }
+
+    /// The record is that of cycle `k`, in which nothing but the path and its block differ from the one before, apart from the
+    /// axes.
+    pub(super) fn pass(&mut self, k: u64, path: Row) {
+        let at = self.current;
+        let CycleRecord { path: record, .. } = &mut self.record;
+        *record = PathRecord {
+            s_mm: path.s_mm,
+            v_mm_s: path.v_mm_s,
+            a_mm_s2: path.a_mm_s2,
+            j_mm_s3: path.j_mm_s3,
+            limit: path.limit,
+            motion: self.motion,
+            ..*record
+        };
+        (self.record.k, self.record.file) = (k, at.file);
+        (self.record.line, self.record.block) = (at.line, at.block);
     }
 
     /// Completes the record of a cycle whose axes have been computed.

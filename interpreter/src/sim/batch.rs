@@ -3,8 +3,8 @@
 //! Most cycles of a program follow from what is already planned: no event of a block, no input, no wait lies between them, and
 //! no axis asks what another one does. Their setpoints are read as columns ([`Ahead`]), and each chain runs over its own column
 //! before the next one starts: its code and its state stay in the processor, and of what it gives only those columns are written
-//! that somebody reads. Then the cycles are taken one by one, in their order: path and blocks are in every cycle what they
-//! would have been alone. A single cycle is a step of the chain, which does what a row of one does.
+//! that somebody reads. Then the cycles are taken together: path and blocks are in the row of each what they would have been alone,
+//! and all that remains in the simulation is the last one. A single cycle is a step of the chain, which does what a row of one does.
 //!
 //! A fault ends the row with the cycle that raised it. Chains that are already beyond that cycle are restored to their
 //! state before the row and run again up to it.
@@ -15,6 +15,7 @@
 
 use super::axes::Driver;
 use super::chain::{AxisChain, Mark};
+use super::out::Samples;
 use super::spindle::Spindle;
 use super::{Phase, SettledStop, Simulation, Underway};
 use crate::record::{AxisColumns, AxisRecord, RowBuffer};
@@ -38,9 +39,8 @@ const MOST_PATIENCE: u64 = 32;
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     ahead: Ahead,
-    /// How many of them have been computed, and taken.
+    /// How many of them wait to be taken.
     computed: usize,
-    taken: usize,
     /// How many are tried: after a fault few, because what lies after the next one is computed in vain.
     tried: usize,
     /// Cycle before which cycles are computed singly, because too few follow in a row.
@@ -63,39 +63,45 @@ pub(super) struct Batch {
 impl Batch {
     /// Whether computed cycles have not been taken yet.
     pub(super) const fn is_pending(&self) -> bool {
-        self.taken < self.computed
+        self.computed > 0
     }
 }
 
 impl Simulation {
-    /// Takes the next of the cycles that have been computed.
-    pub(super) fn take_computed(&mut self) {
-        self.take_up_to(self.batch.taken);
-    }
-
-    /// Takes all of them, of which only the last one is looked at; the number of them.
-    pub(super) fn take_all(&mut self) -> usize {
-        let count = self.batch.computed - self.batch.taken;
-        if let Some(last) = self.batch.computed.checked_sub(1) {
-            self.take_up_to(last);
-        }
-        count
-    }
-
-    fn take_up_to(&mut self, last: usize) {
-        let first = std::mem::replace(&mut self.batch.taken, last + 1);
+    /// Takes the cycles that have been computed, and completes their rows if there are any; the number of cycles.
+    pub(super) fn take_computed(
+        &mut self,
+        mut shown: Option<(&mut RowBuffer, &mut Samples)>,
+    ) -> usize {
+        let count = std::mem::take(&mut self.batch.computed);
+        let Some(last) = count.checked_sub(1) else { return 0 };
         let k = self.planner.setpoint().k + 1;
-        self.planner.take(&self.batch.ahead, first, last);
+        let mut position = self.planner.setpoint().position.clone();
         let mut s_mm = self.record.path.s_mm;
-        for i in first..=last {
-            self.enter_blocks(self.batch.ahead.seq(i), s_mm, k + (i - first) as u64);
-            s_mm = self.batch.ahead.s_mm(i);
+        for i in 0..count {
+            let row = self.batch.ahead.row(i);
+            self.enter_blocks(row.seq, s_mm, k + i as u64);
+            s_mm = row.s_mm;
+            if i < last
+                && let Some((rows, into)) = &mut shown
+            {
+                self.pass(k + i as u64, row);
+                for (axis, x) in position.iter_mut().enumerate() {
+                    *x = self.batch.ahead.positions(axis)[i];
+                }
+                self.show(&position, rows, into);
+            }
         }
-        let position = &self.planner.setpoint().position;
+        self.planner.take(&self.batch.ahead, last);
+        position.copy_from_slice(&self.planner.setpoint().position);
         for (now, x) in self.path_position.iter_mut().zip(position.iter()) {
             *now = x + 0.0;
         }
         self.end_cycle();
+        if let Some((rows, into)) = shown {
+            self.show(&position, rows, into);
+        }
+        count
     }
 
     /// Number of cycles after this one, up to `most`, in which nothing but the path acts on the axes.
@@ -186,7 +192,7 @@ impl Simulation {
                 self.batch.faults.extend(found.map(|f| (i, *f)));
             }
         }
-        (self.batch.computed, self.batch.taken) = (count - 1, 0);
+        self.batch.computed = count - 1;
     }
 
     /// Whether the actual position of a chain is inside the window of its stop.

@@ -106,8 +106,9 @@ impl Samples {
 }
 
 impl Simulation {
-    /// Completes the row of the cycle computed last, whose columns are written, and adds its points.
-    pub(super) fn show(&mut self, rows: &mut RowBuffer, into: &mut Samples) {
+    /// Completes the row of a cycle: that of the record, whose columns are written; and adds its points. `position`: setpoints of
+    /// the path.
+    pub(super) fn show(&mut self, position: &[f64], rows: &mut RowBuffer, into: &mut Samples) {
         let n = self.path_axes();
         let asked = rows.asked();
         if asked.has(Quantity::Target) {
@@ -127,7 +128,6 @@ impl Simulation {
         // the set position without the ways of independent axes is measured against the contour; while one of them
         // moves, it does not count
         let alone = !self.independent.is_unused();
-        let position = &self.planner.setpoint().position[..n];
         let mut shaped = false;
         for (p, position) in position.iter().enumerate() {
             let (set, ipo) = (*rows.next(p, Quantity::Set), *rows.next(p, Quantity::Ipo));

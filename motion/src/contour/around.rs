@@ -21,7 +21,9 @@ impl Contour {
         slack: (f64, f64),
         sight: &mut Sight,
     ) -> Around<'_> {
-        let (among, all) = self.within_reach(moments, slack, sight);
+        let reached = self.within_reach(moments, sight);
+        let among = reached.start..self.whole(reached.end);
+        let all = self.with_slack(&reached, &among, moments, slack);
         let n = line.0.len();
         let (a, b) = (&line.0[..n], &line.1[..n]);
         let middle = &mut AxisVec::zeros(n)[..n];
@@ -89,7 +91,8 @@ impl Contour {
         sight: &mut Sight,
         out: &mut [f64],
     ) -> Option<f64> {
-        let (among, _) = self.within_reach(moments, (0.0, 0.0), sight);
+        let Range { start, end } = self.within_reach(moments, sight);
+        let among = start..self.whole(end);
         sight.look_from(point, self.number(among.start)..self.number(among.end));
         if among.is_empty() {
             out.fill(0.0);
@@ -128,13 +131,8 @@ impl Contour {
         Some(least)
     }
 
-    /// Blocks interpolated between two moments (cycles), and those interpolated up to `slack` cycles before and after.
-    fn within_reach(
-        &self,
-        (from, to): (f64, f64),
-        slack: (f64, f64),
-        sight: &mut Sight,
-    ) -> (Range<usize>, Range<usize>) {
+    /// Entries interpolated between two moments (cycles).
+    fn within_reach(&self, (from, to): (f64, f64), sight: &mut Sight) -> Range<usize> {
         let index = |number: u64| self.index(number).unwrap_or_default();
         let (entered, end) = match sight.entered {
             Some((first, end)) => {
@@ -144,17 +142,27 @@ impl Contour {
         };
         sight.entered = Some((self.number(entered), self.number(end)));
         let start = entered.saturating_sub(1);
-        let end = end.max(start);
-        let among = start..self.whole(end);
-        let mut all = start..end;
+        start..end.max(start)
+    }
+
+    /// Blocks interpolated up to `slack` cycles before and after two moments, between which the entries `reached` were, and as whole
+    /// blocks those of `among`.
+    fn with_slack(
+        &self,
+        reached: &Range<usize>,
+        among: &Range<usize>,
+        (from, to): (f64, f64),
+        slack: (f64, f64),
+    ) -> Range<usize> {
+        let mut all = reached.clone();
         while all.start > 0 && self.blocks[all.start].cycles > from - slack.0 {
             all.start -= 1;
         }
         while self.blocks.get(all.end).is_some_and(|b| b.cycles <= to + slack.1) {
             all.end += 1;
         }
-        all.end = if all.end == end { among.end } else { self.whole(all.end) };
-        (among, all)
+        all.end = if all.end == reached.end { among.end } else { self.whole(all.end) };
+        all
     }
 }
 

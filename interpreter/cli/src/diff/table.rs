@@ -7,7 +7,7 @@ use crate::trace::fixed::Cells;
 use crate::trace::select;
 use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
-use kontur_interpreter::job::{self, Run, Sink};
+use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::record::{self, Asked, columns};
 use kontur_interpreter::source::text::Text;
@@ -192,8 +192,8 @@ struct Gathered {
 impl Sink for Gathered {
     type Stop = Infallible;
 
-    fn reads(&self) -> job::Reads {
-        job::Reads::Columns(self.asked)
+    fn reads(&self) -> Option<Asked> {
+        Some(self.asked)
     }
 
     fn rows(&mut self, rows: &record::Rows<'_>) -> Result<(), Infallible> {

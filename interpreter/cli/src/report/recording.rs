@@ -4,7 +4,7 @@
 use super::stops::Stops;
 use super::track::{Point, Track};
 use kontur_interpreter::job::Facts;
-use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
+use kontur_interpreter::record::{Asked, CycleRecord, Motion, Quantity, Rows, SpeedLimit};
 
 /// A finished recording of a longer run has at least half this number of buckets.
 const MOST_BUCKETS: usize = 4000;
@@ -61,17 +61,17 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    fn of_axis(self, record: &CycleRecord, axis: usize) -> f64 {
-        let Some(a) = record.axes.get(axis) else { return 0.0 };
+    /// What it shows of an axis; none for a curve of the path.
+    const fn quantity(self) -> Option<Quantity> {
         match self {
-            Self::Deviation => a.dev,
-            Self::Lag => a.lag,
-            Self::Velocity => a.vel,
-            Self::Acceleration => a.acc,
-            Self::Set => a.set,
-            Self::Actual => a.act,
-            Self::Load => a.load,
-            Self::Speed | Self::ContourError => 0.0,
+            Self::Deviation => Some(Quantity::Dev),
+            Self::Lag => Some(Quantity::Lag),
+            Self::Velocity => Some(Quantity::Vel),
+            Self::Acceleration => Some(Quantity::Acc),
+            Self::Set => Some(Quantity::Set),
+            Self::Actual => Some(Quantity::Act),
+            Self::Load => Some(Quantity::Load),
+            Self::Speed | Self::ContourError => None,
         }
     }
 }
@@ -195,24 +195,36 @@ impl Recording {
         self.track.within_mm()
     }
 
-    /// Adds a cycle.
-    pub(crate) fn add(&mut self, record: &CycleRecord) {
-        let point = self.point(record);
+    /// What it reads of the axes.
+    pub(crate) fn asked() -> Asked {
+        use Quantity::{Acc, Act, Dev, Ipo, Lag, Load, Set, Target, Vel};
+        Asked::of(&[Ipo, Set, Act, Load, Target, Dev, Lag, Vel, Acc])
+    }
+
+    /// Adds cycles with the columns of [`Self::asked`].
+    pub(crate) fn add(&mut self, rows: &Rows<'_>) {
+        for (i, cycle) in rows.cycles().iter().enumerate() {
+            self.add_cycle(cycle, |axis, quantity| rows.column(axis, quantity)[i]);
+        }
+    }
+
+    /// Adds a cycle, with the quantities of an axis.
+    fn add_cycle(&mut self, record: &CycleRecord, of: impl Fn(usize, Quantity) -> f64) {
+        let point = self.point(record, &of);
         self.track.add(point);
         if self.worst.is_none_or(|worst| point.error > worst.error) {
             self.worst = Some(point);
         }
-        self.stops.add(record, &self.facts.axes);
-        for (i, (samples, a)) in self.accelerations.iter_mut().zip(&record.axes).enumerate() {
+        self.stops.add(record, &self.facts.axes, &of);
+        for (i, samples) in self.accelerations.iter_mut().enumerate() {
             if samples.len() < self.most_samples && !self.facts.axes[i].spindle {
-                samples.push(a.acc);
+                samples.push(of(i, Quantity::Acc));
             }
         }
-        let value = |c: &Curve| match (c.kind, c.axis) {
-            (Kind::Speed, _) => record.path.v_mm_s,
-            (Kind::ContourError, _) => record.contour_err_mm,
-            (kind, Some(i)) => kind.of_axis(record, i),
-            (_, None) => 0.0,
+        let value = |c: &Curve| match (c.kind.quantity(), c.axis) {
+            (Some(quantity), Some(axis)) => of(axis, quantity),
+            _ if c.kind == Kind::Speed => record.path.v_mm_s,
+            _ => record.contour_err_mm,
         };
         let range: Vec<(f64, f64)> = self.curves.iter().map(|c| (value(c), value(c))).collect();
         let bucket = Bucket {
@@ -234,17 +246,17 @@ impl Recording {
         }
     }
 
-    fn point(&mut self, record: &CycleRecord) -> Point {
-        let of = |value: fn(&kontur_interpreter::record::AxisRecord) -> f64| {
+    fn point(&mut self, record: &CycleRecord, of: impl Fn(usize, Quantity) -> f64) -> Point {
+        let in_plane = |quantity| {
             let mut at = [0.0; 3];
-            for (slot, &i) in at.iter_mut().zip(&self.plane) {
-                *slot = record.axes.get(i).map_or(0.0, value);
+            for (slot, &axis) in at.iter_mut().zip(&self.plane) {
+                *slot = of(axis, quantity);
             }
             at
         };
-        let (ipo, set, act) = (of(|a| a.ipo), of(|a| a.set), of(|a| a.act));
+        let [ipo, set, act] = [Quantity::Ipo, Quantity::Set, Quantity::Act].map(in_plane);
         let is_straight = matches!(record.path.motion, Motion::Line | Motion::Rapid);
-        let target = is_straight.then(|| of(|a| a.target));
+        let target = is_straight.then(|| in_plane(Quantity::Target));
         let near = |p: [f64; 3]| (0..3).all(|i| (p[i] - ipo[i]).abs() < CLOSED_MM);
         // a new pass begins when the path, after a trip, leaves a stop where that trip began
         let start = *self.start.get_or_insert(ipo);

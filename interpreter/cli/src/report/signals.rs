@@ -14,8 +14,8 @@ use crate::target::{create_all, keep_apart};
 use crate::trace::select;
 use crate::{Error, Exit};
 use kontur_interpreter::job::Facts;
+use kontur_interpreter::record::Rows;
 use kontur_interpreter::record::columns::{Column, asked};
-use kontur_interpreter::record::{CycleRecord, Rows};
 use kontur_interpreter::summary::Collector;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -78,24 +78,23 @@ pub(super) fn report(
         let most =
             most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
         let asked = asked(&recorded.columns);
-        let mut take = |record: &CycleRecord| {
-            let t_s = record.k as f64 * recorded.cycle_s;
-            if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
-                return Ok(());
-            }
-            if recorded.times.len() >= most {
+        let take = |rows: &Rows<'_>| {
+            let t_s = |k: u64| k as f64 * recorded.cycle_s;
+            let is_shown = |k| args.window.is_none_or(|(from, to)| (from..to).contains(&t_s(k)));
+            let shown = rows.during(is_shown);
+            if recorded.times.len() + shown.len() > most {
                 let text = format!(
                     "--signals: more than {most_samples} cycles, or {most_values} values in all; --window shows a part"
                 );
                 return Err(Error::Usage(text));
             }
-            recorded.times.push(t_s);
+            recorded.times.extend(shown.cycles().iter().map(|cycle| t_s(cycle.k)));
             for (samples, column) in recorded.samples.iter_mut().zip(&recorded.columns) {
-                samples.push(column.number(record).unwrap_or_default());
+                column.content.extend(samples, &shown, 1);
             }
             Ok(())
         };
-        let take = Some((asked, |rows: &Rows<'_>| rows.each(&mut take)));
+        let take = Some((asked, take));
         drive(&mut run, Shown::ALONE, console, Some(&mut summary), take)?;
         // including the subroutines that the run reached
         keep_apart(&reads.so_far(), &[output.to_owned()])?;

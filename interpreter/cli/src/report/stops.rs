@@ -4,7 +4,7 @@
 //! Source: TF5200 position monitoring, course of an exact stop.
 
 use kontur_interpreter::job::{AxisFacts, Facts};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::{CycleRecord, Quantity};
 
 /// Largest number of stops that are kept; a picture does not show more.
 const MOST: usize = 2000;
@@ -56,27 +56,32 @@ impl Stops {
         &self.found
     }
 
-    pub(crate) fn add(&mut self, record: &CycleRecord, axes: &[AxisFacts]) {
-        let rests = record.path.v_mm_s.abs() < REST_MM_S;
-        for (i, ((a, facts), watch)) in
-            record.axes.iter().zip(axes).zip(&mut self.watched).enumerate()
-        {
-            let stands = watch.set.replace(a.set).is_none_or(|x| x.to_bits() == a.set.to_bits());
-            if stands && watch.moving && rests && (a.set - a.ipo).abs() < ARRIVED_MM {
+    /// Adds a cycle, with set, interpolated and actual position of an axis.
+    pub(crate) fn add(
+        &mut self,
+        cycle: &CycleRecord,
+        axes: &[AxisFacts],
+        of: impl Fn(usize, Quantity) -> f64,
+    ) {
+        let rests = cycle.path.v_mm_s.abs() < REST_MM_S;
+        for (i, (facts, watch)) in axes.iter().zip(&mut self.watched).enumerate() {
+            let set = of(i, Quantity::Set);
+            let stands = watch.set.replace(set).is_none_or(|x| x.to_bits() == set.to_bits());
+            if stands && watch.moving && rests && (set - of(i, Quantity::Ipo)).abs() < ARRIVED_MM {
                 watch.moving = false;
                 if facts.spindle || self.found.len() >= MOST {
                     continue;
                 }
-                let t1 = record.k.saturating_sub(1);
+                let t1 = cycle.k.saturating_sub(1);
                 let limit = facts.settling_s.map(|s| t1 + (s / self.cycle_s).round() as u64);
                 watch.open = Some(self.found.len());
-                self.found.push(Stop { axis: i, target: a.set, t1, t2: None, t3: limit });
+                self.found.push(Stop { axis: i, target: set, t1, t2: None, t3: limit });
             }
             // the cycle in which the window permits the axis to continue still counts
             if let Some(stop) = watch.open.and_then(|s| self.found.get_mut(s))
-                && (a.act - stop.target).abs() <= facts.window
+                && (of(i, Quantity::Act) - stop.target).abs() <= facts.window
             {
-                stop.t2 = Some(record.k);
+                stop.t2 = Some(cycle.k);
                 watch.open = None;
             }
             if !stands {
@@ -89,7 +94,7 @@ impl Stops {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::record::{AxisRecord, PathRecord};
+    use kontur_interpreter::record::PathRecord;
 
     /// Set positions 0, 1, 2, 2, ...; the actual position halves its distance each cycle. Conformance: P022.
     #[test]
@@ -105,10 +110,10 @@ mod tests {
             let record = CycleRecord {
                 k: u64::from(k),
                 path: PathRecord { v_mm_s, ..PathRecord::default() },
-                axes: vec![AxisRecord { ipo: set, set, act, ..AxisRecord::default() }],
                 ..CycleRecord::default()
             };
-            stops.add(&record, &facts.axes);
+            let of = |_, quantity| if quantity == Quantity::Act { act } else { set };
+            stops.add(&record, &facts.axes, of);
         }
         // distances after cycle 2: 0.75, 0.375, 0.1875, 0.09
         let want = Stop { axis: 0, target: 2.0, t1: 2, t2: Some(5), t3: Some(22) };

@@ -7,7 +7,7 @@ use crate::combinations::put;
 use crate::interrupt::Running;
 use crate::request::{Opened, Request};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
-use kontur_interpreter::job::{Reads, Run, Sink};
+use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::Collector;
@@ -24,36 +24,29 @@ struct Collected<'a> {
 struct Wanted<'a> {
     amplitude: &'a Amplitude,
     column: Column,
-    /// Values at some times, and room for those of the next cycles.
+    /// Values at some times.
     samples: Vec<f64>,
-    next: Vec<f64>,
 }
 
 impl Sink for Collected<'_> {
     type Stop = Failure;
 
-    fn reads(&self) -> Reads {
+    fn reads(&self) -> Option<Asked> {
         let wanted = self.wanted.iter().map(|wanted| wanted.column.content.asked());
-        Reads::Columns(wanted.fold(Collector::asked(), Asked::and))
+        Some(wanted.fold(Collector::asked(), Asked::and))
     }
 
     fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Failure> {
-        self.summary.add_rows(rows);
-        for Wanted { amplitude, column, samples, next } in &mut self.wanted {
-            next.clear();
-            column.content.extend(next, rows, 1);
-            for (cycle, value) in rows.cycles().iter().zip(&*next) {
-                if !amplitude.holds(cycle.k as f64 * self.cycle_s) {
-                    continue;
-                }
-                if samples.len() == MOST_SAMPLES {
-                    return Err(Failure::usage(format!(
-                        "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
-                        amplitude.text, amplitude.text
-                    )));
-                }
-                samples.push(*value);
+        self.summary.add(rows);
+        for Wanted { amplitude, column, samples } in &mut self.wanted {
+            let part = rows.during(|k| amplitude.holds(k as f64 * self.cycle_s));
+            if samples.len() + part.len() > MOST_SAMPLES {
+                return Err(Failure::usage(format!(
+                    "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
+                    amplitude.text, amplitude.text
+                )));
             }
+            column.content.extend(samples, &part, 1);
         }
         Ok(())
     }
@@ -93,7 +86,7 @@ fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
                 "--amplitude {text}: a cycle of {cycle_s} s shows up to {highest_hz} Hz"
             )));
         }
-        wanted.push(Wanted { amplitude, column, samples: Vec::new(), next: Vec::new() });
+        wanted.push(Wanted { amplitude, column, samples: Vec::new() });
     }
     let mut collected = Collected { summary: Collector::new(facts), cycle_s, wanted };
     run.to_end(&mut collected)?;

@@ -8,7 +8,7 @@ use crate::lists::Lists;
 use crate::request::Request;
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::machine::{Axis, Lever, Machine};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::{Asked, Rows};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::HashMap;
@@ -111,8 +111,12 @@ struct Watch(Collector);
 impl Sink for Watch {
     type Stop = ();
 
-    fn cycle(&mut self, record: &CycleRecord) -> Result<(), ()> {
-        self.0.add(record);
+    fn reads(&self) -> Option<Asked> {
+        Some(Collector::asked())
+    }
+
+    fn rows(&mut self, rows: &Rows<'_>) -> Result<(), ()> {
+        self.0.add(rows);
         Ok(())
     }
 

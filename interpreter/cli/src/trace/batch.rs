@@ -88,7 +88,7 @@ impl Batch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::job::{Job, MachineLists, Reads, Run, Sink};
+    use kontur_interpreter::job::{Job, MachineLists, Run, Sink};
     use kontur_interpreter::record::{Asked, columns};
     use kontur_interpreter::source::MemorySources;
     use std::convert::Infallible;
@@ -98,16 +98,13 @@ mod tests {
     impl Sink for Gathered {
         type Stop = Infallible;
 
-        fn reads(&self) -> Reads {
-            Reads::Columns(self.2)
+        fn reads(&self) -> Option<Asked> {
+            Some(self.2)
         }
 
         fn rows(&mut self, rows: &Rows<'_>) -> Result<(), Infallible> {
             let Self(batch, numbers, _, decimate) = self;
-            let first = rows.cycles().iter().position(|c| c.k.is_multiple_of(*decimate as u64));
-            if let Some(first) = first {
-                batch.extend(numbers, &rows.after(first), *decimate);
-            }
+            batch.extend(numbers, &rows.from_multiple_of(*decimate as u64), *decimate);
             Ok(())
         }
     }

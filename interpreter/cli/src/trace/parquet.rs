@@ -8,7 +8,8 @@
 //!
 //! A Parquet file is readable only once its footer is written. So each group of rows goes to a separate file in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
-//! leaves is a folder of whole Parquet files, which readers take as one table.
+//! leaves is a folder of whole Parquet files, which readers take as one table. The last group goes to the target at once: most
+//! traces are written once and have no parts.
 
 use super::batch::{Batch, Head};
 use crate::target::{Target, folder_of};
@@ -51,6 +52,20 @@ enum Values {
     Word(Vec<ByteArray>),
 }
 
+impl Values {
+    fn clear(&mut self) {
+        match self {
+            Self::Number(v) => v.clear(),
+            Self::Integer(v) => v.clear(),
+            Self::Optional(v, present) => {
+                v.clear();
+                present.clear();
+            }
+            Self::Word(v) => v.clear(),
+        }
+    }
+}
+
 /// A Parquet trace.
 pub(crate) struct ParquetWriter {
     columns: Vec<(Column, Values)>,
@@ -90,6 +105,8 @@ impl ParquetWriter {
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY)
             .set_statistics_enabled(EnabledStatistics::Chunk)
+            // a group has one page per column, which needs no index
+            .set_offset_index_disabled(true)
             // whole pages: the memory of a page is allocated once and does not grow
             .set_write_batch_size(ROWS_PER_GROUP);
         let mut fields = Vec::with_capacity(columns.len());
@@ -208,26 +225,28 @@ impl ParquetWriter {
         self.folder = Some(folder);
         // until it is complete it has a name that readers of folders skip
         let unfinished = folder_of(&path).join(format!(".{:06}.part", self.parts.len() + 1));
-        let file = BufWriter::with_capacity(PIECE, File::create(&unfinished)?);
-        let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
-        let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
-        let mut group = writer.next_row_group().map_err(to_io)?;
-        for (_, values) in &mut self.columns {
+        let mut writer = writer(&self.schema, &self.properties, File::create(&unfinished)?)?;
+        self.put_waiting(&mut writer)?;
+        writer.close().map_err(to_io)?;
+        std::fs::rename(&unfinished, &path)?;
+        self.parts.push(path);
+        self.columns.iter_mut().for_each(|(_, values)| values.clear());
+        self.rows = 0;
+        Ok(())
+    }
+
+    /// Writes the waiting rows as a group of a file; they still wait.
+    fn put_waiting(&self, file: &mut SerializedFileWriter<impl Write + Send>) -> io::Result<()> {
+        let mut group = file.next_row_group().map_err(to_io)?;
+        for (_, values) in &self.columns {
             match values {
                 Values::Number(v) => put::<DoubleType>(&mut group, v, None)?,
                 Values::Integer(v) => put::<Int64Type>(&mut group, v, None)?,
-                Values::Optional(v, present) => {
-                    put::<Int64Type>(&mut group, v, Some(present))?;
-                    present.clear();
-                }
+                Values::Optional(v, present) => put::<Int64Type>(&mut group, v, Some(present))?,
                 Values::Word(v) => put::<ByteArrayType>(&mut group, v, None)?,
             }
         }
         group.close().map_err(to_io)?;
-        writer.close().map_err(to_io)?;
-        std::fs::rename(&unfinished, &path)?;
-        self.parts.push(path);
-        self.rows = 0;
         Ok(())
     }
 
@@ -236,9 +255,14 @@ impl ParquetWriter {
     /// # Errors
     /// The system's, e.g. for a full disk; the data written so far stay in the folder stated in the error.
     pub(crate) fn finish(mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
-        let written = if self.rows > 0 { self.write_group() } else { Ok(()) };
-        let done = written.and_then(|()| self.join(facts, totals));
-        done.map_err(|e| self.kept(e))
+        self.join(facts, totals).map_err(|e| {
+            // the rows that wait are kept like the others, if there is room without what was put together
+            drop(self.target.file().and_then(|file| file.set_len(0)));
+            if self.rows > 0 {
+                drop(self.write_group());
+            }
+            self.kept(e)
+        })
     }
 
     /// An error that states the folder of the parts, which are kept.
@@ -253,13 +277,13 @@ impl ParquetWriter {
         }
     }
 
+    /// Copies the parts and adds the rows that wait.
     fn join(&mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
-        if self.parts.is_empty() {
+        if self.parts.is_empty() && self.rows == 0 {
             return Ok(());
         }
-        let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
-        let file = BufWriter::with_capacity(PIECE, self.target.file()?);
-        let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
+        let file = self.target.file()?.try_clone()?;
+        let mut writer = writer(&self.schema, &self.properties, file)?;
         for part in &self.parts {
             let part = File::open(part)?;
             let reader = SerializedFileReader::new(part.try_clone()?).map_err(to_io)?;
@@ -277,6 +301,9 @@ impl ParquetWriter {
                 group.append_column(&part, closed).map_err(to_io)?;
             }
             group.close().map_err(to_io)?;
+        }
+        if self.rows > 0 {
+            self.put_waiting(&mut writer)?;
         }
         let mut note = |key: &str, value: String| {
             writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
@@ -311,17 +338,25 @@ fn folder_beside(path: &Path) -> io::Result<TempDir> {
     builder.prefix(&format!(".{name}.")).suffix(".parts").tempdir_in(folder_of(path))
 }
 
+/// Begins a Parquet file.
+fn writer(
+    schema: &Arc<Type>,
+    properties: &Arc<WriterProperties>,
+    file: File,
+) -> io::Result<SerializedFileWriter<BufWriter<File>>> {
+    let file = BufWriter::with_capacity(PIECE, file);
+    SerializedFileWriter::new(file, Arc::clone(schema), Arc::clone(properties)).map_err(to_io)
+}
+
 fn put<T: DataType>(
     group: &mut SerializedRowGroupWriter<'_, impl Write + Send>,
-    values: &mut Vec<T::T>,
+    values: &[T::T],
     present: Option<&[i16]>,
 ) -> io::Result<()> {
     let column = group.next_column().map_err(to_io)?;
     let mut column = column.ok_or_else(|| io::Error::other("fewer columns than the schema"))?;
     column.typed::<T>().write_batch(values, present, None).map_err(to_io)?;
-    column.close().map_err(to_io)?;
-    values.clear();
-    Ok(())
+    column.close().map_err(to_io)
 }
 
 fn to_io(e: ParquetError) -> io::Error {

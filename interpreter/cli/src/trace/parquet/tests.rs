@@ -33,6 +33,32 @@ fn parts_outlive_an_error() {
     assert_eq!(usize::try_from(rows), Ok(ROWS_PER_GROUP));
 }
 
+/// The trace cannot be put together: the rows that no part has yet become one.
+#[test]
+#[cfg(target_os = "linux")]
+fn rows_that_wait_outlive_an_error_too() {
+    let facts = Facts { cycle_us: 1000, ..Facts::default() };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let columns = columns::select("time", &facts).unwrap();
+    let mut row = Batch::default();
+    row.push(&Numbers::of(&columns), &CycleRecord::default());
+    let full = Target::create("/dev/full".as_ref()).unwrap();
+    let mut writer = ParquetWriter::new(&path, full, columns, &facts).unwrap();
+    for _ in 0..ROWS_PER_GROUP + 3 {
+        writer.write(&row).unwrap();
+    }
+    let first = writer.parts[0].clone();
+    let error = writer.finish(&facts, &Totals::default()).unwrap_err();
+    assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+    for (part, rows) in
+        [(first.clone(), ROWS_PER_GROUP), (first.with_file_name("000002.parquet"), 3)]
+    {
+        let reader = SerializedFileReader::new(File::open(part).unwrap()).unwrap();
+        assert_eq!(usize::try_from(reader.metadata().file_metadata().num_rows()), Ok(rows));
+    }
+}
+
 #[test]
 fn reads_back_bit_by_bit() {
     let axis = AxisFacts { name: "X".to_owned(), ..AxisFacts::default() };
