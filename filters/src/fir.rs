@@ -94,6 +94,9 @@ impl FirConfig {
             issues.push(FilterIssue::Quality { quality: self.quality, range: "above 0 to 1" });
         }
         check_share(self.share_ratio, &mut issues);
+        if self.kind == FirKind::TimeDelay && (0.0..1.0).contains(&self.share_ratio) {
+            issues.push(FilterIssue::ShareOfDelay);
+        }
         let kernel = order.filter(|_| no_filter_off(&issues)).and_then(|order| match self.kind {
             FirKind::MovingAverage => moving_average(order),
             FirKind::Gauss => gauss(order, self.quality),

@@ -221,6 +221,11 @@ impl AxisFilter {
         self.settle_from(x, before.start.unwrap_or(x));
     }
 
+    /// Settles at `x` after a shift of the coordinate by `by_mm`, which moves the position at switch-on, too.
+    pub(crate) fn shift(&mut self, by_mm: f64, x: f64) {
+        self.settle_from(x, self.start.map_or(x, |start| start + by_mm));
+    }
+
     /// Settles at `x`, switched on at `start`.
     fn settle_from(&mut self, x: f64, start: f64) {
         self.start = self.start.map(|_| start);

@@ -124,6 +124,9 @@ pub enum FilterIssue {
         /// The share.
         share_ratio: f64,
     },
+    /// A share of a FIR filter that only delays: the rest has the same delay.
+    #[error("share of a delay, which is the whole signal with the same delay")]
+    ShareOfDelay,
     /// The vendor recommends BESSEL for the all-pass.
     #[error("all-pass that is not BESSEL")]
     AllPassNotBessel,
@@ -136,7 +139,7 @@ impl FilterIssue {
     /// The consequence for the filter.
     pub const fn effect(&self) -> Effect {
         match self {
-            Self::AllPassNotBessel | Self::RemovesConstantPart => Effect::Note,
+            Self::ShareOfDelay | Self::AllPassNotBessel | Self::RemovesConstantPart => Effect::Note,
             Self::OrderTooHigh { .. }
             | Self::OrderCorrected { .. }
             | Self::FrequencyTooLow { .. } => Effect::Corrected,

@@ -110,6 +110,26 @@ impl Shaping {
         self.newest.1 = x;
     }
 
+    /// Shifts everything at standstill by `by_mm`: the axis gets another coordinate. The next output is the last one plus
+    /// `by_mm`; what a high-pass or band-pass blocks moves with it.
+    pub fn shift(&mut self, by_mm: f64) {
+        let (x, y) = self.newest;
+        let mut x = if self.filters.iter().all(AxisFilter::lets_rest_through) { y } else { x };
+        x += by_mm;
+        self.kernel.settle(x);
+        let newest = x;
+        for filter in &mut self.filters {
+            filter.shift(by_mm, x);
+            x = filter.final_value(x);
+        }
+        self.newest = (newest, x);
+    }
+
+    /// The input at the last step.
+    pub fn input(&self) -> f64 {
+        self.newest.0
+    }
+
     /// The kernel in the slot, the identity if the slot is empty.
     pub fn kernel(&self) -> &Arc<Kernel> {
         self.kernel.kernel()

@@ -113,6 +113,19 @@ fn printed(key: &str) -> String {
     }
 }
 
+/// What the drives of a parameter in the manual mean here.
+fn drives_here(row: &Row) -> &'static str {
+    match row.drives {
+        _ if instead_of(row.id).is_some() => "",
+        "Profidrive" => "; here only with antr_typ 3",
+        // the dead time delays every drive
+        "Simulation" if row.id != "P-AXIS-00194" => {
+            "; here only with the plant SIMU (kontur.axis[i].plant.model)"
+        }
+        _ => "; every simulated drive here",
+    }
+}
+
 fn probably(thing: &str) -> Vec<String> {
     let shape = Key::parse(thing).map_or_else(|| thing.to_ascii_lowercase(), |key| key.shape);
     let mut found: Vec<String> =
@@ -151,7 +164,7 @@ fn parameter(row: &'static Row) -> Explanation {
         facts.push(("axes", format!("{} (T linear, R rotary, S spindle)", axes.join(", "))));
     }
     if !row.drives.is_empty() {
-        facts.push(("drives", format!("{}; every simulated drive here", row.drives)));
+        facts.push(("drives", format!("{}{}", row.drives, drives_here(row))));
     }
     if let Some(reaction) = reaction(row) {
         facts.push(("reaction", reaction));

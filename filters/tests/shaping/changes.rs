@@ -42,4 +42,31 @@ proptest! {
         }
         prop_assert!((y - 10.0).abs() < 1e-6);
     }
+
+    /// A shift of the coordinate at standstill changes nothing but the coordinate: the axis stays, and a later motion is the
+    /// one without the shift, moved by it. That includes filters that block constants, and shares of them.
+    #[test]
+    fn a_shift_moves_nothing_but_the_coordinate(
+        kinds in prop::collection::vec(0..4_usize, 1..=3), share_ratio in 0.2..1.0_f64, f_hz in 3.0..30.0_f64, by in -100.0..100.0_f64,
+    ) {
+        const KINDS: [FilterKind; 4] =
+            [FilterKind::LowPass, FilterKind::HighPass, FilterKind::BandPass, FilterKind::BandStop];
+        let filter = |i: &usize| {
+            let config =
+                FilterConfig { kind: KINDS[*i], order: 1, f_hz, share_ratio, ..FilterConfig::default() };
+            AxisFilter::design(&config, CycleTime::DEFAULT).0.unwrap()
+        };
+        let mut plain = Shaping::new(kinds.iter().map(filter).collect(), 0.0);
+        for _ in 0..20_000 {
+            plain.step(10.0);
+        }
+        let mut shifted = plain.clone();
+        shifted.shift(by);
+        for target in [10.0, 10.0, 25.0] {
+            for _ in 0..500 {
+                let (y, moved) = (plain.step(target), shifted.step(target + by));
+                prop_assert!((moved - by - y).abs() < 1e-8, "{moved} instead of {}", y + by);
+            }
+        }
+    }
 }

@@ -52,8 +52,7 @@ use std::sync::mpsc;
 /// The column with the parameters without effect, if there are any; a shard always has it.
 pub const WITHOUT_EFFECT: &str = "without_effect";
 /// The message about such a parameter.
-pub const NO_DIFFERENCE: &str =
-    "every value gives the same results; the program sets its own, or nothing uses it";
+pub const NO_DIFFERENCE: &str = "every value gives the same in these columns; the program sets its own, nothing uses it, or it acts on other results";
 
 /// Reasons for a missing row.
 enum Failure {

@@ -197,6 +197,7 @@ impl Decoder {
         let known = machine.chain_issues(axis);
         let changed = &mut machine.axes[axis];
         let limits_mm = changed.software_limits_mm();
+        let listed = changed.kernel_preset(cycle);
         let corrected =
             changed.change(key, value, self.report.location.clone(), cycle).map_err(|reason| {
                 let text = format!("axis {}: {reason}", changed.name());
@@ -211,6 +212,7 @@ impl Decoder {
             self.geometry.limits_mm[axis] = changed.software_limits_mm();
         }
         let number = changed.number();
+        let reshaped = changed.kernel_preset(cycle) != listed;
         // what is not as it was: a filter that cannot be designed with the new value, an input that the drive does not have
         let new = machine.chain_issues(axis).into_iter().filter(|issue| !known.contains(issue));
         let new: Vec<Diagnostic> = new.collect();
@@ -219,7 +221,16 @@ impl Decoder {
         }
         self.motion.dynamics_changed();
         // first: a kernel is replaced when the axes have been at rest for as long as it remembers
+        let before = self.shaping.setup.clone();
         self.update_shaping(span);
+        if let Some(command) = self.shaping.outranks_the_list()
+            && reshaped
+            && self.shaping.setup == before
+        {
+            let text = format!("{key}: no effect, {command} of the program takes precedence");
+            let fault = Fault::new(Condition::ListNoEffect, text, span).warning();
+            self.report.note(fault.hint(format!("write the value into {command}")));
+        }
         self.sync(Sync::MachineData { axis: number });
         // the list decides what the state of G135 is worth
         self.feedforward_event();

@@ -120,6 +120,15 @@ impl ShapingState {
         forced.unwrap_or_else(|| self.guard.over(listed))
     }
 
+    /// The command of the program that outranks the list of an axis.
+    pub(super) fn outranks_the_list(&self) -> Option<&'static str> {
+        if self.guard_on.is_some() {
+            Some(Family::VibGuard.command())
+        } else {
+            self.fir_on.map(|_| Family::Filter.command())
+        }
+    }
+
     /// True if a kernel of any axis is active.
     pub(super) fn is_active(&self) -> bool {
         self.setup.axes.iter().any(|a| a.kernel.is_some())
@@ -169,6 +178,11 @@ impl ShapingState {
                 let text = "the list switches the Vibration Guard on and a FIR filter is active: \
                             the Vibration Guard is off";
                 let d = Diagnostic::new(Condition::ListFirAndGuard, with_axis(axis, text));
+                found.push(d.axis(axis.number(), axis.name()));
+            }
+            if self.hsc_on && listed.hsc.is_some() {
+                let text = "a FIR filter is active: the HSC filter is off";
+                let d = Diagnostic::new(Condition::FirAndHsc, with_axis(axis, text));
                 found.push(d.axis(axis.number(), axis.name()));
             }
             let (kernel, issues) = config.design(cycle);

@@ -69,6 +69,7 @@ pub const fn filter_condition(issue: &FilterIssue) -> Condition {
         FilterIssue::Frequency { .. } | FilterIssue::Quality { .. } | FilterIssue::Share { .. } => {
             Condition::FilterRange
         }
+        FilterIssue::ShareOfDelay => Condition::ListNoEffect,
         FilterIssue::AllPassNotBessel => Condition::FilterAllPass,
         FilterIssue::RemovesConstantPart => Condition::FilterConstantPart,
     }
@@ -135,6 +136,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
         FilterIssue::Quality { quality, .. } => {
             about(|k| k.quality.place()).value(ValueKind::Wrong, quality, "-")
         }
+        FilterIssue::ShareOfDelay => about(|k| k.share.place()),
         FilterIssue::Share { share_ratio } => {
             about(|k| k.share.place()).value(ValueKind::Wrong, 100.0 * share_ratio, "%")
         }

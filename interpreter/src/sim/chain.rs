@@ -128,8 +128,8 @@ impl AxisChain {
     /// coordinate.
     pub(crate) fn shift(&mut self, by_mm: f64, moves: bool) {
         self.set += by_mm;
-        self.shaping.settle(self.set);
-        self.align(self.set);
+        self.shaping.shift(by_mm);
+        self.align(self.shaping.input());
         if moves {
             self.control.command(by_mm);
         } else {

@@ -210,13 +210,24 @@ impl Simulation {
     }
 }
 
+/// A value and its limit, with as many digits as it takes to tell them apart.
+fn distinct(value: f64, limit: f64) -> (String, String) {
+    let rough = (rounded(value), rounded(limit));
+    if rough.0 != rough.1 {
+        return rough;
+    }
+    let fine = |decimals: usize| (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
+    (3..=12).map(fine).find(|(value, limit)| value != limit).unwrap_or(rough)
+}
+
 /// Value and limit of a fault, in the unit of the axis, `mm` or `deg`.
 fn text(fault: &Fault, unit: &'static str) -> String {
     let r = rounded;
     let speed = per_s(unit, 1);
     match *fault {
         Fault::FollowingError { lag_mm, limit_mm } => {
-            format!("following error {} {unit} exceeds {} {unit}", r(lag_mm), r(limit_mm))
+            let (lag, limit) = distinct(lag_mm, limit_mm);
+            format!("following error {lag} {unit} exceeds {limit} {unit}")
         }
         Fault::SettlingTimeout { lag_mm, window_mm, time_s } => format!(
             "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}",
@@ -225,17 +236,15 @@ fn text(fault: &Fault, unit: &'static str) -> String {
             r(window_mm)
         ),
         Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => {
-            format!("speed command {} {speed} exceeds {} {speed}", r(speed_mm_s), r(limit_mm_s))
+            let (value, limit) = distinct(speed_mm_s, limit_mm_s);
+            format!("speed command {value} {speed} exceeds {limit} {speed}")
         }
         Fault::SetpointWarning { what, value, limit }
         | Fault::SetpointError { what, value, limit } => {
             let unit = per_s(unit, order(what));
             let quantity = what.name();
-            format!(
-                "{quantity} of the set position {} {unit} exceeds {} {unit}",
-                r(value),
-                r(limit)
-            )
+            let (value, limit) = distinct(value, limit);
+            format!("{quantity} of the set position {value} {unit} exceeds {limit} {unit}")
         }
         Fault::Unstable { lag_mm, limit_mm } => format!(
             "following error {} {unit} beyond {} {unit}: the simulated axis is unstable",

@@ -39,7 +39,7 @@ fn a_value_that_the_program_sets_itself_is_told() {
     let own = format!("#VIB GUARD ON [MODE=1 FREQ=30]\n{SQUARE}");
     let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
     assert_eq!(rows[0][1..], rows[1][1..]);
-    assert!(err.contains("*.vib_guard.freq: every value gives the same results"), "{err}");
+    assert!(err.contains("*.vib_guard.freq: every value gives the same in these columns"), "{err}");
     // in every row as well
     assert!(rows.iter().all(|row| row.last().unwrap() == "*.vib_guard.freq"), "{rows:?}");
 }
@@ -105,7 +105,8 @@ fn shards_together_are_the_sweep() {
                 _ => &["*.vib_guard.freq", "V.E.A"],
             };
             for key in expected {
-                let said = format!("{key}: in this part every value gives the same results");
+                let said =
+                    format!("{key}: in this part every value gives the same in these columns");
                 assert!(done.err.contains(&said), "{}", done.err);
             }
             let noted = part.lines().all(|row| row.ends_with(&format!(",{}", expected.join(" "))));

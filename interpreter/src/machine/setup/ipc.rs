@@ -1,6 +1,7 @@
 //! Improved Position Control of one axis.
 
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
+use crate::machine::table::param::{Number, Param};
 use crate::machine::table::{axis_guard as of, kontur};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::Issue;
@@ -34,6 +35,21 @@ pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
             found.push(issues::control(axis, &issue, cycle));
         }
     }
+    for stage in 0..IpcConfig::MAX_STAGES as u32 {
+        let [newer, older] = dampings(stage);
+        let given = |param: Param<Number>| axis.set_by(param).and_then(|s| s.value.number());
+        if let (Some(_), Some(older_value)) = (given(newer), given(older))
+            && given(newer) != Some(older_value)
+            && dampings(stage).iter().all(|param| given(*param) != Some(-1.0))
+        {
+            let what = format!("damping {older_value} of older builds");
+            let effect = format!("no effect beside {}", newer.place());
+            found.push(
+                issues::about(axis, Condition::ListNoEffect, older, &what, &effect)
+                    .hint("leave one of the two out"),
+            );
+        }
+    }
     let value = axis.listed(of::IPC_SPEED_MAX);
     if value > MOST_LIMIT {
         let what = format!("limit {value} of the additive speed, 0 to {MOST_LIMIT} (0.1 %)");
@@ -48,9 +64,13 @@ pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
     found
 }
 
+/// Where a stage has its damping: newer builds in the stage, older ones in the filter.
+fn dampings(stage: u32) -> [Param<Number>; 2] {
+    [of::IPC_DAMPING.at(stage), of::IPC_FILTER_DAMPING.at(stage)]
+}
+
 fn stage(axis: &Axis, index: u32) -> IpcStageConfig {
-    // older builds have the damping in the filter, newer ones in the stage
-    let damping = [of::IPC_DAMPING.at(index), of::IPC_FILTER_DAMPING.at(index)]
+    let damping = dampings(index)
         .into_iter()
         .find(|param| axis.set_by(*param).is_some_and(|s| s.value.number() != Some(-1.0)));
     IpcStageConfig {

@@ -1,0 +1,5 @@
+; run --set X.filter_fir.type=4 --set X.filter_fir.order=10: exit 0
+; warning K-0075 at 3:1
+#FILTER ON [SHARE=30]
+G01 X1 F1000
+M30
