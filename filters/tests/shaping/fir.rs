@@ -156,7 +156,7 @@ fn the_share_keeps_the_delay() {
         }
     }
     let delay = FirConfig { order: 20, share_ratio: 0.3, ..FirConfig::new(FirKind::TimeDelay) };
-    assert_eq!(fir(delay), Kernel::delay(20));
+    assert_eq!(delay.design(MS), (Some(Kernel::delay(20)), vec![FilterIssue::ShareOfDelay]));
     let half = FirConfig { order: 4, share_ratio: 0.0, ..FirConfig::new(FirKind::MovingAverage) };
     assert_eq!(fir(half), Kernel::delay(2));
 }

@@ -90,9 +90,8 @@ fn wear(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if ends {
         decoder.contour.event(Event::Wear(None));
     }
-    let applied = decoder.apply_wear(call.span());
-    decoder.motion.wear.on &= applied.is_ok();
-    applied
+    // where it fails the function counts as on, so that OFF is no second error
+    decoder.apply_wear(call.span())
 }
 
 /// Two words that exclude each other.

@@ -108,8 +108,8 @@ macro_rules! own {
     Unpaired = Kontur 145 "K-UNPAIRED": Error ProgramAbort 3 1, "#COMMENT BEGIN without #COMMENT END, or the reverse (no vendor ID known)", cause "a #COMMENT BEGIN hides everything up to #COMMENT END; comments do not nest", hint "write the missing one; an end without a beginning is left out";
     CornerFaster = Kontur 146 "K-CORNER-FASTER": Note None 1 0, "corner not rounded: the curve would take longer than the corner", cause "a small PATH_DEV or corner distance at a sharp corner, or short blocks, at a high feed", hint "a larger tolerance or a lower feed makes the curve faster, with #CONTOUR MODE also CHECK_JERK=0";
     AreaViolated = Kontur 147 "K-AREA": Error ProgramAbort 3 1, "path through a protection area, or out of a workspace (no vendor ID known)", cause "a motion while #CONTROL AREA ON is in force", hint "lead the path round the area, or write #CONTROL AREA OFF [ID=..] before it";
-    FirAndHsc = Kontur 149 "K-FIR-AND-HSC": Warning None 1 1, "FIR and HSC filter active in one axis, the HSC filter has no effect", cause "both fill the place of the filter before the standard filters; the documents do not say how they act together", hint "#FILTER OFF before #FILTER ON [HSC], or the reverse";
     AreaWrong = Kontur 148 "K-AREA-WRONG": Error ProgramAbort 3 1, "control area that cannot be defined or selected in this way (no vendor ID known)", cause "a contour that is not closed, an ID that is not defined or is active", hint "#CONTROL AREA BEGIN [ID=1 WORK POLY MIN_EXCUR=-50 MAX_EXCUR=50], closed lines, #CONTROL AREA END";
+    FirAndHsc = Kontur 149 "K-FIR-AND-HSC": Warning None 1 1, "FIR and HSC filter active in one axis, the HSC filter has no effect", cause "both fill the place of the filter before the standard filters; the documents do not say how they act together", hint "#FILTER OFF before #FILTER ON [HSC], or the reverse";
         }
     };
 }
