@@ -139,7 +139,20 @@ impl Executor {
         self.area_at_end();
         self.decoder.banding_ends();
         self.decoder.contour_line_ends();
+        self.external_at_end();
         self.end(EndReason::Finished);
+    }
+
+    /// External variables that have a value for nothing: a name may be mistyped.
+    fn external_at_end(&mut self) {
+        for (name, similar) in self.decoder.values.variables.unused_external() {
+            let text = format!("V.E.{name} has a value from outside, the program does not use it");
+            let diagnostic = Diagnostic::new(Condition::Odd, text);
+            self.report(match similar {
+                Some(hint) => diagnostic.hint(hint),
+                None => diagnostic,
+            });
+        }
     }
 
     /// 21719: `#OPTIONAL EXECUTION ON` has no end on its level (255789707).

@@ -87,6 +87,29 @@ fn what_does_not_run_is_checked_for_its_syntax() {
     assert!(checked(text).is_empty());
 }
 
+/// A mistyped name of `--external` would otherwise take the other branch without a word.
+#[test]
+fn external_variables_without_use_are_named() {
+    use super::{machine, run_with};
+    use crate::exec::{Access, External, Options, Value};
+    use crate::source::MemorySources;
+    let external = |name: &str| {
+        let variable = External { value: Value::Number(3.0), access: Access::ReadOnly };
+        (name.to_owned(), variable)
+    };
+    let said = |text: &'static str| {
+        let external = ["LIMT", "USED"].map(external).into();
+        let options = Options { external, ..Options::default() };
+        let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options);
+        run.diagnostics.iter().map(|d| (d.text.clone(), d.hint.clone())).collect::<Vec<_>>()
+    };
+    let text = "$IF EXIST[V.E.LIMIT]\nX V.E.USED F100\n$ENDIF\nP1=V.E.USED\nM30\n";
+    let said = said(text);
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(said[0].0.starts_with("V.E.LIMT "), "{said:?}");
+    assert!(said[0].1.as_ref().is_some_and(|hint| hint.contains("LIMIT")), "{said:?}");
+}
+
 /// Access rights of external variables: 20097 and 20100.
 #[test]
 fn external_variables_keep_their_rights() {
@@ -97,7 +120,8 @@ fn external_variables_keep_their_rights() {
     let places = |text: &str| {
         let options = Options { external: external.clone().into(), ..Options::default() };
         let sources = crate::source::MemorySources::new().with("main.nc", text.to_owned());
-        places(&super::run_with(sources, super::machine(&[]), options).diagnostics)
+        let found = super::run_with(sources, super::machine(&[]), options).diagnostics;
+        places(&found.into_iter().filter(|d| d.is_error()).collect::<Vec<_>>())
     };
     assert_eq!(places("V.E.W=1\nV.E.B=V.E.R\nX V.E.B F100\nM30\n"), [""; 0]);
     assert_eq!(places("X V.E.W F100\nM30\n"), ["20097 1:3"]);

@@ -145,7 +145,9 @@ impl Decoder {
         let first = segments.first().map_or("", |s| &*s.name);
         let rest = segments.get(1..).unwrap_or_default();
         if first.eq_ignore_ascii_case("E") {
-            return Ok(Target::External(self.external_name(rest)?));
+            let name = self.external_name(rest)?;
+            self.values.variables.uses_external(&name);
+            return Ok(Target::External(name));
         }
         let Some((class, _)) = class(first) else { return Ok(Target::System(segments)) };
         if let [only] = rest {

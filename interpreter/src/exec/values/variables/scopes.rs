@@ -4,9 +4,10 @@ use super::storage::Variable;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::{External, Value};
+use crate::suggest;
 use crate::syntax::ast::Span;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 type Table = BTreeMap<Box<str>, Variable>;
 
@@ -31,6 +32,8 @@ pub(in crate::exec) struct Variables {
     cycle: Vec<Table>,
     pub(super) cycles: Vec<CycleScope>,
     pub(super) external: BTreeMap<String, External>,
+    /// External variables that the program has named, in an expression or as a target.
+    named: RefCell<BTreeSet<String>>,
     pub(super) elements: usize,
     /// Cycle parameters that reading has created and that nothing has been said about yet: an expression reads without changing
     /// anything else.
@@ -41,6 +44,23 @@ impl Variables {
     pub(in crate::exec) fn new(external: BTreeMap<String, External>) -> Self {
         let (locals, cycle) = (vec![Table::new()], vec![Table::new()]);
         Self { locals, cycle, external, ..Self::default() }
+    }
+
+    /// Notes that the program names an external variable.
+    pub(super) fn uses_external(&self, name: &str) {
+        let mut named = self.named.borrow_mut();
+        if !named.contains(name) {
+            named.insert(name.to_owned());
+        }
+    }
+
+    /// External variables that the program has not named, each with a similar name that it has.
+    pub(in crate::exec) fn unused_external(&self) -> Vec<(String, Option<String>)> {
+        let named = self.named.borrow();
+        let unused = self.external.keys().filter(|name| !named.contains(*name));
+        unused
+            .map(|name| (name.clone(), suggest::hint(name, named.iter().map(String::as_str))))
+            .collect()
     }
 
     /// Enters a program level.
