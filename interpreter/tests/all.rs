@@ -1,5 +1,5 @@
 //! Tests of this crate from outside, one module per subject, linked into a single target. The tables of `language` and `syntax` belong to
-//! the unit tests.
+//! the unit tests; `linear` sets a limit of the whole process and is a separate target.
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test that fails here has failed")]
 
@@ -7,5 +7,4 @@ mod chains;
 mod control_lists;
 mod explain;
 mod filter_lists;
-mod linear;
 mod machines;

@@ -1,7 +1,9 @@
 //! The work for a block is proportional to its length, whatever brackets it contains.
 //!
-//! Work is the number of calls made by the state machine of the grammar, which pest can limit; the limit is global, so this file has a
-//! single test. Where a limit is reached the result changes.
+//! Work is the number of calls made by the state machine of the grammar, which pest can limit; the limit is global, so this file is a target
+//! with a single test. Where a limit is reached the result changes.
+
+#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::source::RawBlock;
@@ -183,6 +185,9 @@ fn brackets_cost_work_in_proportion_to_their_length() {
         ("#A ", "[X P1A="),
         ("#A ", "[B=P1A="),
         ("#A ", "[[1,2],"),
+        ("G01 X[", "A P1=["),
+        ("#A [", "V.P.A=["),
+        ("L CYCLE [NAME=a ", "@P1=["),
     ];
     for (head, level) in nested {
         let depth = 60 / level.matches('[').count();
@@ -216,4 +221,16 @@ fn brackets_cost_work_in_proportion_to_their_length() {
     }
     let mut runner = TestRunner::new(ProptestConfig::with_cases(3000));
     runner.run(&text(), |text| is_linear(&text)).unwrap();
+    no_two_tokens_double_the_work_with_every_level();
+}
+
+/// Every two tokens, nested without an end: reading a bracket twice doubles the work with every level.
+fn no_two_tokens_double_the_work_with_every_level() {
+    for head in ["", "G01 X[", "#A [", "L CYCLE [NAME=a "] {
+        for first in TOKENS {
+            for second in TOKENS {
+                is_linear(&format!("{head}{}", format!("{first}{second}").repeat(16))).unwrap();
+            }
+        }
+    }
 }

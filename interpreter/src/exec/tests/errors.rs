@@ -121,7 +121,7 @@ fn external_variables_keep_their_rights() {
         let options = Options { external: external.clone().into(), ..Options::default() };
         let sources = crate::source::MemorySources::new().with("main.nc", text.to_owned());
         let found = super::run_with(sources, super::machine(&[]), options).diagnostics;
-        places(&found.into_iter().filter(|d| d.is_error()).collect::<Vec<_>>())
+        places(&found.into_iter().filter(crate::diag::Diagnostic::is_error).collect::<Vec<_>>())
     };
     assert_eq!(places("V.E.W=1\nV.E.B=V.E.R\nX V.E.B F100\nM30\n"), [""; 0]);
     assert_eq!(places("X V.E.W F100\nM30\n"), ["20097 1:3"]);
