@@ -25,7 +25,9 @@
 //! - The deviation is not monotone: a faster run over several bends can cancel what a slower one adds up. What is asked for
 //!   is the lowest speed that is too fast.
 //! - Kernels that differ between the axes have a mean path length each. A line is then left by the speed times the
-//!   difference of the delays: rests do not help, an even speed does.
+//!   difference of the delays: rests do not help, an even speed does. On an arc this speed depends on the direction, so an arc
+//!   is planned in parts. Straight blocks have a part in the deviation too: those that are faster than the even speed are
+//!   slowed down before those that keep it.
 //! - Negative weights (windowed sinc) make no mean: the set point swings beyond ends, and no dwell helps; the blocks on both
 //!   sides start and stop with a lower acceleration, see [`crate::overshoot`].
 //!

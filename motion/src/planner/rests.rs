@@ -1,9 +1,10 @@
-//! A plan is never slower than one that rests.
+//! Sections that are faster with rests.
 //!
 //! With rests as long as the filters at both ends, a block is independent of the others. The search for a plan only
 //! attributes each excess to a cause; where causes overlap it can slow down a whole section that would be faster with
 //! rests. Where the blocks of a section take longer than they would from rest to rest, a plan with these rests is
-//! therefore searched as well, and the one that ends earlier is used.
+//! therefore searched as well, and the one that ends earlier is used. Only the sections that save most are tried, so a plan
+//! with rests at all boundaries can still be a little faster (1.7 % in the tests, with filters that differ).
 
 use super::Planner;
 use super::extend::Searched;
