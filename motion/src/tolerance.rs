@@ -1,56 +1,58 @@
-//! Tolerance monitoring (`AX_DEV`): the filtered setpoints of a plan, before it becomes final.
+//! Tolerance monitoring (`AX_DEV`): checks the filtered setpoints of a plan before the plan becomes final.
 //!
-//! TF5250 gives the task: every axis keeps within `AX_DEV` of the contour. What that means is drawn in
-//! [`crate::deviation`]; the formulas here are derived.
+//! TF5250 states the requirement: every axis keeps within `AX_DEV` of the contour. [`crate::deviation`] shows in a
+//! drawing what this means; the formulas here are derived.
 //!
 //! # The deviation as a functional of the speed
 //!
-//! The path is `q(s)`, a plan is `s(t)`. A filter with the weights `h_k` (sum 1) and the delays `t_k` makes of them the set
-//! point `y(t) = sum h_k q(s(t - t_k))`: it depends on the path lengths of the last kernel length, and on nothing else. Call
-//! the mean over the weights `E`, and `m = E[s]` the mean path length. Around `m` the path is a straight line plus its kinks
-//! `du_b` at `s_b` and its bends `q''`, and the line has no part in the deviation:
+//! The path is `q(s)`, a plan is `s(t)`. A filter with the weights `h_k` (sum 1) and the delays `t_k` turns them into
+//! the set point `y(t) = sum h_k q(s(t - t_k))`, which depends only on the path lengths within the last kernel length.
+//! Let `E` be the mean over the weights, and `m = E[s]` the mean path length. Around `m` the path is a straight line
+//! plus its kinks `du_b` at `s_b` and its bends `q''`. The line does not contribute to the deviation:
 //!
 //! ```text
 //! y - q(m) = sum over kinks of du_b E[beyond(s, s_b)] + integral of q''(r) E[beyond(s, r)] dr
 //! beyond(s, r) = (s - r)+ where r lies after m, (r - s)+ where it lies before
 //! ```
 //!
-//! - A straight line is never left, however the speed changes: starts and stops cost nothing there.
-//! - One corner at the speed `v`: `du v M1` at worst, `M1` half the mean absolute deviation of the kernel from its delay. An
-//!   acceleration `a` beside it adds `du a M2 / 2`, so a rest alone leaves something; a rest as long as the kernel leaves
-//!   nothing, because all of `s` then lies on one side of the corner.
-//! - A bend at even speed: `v^2 kappa / 2` times the variance of the kernel.
-//! - Along one stretch run through evenly the deviation falls with the speed, at kinks with `v`, on bends with `v^2`. So with
-//!   positive weights there is always a plan that keeps the tolerance, unless its cause is final already.
-//! - The deviation is not monotone: a faster run over several bends can cancel what a slower one adds up. What is asked for
-//!   is the lowest speed that is too fast.
-//! - Kernels that differ between the axes have a mean path length each. A line is then left by the speed times the
-//!   difference of the delays: rests do not help, an even speed does. On an arc this speed depends on the direction, so an arc
-//!   is planned in parts. Straight blocks have a part in the deviation too: those that are faster than the even speed are
-//!   slowed down before those that keep it.
-//! - Negative weights (windowed sinc) make no mean: the set point swings beyond ends, and no dwell helps; the blocks on both
-//!   sides start and stop with a lower acceleration, see [`crate::overshoot`].
+//! - A straight line is never left, whatever the speed: starts and stops on it cost nothing.
+//! - One corner at the speed `v`: at most `du v M1`, where `M1` is half the mean absolute deviation of the kernel from
+//!   its delay. An acceleration `a` next to it adds `du a M2 / 2`, so a stop without dwell leaves a deviation. A dwell
+//!   as long as the kernel removes it, because all of `s` then lies on one side of the corner.
+//! - A bend at constant speed: `v^2 kappa / 2` times the variance of the kernel.
+//! - Along a stretch at constant speed the deviation falls with the speed, at kinks with `v`, on bends with `v^2`. With
+//!   positive weights there is therefore always a plan that keeps the tolerance, unless the cause is already final.
+//! - The deviation is not monotone: at a higher speed, contributions of several bends can cancel that add up at a lower
+//!   one. The search is for the lowest speed that is too high.
+//! - Kernels that differ between the axes have different mean path lengths. A line is then left by the speed times the
+//!   difference of the delays: dwells do not help, a constant speed does. On an arc this speed depends on the
+//!   direction, so an arc is planned in parts. Straight blocks contribute to the deviation, too: those faster than the
+//!   even speed are slowed down before those that keep it.
+//! - With negative weights (windowed sinc) the sum is not a mean: the set point overshoots at starts and stops, and a
+//!   dwell does not help. The blocks on both sides start and stop with a lower acceleration, see [`crate::overshoot`].
 //!
 //! # How it is kept
 //!
-//! By trying: every plan is sampled on the cycle grid, filtered with the taps of the axes and measured both ways, as the
-//! trace will be: first what leaves the contour ([`leaves`]), then, where nothing does, what of it is missed ([`measure`]); each
-//! time only what has changed ([`examine`]). What exceeds the tolerance is put down to kinks and bends by their parts in the sum above
-//! ([`blame`]): an isolated corner is passed more slowly, then rests, then waits; likes within one kernel length share the
+//! By trial: every plan is sampled on the cycle grid, filtered with the taps of the axes and measured in both
+//! directions, as the trace will be. First by how far the set path leaves the contour ([`leaves`]); then, if it does
+//! not, by how far it misses points of the contour ([`measure`]). Each time only the changes are measured
+//! ([`examine`]). An excess is attributed to kinks and bends by their parts in the sum above ([`blame`]): an isolated
+//! corner is passed more slowly, then with a stop, then with a dwell. Similar parts within one kernel length share the
 //! even speed that keeps the tolerance. Then the window is planned again ([`tighten`]).
 //!
-//! Exact, but for [`MARGIN_MM`]: set points; kinks of the contour; the places where the nearest point passes from one block,
-//! or one part of the set path, to another (halvings). Where two vectors could be taken for the shortest, the larger
-//! component counts. Between the kinks points of the contour are looked at up to four times in a cycle, and set points
-//! half way on bent blocks.
+//! Exact except for [`MARGIN_MM`]: set points; kinks of the contour; the places where the nearest point passes from one
+//! block, or one part of the set path, to another (bisection). Where two vectors are candidates for the shortest one,
+//! the larger component counts. Between the kinks, up to four points of the contour per cycle are examined, and on bent
+//! blocks also set points halfway between two cycles.
 //!
-//! Bounded instead of measured: where the set point is certainly closer than the tolerance to the point of the contour that
-//! goes with it ([`bound`]); stretches of constant speed on one line, where one set point represents all.
+//! Bounded instead of measured: where the set point is certainly closer than the tolerance to its companion point on
+//! the contour ([`bound`]); stretches of constant speed on one line, where one set point represents all.
 //!
-//! Neither: the choice of who slows down. It keeps the tolerance, but is not an optimum; `motion/tests/promise.rs` compares it
-//! with the best even speed (`EVEN=1`).
+//! Neither exact nor bounded: the choice of the blocks that are slowed down. It keeps the tolerance but is not an
+//! optimum; `motion/tests/promise.rs` compares it with the best even speed (`EVEN=1`).
 //!
-//! Set at the planner at rest; what could not be kept is returned by [`crate::planner::Planner::take_unkept`].
+//! Settings are made in the planner at standstill; tolerances that could not be kept are returned by
+//! [`crate::planner::Planner::take_unkept`].
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -114,12 +116,12 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use view::View;
 
-/// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
+/// Margin kept below the tolerance, in mm: two digits below the last one of a trace.
 const MARGIN_MM: f64 = 2e-7;
-/// How far beyond the kernel a block may have been left and still count as within reach, in cycles: a trace does not show
-/// on which side of a sample a border lies.
+/// Cycles added to the kernel length within which a block that has been left still counts as within reach: a trace does
+/// not show on which side of a sample a boundary lies.
 const BORDER_CYCLES: f64 = 5.0;
-/// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more before a stretch.
+/// Raw setpoints kept, in kernel lengths: the set points of one length, and another length before a stretch.
 const HELD: usize = 3;
 
 /// A block whose tolerance could not be kept.
@@ -127,26 +129,26 @@ const HELD: usize = 3;
 pub struct Unkept {
     /// Number of the block.
     pub seq: u64,
-    /// Deviation that is left in mm.
+    /// Remaining deviation in mm.
     pub deviation_mm: f64,
     /// Tolerance in mm.
     pub tolerance_mm: f64,
 }
 
-/// What the examination of a plan ends in.
+/// Result of the examination of a plan.
 #[derive(Debug)]
 pub(crate) enum Verdict {
-    /// It keeps the tolerance.
+    /// The plan keeps the tolerance.
     Kept,
-    /// Blocks of the window, by their index, to be planned in parts: they bend too much in one place only.
+    /// Blocks of the window, by index, to be planned in parts: they bend too much in one place only.
     Divided(Vec<(usize, Vec<Arc<Queued>>)>),
-    /// It does not; the demands are tightened.
+    /// The plan does not keep the tolerance; the demands have been tightened.
     Tightened,
-    /// It does not after too many rounds. The largest excess.
+    /// The plan does not keep the tolerance after the last round. Contains the largest excess.
     GivenUp(Unkept),
 }
 
-/// Raw setpoints of the last cycles, with the path length.
+/// Raw setpoints of the last cycles, with their path lengths.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Monitor {
     history: VecDeque<(AxisVec, f64)>,
@@ -155,35 +157,35 @@ pub(crate) struct Monitor {
 
 /// A plan under examination.
 pub(crate) struct Trial<'a> {
-    /// What is final.
+    /// Final part of the motion.
     pub(crate) timeline: &'a Timeline,
-    /// The plan after it.
+    /// The plan that follows it.
     pub(crate) plan: &'a [Entry],
     pub(crate) past: &'a Contour,
     pub(crate) kernels: &'a Kernels,
     pub(crate) cycle: CycleTime,
-    /// Last cycle that was output.
+    /// Last cycle output.
     pub(crate) now: u64,
-    /// The path is at rest where the plan starts: the start can wait.
+    /// Whether the path is at rest where the plan starts; the start can then be delayed.
     pub(crate) at_rest: bool,
 }
 
 impl Monitor {
-    /// The path rests at `position`; the kernels reach `length` cycles back.
+    /// Starts at rest at `position`; the kernels reach `length` cycles back.
     pub(crate) fn rest(&mut self, position: &AxisVec, s_mm: f64, length: u32) {
         self.length = if length > 0 { HELD * length as usize + 8 } else { 0 };
         self.history = std::iter::repeat_n((position.clone(), s_mm), self.length).collect();
     }
 
-    /// Number of setpoints that it keeps.
+    /// Number of setpoints kept.
     pub(crate) const fn remembers(&self) -> usize {
         self.length
     }
 
-    /// Takes the setpoint of a cycle.
+    /// Records the setpoint of one cycle.
     pub(crate) fn record(&mut self, position: &AxisVec, s_mm: f64) {
         if self.length > 0 {
-            // the oldest one becomes the newest one
+            // reuses the oldest entry for the newest one
             self.history.rotate_left(1);
             if let Some((point, s)) = self.history.back_mut() {
                 point.copy_from_slice(position);
@@ -192,7 +194,7 @@ impl Monitor {
         }
     }
 
-    /// What of the final part of a trial does not keep the tolerance.
+    /// The worst excess in the final part of a trial.
     pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
         let view = View::new(trial, self);
         view.search(&[(trial.now + 1, u64::MAX)], &mut SetPoints::new(&view), |_, _| ())

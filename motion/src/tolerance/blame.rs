@@ -1,17 +1,19 @@
-//! What causes a violation, and what it demands of the next plan.
+//! The causes of a violation, and their demands on the next plan.
 //!
-//! Around the middle `s*` of what the filter of an axis holds, the path is a straight line plus its kinks and bends. A kink
-//! at `s_b` with the change of direction `du` moves the set point aside by `du E[(s - s_b)+]` (or `(s_b - s)+` before the
-//! middle), with the mean `E` over the kernel: its *part* in the deviation (derived; exact for polygons). A bend is many
-//! small kinks. A short filter holds one set point before a corner and the next one after it, and the line between them cuts
-//! the corner off: where a set point has no parts, those of the middle of its line count.
+//! Around the middle `s*` of what the filter of an axis holds, the path is a straight line plus its kinks and bends. A
+//! kink at `s_b` with the change of direction `du` displaces the set point by `du E[(s - s_b)+]` (or `(s_b - s)+`
+//! before the middle), with the mean `E` over the kernel: its *part* in the deviation (derived; exact for polygons). A
+//! bend consists of many small kinks. A short filter may hold one set point before a corner and the next one after it,
+//! and the segment between them cuts the corner: where a set point has no parts, those of the middle of its segment
+//! count.
 //!
-//! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
-//! A bend next to a larger kink is slowed down only once the kink is no longer to blame.
-//! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
-//! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
-//! filter holds them are isolated again: between them it is faster to speed up and to brake. Where a stretch exceeds however slowly
-//! it is run, the starts and stops next to it are the cause (`du a M2 / 2`, whatever the speed): then the path rests at its ends.
+//! One part that outweighs the others is an isolated corner: only its speed is lowered, down to a stop, to which a
+//! dwell is then added. A bend next to a larger kink is slowed down only once the kink is no longer to blame. Similar
+//! parts form a curve: they share one speed, that of the whole stretch between them, at which the stretch keeps the
+//! tolerance when traversed at constant speed. Kinks further apart than the path travels at that speed while the filter
+//! holds them are isolated again: it is faster to accelerate and brake between them. If a stretch exceeds the tolerance
+//! at any speed, the starts and stops next to it are the cause (`du a M2 / 2`, whatever the speed): then the path
+//! dwells at its ends.
 
 use super::demands::{Demands, PATIENCE, hurry};
 use super::even::{ALIKE, Evenly, aim, fastest};
@@ -21,32 +23,32 @@ use super::violation::{Record, Violation};
 use crate::axis::AxisVec;
 use crate::contour::SAME_START_MM;
 
-/// Points at which a bend is looked at.
+/// Number of points at which a bend is evaluated.
 const BEND_POINTS: u32 = 6;
-/// Doublings from the least speed looked at to the one planned.
+/// Doublings from the first guess of a speed to the planned speed.
 const DOUBLINGS: u32 = 4;
-/// Ratio of two excesses up to which the second one is not looked at.
+/// Ratio of two excesses up to which the second one is ignored.
 const LITTLE_MORE: f64 = 1.05;
-/// Least part of the speed planned that one round leaves of it.
+/// Smallest share of the planned speed that remains after one round.
 const LEAST_OF_ROUND: f64 = 0.5;
-/// Part of the speed planned from which on an even speed is not below it.
+/// Share of the planned speed from which on an even speed does not count as lower.
 const ALMOST: f64 = 0.995;
-/// Largest reduction of an even speed in one round.
+/// Smallest factor by which one round reduces an even speed.
 const MOST: f64 = 0.25;
-/// Least part of the speed planned that an even speed can be.
+/// Smallest even speed, as a share of the planned speed.
 const LEAST: f64 = 2.5e-4;
 
 /// A kink or a bent block within reach.
 struct Part {
     mark: usize,
     bend: bool,
-    /// Share of the deviation in mm.
+    /// Contribution to the deviation in mm.
     size: f64,
     /// Path length.
     s: f64,
 }
 
-/// Marks whose blocks, and whose entries, share one speed.
+/// Marks with a common speed: of their blocks, and (`kinks`) of their entries.
 #[derive(Default)]
 struct Shared {
     marks: Vec<usize>,
@@ -54,7 +56,7 @@ struct Shared {
 }
 
 impl View<'_> {
-    /// Finds who is to blame for a violation; `all`: everything that can still be changed.
+    /// Attributes a violation to its causes; `all`: to everything that can still be changed.
     pub(super) fn blame(
         &self,
         v: &Violation,
@@ -65,14 +67,16 @@ impl View<'_> {
     ) {
         let Self { trial, marks, .. } = self;
         let length = u64::from(trial.kernels.length());
-        // a point of the line between two set points: the filters held one cycle more for the first of them
+        // a point of the segment between two set points: for the first of them, the filters reach one cycle further
+        // back
         let oldest = v.cycle.saturating_sub(length + 1);
         let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
-        // the set path turns off after the point of it that comes nearest to what is missed
+        // the set path turns off after its point nearest to the missed one
         let newest = v.cycle + u64::from(v.missed.is_some());
         let until = |k: u64| marks.partition_point(|m| m.cycles <= k as f64);
         let mut last = until(newest);
-        // what comes nearest may be final, but as long as the filters hold the point the set path can come nearer still
+        // the nearest point may be final, but while the filters hold the missed point the set path can still come
+        // closer
         let is_final = |m: &Mark| m.boundary.is_none() && m.block.is_none();
         if let Some((_, s)) = &v.missed
             && marks[..last].iter().all(is_final)
@@ -83,8 +87,8 @@ impl View<'_> {
             return;
         }
         let excess = v.excess();
-        // a slow run over the same blocks would repeat the same demand again and again
-        // where a straight line is divided does not matter
+        // in a slow run over the same blocks the same demand would be repeated many times; where a straight line is
+        // divided does not matter
         let mut causes = (first..last)
             .filter(|m| *m > first && marks[*m].is_kink() || marks[*m].queued.bend > 0.0);
         let place = causes.next().map_or((0, 0), |m| (m, causes.next_back().unwrap_or(m)));
@@ -103,13 +107,13 @@ impl View<'_> {
                     .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
             }
         };
-        // the filters hold the set point on one side of a corner, and the line to it comes from the other side
+        // the filters hold the set point on one side of a corner, and the segment to it comes from the other side
         if !parts.iter().any(|p| free(p) && p.size > 0.0) {
             let line = [v.cycle.saturating_sub(1), v.cycle];
             parts = self.parts_of(v, &line, record, (first, last));
         }
-        // far from the contour, the nearest point is not the middle of what the filters hold; then no part, or not even the sum
-        // of all parts, may point in the direction of the deviation
+        // far from the contour, the nearest point is not the middle of what the filters hold; then no part, or not even
+        // the sum of all parts, may point in the direction of the deviation
         if !parts.iter().any(|p| free(p) && p.size > 0.0)
             || parts.iter().map(|p| p.size).sum::<f64>() <= 0.0
         {
@@ -117,7 +121,7 @@ impl View<'_> {
                 part.size = part.size.abs();
             }
         }
-        // a corner missed because the path did not wait there long enough: nothing is beyond it yet
+        // a corner missed because the dwell there was too short: the filters hold nothing beyond it yet
         if let Some((_, missed)) = &v.missed
             && !parts.iter().any(|p| free(p) && p.size > 0.0)
         {
@@ -130,7 +134,8 @@ impl View<'_> {
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let kinks = parts.iter().filter(|p| free(p) && !p.bend).map(|p| p.size);
         let sharpest = kinks.fold(0.0, f64::max);
-        // a bend next to a larger kink has to wait until the kink is settled: it may be a long arc, which would remain slow
+        // a bend next to a larger kink is left alone until the kink is settled: it may be a long arc, which would stay
+        // slow
         let counts = |p: &&Part| {
             free(p) && p.size > 0.0 && p.size >= ALIKE * largest && !(p.bend && p.size <= sharpest)
         };
@@ -144,7 +149,7 @@ impl View<'_> {
                 && i.checked_sub(1).is_none_or(|b| !near(&alike[b]))
                 && alike.get(i + 1).is_none_or(|q| !near(q))
         };
-        // where the path rests already it can wait longer, and between two rests a lower speed is no help
+        // where the path already stops it can dwell longer, and between two stops a lower speed does not help
         let rests =
             |p: &Part| !p.bend && marks[p.mark].boundary.is_some_and(|b| demands.stop[b].is_some());
         let mut shared = Shared::default();
@@ -161,14 +166,15 @@ impl View<'_> {
                 shared.kinks.push(part.mark);
             }
         }
-        // what lies between the likes shares their speed
+        // the blocks between similar parts share their speed
         for pair in alike.windows(2) {
             if (pair[1].s - pair[0].s).abs() <= apart && !(rests(pair[0]) && rests(pair[1])) {
                 shared.marks.extend(pair[0].mark..pair[1].mark);
             }
         }
         if !blamed || all {
-            // a cause before a stop is final already, but what follows the stop can wait for the filters
+            // a cause before a stop is already final, but the blocks after the stop can wait until the filters have let
+            // it pass
             let fixed = |p: &&Part| marks[p.mark].block.is_none();
             let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
             let waits = (all || before > 0.0)
@@ -178,7 +184,7 @@ impl View<'_> {
                 findings.corner[0] = findings.corner[0].max(excess);
             }
             if !waits || all {
-                // after a long rest the filters hold nothing of the block before it
+                // after a long dwell the filters hold nothing of the block before it
                 let held = record.s(oldest);
                 let is_left = |m: &usize| {
                     marks.get(m + 1).is_some_and(|next| next.s_mm <= held + SAME_START_MM)
@@ -192,8 +198,8 @@ impl View<'_> {
         self.share(&shared, even, v, record, demands, findings);
     }
 
-    /// Where the delays differ, a straight block has a part in the deviation, too, the larger the faster it is: those that are
-    /// faster than the even speed are to blame before those that are not.
+    /// Where the delays differ, a straight block contributes to the deviation, too, in proportion to its speed: blocks
+    /// faster than the even speed are to blame before the others.
     fn turn_to_the_faster(
         &self,
         shared: &mut Shared,
@@ -212,14 +218,14 @@ impl View<'_> {
         }
     }
 
-    /// Highest speed in mm/s on the block of a mark while the filters hold a violation; 0 where it is final.
+    /// Highest speed in mm/s on the block of a mark within the filters at a violation; 0 if it is final.
     fn present(&self, m: usize, v: &Violation, record: &Record, demands: &Demands) -> f64 {
         let mark = &self.marks[m];
         let asked = mark.block.map_or(0.0, |b| demands.feed[b]);
         self.fastest(v, record, mark.s_mm, mark.s_mm + mark.queued.length).min(asked)
     }
 
-    /// Asks for one speed on a stretch: the even one, or less if that is not below what is planned.
+    /// Demands one speed for a stretch: the even speed, or a lower one if that is not below the planned speed.
     fn share(
         &self,
         shared: &Shared,
@@ -244,13 +250,13 @@ impl View<'_> {
         });
         let present = blocks.chain(kinks).fold(0.0, f64::max);
         let speed = if present <= 0.0 {
-            // the path rests while the filters swing: no speed is the cause
+            // the path rests while the filters overshoot: the speed is not the cause
             f64::INFINITY
         } else if even < ALMOST * present {
-            // a plan that is far too fast says little about who is to blame in a slower one
+            // a plan that is far too fast says little about the causes in a slower one
             even.max(LEAST_OF_ROUND * present)
         } else {
-            // where the speed is even already, or a change of speed is the cause
+            // the speed is already even, or a change of speed is the cause
             let blocks = || shared.marks.iter().filter_map(|m| marks[*m].block);
             let repeats = blocks().map(|b| demands.slower[b].0).max().unwrap_or(0);
             if repeats >= PATIENCE {
@@ -274,7 +280,7 @@ impl View<'_> {
         }
     }
 
-    /// Highest speed in mm/s between two path lengths while the filters hold a violation.
+    /// Highest speed in mm/s between two path lengths within the filters at a violation.
     fn fastest(&self, v: &Violation, record: &Record, from: f64, to: f64) -> f64 {
         let length = u64::from(self.trial.kernels.length());
         let cycles = v.cycle.saturating_sub(length)..v.cycle;
@@ -283,8 +289,8 @@ impl View<'_> {
         steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
     }
 
-    /// Parts in a deviation that push the way it points, in order of the path: of the set point of a cycle, or of the middle
-    /// of the line between two.
+    /// Parts in a deviation, positive in its direction, in the order of the path: for the set point of a cycle, or for
+    /// the middle of the segment between two.
     fn parts_of(
         &self,
         v: &Violation,
@@ -343,8 +349,8 @@ impl View<'_> {
         parts
     }
 
-    /// Speed in mm/s at which the stretch of a violation, run through evenly, keeps the tolerance; at most the highest one
-    /// planned there.
+    /// Speed in mm/s at which the stretch of a violation keeps the tolerance when traversed at constant speed; at most
+    /// the highest one planned there.
     fn even_speed(&self, v: &Violation, record: &Record, demands: &Demands) -> f64 {
         let Self { trial, marks, .. } = self;
         let fastest_planned = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
@@ -352,7 +358,7 @@ impl View<'_> {
         let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest_planned };
         let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
         let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
-        // a run through a corner says nothing where the path rests there until the filters have let go of it
+        // a run through a corner is not comparable if the path dwells there until the corner has left the filters
         let full = trial.kernels.length();
         let long = |m: &&Mark| {
             m.boundary.is_some_and(|b| demands.stop[b].is_some_and(|dwell| dwell >= full))

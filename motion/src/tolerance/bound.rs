@@ -1,41 +1,42 @@
 //! Upper bound of the distance between set path and contour, from one cycle to the next.
 //!
-//! With the weights of a kernel the path lengths that it holds have a mean `m`, and the contour has a point `q(m)` there.
-//! However the speed changes, `m` goes along the contour without a gap, and the set point `y` goes with it: so `|y - q(m)|`
-//! bounds what the set path leaves the contour by and what it misses of it. Along one straight block both run evenly from
-//! one cycle to the next, so the bound is taken at the set points and where `m` passes to another block; on bends the
-//! height of the arc above its chord is added. It holds for any weights and comes close to what is measured where the
-//! filters of the axes are alike: the vector has no part along the path then, to first order.
+//! The weights of a kernel define a mean `m` of the path lengths it holds, and with it a point `q(m)` of the contour.
+//! Whatever the speed, `m` moves along the contour without gaps, and the set point `y` moves with it: so `|y - q(m)|`
+//! bounds both the distance by which the set path leaves the contour and that by which it misses it. Along one straight
+//! block both move linearly from one cycle to the next, so the bound is evaluated at the set points and where `m`
+//! passes to another block; on bends the sagitta of the arc is added. It is valid for any weights. Where the filters of
+//! the axes are equal, it is close to the measured value: the vector then has no component along the path, to first
+//! order.
 
 use super::view::Mark;
 use crate::axis::AxisVec;
 use crate::contour::{Contour, Walk};
 
-/// The point of the contour that goes with the set point.
+/// The point of the contour that accompanies the set point.
 pub(super) struct Companion<'a> {
     marks: &'a [Mark],
     walk: Walk<'a>,
     /// Set point and mean path length of the cycle before, and the distance there.
     before: Option<(AxisVec, f64, f64)>,
-    /// Marks that the mean path length has passed.
+    /// Number of marks that the mean path length has passed.
     passed: usize,
     point: AxisVec,
 }
 
 impl<'a> Companion<'a> {
-    /// Along the blocks of `marks`, which are those of `contour`.
+    /// For the blocks of `marks`, which are those of `contour`.
     pub(super) fn new(marks: &'a [Mark], contour: &'a Contour, axes: usize) -> Self {
         let point = AxisVec::zeros(axes);
         Self { marks, walk: contour.walk(), before: None, passed: 0, point }
     }
 
-    /// The next cycle is not the one after the last.
+    /// Call it if the next cycle does not follow the last one.
     pub(super) fn jump(&mut self) {
         self.before = None;
     }
 
-    /// Largest distance in mm on the line to the set point `set`, where the mean path length is `middle`, from the cycle
-    /// before.
+    /// Largest distance in mm on the segment from the set point of the cycle before to `set`, where the mean path
+    /// length is `middle`.
     pub(super) fn step(&mut self, set: &[f64], middle: f64) -> f64 {
         self.walk.position(middle, &mut self.point);
         let here = distance(set, &self.point);
@@ -89,7 +90,7 @@ mod tests {
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 
-    /// A polygon as marks and as contour; the moments do not matter here.
+    /// A polygon as marks and as contour; the times do not matter here.
     fn polygon(points: &[[f64; 2]]) -> (Vec<Mark>, Contour) {
         let (mut marks, mut contour, mut s_mm) = (Vec::new(), Contour::default(), 0.0);
         for (ends, i) in points.windows(2).zip(1..) {
@@ -105,7 +106,7 @@ mod tests {
         (marks, contour)
     }
 
-    /// Distance of a point from the line between two points.
+    /// Distance of a point from the segment between two points.
     fn aside(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
         let along = [b[0] - a[0], b[1] - a[1]];
         let off = [point[0] - a[0], point[1] - a[1]];
@@ -116,9 +117,9 @@ mod tests {
     }
 
     proptest! {
-        /// Any polygon, run through at any speeds, under any positive weights: no point of the line between two set
-        /// points is further from the polygon than the bound, and no point of the polygon between the two mean path
-        /// lengths is further from the line.
+        /// For any polygon, any speeds and any positive weights: no point of the segment between two set points is
+        /// further from the polygon than the bound, and no point of the polygon between the two mean path lengths is
+        /// further from the segment.
         #[test]
         fn nothing_between_two_set_points_is_further_apart(
             points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 3..9),

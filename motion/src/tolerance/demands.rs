@@ -1,4 +1,4 @@
-//! What the tolerance asks of the plan.
+//! The demands of the tolerance on the plan.
 
 use super::kernels::Kernels;
 use crate::asked::Asked;
@@ -9,34 +9,34 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Times that a place is made slower without effect after which the steps grow.
+/// Number of reductions without effect at one place after which the steps grow.
 pub(super) const PATIENCE: u32 = 8;
 
-/// Change of direction in rad over which the delays of the axes are looked at once.
+/// Change of direction in rad within which the delays of the axes are evaluated once.
 const TURN: f64 = 0.1;
 
-/// Parts of a stretch at most in which they are looked at.
+/// Maximum number of such parts of a stretch.
 const MOST_TURNS: f64 = 128.0;
 
-/// What the monitor asks of the blocks ahead, one entry per boundary or block of the window; it stays with them when the
-/// window moves on.
+/// The demands of the monitor on the blocks ahead, one entry per boundary or block of the window; they are kept when
+/// the window moves on.
 #[derive(Clone, Debug)]
 pub(crate) struct Demands {
-    /// Velocity cap at each boundary.
+    /// Velocity cap at each boundary in mm/s.
     pub(crate) cap: Vec<f64>,
     /// Full stop at the boundary with this many cycles of dwell.
     pub(crate) stop: Vec<Option<u32>>,
-    /// Velocity cap of each block.
+    /// Velocity cap of each block in mm/s.
     pub(crate) feed: Vec<f64>,
-    /// Part of its acceleration that each block may use.
+    /// Share of its acceleration that each block may use.
     pub(super) acceleration: Vec<f64>,
-    /// How often in a row more was asked of each boundary: a lower speed without effect, or a longer dwell.
+    /// How often in a row the demand on each boundary was raised: a lower speed without effect, or a longer dwell.
     pub(super) repeats: Vec<u32>,
-    /// How often in a row a lower speed of each block was without effect, and the excess then.
+    /// How often in a row a lower speed of each block had no effect, and the last excess in mm.
     pub(super) slower: Vec<(u32, f64)>,
-    /// Speed and excess at each boundary when it was last found too fast.
+    /// Speed in mm/s and excess in mm at each boundary when it was last too fast.
     pub(super) tried: Vec<Option<(f64, f64)>>,
-    /// First boundary whose even speed is not known yet, see [`super::even::foresee`].
+    /// First boundary without a known even speed, see [`super::even::foresee`].
     pub(super) foreseen: usize,
 }
 
@@ -56,8 +56,9 @@ impl Default for Demands {
 }
 
 impl Demands {
-    /// What was asked of blocks before, when they are planned once more: it depends on the contour and the filters more than
-    /// on the rest of the plan, and the search for it takes many rounds. The path gets to the first block in another state.
+    /// Restores earlier demands on blocks that are planned again: they depend on the contour and the filters more than
+    /// on the rest of the plan, and the search for them takes many rounds. At the first boundary they are dropped,
+    /// because the path reaches it in another state.
     pub(crate) fn again(blocks: impl Iterator<Item = Asked>) -> Self {
         let mut demands = Self::default();
         for Asked { cap, stop, feed, acceleration } in blocks {
@@ -78,7 +79,7 @@ impl Demands {
         demands
     }
 
-    /// What is asked of a block and of the boundary before it; `None` if it has not been planned yet.
+    /// The demands on a block and on the boundary before it; `None` if it has not been planned yet.
     pub(crate) fn of(&self, block: usize) -> Option<Asked> {
         Some(Asked {
             feed: *self.feed.get(block)?,
@@ -88,8 +89,9 @@ impl Demands {
         })
     }
 
-    /// Adds what is known of blocks before they are planned: axes whose filters have different delays leave a straight line
-    /// by the speed times the difference, so a line long enough to be traversed at constant speed has its own speed.
+    /// Adds blocks with the demands known before planning: axes whose filters have different delays leave a straight
+    /// line by the speed times the difference, so a line long enough to be traversed at constant speed has a speed
+    /// limit.
     pub(crate) fn reach_over(
         &mut self,
         window: &[Arc<Queued>],
@@ -103,8 +105,8 @@ impl Demands {
         }
     }
 
-    /// Asks for rests as long as the filters are at the boundaries between some blocks, and at both ends of them, and for nothing
-    /// else there.
+    /// Demands dwells as long as the filters at the boundaries between some blocks and at both ends, and drops all
+    /// other demands there.
     pub(crate) fn rest_over(
         &mut self,
         blocks: Range<usize>,
@@ -122,7 +124,7 @@ impl Demands {
         }
     }
 
-    /// True if [`Self::rest_over`] would ask for no rest that is not asked for already.
+    /// Whether [`Self::rest_over`] would not demand any new dwell.
     pub(crate) fn rests_over(
         &self,
         blocks: Range<usize>,
@@ -132,7 +134,7 @@ impl Demands {
         boundaries(&blocks, window).all(|b| self.stop[b] == Some(kernels.length()))
     }
 
-    /// Makes room for `count` blocks before block `at`, held to nothing but a speed.
+    /// Inserts `count` blocks before block `at` whose only demand is a speed.
     pub(crate) fn insert(&mut self, at: usize, count: usize, feed: f64) {
         fn fill<T: Clone>(list: &mut Vec<T>, at: usize, count: usize, value: T) {
             list.splice(at..at, std::iter::repeat_n(value, count));
@@ -147,7 +149,7 @@ impl Demands {
         self.foreseen = self.foreseen.min(at);
     }
 
-    /// Makes room for the parts of a block in its place.
+    /// Replaces a block by its parts.
     pub(crate) fn divide(
         &mut self,
         block: usize,
@@ -161,7 +163,7 @@ impl Demands {
         }
     }
 
-    /// Forgets the first blocks, which are final. The boundary after them has only what is asked of it from now on.
+    /// Drops the first blocks, which are final. The boundary after them starts without demands.
     pub(crate) fn pass(&mut self, blocks: usize) {
         self.cap.drain(..blocks);
         self.stop.drain(..blocks);
@@ -175,7 +177,7 @@ impl Demands {
         self.foreseen = self.foreseen.saturating_sub(blocks);
     }
 
-    /// The blocks with the acceleration that is left to them.
+    /// The blocks with their reduced accelerations.
     pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
         if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {
             return Cow::Borrowed(window);
@@ -192,14 +194,14 @@ impl Demands {
     }
 }
 
-/// Boundaries inside a window that begin or end one of some blocks; not those between parts of a block.
+/// Boundaries inside a window at which one of some blocks begins or ends, except those between parts of a block.
 fn boundaries(blocks: &Range<usize>, window: &[Arc<Queued>]) -> impl Iterator<Item = usize> {
     let inside = blocks.start.max(1)..=blocks.end.min(window.len() - 1);
     inside.filter(|b| window[b - 1].block.seq != window[*b].block.seq)
 }
 
-/// Speed in mm/s that filters with different delays leave to a block long enough to be run through evenly, where it leaves most;
-/// infinite for any other block.
+/// Speed limit in mm/s that filters with different delays impose on a block long enough to be traversed at constant
+/// speed, at its most favourable place; infinite for any other block.
 fn even_on(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
     let tolerance = queued.block.tolerance.ax_dev_mm.filter(|_| kernels.unequal);
     let Some(tolerance) = tolerance else { return f64::INFINITY };
@@ -215,12 +217,12 @@ fn even_on(queued: &Queued, kernels: &Kernels, cycle: CycleTime) -> f64 {
     if is_long { speed } else { f64::INFINITY }
 }
 
-/// Number of parts of a stretch over each of which its direction hardly changes.
+/// Number of parts of a stretch within each of which its direction hardly changes.
 pub(super) fn turns(bend: f64, length: f64) -> u32 {
     (bend * length / TURN).ceil().clamp(1.0, MOST_TURNS) as u32
 }
 
-/// How many steps to take at once where so many have been without effect.
+/// Number of steps to take at once after `before` reductions without effect.
 pub(super) fn hurry(before: u32) -> u32 {
     let rows = before / PATIENCE;
     1 + rows * rows

@@ -1,7 +1,7 @@
-//! How long a stop has to last, as far as one corner is concerned.
+//! How long a stop must last for one corner.
 //!
-//! What the path does around the stop is sampled once; a dwell of another length puts the same states further apart. A few set
-//! points are enough: the next plan is measured in any case.
+//! The path around the stop is sampled once; another dwell only changes the time between the same states. A few set
+//! points are enough, because the next plan is measured in any case.
 
 use super::view::{Mark, View};
 use super::violation::within;
@@ -9,17 +9,17 @@ use crate::axis::AxisVec;
 use crate::deviation::{Excursion, SetPath};
 use crate::timeline::{PathState, Reader};
 
-/// Set points looked at in one length of the kernel.
+/// Set points examined per kernel length.
 const LOOKS: u32 = 64;
 
-/// A stop of the plan and what lies around it.
+/// A stop of the plan and the states around it.
 pub(super) struct Rest<'a> {
     view: &'a View<'a>,
     mark: &'a Mark,
     dwell: u32,
     /// Cycle in which the path comes to rest.
     cycle: u64,
-    /// Positions and path length in the cycles of one kernel up to the rest, and after it.
+    /// Positions and path lengths over one kernel length up to the rest; `behind`: the same after it.
     before: Vec<AxisVec>,
     behind: Vec<AxisVec>,
 }
@@ -43,8 +43,8 @@ impl<'a> View<'a> {
 }
 
 impl Rest<'_> {
-    /// Least dwell in cycles, longer than now and at most `most`, that keeps the tolerance as far as this corner is
-    /// concerned, by bisection; `most` if none does.
+    /// Smallest dwell in cycles that keeps the tolerance at this corner, by bisection; longer than the present one and
+    /// at most `most`, which is returned if none is found.
     pub(super) fn needed(&self, most: u32) -> u32 {
         let (mut low, mut high) = (self.dwell, most);
         while high - low > 1 {
@@ -54,7 +54,7 @@ impl Rest<'_> {
         high
     }
 
-    /// True if `cycles` of dwell keep the tolerance.
+    /// Whether `cycles` of dwell keep the tolerance.
     pub(super) fn keeps(&self, cycles: u32) -> bool {
         let View { trial, contour, .. } = self.view;
         let full = trial.kernels.length();
@@ -81,7 +81,7 @@ impl Rest<'_> {
         out.largest() <= within(tolerance)
     }
 
-    /// State `delay` cycles before cycle `k` of a rest of so many cycles.
+    /// State `delay` cycles before cycle `k` of a rest that lasts `cycles` cycles.
     fn row(&self, k: u32, delay: u32, cycles: u32) -> &[f64] {
         let last = self.before.len() - 1;
         match (k.checked_sub(delay), delay.saturating_sub(k)) {

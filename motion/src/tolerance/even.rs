@@ -1,8 +1,8 @@
-//! Even speeds: how fast a stretch of the path, run through evenly, keeps the tolerance.
+//! Even speeds: the highest constant speed at which a stretch of the path keeps the tolerance.
 //!
-//! They depend on the path, the filters and the tolerance, and on nothing that is planned. So they are the demands that a
-//! search begins with where the free plan does not keep the tolerance ([`foresee`]): where they hold the speed down, a higher
-//! feed changes nothing.
+//! They depend only on the path, the filters and the tolerance, not on the plan. A search therefore starts with them as
+//! demands if the free plan does not keep the tolerance ([`foresee`]): where they limit the speed, a higher feed rate
+//! has no effect.
 
 use super::view::STRAIGHT;
 use super::violation::within;
@@ -17,24 +17,25 @@ use std::sync::Arc;
 const AIM: f64 = 0.01;
 /// Halvings in the search for a speed.
 const HALVINGS: u32 = 24;
-/// Places around a point of the contour at which an even run is looked at for the point.
+/// Places, to each side of a point of the contour, at which the set path is compared with the point.
 const PLACES: i32 = 4;
-/// Rounds in which a guess comes closer.
+/// Rounds that refine a guess.
 const ROUNDS: u32 = 8;
-/// Share of the largest part of a deviation from which on another one counts as its like.
+/// Ratio to the largest part of a deviation from which on another part counts as similar.
 pub(super) const ALIKE: f64 = 0.3;
 
-/// A contour run through evenly.
+/// A contour traversed at constant speed.
 pub(super) struct Evenly<'a> {
     pub(super) contour: &'a Contour,
     pub(super) kernels: &'a Kernels,
     pub(super) cycle: CycleTime,
-    /// Path lengths that are not passed: the filters have let go of what is beyond.
+    /// Limits in path length that are not passed: nothing beyond them is held by the filters any more.
     pub(super) between: (f64, f64),
 }
 
 impl Evenly<'_> {
-    /// Largest component in mm by which the set point around path length `middle` leaves the contour.
+    /// Largest component in mm by which the set point around path length `middle` leaves the contour at a speed in
+    /// mm/s.
     pub(super) fn leaves(&self, middle: f64, speed: f64) -> f64 {
         let reach = self.reach(speed);
         let mut x = AxisVec::zeros(self.kernels.axes.len());
@@ -42,7 +43,7 @@ impl Evenly<'_> {
         self.contour.aside(&x, middle - reach, middle + reach)
     }
 
-    /// Largest component in mm by which the set path around path length `at` misses a point there.
+    /// Largest component in mm by which the set path around path length `at` misses a point there, at a speed in mm/s.
     pub(super) fn misses(&self, point: &[f64], at: f64, speed: f64) -> f64 {
         let reach = self.reach(speed);
         let axes = self.kernels.axes.len();
@@ -64,7 +65,7 @@ impl Evenly<'_> {
         best.1
     }
 
-    /// Path length in mm that the filters hold.
+    /// Path length in mm within the filters.
     fn reach(&self, speed: f64) -> f64 {
         speed * f64::from(self.kernels.length()) * self.cycle.seconds()
     }
@@ -92,7 +93,7 @@ impl Evenly<'_> {
     }
 }
 
-/// Shortest vector from a point to the line between two others.
+/// Shortest vector from a point to the line segment between two others.
 fn to_the_line(point: &[f64], a: &[f64], b: &[f64]) -> AxisVec {
     let (mut along, mut length2) = (0.0, 0.0);
     for ((p, a), b) in point.iter().zip(a).zip(b) {
@@ -103,13 +104,13 @@ fn to_the_line(point: &[f64], a: &[f64], b: &[f64]) -> AxisVec {
     point.iter().zip(a).zip(b).map(|((p, a), b)| a + u * (b - a) - p).collect()
 }
 
-/// What an even run is held to.
+/// The limit for a run at constant speed.
 pub(super) fn aim(tolerance_mm: f64) -> f64 {
     within(tolerance_mm) - AIM * tolerance_mm
 }
 
-/// The speed in mm/s below the lowest one that does not keep the tolerance, from a first guess; at most `most`, at least
-/// `least`. A faster run may be even enough to keep it again, but never gets there.
+/// The speed in mm/s just below the lowest one that does not keep the tolerance, starting from a guess; at most `most`,
+/// at least `least`. A higher speed may keep it again, but the search does not reach it.
 pub(super) fn fastest(guess: f64, least: f64, most: f64, keeps: impl Fn(f64) -> bool) -> f64 {
     let step = std::f64::consts::SQRT_2;
     let (mut low, mut high) = (guess.min(most), guess.min(most));
@@ -146,28 +147,28 @@ pub(super) fn fastest(guess: f64, least: f64, most: f64, keeps: impl Fn(f64) -> 
     low
 }
 
-/// A kink ahead.
+/// A kink of the contour ahead.
 struct Kink {
-    /// Boundary of the window, and path length there.
+    /// Boundary of the window; `s`: path length there.
     boundary: usize,
     s: f64,
     /// Length of the change of direction.
     turn: f64,
-    /// The path goes back.
+    /// Whether the path turns back by more than 90 deg.
     acute: bool,
     tolerance_mm: f64,
-    /// Highest speed of the blocks at it in mm/s.
+    /// Highest speed in mm/s of the two adjacent blocks.
     feed: f64,
 }
 
-/// True if some filters are all alike and pull nothing beyond an end: the speeds at kinks are known before anything is tried.
+/// Whether the filters are equal and without overshoot: the speeds at kinks are then known before any trial.
 pub(super) fn foresees(kernels: &Kernels) -> bool {
     kernels.any() && !kernels.unequal && !kernels.overshoot
 }
 
-/// Asks for even speeds at the kinks of a window that begins at path length `start`, and between those that lie within
-/// reach of each other; false if that changes nothing. Kinks too close to the end of what is known are looked at again when
-/// more is known.
+/// Demands even speeds at the kinks of a window that begins at path length `start`, and between kinks within reach of
+/// each other; false if this changes nothing. Kinks too close to the end of the window are examined again when more
+/// blocks are known.
 pub(super) fn foresee(
     demands: &mut Demands,
     window: &[Arc<Queued>],
@@ -194,7 +195,7 @@ pub(super) fn foresee(
     let mut before: Option<(&Kink, f64)> = None;
     let mut changes = false;
     for (i, kink) in kinks.iter().enumerate().skip(first) {
-        // the mean way beyond a kink falls with the distance from it, below a straight line to the end of the filter
+        // the mean path beyond a kink falls with the distance from it, below a straight line to the end of the filter
         let part = |k: &Kink, speed: f64| k.turn * m1 * (speed - (k.s - kink.s).abs() / side);
         let parts = |speed: f64| {
             let behind = kinks[i..].iter().map(move |k| part(k, speed)).take_while(|p| *p > 0.0);
@@ -254,7 +255,7 @@ fn kinks(window: &[Arc<Queued>], start: f64) -> Vec<Kink> {
         let (out_of, into) = (&from.ends.tangent_out, &to.ends.tangent_in);
         let turns = out_of.iter().zip(into.iter()).map(|(a, b)| (b - a) * (b - a));
         let turn = turns.sum::<f64>().sqrt();
-        // the rest of a block continues without a kink
+        // the remainder of a block continues without a kink
         if turn <= STRAIGHT || to.offset > 0.0 || tolerance_mm.is_infinite() {
             continue;
         }

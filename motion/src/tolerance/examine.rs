@@ -1,4 +1,4 @@
-//! The examination of a plan: what has changed is measured, and what exceeds is answered.
+//! The examination of a plan: changes are measured, and excesses answered.
 
 use super::demands::Demands;
 use super::even::{foresee, foresees};
@@ -13,11 +13,12 @@ use crate::queue::Queued;
 use crate::timeline::{Entry, Seen};
 use std::sync::Arc;
 
-/// Rounds of planning after which an examination no longer ends with the first kind of excess: their answers call for each other.
+/// Rounds of planning after which an examination no longer ends with the first kind of excess: the answers to the two
+/// kinds cause each other.
 const ROUNDS_OF_PATIENCE: usize = 24;
-/// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
+/// Rounds of planning after which the causes of an excess get a stop and a dwell as long as the kernel.
 const ROUNDS_OF_SPEED: usize = 64;
-/// Rounds more for every block.
+/// Additional rounds per block.
 const ROUNDS_PER_BLOCK: usize = 2;
 /// Rounds of planning after which the tolerance is given up with a message.
 const ROUNDS: usize = 96;
@@ -25,9 +26,9 @@ const ROUNDS: usize = 96;
 impl Monitor {
     /// Examines a plan, and tightens the demands if it does not keep the tolerance.
     ///
-    /// What costs less comes first, and what exceeds is answered before the rest is measured. Of a plan that has been examined
-    /// before only what has changed is measured, and last of all what has moved in time by other than whole cycles: the set
-    /// points lie elsewhere then. Returns what is known of every entry now.
+    /// Cheap checks come first, and an excess is answered before the rest is measured. In a plan that has been examined
+    /// before, only the changes are measured; last of all, what has moved in time by a fraction of a cycle, because its
+    /// set points are then elsewhere. Returns what is now known of every entry.
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
@@ -36,7 +37,8 @@ impl Monitor {
     ) -> (Verdict, Vec<Seen>) {
         let view = View::new(trial, self);
         let blocks = demands.feed.len();
-        // even speeds and parts of blocks are asked for first; where there are no bends to divide, nothing is to blame for that
+        // even speeds and divided blocks come first; without bends there is nothing to divide, and blame is not needed
+        // for it
         if round == 0 && !trial.bends() && foresees(trial.kernels) {
             let found = view.examine(round, |_, _| ());
             if found.worst.is_none() {
@@ -47,7 +49,7 @@ impl Monitor {
             }
         }
         let mut findings = Findings::none(blocks);
-        // after many rounds everything in reach counts as a cause
+        // after many rounds everything within reach counts as a cause
         let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * blocks;
         let found =
             view.examine(round, |v, record| view.blame(v, record, all, demands, &mut findings));
@@ -59,7 +61,7 @@ impl Monitor {
         if !parts.is_empty() {
             return (Verdict::Divided(parts), seen);
         }
-        // an answer at one corner can make another one necessary at the next
+        // an answer at one corner can require another one at the next
         if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
             return (Verdict::GivenUp(worst), seen);
         }
@@ -70,25 +72,25 @@ impl Monitor {
     }
 }
 
-/// How far an examination has got: the last of these was looked at, and those before it keep the tolerance.
+/// The last step that an examination has reached; the steps before it found the tolerance kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Depth {
-    /// A first look at what has changed.
+    /// A first look at the changes.
     Glance,
-    /// What of the changed set path leaves the contour.
+    /// How far the changed set path leaves the contour.
     Leaves,
-    /// What of the contour it misses.
+    /// How far it misses the contour.
     Misses,
-    /// Both where only the moments have changed.
+    /// Both, where only the times have changed.
     Moved,
 }
 
-/// What of a plan exceeds the tolerance.
+/// The excesses of a plan.
 struct Found {
     worst: Option<Unkept>,
-    /// Cycles of the violations, and whether something is missed there: at most one of each kind for half a kernel.
+    /// Cycles of the violations, and whether a point is missed there: at most one of each kind per half kernel.
     exceeded: Vec<(u64, bool)>,
-    /// Rows of set points that are not excused by the bound.
+    /// Runs of set points that the bound does not exclude.
     suspects: Vec<(u64, u64)>,
     depth: Depth,
 }
@@ -120,7 +122,7 @@ impl Found {
                 (Depth::Misses, Seen::Nothing | Seen::Glanced) | (Depth::Moved, _) => {
                     Seen::Kept(e.start)
                 }
-                // what it leaves was measured at another moment
+                // the first direction was measured at another time
                 (Depth::Misses, Seen::Stays(at)) => Seen::Kept(at),
                 (_, seen) => seen,
             }
@@ -130,8 +132,8 @@ impl Found {
 }
 
 impl View<'_> {
-    /// Looks at what has changed since the last examination, measures it one way and the other, and then what has moved in time;
-    /// what exceeds ends it as a rule.
+    /// Looks at the changes since the last examination, measures them in both directions, and then what has moved in
+    /// time; an excess usually ends it.
     fn examine(&self, round: usize, mut found: impl FnMut(&Violation, &Record)) -> Found {
         let mut exceeded = Vec::new();
         let mut found = |v: &Violation, record: &Record| {
@@ -171,7 +173,8 @@ impl View<'_> {
             };
             let left = self.leaving(&trial.shown_by(is_moved), &mut points, &mut found);
             worst = left.worst;
-            // where one of them leaves the contour, what the others miss of it has not been measured at their new moments
+            // where one of them leaves the contour, the points missed by the others have not been measured at their new
+            // times
             if worst.is_none() {
                 depth = Depth::Moved;
                 let moved = trial.missed_by(|e| is_moved(e) && trial.owes(e, &left.suspects));
@@ -183,7 +186,7 @@ impl View<'_> {
 }
 
 impl Trial<'_> {
-    /// True if a block of the plan is bent.
+    /// Whether a block of the plan is bent.
     fn bends(&self) -> bool {
         self.plan.iter().flat_map(|e| &e.blocks).any(|(queued, _)| queued.bend > 0.0)
     }
@@ -196,18 +199,18 @@ impl Trial<'_> {
         foresee(demands, &window, self.past, start, (self.kernels, self.cycle))
     }
 
-    /// Cycles still to come whose set points depend on some entries.
+    /// Future cycles whose set points depend on some entries.
     fn shown_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
         self.reached_by(f64::from(self.kernels.length()) + BORDER_CYCLES + 3.0, which)
     }
 
-    /// Cycles still to come in which it is known what set points that depend on some entries miss.
+    /// Future cycles in which the points missed by set points that depend on some entries become known.
     fn missed_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
         self.reached_by(2.0 * f64::from(self.kernels.length()) + 5.0, which)
     }
 
-    /// True if something of the contour that the filters hold together with an entry can be missed: a row of suspects lies
-    /// within reach.
+    /// Whether a point of the contour that the filters hold together with an entry can be missed: a run of suspects
+    /// lies within reach.
     fn owes(&self, entry: &Entry, suspects: &[(u64, u64)]) -> bool {
         let reach = f64::from(self.kernels.length()) + BORDER_CYCLES + 1.0;
         let [from, to] = [entry.start, entry.end].map(|m| m.cycles(self.cycle));

@@ -1,18 +1,18 @@
-//! What the violations of one round are put down to.
+//! The causes found for the violations of one round.
 
 use super::violation::Violation;
 
-/// What exceeded the tolerance in one round.
+/// The excesses of one round, by cause.
 pub(super) struct Findings {
-    /// Largest excess in mm blamed on each boundary alone.
+    /// Largest excess in mm attributed to each boundary alone.
     pub(super) corner: Vec<f64>,
-    /// Even speed in mm/s asked of each block.
+    /// Even speed in mm/s demanded of each block.
     pub(super) even: Vec<f64>,
-    /// The same at each boundary.
+    /// The same for each boundary.
     pub(super) even_at: Vec<f64>,
-    /// Largest excess in mm and its tolerance on each block to blame.
+    /// Largest excess in mm and its tolerance for each block to blame.
     pub(super) block: Vec<Option<(f64, f64)>>,
-    /// First and last mark within reach of the violation of either kind looked at last, with its excess.
+    /// First and last mark within reach of the last violation examined of either kind, with its excess.
     pub(super) last: [Option<((usize, usize), f64)>; 2],
 }
 
@@ -27,7 +27,7 @@ impl Findings {
         }
     }
 
-    /// Asks for an even speed on a block because of a violation.
+    /// Demands an even speed of a block because of a violation.
     pub(super) fn evenly(&mut self, block: usize, speed: f64, v: &Violation) {
         self.even[block] = self.even[block].min(speed);
         let slot = &mut self.block[block];

@@ -1,8 +1,8 @@
-//! A first look at a plan that is still being searched for, under filters of many cycles: a few set points in every length of the
-//! kernel, each with the nearest point of the contour.
+//! A first look, for filters many cycles long, at a plan that the search has not finished: a few set points per kernel
+//! length, each with the nearest point of the contour.
 //!
-//! Most plans of a search fail by far, and then it is enough to know where. What such a look does not see, the measure of the last
-//! plans does.
+//! Most plans of a search fail by far, and then their location is enough. What this look misses is found when the last
+//! plans are measured.
 
 use super::Unkept;
 use super::harvest::Harvest;
@@ -12,11 +12,11 @@ use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
 use crate::contour::WARY;
 
-/// Set points looked at in one length of the kernel.
+/// Set points examined per kernel length.
 const LOOKS: u32 = 128;
 
 impl View<'_> {
-    /// Looks at the plan in some cycles, ranges in order; as [`Self::search`].
+    /// Looks at the plan in ranges of cycles, given in order; otherwise as [`Self::search`].
     pub(super) fn glance(
         &self,
         among: &[(u64, u64)],

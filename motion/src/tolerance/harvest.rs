@@ -1,14 +1,15 @@
-//! The violations that are answered: of those that lie close together the worst one.
+//! The violations to be answered: the worst one of those that are close together.
 
 use super::Unkept;
 use super::view::View;
 use super::violation::{Record, Violation};
 
-/// Takes violations in order of their cycles, and hands on at most one for half a kernel.
+/// Receives violations in the order of their cycles, and forwards at most one per half kernel.
 pub(super) struct Harvest<'a, F> {
     view: &'a View<'a>,
     half: u64,
-    /// The worst since a cycle: counted from the first violation, so that a motion is planned alike whenever it begins.
+    /// The worst one since a cycle. Counted from the first violation, so that a motion is planned alike whenever it
+    /// begins.
     bucket: Option<(u64, Violation)>,
     /// The worst of all.
     worst: &'a mut Option<Unkept>,
@@ -41,7 +42,7 @@ impl<'a, F: FnMut(&Violation, &Record)> Harvest<'a, F> {
         });
     }
 
-    /// Nothing follows.
+    /// Forwards the last violation.
     pub(super) fn end(mut self, record: &Record) {
         if let Some((_, v)) = self.bucket.take() {
             (self.found)(&v, record);

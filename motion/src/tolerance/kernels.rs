@@ -1,30 +1,30 @@
-//! The filter kernels of the axes, as the tolerance looks at them.
+//! The filter kernels of the axes, in the form the tolerance needs.
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
 
-/// Taps of a kernel in the search for an even speed.
+/// Taps per kernel in the search for an even speed.
 const COARSE: usize = 24;
 
 /// The filter kernels of the axes of a channel.
 #[derive(Clone, Debug, Default)]
 pub struct Kernels {
     pub(super) axes: Vec<Option<Arc<Kernel>>>,
-    /// A kernel with negative weights overshoots where the path starts and stops, straight blocks included.
+    /// Whether a kernel has negative weights and so overshoots at starts and stops, on straight blocks as well.
     pub(super) overshoot: bool,
-    /// Not all axes have the same kernel.
+    /// Whether the axes have different kernels.
     pub(super) unequal: bool,
     /// Axis of the longest kernel.
     longest: Option<usize>,
     /// Delay of the longest kernel in cycles.
     pub(super) delay: f64,
-    /// Every axis' kernel in few taps: weights, and mean delays in cycles.
+    /// The kernel of each axis reduced to few taps: weights, and mean delays in cycles.
     pub(super) coarse: Vec<Vec<(f64, f64)>>,
 }
 
 impl Kernels {
-    /// One kernel per axis, `None` without one.
+    /// One kernel per axis, `None` for an axis without a filter.
     pub fn new(axes: Vec<Option<Arc<Kernel>>>) -> Self {
         let mut taps = axes.iter().flatten().flat_map(|k| k.taps());
         let overshoot = taps.any(|tap| tap.weight < 0.0);
@@ -37,17 +37,17 @@ impl Kernels {
         Self { axes, overshoot, unequal, longest, delay, coarse }
     }
 
-    /// True if any axis has a kernel.
+    /// Whether any axis has a kernel.
     pub fn any(&self) -> bool {
         self.axes.iter().any(Option::is_some)
     }
 
-    /// Cycles until every axis is constant after the path has come to rest.
+    /// Cycles after the path has come to rest until every axis is constant.
     pub fn length(&self) -> u32 {
         self.longest().map_or(0, Kernel::length)
     }
 
-    /// True if not all axes have the same kernel.
+    /// Whether the axes have different kernels.
     pub(crate) fn differ(&self) -> bool {
         self.unequal
     }
@@ -62,8 +62,8 @@ impl Kernels {
         self.axes.get(i).and_then(|k| k.as_deref())
     }
 
-    /// Speed in mm/s of an even run in a direction whose set points leave the line by a tolerance in mm: each axis lags by its own
-    /// delay, and what lies across the line counts. Infinite where the delays do not differ.
+    /// Speed in mm/s, constant along direction `u`, at which the set points leave the line by a tolerance in mm: each
+    /// axis lags by its own delay, and only the component across the line counts. Infinite if the delays are equal.
     pub(super) fn speed_along(&self, u: &[f64], tolerance_mm: f64, cycle: CycleTime) -> f64 {
         let delay = |i: usize| self.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
         let norm: f64 = u.iter().map(|c| c * c).sum();
@@ -72,8 +72,8 @@ impl Kernels {
         tolerance_mm / u.iter().enumerate().map(aside).fold(0.0, f64::max)
     }
 
-    /// Filters rows of the positions of all axes and the path length, which takes the longest kernel; `row` is the one of
-    /// some cycles ago.
+    /// Filters rows that contain the positions of all axes and the path length, which takes the longest kernel;
+    /// `row(d)` is the row `d` cycles ago.
     pub(super) fn filter<'a>(&self, row: impl Fn(u32) -> &'a [f64], out: &mut [f64]) {
         let n = out.len();
         let now = &row(0)[..n];
@@ -99,7 +99,7 @@ impl Kernels {
     }
 }
 
-/// A kernel of many taps in few.
+/// Reduces a kernel of many taps to few.
 fn coarse(kernel: &Arc<Kernel>) -> Vec<(f64, f64)> {
     let taps = kernel.taps();
     let parts = taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {

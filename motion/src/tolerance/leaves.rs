@@ -1,4 +1,4 @@
-//! Measures how far the set path leaves the contour.
+//! Measures by how far the set path leaves the contour.
 
 use super::bound::Companion;
 use super::harvest::Harvest;
@@ -11,23 +11,23 @@ use super::{BORDER_CYCLES, Unkept};
 use crate::contour::Sight;
 use crate::deviation::{Excursion, SetPath};
 
-/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be: what is longer by less than
-/// `WARY` keeps the tolerance below it.
+/// Share of the tolerance from which on the length of a vector requires a check of the alternatives to it: below this
+/// share, a vector longer by less than `WARY` still keeps the tolerance.
 const DOUBT: f64 = 0.94;
 
-/// What has been found of set points.
+/// Result of the measurement of set points.
 #[derive(Default)]
 pub(super) struct Left {
     /// The worst violation.
     pub(super) worst: Option<Unkept>,
-    /// First and last cycle of each row of set points that the bound did not excuse, in order: only there, something of the
-    /// contour can be missed.
+    /// First and last cycle of each run of set points that the bound did not exclude, in order: only there can points
+    /// of the contour be missed.
     pub(super) suspects: Vec<(u64, u64)>,
 }
 
 impl View<'_> {
-    /// Measures the set path in some cycles, ranges in order, and hands the worst violations, at most one for half a kernel,
-    /// to `found`.
+    /// Measures the set path in ranges of cycles, given in order, and reports the worst violations, at most one per
+    /// half kernel, to `found`.
     pub(super) fn leaving<'v>(
         &'v self,
         among: &[(u64, u64)],
@@ -60,7 +60,7 @@ impl View<'_> {
         left
     }
 
-    /// The violation on the way to the set point of cycle `k`, if it is one.
+    /// The violation on the segment to the set point of cycle `k`, if there is one.
     fn leaves_at(&self, k: u64, set: &SetPath, sight: &mut Sight) -> Option<Violation> {
         let contour = &self.contour;
         let moment = k as f64;
@@ -73,7 +73,7 @@ impl View<'_> {
         set.leaves(contour, k, within_reach, sight, &mut out);
         let mut deviation_mm = out.largest();
         if out.length > DOUBT * tolerance_mm && deviation_mm <= within(tolerance_mm) {
-            // the components depend on what counts as within reach
+            // the components depend on which blocks count as within reach
             let apart = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
             deviation_mm = deviation_mm.max(set.doubtful(contour, k, within_reach, apart, sight));
         }

@@ -1,4 +1,4 @@
-//! Measures what the set path misses of the contour.
+//! Measures by how far the set path misses points of the contour.
 
 use super::Unkept;
 use super::bound::distance;
@@ -11,27 +11,29 @@ use crate::axis::AxisVec;
 use crate::deviation::{ALIKE, Excursion, SetPath};
 use smallvec::{SmallVec, smallvec};
 
-/// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
+/// Cycles around the set point nearest to one point of the contour within which that of the next point is searched for.
 const HINT: u64 = 3;
-/// Halvings of a piece of the contour in the search for the point that is missed most: the way of a cycle down to rounding.
+/// Halvings of a piece of the contour in the search for the point missed most: from the path of one cycle down to
+/// rounding.
 const HALVINGS: u32 = 24;
-/// Way of the nearest set point, in ways along the contour, from which on it has passed to another part of the set path.
+/// Ratio of the movement of the nearest set point to that along the contour from which on it has passed to another part
+/// of the set path.
 const JUMP: f64 = 1.1;
-/// Distance between points of the contour, in tolerances, up to which the vectors to the set path are alike.
+/// Distance between points of the contour, in tolerances, up to which their vectors to the set path are similar.
 const CLOSE: f64 = 0.1;
-/// Lines of the set path that the nearest set point may pass on its way between two points.
+/// Number of segments of the set path that the nearest set point may pass between two points.
 const MOST_LINES: u64 = 8;
-/// Points of the contour looked at in a cycle in which it may be missed.
+/// Maximum number of points of the contour examined per cycle.
 const PARTS: f64 = 4.0;
-/// Distance between the points of the contour that are looked at, in tolerances.
+/// Distance between the points examined, in tolerances.
 pub(super) const SPACING: f64 = 0.02;
 
-/// Length in mm up to which no component of a vector, or of what could be taken for it, exceeds a tolerance.
+/// Length in mm up to which no component of a vector, or of one that may be taken for it, exceeds the tolerance.
 fn certain(tolerance_mm: f64) -> f64 {
     within(tolerance_mm) / (1.0 + ALIKE)
 }
 
-/// A point of the contour, by its path length, and the set point nearest to it.
+/// A point of the contour, by its path length, and its nearest set point.
 #[derive(Clone)]
 struct Foot {
     s: f64,
@@ -52,20 +54,20 @@ impl Foot {
         distance(&self.point, &other.point)
     }
 
-    /// Way along the contour in mm, counting all axes; the path length counts only those of the feed group.
+    /// Distance along the contour in mm over all axes; the path length counts only those of the feed group.
     fn way(&self, other: &Self) -> f64 {
         (other.s - self.s).abs().max(distance(&self.of, &other.of))
     }
 
-    /// True if a point of the contour between two can be missed by more than both of them and the tolerance. `bend` is that
-    /// of the contour between them, 0 for a straight line.
+    /// Whether a point of the contour between two others can be missed by more than both of them and the tolerance.
+    /// `bend` is that of the contour between them, 0 for a straight line.
     ///
-    /// The distance from a point changes by the way of the point at most. On straight lines the vector between two points
-    /// that move along evenly has no peak; so no point between is missed by more than both ends, but for what the bend leaves
-    /// its chord by (`bend way^2 / 8` in an axis) and what the set path leaves the chord between the nearest set points by.
-    /// Where the nearest set point passes to another part of the set path both ends may still keep the same line of it. A vector
-    /// longer than the tolerance may have components that keep it: they count between points close to each other, where the
-    /// vector hardly turns.
+    /// The distance of a point changes at most by the movement of the point. On straight lines the length of the vector
+    /// between two points that move linearly has no maximum inside. So a point between can exceed both ends only by the
+    /// sagitta of the bend (`bend way^2 / 8` per axis) and by the distance of the set path from the chord between the
+    /// nearest set points. Where the nearest set point passes to another part of the set path, both ends may still keep
+    /// the tolerance to the same segment of it. A vector longer than the tolerance may have components within it: these
+    /// are compared only between points close to each other, where the vector hardly turns.
     fn may_hide_more(&self, other: &Self, set: &SetPath, bend: f64, tolerance_mm: f64) -> bool {
         let limit = within(tolerance_mm);
         let most = self.deviation_mm.max(other.deviation_mm);
@@ -96,8 +98,8 @@ impl Foot {
 }
 
 impl View<'_> {
-    /// Hands what is missed of the contour among some suspects, as far as it shows in the cycles `from..=to`, to `found`, the
-    /// worst at most of half a kernel, and keeps the worst of all.
+    /// Reports to `found` what is missed of the contour among the suspects and becomes known in the cycles `from..=to`,
+    /// at most the worst per half kernel, and updates the worst of all.
     pub(super) fn missed(
         &self,
         (from, to): (u64, u64),
@@ -127,7 +129,7 @@ impl View<'_> {
                 continue;
             }
             let moment = k as f64;
-            // points of the contour that the filters hold no longer
+            // cycles in which the filters may hold a point of the contour
             let all = |moment: f64| {
                 let first = moment.floor().max(0.0) as u64;
                 (first, first + length + 2)
@@ -164,13 +166,13 @@ impl View<'_> {
                 }
                 at += 1;
             }
-            // the other points of the contour, as far apart as matters
+            // the other points of the contour, at the spacing that matters
             let passed = k.saturating_sub(length + 1);
             if passed <= first {
                 continue;
             }
             let tolerance = self.tolerance(passed as f64, moment);
-            // a slow path is looked at only now and then, but from where it was looked at last
+            // on a slow path not in every cycle, but from where the last one was examined
             let (from, to) = (looked.unwrap_or_else(|| record.s(passed - 1)), record.s(passed));
             looked = Some(from);
             if to - from < SPACING * tolerance && tolerance.is_finite() {
@@ -184,7 +186,7 @@ impl View<'_> {
             let parts =
                 ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
             let even = (1..=parts).map(|i| from + f64::from(i) / f64::from(parts) * (to - from));
-            // at a kink the contour is not straight
+            // the contour is not straight at a kink
             let first_mark = marks.partition_point(|m| m.s_mm <= from);
             let ahead = marks[first_mark..].iter().take_while(|m| m.s_mm < to);
             let kinks = ahead.filter(|m| m.is_kink() || m.queued.bend > 0.0).map(|m| m.s_mm);
@@ -197,7 +199,7 @@ impl View<'_> {
                 };
                 walk.position(s, &mut between);
                 let held = record.leaves(s).min(passed);
-                // the nearest set point is found close to the last one
+                // the nearest set point is close to the last one found
                 hint = if last.is_some() { hint } else { way.cycle }.max(held);
                 let near = (hint.saturating_sub(HINT).max(held), hint + HINT);
                 let foot = look(&between, near, held as f64, s);
@@ -234,7 +236,7 @@ impl View<'_> {
         inside.map(|m| m.queued.bend_between(from - m.s_mm, to - m.s_mm)).fold(0.0, f64::max)
     }
 
-    /// Least tolerance of the blocks interpolated between two moments.
+    /// Smallest tolerance in mm of the blocks interpolated between two times.
     pub(super) fn tolerance(&self, from: f64, to: f64) -> f64 {
         if let Some(tolerance) = self.tolerance_mm {
             return tolerance;

@@ -1,9 +1,9 @@
-//! Ranges of cycles, from the first one to the last one.
+//! Ranges of cycles, first and last cycle included.
 
-/// Cycles measured in one go.
+/// Cycles measured at a time.
 pub(super) const CHUNK: u64 = 8192;
 
-/// The parts of a range of moments, in whole cycles, that lie in one of some ranges of cycles.
+/// The parts of a time range, in whole cycles, that lie within any of the given ranges of cycles.
 pub(super) fn within_of(among: &[(u64, u64)], (from, to): (f64, f64)) -> Vec<(u64, u64)> {
     let (from, to) = (from.floor().max(0.0) as u64, to.ceil() as u64);
     let first = among.partition_point(|range| range.1 < from);
@@ -11,13 +11,13 @@ pub(super) fn within_of(among: &[(u64, u64)], (from, to): (f64, f64)) -> Vec<(u6
     inside.map(|range| (range.0.max(from), range.1.min(to))).collect()
 }
 
-/// A range of cycles in parts, so that long stretches need little memory.
+/// Splits a range of cycles, so that long stretches need little memory.
 pub(super) fn chunks(from: u64, to: u64) -> impl Iterator<Item = (u64, u64)> {
     let starts = std::iter::successors(Some(from), |from| Some(from + CHUNK + 1));
     starts.take_while(move |from| *from <= to).map(move |from| (from, to.min(from + CHUNK)))
 }
 
-/// Ranges of cycles in order; those less than `reach` apart are one.
+/// Ranges of cycles in order; those less than `reach` apart are merged.
 pub(super) fn joined(mut ranges: Vec<(u64, u64)>, reach: u64) -> Vec<(u64, u64)> {
     ranges.sort_unstable();
     let mut out: Vec<(u64, u64)> = Vec::new();

@@ -1,7 +1,7 @@
-//! Which cycles of a plan have to be measured.
+//! The cycles of a plan that have to be measured.
 //!
-//! Only those can leave the contour whose filters hold kinks or bends of the path; where the filters of the axes differ, all
-//! of them. Most of these are passed over by a bound ([`super::bound`]).
+//! Set points can leave the contour only while the filters hold kinks or bends of the path, or at any time if the
+//! filters of the axes differ. A bound ([`super::bound`]) excludes most of these cycles.
 
 use super::Unkept;
 use super::bound::Companion;
@@ -12,24 +12,24 @@ use super::violation::{Record, Violation, within};
 use crate::contour::WARY;
 use crate::timeline::{PathState, Reader};
 
-/// Share by which the way of one cycle may differ from that of another on a stretch of constant speed.
+/// Relative difference of path increments per cycle up to which the speed counts as constant.
 const EVEN: f64 = 1e-7;
 
-/// What has to be measured: set points that may leave the contour, and points of the contour that may be missed.
+/// The candidates to be measured: set points that may leave the contour, and points of the contour that may be missed.
 #[derive(Default)]
 pub(super) struct Suspects {
-    /// First and last cycle of each row of set points.
+    /// First and last cycle of each run of set points.
     pub(super) cycles: Vec<(u64, u64)>,
     ways: Vec<Way>,
 }
 
-/// Points of the contour.
+/// A section of the contour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
-    /// Path length in mm of the first one, and of the last.
+    /// Path length in mm at its first point; `to`: at its last point.
     from: f64,
     to: f64,
-    /// Cycle of a set point near the first one.
+    /// Cycle of a set point near the first point.
     pub(super) cycle: u64,
 }
 
@@ -48,7 +48,7 @@ impl Suspects {
         }
     }
 
-    /// Ways that touch each other become one.
+    /// Merges sections that touch each other.
     fn in_order(&mut self) {
         self.ways.sort_by(|a, b| a.from.total_cmp(&b.from));
         self.ways.dedup_by(|next, way| {
@@ -60,13 +60,13 @@ impl Suspects {
         });
     }
 
-    /// The points among them that a point of the contour belongs to.
+    /// The section that contains the point at path length `s`.
     pub(super) fn way_at(&self, s: f64) -> Option<Way> {
         let i = self.ways.partition_point(|way| way.to < s);
         self.ways.get(i).copied().filter(|way| way.from <= s)
     }
 
-    /// True if any point of the contour between two is among them.
+    /// Whether any point of the contour between two path lengths belongs to a section.
     pub(super) fn misses(&self, from: f64, to: f64) -> bool {
         let i = self.ways.partition_point(|way| way.to < from);
         self.ways.get(i).is_some_and(|way| way.from <= to)
@@ -74,8 +74,9 @@ impl Suspects {
 }
 
 impl View<'_> {
-    /// Measures the plan in some cycles, ranges in order, both ways: what leaves the contour and, where nothing does, what of it
-    /// is missed. Every stretch's worst violations, at most one for half a kernel, go to `found`; returns the worst of all.
+    /// Measures the plan in ranges of cycles, given in order, in both directions: by how far it leaves the contour and,
+    /// if it does not, by how far it misses it. The worst violations of each stretch, at most one per half kernel, go
+    /// to `found`; returns the worst of all.
     pub(super) fn search<'v>(
         &'v self,
         among: &[(u64, u64)],
@@ -86,7 +87,7 @@ impl View<'_> {
         left.worst.or_else(|| self.missing(among, points, found))
     }
 
-    /// Measures what of the contour is missed in some cycles; as [`Self::search`].
+    /// Measures by how far points of the contour are missed in some cycles; otherwise as [`Self::search`].
     pub(super) fn missing<'v>(
         &'v self,
         among: &[(u64, u64)],
@@ -98,7 +99,7 @@ impl View<'_> {
         let mut companion = Companion::new(&self.marks, &self.contour, points.axes());
         for stretch in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
             let suspects = self.suspects(stretch, points, &mut companion, |_, _, _| ());
-            // the filters let go what they hold before it is known to be missed
+            // whether a point is missed is known only after it has left the filters
             let ends = suspects.cycles.iter().map(|(a, b)| (*a, b + reach + 2));
             let held = ends.map(|(a, b)| (a.max(stretch.0), b.min(stretch.1)));
             for (from, to) in joined(held.filter(|(a, b)| a <= b).collect(), reach) {
@@ -108,12 +109,12 @@ impl View<'_> {
         worst
     }
 
-    /// First cycle that a survey of some cycles takes: what is missed there is known in them.
+    /// First cycle of the survey for a range of cycles: points missed from there on are known within the range.
     pub(super) fn first_for(&self, (from, _): (u64, u64)) -> u64 {
         from.saturating_sub(u64::from(self.trial.kernels.length()) + 3)
     }
 
-    /// The cycles among some that can leave the contour, or miss something of it.
+    /// The cycles, among those given, in which the set path can leave the contour or miss part of it.
     pub(super) fn active(&self, among: &[(u64, u64)]) -> Vec<(u64, u64)> {
         let reach = u64::from(self.trial.kernels.length());
         let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
@@ -121,13 +122,13 @@ impl View<'_> {
         let calm = self.calm();
         for m in 0..self.marks.len() {
             let Some(held) = self.held(m) else { continue };
-            // what is missed is looked for when the filters have let it go
+            // missed points are searched for after they have left the filters
             let inside = within_of(among, (held.0, held.1 + reach as f64 + 2.0));
             if calm {
                 active.extend(inside);
                 continue;
             }
-            // of a straight block only where its speed changes
+            // on a straight block only where the speed changes
             for (from, to) in inside {
                 let mut k = from;
                 while k <= to {
@@ -143,8 +144,8 @@ impl View<'_> {
         joined(active, reach)
     }
 
-    /// What of a stretch of cycles the bound does not excuse; `each` is called with every cycle, and whether its set point is a
-    /// suspect.
+    /// The parts of a range of cycles that the bound does not exclude. `each` is called for every cycle, with whether
+    /// its set point is a suspect.
     pub(super) fn suspects(
         &self,
         (from, to): (u64, u64),
@@ -169,14 +170,14 @@ impl View<'_> {
             before = Some([newer, middle]);
             let moment = k as f64;
             let tolerance = self.tolerance(moment - reach, moment + reach);
-            // what is a little longer than the shortest vector may be taken for it
+            // a vector slightly longer than the shortest one may be taken for it
             let suspect = (known || k >= from) && (1.0 + WARY) * apart > within(tolerance);
             each(k, points, suspect);
             if suspect {
                 out.add(k, older, middle);
                 last = Some(k);
             } else if last.is_some_and(|last| last + 1 == k) {
-                // what follows is looked at as far as a point next to it is needed
+                // the section is extended up to the neighbouring point, which is needed as well
                 out.lengthen(middle);
             }
         }
@@ -184,8 +185,8 @@ impl View<'_> {
         out
     }
 
-    /// Moments between which the filters hold the entry of a mark's block, or the block itself if that can leave the contour;
-    /// `None` where neither can.
+    /// Times between which the filters hold the entry of a mark's block, or the block itself if it can leave the
+    /// contour; `None` if neither applies.
     fn held(&self, m: usize) -> Option<(f64, f64)> {
         let Self { trial, marks, .. } = self;
         let kernels = trial.kernels;
@@ -203,14 +204,14 @@ impl View<'_> {
         Some((mark.cycles, until + reach + 2.0))
     }
 
-    /// The kernels are equal and pull nothing beyond an end: only kinks and bends leave the contour.
+    /// Whether the kernels are equal and without overshoot: only kinks and bends leave the contour then.
     fn calm(&self) -> bool {
         !self.trial.kernels.unequal && !self.trial.kernels.overshoot
     }
 
-    /// True if the path runs evenly along the straight block of mark `m` in the cycles `first..=last`: the set points that
-    /// depend on nothing else are aside by the same vector. A speed that rises and falls at most once has the same value at
-    /// both ends, and as its mean, only if it is constant.
+    /// Whether the path moves at constant speed along the straight block of mark `m` in the cycles `first..=last`: the
+    /// set points that depend only on these cycles have the same deviation vector. A speed that rises and falls at most
+    /// once equals its mean at both ends only if it is constant.
     fn is_steady(&self, m: usize, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
         let Self { trial, marks, .. } = self;
         let ends = marks.get(m + 1).map_or_else(|| self.rest(), |next| next.cycles);

@@ -1,23 +1,23 @@
-//! The set points of a plan under examination, each computed once: what leaves the contour and what of it is missed are looked
-//! for along the same ones, stretch by stretch.
+//! The set points of a plan under examination. Each is computed once: both directions of the measurement use the same
+//! ones, stretch by stretch.
 
 use super::ranges::CHUNK;
 use super::view::{Buffer, View};
 
-/// Set points kept, at most, so that long plans need little memory.
+/// Maximum number of set points kept, so that long plans need little memory.
 const MOST: u64 = 4 * CHUNK;
-/// Cycle of a row that holds nothing.
+/// Cycle number of an empty row.
 const NONE: u64 = u64::MAX;
 
-/// See the module.
+/// Cache of set points, see the module.
 pub(super) struct SetPoints<'a> {
     buffer: Buffer<'a>,
     axes: usize,
-    /// Cycle of each row; a cycle has the row of its number, counted around.
+    /// Cycle of each row; cycle `k` uses row `k` modulo the number of rows.
     cycles: Vec<u64>,
-    /// Rows of set point, mean path length and path length.
+    /// Rows: set point, mean path length, path length.
     rows: Vec<f64>,
-    /// Where the row of the cycle asked for last begins.
+    /// Start of the row of the last cycle requested.
     at: usize,
 }
 
@@ -37,7 +37,7 @@ impl<'a> SetPoints<'a> {
         self.axes
     }
 
-    /// Goes to cycle `k`.
+    /// Selects cycle `k`, and computes it if needed.
     pub(super) fn step(&mut self, k: u64) {
         let row = (k % self.cycles.len() as u64) as usize;
         self.at = row * (self.axes + 2);
@@ -51,7 +51,7 @@ impl<'a> SetPoints<'a> {
         }
     }
 
-    /// Set point of the cycle.
+    /// Set point of the selected cycle.
     pub(super) fn set(&self) -> &[f64] {
         &self.rows[self.at..][..self.axes]
     }
@@ -61,7 +61,7 @@ impl<'a> SetPoints<'a> {
         self.rows[self.at + self.axes]
     }
 
-    /// Path length of the cycle.
+    /// Path length of the selected cycle.
     pub(super) fn s(&self) -> f64 {
         self.rows[self.at + self.axes + 1]
     }

@@ -1,4 +1,4 @@
-//! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
+//! Answers an excess with lower speeds, stops, dwells and accelerations for the next round.
 
 use super::Trial;
 use super::demands::{Demands, hurry, turns};
@@ -10,25 +10,25 @@ use crate::queue::{Queued, Stretch};
 use kontur_filters::kernel::{Kernel, Tap};
 use std::sync::Arc;
 
-/// Part of the tolerance by which a correction aims below it, so that the search ends.
+/// Share of the tolerance by which a correction aims below it, so that the search ends.
 const AIM: f64 = 0.003;
 
-/// Part of the acceleration of a lone start or stop below which no block is slowed down.
+/// Smallest acceleration of a block, relative to the one that a single start or stop may use.
 const LEAST_SHARE: f64 = 0.1;
 
-/// Part of the kernel by which the least step of a dwell grows every time it is made longer: neighbours that share an error move
-/// it back and forth.
+/// Share of the kernel by which the smallest step of a dwell grows each time the dwell is extended: neighbours that
+/// share an error otherwise shift it back and forth.
 const GROWTH: f64 = 1.0 / 256.0;
 
-/// Part of an excess from which on it counts as left.
+/// Share of an excess from which on it counts as unchanged.
 const WITHOUT_EFFECT: f64 = 0.9;
 
-/// Part of the speed that is left when everything in reach counts as a cause: few rounds remain.
+/// Share of the speed that remains in each round when everything within reach counts as a cause: few rounds are left.
 const HASTE: f64 = 0.85;
 
 impl View<'_> {
-    /// Blocks that are to blame and bend more in one place than in another, or pull axes of different delays apart more, in
-    /// parts: the speed that the tolerance leaves to the worst place is not for the whole of them.
+    /// Divides the blocks to blame that bend more in one place than in another, or whose axes with different delays are
+    /// pulled apart more: the speed permitted at the worst place need not limit the whole block.
     pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
         let Self { trial, marks, .. } = self;
         let blamed = marks.iter().filter_map(|mark| {
@@ -41,7 +41,7 @@ impl View<'_> {
             .collect()
     }
 
-    /// Lowers what is to blame; `all`: everything in reach.
+    /// Tightens the demands on what is to blame; `all`: on everything within reach.
     pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
@@ -56,13 +56,13 @@ impl View<'_> {
                 && demands.stop[b]
                     .is_some_and(|dwell| dwell == full || !self.rest_at(mark, dwell).keeps(full));
             if swings {
-                // what is left is the overshoot of the stop itself
+                // the remaining excess is the overshoot of the stop itself
                 let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
                 if b > 0 {
                     note(&mut soften[b - 1], excess, tolerance);
                 }
                 note(&mut soften[b], excess, tolerance);
-                // what is left after many rounds may be the swing of what is final: that runs out
+                // after many rounds the excess may be the overshoot of the final part, which decays
                 if !all {
                     continue;
                 }
@@ -84,7 +84,8 @@ impl View<'_> {
             let m1 =
                 trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles) * trial.cycle.seconds();
             let now = self.speed_at(b);
-            // the closed form is the steepest the error can fall with the speed; what the last step showed is better
+            // the closed form is the steepest possible fall of the error with the speed; the effect of the last step is
+            // a better estimate
             let steepest = m1 * mark.jump;
             let slope = demands.tried[b].map_or(steepest, |(v, e)| {
                 let seen = (e - excess) / (v - now);
@@ -132,14 +133,14 @@ impl View<'_> {
                 demands.acceleration[b] = if now >= 1.0 {
                     ratio.min(2.0 * gentle)
                 } else {
-                    // a start, a stop and what they meet may share the tolerance; less is no help
+                    // a start and a stop that overlap may share the tolerance; a further reduction does not help
                     (now * ratio.max(0.3)).max(now.min(LEAST_SHARE * gentle))
                 };
             }
         }
     }
 
-    /// Part of the acceleration with which a lone start or stop on the block keeps the tolerance.
+    /// Share of the acceleration with which a single start or stop on the block keeps the tolerance.
     fn gentle_ratio(&self, block: usize, queued: &Queued, tolerance: f64) -> f64 {
         let kernels = self.trial.kernels;
         let v = self.peak_of(block);
@@ -157,8 +158,8 @@ impl View<'_> {
     }
 }
 
-/// Stretches of a block with the speed that the tolerance leaves to each: those of its bends, and where the delays of the axes
-/// differ, those of its directions.
+/// Stretches of a block with the speed that the tolerance permits on each: by curvature and, where the delays of the
+/// axes differ, by direction.
 fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch> {
     let fastest = queued.velocity.v_mm_s;
     let mut out = Vec::new();
@@ -188,15 +189,15 @@ fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch>
     out
 }
 
-/// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived from a parabola).
+/// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived for a parabola).
 pub(super) fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
     let spread = trial.kernels.axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
     let t = trial.cycle.seconds();
     (2.0 * tolerance / (spread * t * t * bend.max(1e-6))).sqrt()
 }
 
-/// Speed in mm/s at which nothing can be left by the tolerance: what the filters hold is then shorter than that, and the set
-/// point is a mean of it. Who is slower still is not to blame.
+/// Speed in mm/s at which the tolerance cannot be exceeded: the path within the filters is then shorter than the
+/// tolerance, and the set point is a mean over it. Slower blocks are not to blame.
 fn harmless(trial: &Trial<'_>, tolerance: f64) -> f64 {
     let gain = |k: &Kernel| k.taps().iter().map(|t| t.weight.abs()).sum::<f64>();
     let gain = trial.kernels.axes.iter().flatten().map(|k| gain(k)).fold(1.0, f64::max);
@@ -204,7 +205,7 @@ fn harmless(trial: &Trial<'_>, tolerance: f64) -> f64 {
     0.5 * tolerance / (gain * held_s)
 }
 
-/// Variance of the kernel in cycles squared, negative weights counted like positive ones.
+/// Variance of the kernel in cycles squared; negative weights count as positive ones.
 fn spread_cycles2(kernel: &Kernel) -> f64 {
     let mean = kernel.delay_cycles();
     let part = |tap: &Tap| {

@@ -1,4 +1,4 @@
-//! A plan under examination on the cycle grid: what is entered when, and the set points it gives.
+//! A plan under examination on the cycle grid: the times at which blocks are entered, and the resulting set points.
 
 use super::{BORDER_CYCLES, Kernels, Monitor, Trial};
 use crate::axis::AxisVec;
@@ -8,13 +8,13 @@ use crate::timeline::{Entry, PathState, Reader};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
-/// Change of direction that counts as 0.
+/// Change of direction treated as 0.
 pub(super) const STRAIGHT: f64 = 1e-9;
 
-/// Rows of a buffer, in reaches of the kernels, from which on the old ones are given up.
+/// Number of rows in a buffer, in reaches of the kernels, from which on old rows are discarded.
 const ROOM: usize = 4;
 
-/// A block entered in a plan.
+/// Entry of a block in a plan.
 pub(super) struct Mark {
     pub(super) cycles: f64,
     /// Index of the boundary in the window; `None` if it can no longer change.
@@ -24,40 +24,40 @@ pub(super) struct Mark {
     pub(super) queued: Arc<Queued>,
     /// Path length at the start of the block.
     pub(super) s_mm: f64,
-    /// Largest jump of direction of an axis with a kernel, and that axis.
+    /// Largest change of direction of an axis with a kernel, and that axis.
     pub(super) jump: f64,
     pub(super) axis: usize,
-    /// Where it is entered, if not at the start of its path.
+    /// Point of entry, if this is not the start of the path.
     pub(super) inside: Option<AxisVec>,
 }
 
 impl Mark {
-    /// True if the path turns where it enters the block: a straight line may continue as another block.
+    /// Whether the path has a kink at the entry: a straight line may be continued by another block.
     pub(super) fn is_kink(&self) -> bool {
         self.jump > STRAIGHT
     }
 
-    /// Where it is entered.
+    /// Point of entry.
     pub(super) fn point(&self) -> &AxisVec {
         self.inside.as_ref().unwrap_or_else(|| self.queued.block.path.start())
     }
 
-    /// True if the path continues without a corner: it is the rest of the block before.
+    /// Whether the path continues without a corner, as the remainder of the block before.
     pub(super) fn goes_on_from(&self, before: &Self) -> bool {
         let start = |m: &Self| m.s_mm - m.queued.offset;
         (start(before) - start(self)).abs() < SAME_START_MM
     }
 }
 
-/// A plan with the setpoints before it.
+/// A plan together with the setpoints before it.
 pub(super) struct View<'a> {
     pub(super) trial: &'a Trial<'a>,
     pub(super) monitor: &'a Monitor,
-    /// Blocks that are within reach already, then those of the plan.
+    /// Blocks already within reach, then those of the plan.
     pub(super) marks: Vec<Mark>,
     /// The blocks of the marks.
     pub(super) contour: Contour,
-    /// Tolerance in mm, if it is the same for all of them.
+    /// Tolerance in mm, if it is the same for all marks.
     pub(super) tolerance_mm: Option<f64>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> View<'a> {
         Self { trial, monitor, marks, contour, tolerance_mm }
     }
 
-    /// The path in cycle `k`, output or planned.
+    /// State of the path in cycle `k`, output or planned.
     pub(super) fn state(&self, k: u64, reader: &mut Reader<'_>, state: &mut PathState) {
         let trial = self.trial;
         if k > trial.now {
@@ -90,14 +90,14 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Moment in cycles at which the plan comes to rest.
+    /// Time in cycles at which the plan comes to rest.
     pub(super) fn rest(&self) -> f64 {
         let Trial { timeline, plan, now, cycle, .. } = self.trial;
         let last = plan.last().or_else(|| timeline.entries().next_back());
         last.map_or(*now as f64, |e| e.end.cycles(*cycle))
     }
 
-    /// Highest speed in mm/s planned for a block of the window and those planned with it.
+    /// Highest planned speed in mm/s of the timeline entry that contains a block of the window.
     pub(super) fn peak_of(&self, block: usize) -> f64 {
         let mut behind = 0;
         let holds = |e: &&Entry| {
@@ -107,7 +107,7 @@ impl<'a> View<'a> {
         self.trial.plan.iter().find(holds).map_or(0.0, |e| e.profile.peak())
     }
 
-    /// Planned speed at a boundary of the window.
+    /// Planned speed in mm/s at a boundary of the window.
     pub(super) fn speed_at(&self, boundary: usize) -> f64 {
         let mut index = 0;
         for e in self.trial.plan {
@@ -121,13 +121,13 @@ impl<'a> View<'a> {
     }
 }
 
-/// Blocks that are within reach already, then those of the plan.
+/// Blocks already within reach, then those of the plan.
 fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let reach = f64::from(trial.kernels.length());
     let mut out: Vec<Mark> = Vec::new();
     let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64| {
         let (mut jump, mut axis) = (0.0, 0);
-        // the rest of a block continues without a corner
+        // the remainder of a block continues without a corner
         let start = s - queued.offset;
         let goes_on = |m: &Mark| (m.s_mm - m.queued.offset - start).abs() < SAME_START_MM;
         if let Some(before) = out.last().filter(|m| !goes_on(m)) {
@@ -146,7 +146,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
             path.position(queued.offset, &mut point);
             point
         });
-        // at the start of the path itself only a wait is possible
+        // at the start of the path only a dwell is possible
         let boundary = block.filter(|b| *b > 0 || trial.at_rest);
         let queued = Arc::clone(queued);
         out.push(Mark { cycles, boundary, block, queued, s_mm: s, jump, axis, inside });
@@ -171,20 +171,20 @@ fn widest(kernels: &Kernels) -> usize {
     (0..kernels.axes.len()).max_by_key(length).unwrap_or(0)
 }
 
-/// Raw positions in reach of the kernels, and the set point they give.
+/// Raw positions within reach of the kernels, and the resulting set point.
 pub(super) struct Buffer<'a> {
     view: &'a View<'a>,
     reader: Reader<'a>,
-    /// Cycle by cycle, the oldest first: the position of every axis, then the path length.
+    /// Cycle by cycle, oldest first: the position of every axis, then the path length.
     rows: Vec<f64>,
-    /// Values of a row.
+    /// Number of values in a row.
     width: usize,
-    /// Rows that the kernels reach back to, with the newest.
+    /// Number of rows within reach of the kernels, including the newest.
     reach: usize,
     state: PathState,
-    /// Filtered as the rows are: the set point, then the mean path length.
+    /// The filtered row: the set point, then the mean path length.
     filtered: AxisVec,
-    /// The cycle after the last one taken.
+    /// The cycle after the last one read.
     next: Option<u64>,
 }
 
@@ -205,7 +205,7 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// Makes `first` the next cycle to take.
+    /// Prepares the buffer so that `first` is the next cycle to read.
     pub(super) fn seek(&mut self, first: u64) {
         if self.next != Some(first) {
             for back in (1..self.reach as u64).rev() {
@@ -214,7 +214,7 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// Takes cycle `k` alone.
+    /// Reads cycle `k` without filtering.
     pub(super) fn take(&mut self, k: u64) {
         self.view.state(k, &mut self.reader, &mut self.state);
         let kept = (self.reach - 1) * self.width;
@@ -228,13 +228,13 @@ impl<'a> Buffer<'a> {
         self.next = Some(k + 1);
     }
 
-    /// Takes cycle `k` and filters.
+    /// Reads cycle `k` and filters.
     pub(super) fn step(&mut self, k: u64) {
         self.take(k);
         self.filter();
     }
 
-    /// Set point and mean path length of the cycle taken last.
+    /// Computes the set point and mean path length of the last cycle read.
     pub(super) fn filter(&mut self) {
         let Self { rows, width, .. } = self;
         let newest = rows.len() - *width;
@@ -245,18 +245,17 @@ impl<'a> Buffer<'a> {
         self.view.trial.kernels.filter(row, &mut self.filtered);
     }
 
-    /// Set point of the cycle filtered last.
+    /// Set point of the last cycle filtered.
     pub(super) fn set(&self) -> &[f64] {
         &self.filtered[..self.width - 1]
     }
 
-    /// Path length of the cycle taken last.
+    /// Path length of the last cycle read.
     pub(super) fn s(&self) -> f64 {
         self.rows[self.rows.len() - 1]
     }
 
-    /// Mean of the path lengths that the longest kernel holds, as the set point is that of the positions; not outside of
-    /// them.
+    /// Mean of the path lengths within the longest kernel, filtered as the positions are; limited to their range.
     pub(super) fn middle(&self) -> f64 {
         let oldest = self.rows.len() - (self.reach - 1) * self.width - 1;
         self.filtered[self.width - 1].clamp(self.rows[oldest], self.s())

@@ -1,12 +1,12 @@
-//! A moment at which a plan exceeds the tolerance, and the path lengths around it.
+//! A time at which a plan exceeds the tolerance, and the path lengths around it.
 
 use super::MARGIN_MM;
 use crate::axis::AxisVec;
 
-/// A moment at which the tolerance is exceeded.
+/// A time at which the tolerance is exceeded.
 #[derive(Clone, Debug)]
 pub(super) struct Violation {
-    /// Cycle of the set point that is too far away, or that comes nearest to the point that is missed.
+    /// Cycle of the set point that is too far away, or that is nearest to the missed point.
     pub(super) cycle: u64,
     /// Largest component in mm.
     pub(super) deviation_mm: f64,
@@ -26,19 +26,19 @@ impl Violation {
     }
 }
 
-/// What a plan is held to, a little below the tolerance.
+/// The limit for a plan, slightly below the tolerance.
 pub(super) fn within(tolerance_mm: f64) -> f64 {
     tolerance_mm - MARGIN_MM.min(0.1 * tolerance_mm)
 }
 
-/// Path lengths of a stretch of cycles.
+/// Path lengths over a range of cycles.
 pub(super) struct Record {
     first: u64,
     s_mm: Vec<f64>,
 }
 
 impl Record {
-    /// Nothing yet; the next cycle is `first`.
+    /// An empty record, beginning with cycle `first`.
     pub(super) fn starting(first: u64) -> Self {
         Self { first, s_mm: Vec::new() }
     }
@@ -47,13 +47,13 @@ impl Record {
         self.s_mm.push(s_mm);
     }
 
-    /// Path length in cycle `k`, which is one of the stretch or of the reach before it.
+    /// Path length in cycle `k`, which lies in the record or within reach before it.
     pub(super) fn s(&self, k: u64) -> f64 {
         let at = k.saturating_sub(self.first) as usize;
         self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)
     }
 
-    /// Last cycle of the record in which the path has not got beyond a path length: a rest there is over then.
+    /// Last cycle of the record in which the path length does not exceed `s`: the end of a standstill there.
     pub(super) fn leaves(&self, s: f64) -> u64 {
         self.first + self.s_mm.partition_point(|passed| *passed <= s).saturating_sub(1) as u64
     }
