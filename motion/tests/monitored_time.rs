@@ -1,4 +1,4 @@
-//! With `AX_DEV`: more of what helps never costs time.
+//! With `AX_DEV`, less restrictive settings never take longer.
 
 use crate::common::{Job, axis, channel, contour};
 use kontur_filters::time::CycleTime;
@@ -10,7 +10,7 @@ use kontur_motion::block::Tolerance;
 
 const CYCLE_US: u32 = 1000;
 
-/// Part of the time by which a higher feed or a larger tolerance may lengthen it.
+/// Relative increase in time tolerated with a higher feed rate or a larger tolerance.
 const BOUND: f64 = 0.01;
 
 type Points = Vec<[f64; 3]>;
@@ -66,7 +66,7 @@ impl Case {
     }
 }
 
-/// Largest excess of another time over the least one before it, beyond a cycle per corner.
+/// Largest increase of a time over the shortest one before it, beyond one cycle per corner.
 fn rises(case: &Case, harder: impl Fn(f64) -> Case) -> f64 {
     let corners = case.points.len() - 1;
     let mut best = case.cycles();
@@ -79,9 +79,9 @@ fn rises(case: &Case, harder: impl Fn(f64) -> Case) -> f64 {
     most
 }
 
-/// The bound is wider than what is wanted: the search for who has to slow down is not an optimum. With other seeds a higher feed
-/// costs up to 1.4 %, and a larger tolerance 2.1 % (`SEED=5`). `COUNT=200 SEED=7` takes more contours; what is found is
-/// printed.
+/// The bound is wider than desired, because the search for the blocks to slow down is not an optimum. With other seeds
+/// a higher feed rate costs up to 1.4 %, and a larger tolerance 2.1 % (`SEED=5`). `COUNT=200 SEED=7` tests more
+/// contours; the results are printed.
 #[test]
 fn more_feed_or_tolerance() {
     let mut r = Random::from_state(seed());
@@ -99,8 +99,8 @@ fn more_feed_or_tolerance() {
     }
 }
 
-/// Chords of circles, whose kinks lie within reach of each other at one feed and apart at another: a higher feed hardly ends
-/// in a slower plan (0 is wanted; it was 72 %).
+/// Chords of circles, whose kinks are within reach of each other at one feed rate and not at another: a higher feed
+/// rate hardly results in a slower plan (0 is the aim; it was 72 %).
 #[test]
 fn chords_at_rising_feeds() {
     for (radius, chord) in [(0.6, 0.3), (3.0, 0.5), (10.0, 0.2), (20.0, 1.5)] {
@@ -129,8 +129,8 @@ fn chords_at_rising_feeds() {
     }
 }
 
-/// A long line, a block of 0.07 mm and a sharp corner after it: the corner between them was missed because the rest there
-/// was too short, and the line was driven at 3 mm/s for it.
+/// A long line, a block of 0.07 mm and a sharp corner after it: the corner between them was missed because the dwell
+/// there was too short, and for this reason the line was driven at 3 mm/s.
 #[test]
 fn a_rest_that_is_too_short_slows_no_line_down() {
     let case = Case {

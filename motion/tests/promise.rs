@@ -1,7 +1,7 @@
-//! `AX_DEV` as it is promised: both ways, on the lines between the set points, over contours that are driven.
+//! The promise of `AX_DEV`: in both directions, on the segments between the set points, over realistic contours.
 //!
-//! Everything is measured here on its own: set points from interpolated points and kernel taps, distances by brute force
-//! over polylines. `COUNT=2000 SEED=7 cargo test --release -p kontur-motion --test all promise` takes more contours.
+//! The test measures independently: set points from interpolated points and kernel taps, distances by brute force over
+//! polylines. `COUNT=2000 SEED=7 cargo test --release -p kontur-motion --test all promise` tests more contours.
 
 #![expect(
     clippy::disallowed_methods,
@@ -24,10 +24,10 @@ use std::sync::Arc;
 
 type Point = [f64; 3];
 
-/// Distance between the points of the contour that are looked at, in tolerances.
+/// Distance between the points of the contour that are examined, in tolerances.
 const SPACING: f64 = 0.05;
 
-/// A contour, what drives it, and what it is held to.
+/// A contour, the settings it is run with, and its tolerance.
 #[derive(Clone, Debug)]
 struct Case {
     points: Vec<Point>,
@@ -40,7 +40,7 @@ struct Case {
     ramp_s: f64,
 }
 
-/// Interpolated points with the block of each, and what could not be kept.
+/// Interpolated points with the block of each, and the tolerances that could not be kept.
 struct Drive {
     points: Vec<Point>,
     seqs: Vec<usize>,
@@ -123,8 +123,8 @@ fn aside(p: Point, polyline: &[Point]) -> f64 {
     nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, e)| largest(e))
 }
 
-/// Largest deviation of the joined set points from the contour with its cycle, and of the contour from them, in order,
-/// with its block.
+/// Largest deviation of the segments between set points from the contour, with its cycle, and largest deviation of the
+/// contour from these segments, with its block; in this order.
 fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
     let set = filtered(path, &case.kernels);
     let reach = case.kernels.iter().map(|k| k.length() as usize).max().unwrap();
@@ -132,7 +132,7 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
     let block = |k: usize| seqs[k.min(last)];
     let mut leaves = (0.0_f64, 0);
     for k in 1..set.len() {
-        // a block more or less at the border of the reach can be the nearest one, with another component
+        // one block more or less at the limit of the reach can be the nearest one, with another component
         let lately = [0, 1, 2, 3]
             .map(|border| &case.points[block(k.saturating_sub(reach + border))..=block(k) + 1]);
         for sub in 1..=16 {
@@ -158,7 +158,7 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
         while left < last && block(left) <= i {
             left += 1;
         }
-        // share of the block that the path has covered in the cycles in which it is on the block or rests at an end of it
+        // share of the block that the path has covered, in the cycles in which it is on the block or rests at one end
         let along = [0, 1, 2].map(|c| w[1][c] - w[0][c]);
         let square = along.iter().map(|c| c * c).sum::<f64>();
         let share = |k: usize| {
@@ -173,15 +173,16 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
             left += 1;
         }
         let shares: Vec<f64> = (entered..left).map(share).collect();
-        // dents of the set path are as short as its lines
+        // dents of the set path are as short as its segments
         let parts = (square.sqrt() / (SPACING * case.tolerance_mm)).ceil().clamp(8.0, 256.0) as u32;
         for sub in 0..=parts {
             let u = f64::from(sub) / f64::from(parts);
             let p = [0, 1, 2].map(|k| w[0][k] + u * along[k]);
-            // the filters hold a point from the cycle in which the path comes to it until their length after it has gone on
+            // the filters hold a point from the cycle in which the path reaches it until one kernel length after the
+            // path has left it
             let comes = entered + shares.partition_point(|s| *s < u - 1e-9);
             let goes = entered + shares.partition_point(|s| *s <= u + 1e-9);
-            // a line of the set path more or less at the border of that can be the nearest one, with another component
+            // one segment of the set path more or less at this limit can be the nearest one, with another component
             let windows = [0, 1, 2, 3].map(|border| (goes + reach + border).min(set.len()));
             let from = comes.saturating_sub(2);
             let new = windows
@@ -196,8 +197,8 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
     [leaves, misses]
 }
 
-/// Duration of the contour run through at one speed, the best one at most `feed` that keeps the tolerance. The speed
-/// counts on a grid of one part in a hundred.
+/// Duration of the contour at one constant speed, the best one up to `feed` that keeps the tolerance. Bisection gives
+/// the speed to one percent.
 fn best_even_time(case: &Case) -> f64 {
     let lengths: Vec<f64> =
         case.points.windows(2).map(|w| to_segment(w[0], w[1], w[1]).0.sqrt()).collect();
@@ -224,7 +225,7 @@ fn best_even_time(case: &Case) -> f64 {
     if keeps(high) {
         return length / high;
     }
-    // a thousand to one in ten halvings of its logarithm: a hundredth
+    // ten halvings of the logarithm of a thousand leave less than one percent
     for _ in 0..10 {
         let mid = (low * high).sqrt();
         if keeps(mid) { low = mid } else { high = mid }
@@ -253,7 +254,7 @@ fn rounded(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 
-/// A contour of one of the kinds that are driven.
+/// A contour of one of the realistic kinds.
 fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
     let (name, points): (_, Vec<Point>) = match kind {
         0 => ("circle", {
@@ -358,7 +359,8 @@ fn random_case(r: &mut Random, kind: usize) -> (&'static str, Case) {
     (name, case)
 }
 
-/// Prints what it finds; `VERBOSE=1` every contour, `ONLY=17` that one alone, `EVEN=1` the time of the best even speed.
+/// Prints its results; `VERBOSE=1` prints every contour, `ONLY=17` tests that one alone, `EVEN=1` prints the time of
+/// the best even speed.
 ///
 /// Conformance: V055.
 #[test]
@@ -410,8 +412,9 @@ fn random_contours_are_kept_both_ways() {
     assert_eq!(failed, 0, "of {count}");
 }
 
-/// The largest distance of these contours from the set path lies between the points of a cycle, where the nearest set point
-/// passes to another part of the path. With a slow cycle and unequal filters one way of a cycle is many tolerances long, and a
+/// The largest distance of these contours from the set path is between the points of a cycle, where the nearest set
+/// point passes to another part of the path. With a slow cycle and unequal filters the path of one cycle is many
+/// tolerances long, and a dent can lie between two points of the contour that are missed by far less.
 /// dent lies between two points of the contour that are missed by far less.
 #[test]
 fn dents_between_the_points_of_a_cycle() {

@@ -14,7 +14,7 @@ use kontur_motion::realtime::FeedholdBraking::{Active, Own};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
-/// `AX_DEV` on a square with events at every time: the plan after a change keeps the tolerance.
+/// `AX_DEV` on a square with events at any time: the plan after a change keeps the tolerance.
 #[test]
 fn tolerance_with_events() {
     const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[8.0, 0.0], &[8.0, 8.0], &[0.0, 8.0], &[0.0, 0.0]];
@@ -51,7 +51,7 @@ fn off_the_slot(p: &[f64]) -> f64 {
     let foot = |x: f64, y: f64| [x.clamp(0.0, 8.0), y];
     let along = y.clamp(0.0, 6.0);
     let mut feet = vec![foot(x, 0.0), foot(x, 6.0), [0.0, along]];
-    // half circle to the right of (8, 3)
+    // semicircle to the right of (8, 3)
     if x > 8.0 {
         let r = libm::hypot(x - 8.0, y - 3.0);
         feet.push([8.0 + 3.0 * (x - 8.0) / r, 3.0 + 3.0 * (y - 3.0) / r]);
@@ -61,8 +61,8 @@ fn off_the_slot(p: &[f64]) -> f64 {
     (x - nearest[0]).abs().max((y - nearest[1]).abs())
 }
 
-/// `AX_DEV` on a slot of lines, a half circle and two corners, each piece cut into several blocks: the rest of an arc
-/// that a change of speed divides bends like the whole and has no further corner.
+/// `AX_DEV` on a slot of lines, a semicircle and two corners, each piece cut into several blocks: the remainder of an
+/// arc that is split by a change of speed has the same curvature as the whole and no further corner.
 #[test]
 fn tolerance_with_events_on_arcs() {
     const TOLERANCE: f64 = 0.01;
@@ -107,9 +107,10 @@ fn tolerance_with_events_on_arcs() {
     assert!(worst > 0.9 * TOLERANCE, "the tolerance is not used: {worst}");
 }
 
-/// X is filtered by two taps 20 cycles apart, Y later by 8 cycles: on a straight line the set point is beside it by the speed
-/// times the difference of both delays (2 cycles), but by three times as much 8 cycles after a sudden stop, when Y has
-/// arrived and half of X is still 12 to 20 cycles late. So the feedhold, twice as hard as the planned braking, has to brake gently, and no tolerance is given up.
+/// X is filtered by two taps 20 cycles apart, Y is delayed by 8 cycles. On a straight line the set point is offset by
+/// the speed times the difference of the two delays (2 cycles). 8 cycles after a sudden stop, however, the offset is
+/// three times as large, because Y has arrived and half of X is still 12 to 20 cycles late. The feedhold is twice as
+/// hard as the planned braking, so it has to brake more gently, and every tolerance must be kept.
 #[test]
 fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
     let job = Job::new(0.0, Step);
@@ -143,7 +144,7 @@ fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
             x.zip(y).map(|(x, y)| [x, y]).collect()
         };
         for [x, y] in set {
-            // 3-4-5: the distance from the line, and the longer of its components
+            // 3-4-5 triangle: the distance from the line, and the larger of its components
             let aside = (0.8 * x - 0.6 * y).abs() * 0.8;
             assert!(aside <= tolerance_mm + 1e-9, "{hold}: {aside}");
         }

@@ -1,5 +1,5 @@
-//! Plans with `AX_DEV` compared with plans that always keep it: one that rests at every corner until the filters have let go of
-//! it, and the one of a lower feed.
+//! Compares plans with `AX_DEV` with plans that always keep it: one that dwells at every corner until the filters have
+//! settled, and that of a lower feed rate.
 
 mod doc {
     #![allow(unused_imports, unreachable_pub, dead_code, reason = "written for examples")]
@@ -16,7 +16,7 @@ use kontur_motion::path::{ArcPath, ArcShape};
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
 
-/// A line to a point, or an arc with a centre and a swept angle in rad.
+/// A line to a point, or an arc with its centre and swept angle in rad.
 #[derive(Clone, Copy)]
 enum Motion {
     Line([f64; 2]),
@@ -62,7 +62,7 @@ impl Case {
         self.motions.iter().zip(1..).map(block).collect()
     }
 
-    /// Cycles of the contour; with rests, every block is planned alone and waits for the filters.
+    /// Cycles of the contour; with rests, every block is planned alone and followed by a dwell as long as the filters.
     fn cycles(&self, rests: bool) -> u64 {
         let mut planner = Planner::new(CycleTime::DEFAULT, 120, &[0.0; 2]);
         let kernels = self.kernels();
@@ -86,8 +86,8 @@ impl Case {
     }
 }
 
-/// Two lines and two arcs, and two short lines before an arc: filters that differ between the axes made whole blocks crawl because
-/// of what happens at their ends (60788 cycles instead of 3726 with rests).
+/// Two lines and two arcs, and two short lines before an arc: filters that differ between the axes slowed whole blocks
+/// to a crawl because of events at their ends (60788 cycles instead of 3726 with rests).
 #[test]
 fn filters_that_differ() {
     let cases = [
@@ -157,8 +157,8 @@ fn motions(r: &mut Random) -> Vec<Motion> {
     (0..4).map(motion).collect()
 }
 
-/// Where filters differ, the plan of a lower feed keeps the tolerance at any higher one: two lines took 0.56 s at F6000 and 0.35 s
-/// at F4800.
+/// With filters that differ, the plan of a lower feed rate keeps the tolerance at any higher one: two lines took 0.56 s
+/// at F6000 and 0.35 s at F4800.
 #[test]
 fn a_higher_feed_is_not_slower() {
     for n in 0..25 {

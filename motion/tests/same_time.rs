@@ -1,15 +1,15 @@
-//! The time of a contour does not depend on irrelevant differences, and less restrictive settings never cost time.
+//! The time of a contour does not depend on irrelevant differences, and less restrictive settings never take longer.
 
 use crate::common::{Job, axis, channel, contour};
 use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
-/// Cycle in us and s, with kinks weighted so that they may use the velocity jump of 1 ms.
+/// Cycle in us and s; kinks are weighted so that they may use the full velocity jump of 1 ms.
 const CYCLE_US: u32 = 100;
 const CYCLE_S: f64 = 1e-4;
 const KINK_WEIGHT: f64 = 10.0;
-/// Share of the time by which another form of the same contour may differ.
+/// Relative difference in time that is permitted for another form of the same contour.
 const SAME: f64 = 1e-3;
 
 type Points = Vec<[f64; 3]>;
@@ -54,7 +54,7 @@ fn cases(default: usize) -> impl Iterator<Item = (usize, Case)> {
     (0..count(default)).map(move |n| (n, Case::new(&mut r)))
 }
 
-/// Reversed, mirrored, every line in two, every point moved by up to 1e-9 mm.
+/// Reversed, mirrored, every line split in two, every point moved by up to 1e-9 mm.
 #[test]
 fn another_form_of_a_contour_takes_the_same_time() {
     let mut most = 0.0_f64;
@@ -90,7 +90,7 @@ fn another_form_of_a_contour_takes_the_same_time() {
     println!("at most {most:.5}");
 }
 
-/// By no more than a cycle per corner.
+/// Tolerated: one cycle per corner.
 #[test]
 fn a_higher_feed_or_more_look_ahead_is_never_slower() {
     let mut most = 0.0_f64;

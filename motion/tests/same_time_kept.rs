@@ -1,7 +1,7 @@
-//! Under `AX_DEV` the time of a contour does not depend on what does not matter.
+//! Under `AX_DEV` the time of a contour does not depend on irrelevant differences.
 //!
-//! `COUNT=200 SEED=7 cargo test --release -p kontur-motion --test all same_time_kept -- --nocapture` takes more contours and prints
-//! how much the forms of them differ.
+//! `COUNT=200 SEED=7 cargo test --release -p kontur-motion --test all same_time_kept -- --nocapture` tests more
+//! contours and prints the differences between their forms.
 
 use crate::common::{Job, axis, channel, contour};
 use kontur_filters::time::CycleTime;
@@ -45,12 +45,12 @@ impl Case {
         }
     }
 
-    /// In s.
+    /// Time in s.
     fn time(&self, points: &Points, freq: f64, tolerance: f64) -> f64 {
         self.time_after(0, points, freq, tolerance)
     }
 
-    /// Of a motion that begins after some cycles.
+    /// Time in s of a motion that begins after some cycles.
     fn time_after(&self, rest_cycles: usize, points: &Points, freq: f64, tolerance: f64) -> f64 {
         let cycle = CycleTime::from_us(CYCLE_US).unwrap();
         let guard = VibGuardSettings { freq_hz: freq * self.guard.freq_hz, ..self.guard };
@@ -69,8 +69,8 @@ impl Case {
     }
 }
 
-/// The same contour in other words, and neighbouring settings; the largest part of the time that each of them may differ by.
-/// What they differ by comes from the choice of who slows down.
+/// Other forms of the same contour, and neighbouring settings; the largest relative difference in time permitted for
+/// each. The differences come from the choice of the blocks that are slowed down.
 const FORMS: [(&str, f64); 7] = [
     ("begun later", 1e-9),
     ("mirrored", 1e-3),
@@ -80,10 +80,10 @@ const FORMS: [(&str, f64); 7] = [
     ("FREQ 1 % higher", 0.03),
     ("AX_DEV 1 % larger", 0.03),
 ];
-/// Part of the contours that may differ by more than `1e-3` with every line in two.
+/// Share of the contours that may differ by more than `1e-3` with every line split in two.
 const SPLIT: f64 = 0.05;
 
-/// Times of the forms in s; 0 for what is another task.
+/// Times of the forms in s; 0 for a form that is a different problem.
 fn forms(case: &Case, r: &mut Random) -> [f64; 7] {
     let points = &case.points;
     let each =
@@ -94,7 +94,7 @@ fn forms(case: &Case, r: &mut Random) -> [f64; 7] {
         split.push([0, 1, 2].map(|i| w[0][i] + u * (w[1][i] - w[0][i])));
         split.push(w[1]);
     }
-    // a filter that is not symmetric in time does not give the same result backwards
+    // a filter that is not symmetric in time gives another result backwards
     let even = case.guard.damping <= 0.0;
     let back = || case.time(&points.iter().rev().copied().collect(), 1.0, 1.0);
     [

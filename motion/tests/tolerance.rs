@@ -1,6 +1,6 @@
-//! `AX_DEV`: the filtered setpoints never leave the contour by more than the tolerance, and no time is wasted.
+//! `AX_DEV`: the filtered setpoints leave the contour at most by the tolerance, without wasting time.
 //!
-//! The deviation is measured here on its own, from setpoints, kernel taps and the corners of the program.
+//! The deviation is measured independently, from setpoints, kernel taps and the corners of the program.
 
 use crate::common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::fir::{FirConfig, FirKind};
@@ -24,7 +24,7 @@ fn guarded(mut job: Job, mode: u8, freq_hz: f64, damping: f64, ax_dev: Option<f6
     job
 }
 
-/// Largest deviation, from the edges anywhere or from those that the kernel reaches, and the number of cycles.
+/// Largest deviation from any edge, or only from those within reach of the kernel, and the number of cycles.
 fn worst(job: &Job, points: &[&[f64]], feed: f64) -> (f64, usize) {
     let out = job.drive(points, &[feed]);
     let kernel = job.kernel.as_ref().unwrap();
@@ -37,8 +37,8 @@ fn worst(job: &Job, points: &[&[f64]], feed: f64) -> (f64, usize) {
     (filtered(&out, kernel).iter().enumerate().map(dev).fold(0.0, f64::max), last)
 }
 
-/// Largest deviation of the joined set points from the edges that the kernel reaches, and of points of the edges from the
-/// set points of the time in which the kernel holds them.
+/// Largest deviation of the segments between set points from the edges within reach of the kernel, and of points of the
+/// edges from the set points of the time in which the kernel holds them.
 fn both_ways(job: &Job, points: &[&[f64]], feed: f64) -> f64 {
     let kernel = job.kernel.as_ref().unwrap();
     let out = job.drive(points, &[feed]);
@@ -83,7 +83,7 @@ fn square_keeps_the_tolerance_in_every_mode() {
     }
 }
 
-/// Ten programs typical of what is driven: flat and sharp corners, short blocks, three axes, reversals.
+/// Ten typical programs: flat and sharp corners, short blocks, three axes, reversals.
 const PROGRAMS: [(&str, &[&[f64]]); 10] = [
     ("right angle", &[&[0.0, 0.0], &[4.0, 0.0], &[4.0, 4.0]]),
     ("flat corners", &[&[0.0, 0.0], &[3.0, 0.0], &[6.0, 0.4], &[9.0, 1.6], &[12.0, 3.6]]),
@@ -156,7 +156,7 @@ fn contours() -> impl Iterator<Item = (&'static str, &'static [&'static [f64]])>
 
 const F4000: f64 = 4000.0 / 60.0;
 
-/// A machine with room for the corners: 3000 mm/s2.
+/// A machine with sufficient acceleration for the corners: 3000 mm/s2.
 fn machine(axes: usize, ramp_s: f64) -> Job {
     let mut fast = axis(1.0);
     fast.feed.acc_mm_s2 = 3000.0;
@@ -165,8 +165,8 @@ fn machine(axes: usize, ramp_s: f64) -> Job {
     Job { dynamics: channel(vec![fast; axes]), ..Job::new(1.0, Trapez) }
 }
 
-/// Least number of cycles with one speed for all corners that keeps the tolerance, by brute force; up to the speed at
-/// which a right angle alone exceeds it three times.
+/// Smallest number of cycles with the same speed at all corners that keeps the tolerance, by brute force; up to the
+/// speed at which a single right angle exceeds it three times.
 fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usize> {
     const SPEEDS: u32 = 90;
     let kernel = job.kernel.clone().unwrap();
@@ -191,7 +191,7 @@ fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usi
     (0..=SPEEDS).filter_map(|i| drive(step * f64::from(i))).min()
 }
 
-/// The square and the ten programs: at most 5 % longer than with the best uniform corner speed.
+/// The square and the ten programs take at most 5 % longer than with the best uniform corner speed.
 #[test]
 fn no_slower_than_the_best_uniform_corner_speed() {
     let mut compared = 0;
@@ -216,7 +216,7 @@ fn no_slower_than_the_best_uniform_corner_speed() {
     assert!(compared >= 33, "{compared} of 44 can be kept with a uniform speed");
 }
 
-/// A tolerance just above what a program leaves anyway changes no bit.
+/// A tolerance just above the deviation of a program without one does not change a bit of the result.
 #[test]
 fn a_tolerance_that_is_kept_anyway_changes_nothing() {
     for (name, points) in contours() {
@@ -236,7 +236,7 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
             let free = both_ways(&job, points, F4000);
             assert!(free > 1e-3, "{name}: {free}");
             let plain = drive(None);
-            // a twentieth more, because what could be called the shortest vector counts
+            // 6 % more, because any candidate for the shortest vector counts
             assert_eq!(drive(Some(1.06 * free)), plain, "{name} mode {mode} {freq} Hz");
             assert_ne!(drive(Some(0.9 * free)), plain, "{name} mode {mode} {freq} Hz");
         }
@@ -266,7 +266,7 @@ fn negative_weights_keep_the_tolerance_too() {
     }
 }
 
-/// What is reported of set points that something moves, on a contour of straight lines with a tolerance of 0.01 mm.
+/// The report for set points that are displaced, on a contour of straight lines with a tolerance of 0.01 mm.
 fn told_of_output(points: &[[f64; 2]], moved: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Unkept> {
     let job = guarded(Job::new(1.0, Trapez), 1, 40.0, 0.1, Some(0.01));
     let cycle = CycleTime::from_us(job.cycle_us).unwrap();
@@ -290,7 +290,7 @@ fn told_of_output(points: &[[f64; 2]], moved: impl Fn([f64; 2]) -> [f64; 2]) -> 
     told
 }
 
-/// The output is judged by what the filters really gave: set points beside a straight line.
+/// The output is judged by the actual result of the filters: set points beside a straight line.
 #[test]
 fn an_excess_that_the_plan_does_not_see_is_told_once() {
     let aside = |mm: f64| told_of_output(&[[0.0; 2], [20.0, 0.0]], |p| [p[0], mm]);
@@ -301,7 +301,7 @@ fn an_excess_that_the_plan_does_not_see_is_told_once() {
     assert!((excess.deviation_mm - 0.0125).abs() < 1e-12, "{excess:?}");
 }
 
-/// Set points that turn back before the tip of a needle are on the contour all the time: only the tip is missed.
+/// Set points that turn back before the tip of a needle are always on the contour: only the tip is missed.
 #[test]
 fn a_corner_that_the_output_never_reaches_is_told() {
     let back = |x: f64| told_of_output(&[[0.0; 2], [10.0, 0.0], [0.0; 2]], |p| [p[0].min(x), p[1]]);

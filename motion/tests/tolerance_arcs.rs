@@ -1,4 +1,4 @@
-//! `AX_DEV` on contours of lines and arcs, judged by the geometry of each block.
+//! `AX_DEV` on contours of lines and arcs, checked by the geometry of each block.
 
 use crate::common::{Job, axis, channel, filtered};
 use kontur_filters::time::CycleTime;
@@ -9,7 +9,7 @@ use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::Tolerance;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 
-/// What the test knows about a block: a line from-to, or an arc with centre, radius, start angle and sweep.
+/// The geometry of a block: a line between two points, or an arc with centre, radius, start angle and sweep.
 enum Piece {
     Line([f64; 2], [f64; 2]),
     Arc { centre: [f64; 2], radius: f64, from: f64, sweep: f64 },

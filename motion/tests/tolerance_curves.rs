@@ -1,4 +1,5 @@
-//! `AX_DEV` on one curve whose bend grows along it: what the sharpest place allows is not for the whole of it.
+//! `AX_DEV` on one curve whose curvature grows along it: the speed permitted at the sharpest place does not limit the
+//! whole curve.
 
 use crate::common::{Job, deviation, filtered};
 use kontur_filters::time::CycleTime;
@@ -31,7 +32,7 @@ fn curve() -> PolyPath {
     PolyPath::new(start, end, (0..PIECES).map(piece).collect(), &[]).unwrap()
 }
 
-/// Largest `|q''|` of an axis and the length in mm, from a fine polygon.
+/// Largest `|q''|` of an axis in 1/mm and the length in mm, from a fine polygon.
 fn bend_and_length() -> (f64, f64) {
     let n = 200_000;
     let (mut bend, mut length) = (0.0_f64, 0.0);
@@ -39,7 +40,7 @@ fn bend_and_length() -> (f64, f64) {
         let u = (f64::from(i) + 0.5) / f64::from(n);
         let (dy, ddy) = (5.0 * HEIGHT * libm::pow(u, 4.0), 20.0 * HEIGHT * libm::pow(u, 3.0));
         let rate = libm::hypot(WIDTH, dy);
-        // of a plane curve: the curvature, turned into the normal
+        // for a plane curve: the curvature times the normal
         let curvature = WIDTH * ddy / libm::pow(rate, 3.0);
         bend = bend.max(curvature * (WIDTH / rate).max(dy / rate));
         length += rate / f64::from(n);
@@ -47,8 +48,8 @@ fn bend_and_length() -> (f64, f64) {
     (bend, length)
 }
 
-/// At the even speed that the sharpest place allows (`v^2 bend / 2` times the variance of the kernel), the curve would take much
-/// longer than it does.
+/// At the even speed that the sharpest place permits (`v^2 bend / 2` times the variance of the kernel), the curve would
+/// take much longer than it does.
 #[test]
 fn only_the_sharp_part_of_a_curve_is_slow() {
     let cycle = CycleTime::from_us(1000).unwrap();
