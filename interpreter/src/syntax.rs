@@ -1,13 +1,13 @@
-//! Text of a block to syntax tree; shape only, no meaning.
+//! Turns the text of a block into a syntax tree; checks the form, not the meaning.
 //!
-//! [`Parser`] takes one block at a time: plain blocks go through a byte loop (`plain`), everything else is masked
-//! (`scan`), parsed by one call of the grammar `nc.pest` and built into the tree of [`ast`] (`build`). Errors become
-//! diagnostics with the place of the offending text (`problem`), and what can be used of the block is still built.
+//! [`Parser`] reads one block at a time: plain blocks go through a byte loop (`plain`). All others are masked (`scan`),
+//! parsed in one call of the grammar `nc.pest` and built into the tree of [`ast`] (`build`). Errors become diagnostics
+//! that point to the offending text (`problem`); the usable parts of the block are built all the same.
 //!
-//! Which G functions, commands, keys and axes exist is decided by the decoder. The parser is given only one thing, the names of
-//! axes and spindles with more than one character: without them `AP10` is A with the value of P10.
+//! The decoder decides which G functions, commands, keys and axes exist. The parser is given only the names of axes and
+//! spindles with more than one character: without them `AP10` is A with the value of P10.
 //!
-//! Order of calls: a parser with the names of the axes, then its [`Parser::block`] for each block of a
+//! Order of calls: create a parser with the names of the axes, then call [`Parser::block`] for each block of a
 //! [`BlockReader`](crate::source::BlockReader).
 //!
 //! ```
@@ -50,7 +50,7 @@ mod grammar {
     #![allow(missing_docs, reason = "the generated items are documented in nc.pest")]
     #![allow(clippy::pedantic, reason = "generated code")]
 
-    /// Parser made from `nc.pest`.
+    /// Parser generated from `nc.pest`.
     #[derive(Debug, pest_derive::Parser)]
     #[grammar = "nc.pest"]
     pub(super) struct Grammar;
@@ -61,14 +61,14 @@ mod tests;
 
 use grammar::{Grammar, Rule};
 
-/// `#` words that may appear among DIN words, without `#SUPPRESS OFFSETS`.
+/// `#` words permitted among DIN words, besides `#SUPPRESS OFFSETS`.
 ///
 /// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #SCALE, #ACHSE) and diagnosis, 20207.
 const HASH_WORDS: &[&str] = &[
     "FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "AKIMA", "PSET", "PRESET", "SCALE", "ADD",
 ];
 
-/// Diagnostics per block; what follows is most likely noise.
+/// Maximum number of diagnostics per block; further ones are most likely noise.
 const PROBLEMS_MAX: usize = 10;
 
 /// Binary operators per block. Bounds the depth of the tree together with [`NESTING_MAX`]; above it K-0006.
@@ -81,7 +81,7 @@ pub struct Parser {
     names: Vec<Box<str>>,
 }
 
-/// How a block is read.
+/// The form in which a block is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
     Block,
@@ -90,7 +90,7 @@ enum Mode {
 }
 
 impl Parser {
-    /// A parser that knows the names of the channel's axes and spindles; names of one letter need not be passed.
+    /// A parser for the names of the channel's axes and spindles; names of one letter need not be passed.
     pub fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         let mut names: Vec<Box<str>> = names
             .into_iter()
@@ -104,8 +104,8 @@ impl Parser {
 
     /// Parses a block of a program.
     ///
-    /// `file` names the program in diagnostics. An error among them means that the block is incomplete: what could not
-    /// be read is missing in it.
+    /// `file` is the program name in diagnostics. If there is an error among them, the block is incomplete: the parts
+    /// that could not be read are missing.
     ///
     /// Diagnostics: K-0001 (invalid character), K-0002 (syntax), K-0005 (program head), K-0006 (nesting), 20194,
     /// 20207, 20212 to 20245 (control statements), 20301, 20386, 20387, 20450, 20566, 20569, 20593, 20839, 20841, 20904,
@@ -124,15 +124,15 @@ impl Parser {
         }
     }
 
-    /// Reads a plain block as numbers; false if it takes the grammar to read it. Whether it is plain does not depend on
-    /// the names, and there is nothing to say about it.
+    /// Reads a plain block as numbers; false if it requires the grammar. Whether a block is plain does not depend on
+    /// the names; a plain block causes no diagnostics.
     pub(crate) fn plain(raw: &RawBlock<'_>, plain: &mut Plain) -> bool {
         raw.characters <= BLOCK_LENGTH && plain.recognize(raw.text.as_bytes()).is_some()
     }
 
-    /// The same for a line that is not yet known to be a complete block, word by word: one that ends in it, is continued,
-    /// or has other characters than those of ASCII in a remark, is not plain here. `None` also if `take` wants no more of
-    /// it; what was handed out until then is void.
+    /// Like [`Self::plain`] for a line that may not be a complete block, word by word. A line is not plain here if its
+    /// block ends before the line does, if it is continued, or if a remark contains characters other than ASCII. `None`
+    /// also if `take` stops the reading; the words passed to it until then are void.
     #[inline]
     pub(crate) fn plain_line(
         line: &[u8],
@@ -156,10 +156,10 @@ impl Parser {
         self.parse(raw, file, diagnostics, Mode::Declaration)
     }
 
-    /// Parses a block of a branch that is not taken: number, label and control statement; other content is not looked
-    /// at and leaves an empty body.
+    /// Parses a block of a branch that is not taken: number, label and control statement. Other content is ignored and
+    /// gives an empty body.
     ///
-    /// Diagnostics: as for [`block`](Self::block), for what is looked at.
+    /// Diagnostics: as for [`block`](Self::block), for the parts that are read.
     pub fn inactive(
         &self,
         raw: &RawBlock<'_>,
@@ -214,7 +214,7 @@ impl Parser {
     fn tree(&self, text: &str, mode: Mode, problems: &mut Vec<Problem>) -> Block {
         let masked = scan::mask(text, &self.names);
         if mode != Mode::Inactive {
-            // Lines that begin with `%` are remarks in the programs of some post-processors.
+            // lines that begin with `%` are remarks in the programs of some post-processors
             let remark = masked.text.trim_ascii_start().starts_with('%');
             let severity = if remark { Severity::Warning } else { Severity::Error };
             let invalid = masked.invalid.iter();
@@ -231,7 +231,7 @@ impl Parser {
         };
         let mut builder = Builder::new(text, &masked.text, problems);
         let parsed = Grammar::parse(rule, &masked.text);
-        // few blocks that parse need another look
+        // only few blocks that parse need a second check
         let code = match &parsed {
             Ok(_) if memchr::memchr2(b':', b'l', masked.text.as_bytes()).is_none() => String::new(),
             _ => scan::without_texts(&masked.text),
@@ -239,7 +239,7 @@ impl Parser {
         if parsed.is_err()
             && let Some(problem) = foreign::recognise(&code)
         {
-            // nothing is reported about the rest of the block
+            // the rest of the block is not reported
             builder.report_only(problem);
             return Block::default();
         }
@@ -273,7 +273,7 @@ impl Parser {
                         found = found.hint("is #ENDVAR missing before it?");
                     }
                 }
-                // what follows a function without its bracket is not a word
+                // the text after a function without its bracket is not a word
                 let lost = found.condition == Condition::FunctionBracket;
                 let jump = found.condition == Condition::GotoTarget;
                 let end = jump.then_some(found.span.start as usize);
@@ -282,7 +282,7 @@ impl Parser {
                     (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
                     _ => Rule::head_only,
                 };
-                // nor is what was written in place of a label
+                // nor is the text written in place of a label
                 let read = &masked.text[..end.unwrap_or(masked.text.len())];
                 match Grammar::parse(rule, read) {
                     Ok(pairs) => builder.block(pairs),
@@ -300,7 +300,7 @@ fn too_long(raw: &RawBlock<'_>) -> Problem {
     } else {
         (Severity::Warning, BLOCK_LENGTH)
     };
-    // the first character that is too many; the text is cut after the last one that is decoded
+    // the first character beyond the limit; the text is cut after the last one that is decoded
     let at = raw.text.char_indices().nth(limit as usize).map_or(raw.text.len(), |(i, _)| i);
     Problem::new(
         Condition::LineTooLong,

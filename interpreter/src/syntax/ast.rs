@@ -1,13 +1,13 @@
-//! The syntax tree of one block: what was written, not what the machine would do.
+//! The syntax tree of one block: the text as written, not its effect on the machine.
 //!
-//! Every node carries a [`Span`] into the text of its block. Two trees that differ
-//! in nothing but spans are not equal: `PartialEq` compares spans too.
+//! Every node has a [`Span`] into the text of its block. `PartialEq` compares spans, too: trees that differ only in
+//! their spans are not equal.
 //!
 //! Case: letters of addresses, command words, keys and functions are stored in upper case. Names that the dialect
 //! compares exactly (variables, macros, files, strings) and identifier values (`TYPE=HSC`, `NAME=a.nc`) are stored as
-//! written; [`Ident::is`] compares them without case.
+//! written; [`Ident::is`] compares them without regard to case.
 //!
-//! Order of calls: made by [`Parser::block`](super::Parser::block), read when the block is decoded or printed.
+//! Order of calls: created by [`Parser::block`](super::Parser::block), read when the block is decoded or printed.
 //!
 //! ```
 //! use kontur_interpreter::source::RawBlock;
@@ -48,7 +48,7 @@ pub struct Block {
     pub number: Option<BlockNumber>,
     /// Jump label at the beginning of the block.
     pub label: Option<Label>,
-    /// The rest.
+    /// Content of the block.
     pub body: Body,
     /// The whole block without blanks and comments at its ends.
     pub span: Span,
@@ -63,16 +63,16 @@ pub enum BlockNumber {
     Computed(Box<Expr>),
 }
 
-/// Where `$GOTO` leads.
+/// Target of `$GOTO`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jump {
-    /// Label, or the expression that gives it.
+    /// Label, or the expression that yields it.
     pub kind: JumpKind,
     /// Place.
     pub span: Span,
 }
 
-/// How the target of a jump is written.
+/// The way the target of a jump is written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JumpKind {
     /// `N20`, `[NAME]`.
@@ -86,7 +86,7 @@ pub enum JumpKind {
 /// Jump label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// Which.
+    /// Kind.
     pub kind: LabelKind,
     /// Place.
     pub span: Span,
@@ -97,11 +97,11 @@ pub struct Label {
 pub enum LabelKind {
     /// `N10:`.
     Number(u64),
-    /// `[NAME]`, in upper case: labels have no case.
+    /// `[NAME]`, in upper case: labels are not case-sensitive.
     Name(Box<str>),
 }
 
-/// What a block consists of.
+/// Content of a block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Body {
     /// Nothing, or comments only.

@@ -1,4 +1,4 @@
-//! Parse result of the grammar to the tree of a block.
+//! Turns the parse result of the grammar into the tree of a block.
 
 mod commands;
 mod words;
@@ -19,7 +19,7 @@ use pest::iterators::{Pair, Pairs};
 pub(super) struct Builder<'a> {
     /// Text as written.
     text: &'a str,
-    /// Text as the grammar saw it, of the same length.
+    /// Text as masked for the grammar, of the same length.
     masked: &'a str,
     problems: &'a mut Vec<Problem>,
     /// Binary operators so far.
@@ -39,10 +39,10 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Reports what the grammar met with.
+    /// Reports an error of the grammar.
     pub(super) fn report_error(&mut self, problem: Problem) {
         let rest = self.masked.get(problem.span.start as usize..).unwrap_or_default();
-        // After a misplaced command or control statement nothing is worth a second message.
+        // after a misplaced command or control statement a second message is of no use
         let last = rest.starts_with(['#', '$']);
         self.reported = if last { u32::MAX } else { problem.span.start };
         self.report(problem);
@@ -55,7 +55,7 @@ impl<'a> Builder<'a> {
         self.problems.push(problem);
     }
 
-    /// Reports a list where a value is calculated with.
+    /// Reports a list in place of a number.
     pub(super) fn report_list(&mut self, span: Span) {
         self.report(problem::list_among_values(self.masked, span));
     }
@@ -103,7 +103,7 @@ impl<'a> Builder<'a> {
                 _ => words.push(self.word(pair, span)),
             }
         }
-        // The first piece is the error that the grammar itself reported.
+        // the first piece is the error that the grammar itself has reported
         for (span, after_word) in junk.into_iter().skip(1) {
             if self.problems.len() == PROBLEMS_MAX {
                 break;
@@ -124,8 +124,8 @@ impl<'a> Builder<'a> {
         block
     }
 
-    /// A parameter whose value could not be read counts as 0, so that no block that reads it is reported as well: the block is
-    /// faulty, and only a check continues after it.
+    /// A parameter whose value could not be read gets the value 0, so that the blocks that read it are not reported as
+    /// well: this block is faulty, and only a check continues after it.
     fn lost(&mut self, pair: Pair<'_, Rule>, span: Span) -> Option<Word> {
         let target = pair.into_inner().next().map(|place| self.place(place))?;
         let PlaceKind::Parameter { subscripts, .. } = &target.kind else { return None };
@@ -133,18 +133,18 @@ impl<'a> Builder<'a> {
         subscripts.is_empty().then(|| Word { kind: WordKind::Assign(Box::new(assign())), span })
     }
 
-    /// True if a piece of junk, not seen by the last error, looks like the beginning of a word.
+    /// Whether a piece of junk that the last error does not cover looks like the beginning of a word.
     fn begins_word(&self, span: Span) -> bool {
         let at = span.start as usize;
         let bytes = self.masked.as_bytes();
         let blank_before = at > 0 && matches!(bytes[at - 1], b' ' | b'\t');
-        // The error already names a longer word at the place where it was met.
+        // the last error already names a longer word at its place
         bytes[at].is_ascii_alphabetic()
             && blank_before
             && (span.start > self.reported || span.len == 1)
     }
 
-    /// What is wrong with a later piece of a block with several errors.
+    /// The problem of a later piece of a block with several errors.
     fn explain_junk(&mut self, span: Span) {
         let start = span.start as usize;
         if let Err(error) = Grammar::parse(Rule::words_only, &self.masked[start..]) {
@@ -193,7 +193,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// `label_name`, or what is in `target`.
+    /// `label_name`, or the content of `target`.
     fn label(&mut self, pair: Pair<'_, Rule>) -> Label {
         let span = self.span(&pair);
         let kind = if pair.as_rule() == Rule::label_name {

@@ -1,6 +1,6 @@
-//! Mistakes of typing that everybody makes: one message at the character that is wrong, with what is written instead.
+//! Common typing mistakes: one message at the wrong character, with the correct form.
 //!
-//! They are looked for in blocks that did not parse; few of them hide in a block that means something else.
+//! The search covers blocks that did not parse; a few mistakes give a valid block with another meaning.
 
 use super::ast::Span;
 use super::foreign::words;
@@ -8,24 +8,24 @@ use super::problem::{Problem, statement};
 use crate::diag::Condition;
 use std::ops::Range;
 
-/// A mistake, and what of its block is read all the same.
+/// A mistake, and the part of its block that is read all the same.
 pub(super) struct Found {
     pub(super) problem: Problem,
     rest: Rest,
 }
 
-/// What is left of a block.
+/// The part of a block that can still be read.
 enum Rest {
-    /// Nothing from here on.
+    /// The text before this byte.
     UpTo(usize),
-    /// A character read as another one.
+    /// The whole text, with one character read as another.
     ReadAs(usize, &'static str),
-    /// All but this.
+    /// The text without this range.
     Without(Range<usize>),
 }
 
 impl Found {
-    /// What is left of a block to read; of the same length.
+    /// The part of a block that is read; of the same length.
     pub(super) fn rest(&self, masked: &str) -> String {
         let blanks = |range: &Range<usize>| {
             [&masked[..range.start], &" ".repeat(range.len()), &masked[range.end..]].concat()
@@ -38,8 +38,8 @@ impl Found {
     }
 }
 
-/// The mistake in a block of words that did not parse. `code`: the block with blanks for comments and texts; `error`: where
-/// the grammar gave up; `brace`: the first invalid character, if it is a brace.
+/// The mistake in a block of words that did not parse. `code`: the block with blanks in place of comments and texts;
+/// `error`: the place at which the grammar failed; `brace`: the first invalid character, if it is a brace.
 pub(super) fn recognise(code: &str, error: usize, brace: Option<Span>) -> Option<Found> {
     without_dollar(code)
         .or_else(|| hidden(code))
@@ -48,7 +48,7 @@ pub(super) fn recognise(code: &str, error: usize, brace: Option<Span>) -> Option
         .or_else(|| letter_in_number(code, error))
 }
 
-/// Mistakes that a block may have which parses: its words mean something else.
+/// Mistakes in a block that parses, because its words have another meaning.
 pub(super) fn hidden(code: &str) -> Option<Found> {
     label(code).or_else(|| letter_before_word(code))
 }
@@ -57,7 +57,7 @@ pub(super) fn hidden(code: &str) -> Option<Found> {
 fn without_dollar(code: &str) -> Option<Found> {
     let (at, word) = first_word(code)?;
     let statement = statement(&word.to_ascii_uppercase())?;
-    // `$IF`, and the names in `DO X`, have something before them
+    // `$IF`, and the names in `DO X`, are preceded by other characters
     let is_first = code[..at].trim_ascii_end().bytes().next_back() != Some(b'$');
     let problem = Problem::syntax(Span::new(at, at + word.len()), format!("`{word}` without `$`"))
         .hint(format!("write ${statement}"));
@@ -111,7 +111,7 @@ fn decimal_comma(code: &str) -> Option<Found> {
     })?;
     let is_part = |c: char| c.is_ascii_digit() || c == '.';
     let behind = code[at + 1..].trim_start_matches(is_part);
-    // the rest of a list whose bracket is missing
+    // the rest of a list whose opening bracket is missing
     if behind.trim_ascii_start().starts_with(']') {
         return None;
     }
@@ -122,7 +122,7 @@ fn decimal_comma(code: &str) -> Option<Found> {
     Some(Found { problem, rest: Rest::ReadAs(at, ".") })
 }
 
-/// `X1O`, `GO1`, `X1l`: a letter for a figure in the word at which the grammar gave up.
+/// `X1O`, `GO1`, `X1l`: a letter in place of a digit in the word at which the grammar failed.
 fn letter_in_number(code: &str, error: usize) -> Option<Found> {
     let (start, word) =
         words(code).take_while(|(start, _)| *start < error).last().filter(|(start, word)| {
@@ -136,7 +136,7 @@ fn letter_in_number(code: &str, error: usize) -> Option<Found> {
     addressed.then(|| figure(code, at))
 }
 
-/// `G0l X1`: the call of a subroutine of that name is hardly meant.
+/// `G0l X1`: the call of a subroutine with this name is hardly intended.
 fn letter_before_word(code: &str) -> Option<Found> {
     let (start, word) = words(code).find(|(start, word)| {
         let number = word.get(1..).and_then(|number| number.strip_suffix('l'));
@@ -151,7 +151,7 @@ fn letter_before_word(code: &str) -> Option<Found> {
     Some(figure(code, start + word.len() - 1))
 }
 
-/// The letter at `at` for a figure.
+/// The letter at `at` in place of a digit.
 fn figure(code: &str, at: usize) -> Found {
     let letter = &code[at..=at];
     let (figure, condition) = match letter {
@@ -164,7 +164,7 @@ fn figure(code: &str, at: usize) -> Found {
     Found { problem, rest: Rest::ReadAs(at, figure) }
 }
 
-/// Bytes outside square brackets, with their places.
+/// Bytes outside square brackets, with their positions.
 fn outside_brackets(code: &str) -> impl Iterator<Item = (usize, u8)> {
     let mut depth = 0_usize;
     code.bytes().enumerate().filter(move |(_, byte)| {

@@ -1,4 +1,4 @@
-//! Expressions: the grammar's flat chain to a tree, by precedence.
+//! Expressions: turns the flat chain of the grammar into a tree, by precedence.
 
 use super::ast::{
     Binary, BinaryOp, Expr, ExprKind, Function, FunctionCall, ParameterIndex, Place, PlaceKind,
@@ -11,7 +11,7 @@ use crate::diag::Condition;
 use pest::iterators::Pair;
 
 impl BinaryOp {
-    /// Level of precedence, 1 (loosest) to 10.
+    /// Level of precedence, 1 (lowest) to 10.
     ///
     /// Assumption: the order of the operators follows C where the programming manual's table could not be read, with
     /// `XOR` between `||` and `&&`.
@@ -35,12 +35,12 @@ impl BinaryOp {
         }
     }
 
-    /// True for `== != < <= > >=`, which do not chain.
+    /// Whether it is one of `== != < <= > >=`, which cannot be chained.
     pub(crate) fn is_comparison(self) -> bool {
         self.precedence() == Self::Equal.precedence()
     }
 
-    /// The sign of the operator; words for those that have no sign.
+    /// The symbol of the operator, or its word if it has no symbol.
     pub(crate) fn symbol(self) -> &'static str {
         match self {
             Self::Or => "||",
@@ -64,7 +64,7 @@ impl BinaryOp {
         }
     }
 
-    /// The operator of a text that the grammar accepted.
+    /// The operator of a text accepted by the grammar.
     pub(in crate::syntax) fn from_text(text: &str) -> Self {
         match text.to_ascii_uppercase().as_str() {
             "||" | "OR" => Self::Or,
@@ -90,7 +90,7 @@ impl BinaryOp {
 }
 
 impl Builder<'_> {
-    /// `expression` or `chain`: signs, atoms and operators in a row.
+    /// `expression` or `chain`: a sequence of signs, atoms and operators.
     pub(super) fn expression(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let mut operands = Vec::new();
         let mut operators: Vec<BinaryOp> = Vec::new();
@@ -261,7 +261,7 @@ impl Builder<'_> {
         Expr { span, ..inner.map_or_else(Builder::zero, |p| self.expression(p)) }
     }
 
-    /// Stands for an expression that the grammar promised; not reached.
+    /// Placeholder for an expression that the grammar guarantees; not reached.
     pub(super) fn zero() -> Expr {
         Expr { kind: ExprKind::Number(0.0), span: super::ast::Span::default() }
     }

@@ -1,5 +1,5 @@
-//! Programs of other controls, recognised by words that this dialect cannot have: one message names the word and the
-//! control, instead of one for every character that does not fit.
+//! Recognises programs of other controls by words that this dialect does not have: one message names the word and the
+//! control, instead of one message per character that does not fit.
 //!
 //! Sources: the programming manuals of LinuxCNC (O words, named and numbered parameters, G5.2), of Fanuc controls (custom
 //! macro B), of Heidenhain controls (Klartext) and of Sinumerik controls.
@@ -8,7 +8,7 @@ use super::ast::Span;
 use super::problem::Problem;
 use crate::diag::Condition;
 
-/// What a block of another control shows: the word and the control.
+/// A word of another control found in a block, and the control.
 struct Found {
     at: usize,
     length: usize,
@@ -17,7 +17,7 @@ struct Found {
 }
 
 impl Found {
-    /// What is written instead here, where a few words say it.
+    /// The equivalent in this dialect, if a few words describe it.
     fn hint(&self, word: &str) -> Option<&'static str> {
         let upper = word.to_ascii_uppercase();
         Some(match upper.as_str() {
@@ -38,7 +38,7 @@ impl Found {
     }
 }
 
-/// The message for a block of another control, which did not parse; blanks for its comments and texts.
+/// The message for a block of another control, which did not parse. In `masked`, comments and texts are blank.
 pub(super) fn recognise(masked: &str) -> Option<Problem> {
     if masked.starts_with("t_s,") {
         let span = Span::new(0, masked.trim_ascii_end().len());
@@ -75,7 +75,7 @@ const FANUC: &str = "a Fanuc control";
 const CALL: &str = "a call of a subprogram";
 const ARITHMETIC: &str = "an arithmetic parameter";
 
-/// The words with which Klartext blocks begin, after a number without letter.
+/// The words at the beginning of Klartext blocks, after a number without a letter.
 fn klartext(masked: &str) -> Option<Found> {
     const STATEMENTS: [(&str, &str); 9] = [
         ("BEGIN", "PGM"),
@@ -162,7 +162,7 @@ fn numbered_parameter(masked: &str) -> Option<Found> {
     })
 }
 
-/// `G5.2`, `G54.1`: G numbers of this dialect are whole.
+/// `G5.2`, `G54.1`: G numbers of this dialect are integers.
 fn decimal_g(masked: &str) -> Option<Found> {
     masked.match_indices(['G', 'g']).find_map(|(at, _)| {
         let word = masked[..at].chars().next_back();
@@ -180,7 +180,7 @@ fn decimal_g(masked: &str) -> Option<Found> {
     })
 }
 
-/// Words of the Sinumerik language, which are words of their own outside brackets, and its dimensions `X=IC(10)`.
+/// Words of the Sinumerik language, as separate words outside brackets, and its dimensions `X=IC(10)`.
 fn sinumerik(masked: &str) -> Option<Found> {
     const WORDS: [&str; 31] = [
         "PROC",
@@ -234,7 +234,7 @@ fn sinumerik(masked: &str) -> Option<Found> {
     })
 }
 
-/// `R5` as a value: R1 alone is one here, the radius.
+/// `R5` as a value: in this dialect only R1 is one, the radius.
 fn arithmetic_parameter(masked: &str) -> Option<Found> {
     words(masked).find_map(|(at, word)| {
         let index = word.strip_prefix(['R', 'r'])?;
@@ -265,12 +265,12 @@ fn subprogram(masked: &str) -> Option<Found> {
     })
 }
 
-/// Runs of letters, digits and points, with their places.
+/// Runs of letters, digits and points, with their positions.
 pub(super) fn words(masked: &str) -> impl Iterator<Item = (usize, &str)> {
     runs(masked).map(|(at, word, _)| (at, word))
 }
 
-/// Those outside brackets.
+/// The runs outside brackets.
 fn outside_brackets(masked: &str) -> impl Iterator<Item = (usize, &str)> {
     runs(masked).filter(|(_, _, depth)| *depth == 0).map(|(at, word, _)| (at, word))
 }
@@ -297,7 +297,7 @@ fn runs(masked: &str) -> impl Iterator<Item = (usize, &str, usize)> {
     })
 }
 
-/// Where the block continues after its number.
+/// Position and text of the block after its number.
 fn content(masked: &str) -> (usize, &str) {
     let rest = masked.trim_ascii_start();
     let rest = match rest.strip_prefix(['N', 'n']) {

@@ -1,7 +1,8 @@
 //! Macros: their text replaces `"NAME"` before a block is parsed.
 //!
-//! A string that is the name of a macro is a use of it wherever it appears, but for the two strings of a definition
-//! `"NAME" = "text"`. Blanks at the ends of a name do not count (208407691). Places in the expanded text map to the use in the program.
+//! A string that is the name of a macro is a use of it wherever it appears, except for the two strings of a definition
+//! `"NAME" = "text"`. Blanks at the ends of a name are ignored (208407691). Positions in the expanded text refer to the
+//! use in the program.
 
 use super::ast::Span;
 use crate::diag::{Condition, Diagnostic};
@@ -9,7 +10,7 @@ use crate::source::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock, regions};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Deepest use of macros in the texts of macros; a macro that uses itself ends there with 20734.
+/// Deepest nesting of macros in the texts of macros; a macro that uses itself is ended here by 20734.
 pub(crate) const MACRO_DEPTH_MAX: usize = 20;
 
 /// A block with its macros replaced.
@@ -22,7 +23,7 @@ pub(crate) struct Expanded {
 }
 
 impl Expanded {
-    /// The block as the parser takes it.
+    /// The block in the form that the parser takes.
     pub(crate) fn raw(&self) -> RawBlock<'_> {
         RawBlock {
             text: &self.text,
@@ -33,13 +34,13 @@ impl Expanded {
     }
 }
 
-/// Replaces the macros of a block; `None` if it uses none. `lookup` gives the text of a macro by its name.
+/// Replaces the macros of a block; `None` if it uses none. `lookup` returns the text of a macro by its name.
 ///
 /// # Errors
-/// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep, K-MACRO-BRACKET if the text of a macro holds one half of
-/// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions) or an open remark before further
-/// words, 20644 if it holds a command and the block holds more, K-MACRO-CONTROL if it holds
-/// `$` (source: 208426123, restrictions). An expansion that is too long is cut and gets 20301 from the parser.
+/// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep; K-MACRO-BRACKET if the text of a macro contains one
+/// half of a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions) or an open remark
+/// before further words; 20644 if it contains a command and the block contains more; K-MACRO-CONTROL if it contains `$`
+/// (source: 208426123, restrictions). An expansion that is too long is cut and gets 20301 from the parser.
 pub(crate) fn expand<'m>(
     raw: &RawBlock<'_>,
     file: &Arc<str>,
@@ -68,7 +69,7 @@ pub(crate) fn expand<'m>(
         copy(raw, &line, at..at + before.len(), &mut out);
         at = range.end;
         let start = out.text.len();
-        // a call without its blank is still a call, so that the message names it
+        // a call without its blank is still a call, so that the message can name it
         let quote = if is_call(&raw.text[..range.start]) { "\"" } else { "" };
         out.text.push_str(quote);
         if let Err(wrong) = insert(text, is_number, 1, lookup, &mut out.text) {
@@ -107,7 +108,7 @@ pub(crate) fn expand<'m>(
     Ok(Some(out))
 }
 
-/// What of a block its macro, between others, would hide or not go with.
+/// The part of a block that the text of its macro would hide, or that is not permitted beside it.
 ///
 /// Source: TF5200 diagnosis 252099211 (20644). Assumption: a remark that begins in a macro would hide the rest of the block.
 fn misfit(block: &str, used: &Range<usize>, text: &str) -> Option<Diagnostic> {
@@ -140,17 +141,18 @@ fn misfit(block: &str, used: &Range<usize>, text: &str) -> Option<Diagnostic> {
     })
 }
 
-/// Why a macro cannot replace its name.
+/// The reason why a macro cannot replace its name.
 enum Wrong<'m> {
     /// Macros nested too deeply.
     TooDeep,
-    /// This text has a bracket without its partner.
+    /// This text contains a bracket without its counterpart.
     HalfBracket(&'m str),
-    /// This text has a `$`: the structure of a program is known before its macros are.
+    /// This text contains a `$`: the structure of a program is determined before its macros are known.
     Control(&'m str),
 }
 
-/// Appends the text of a macro, its own macros replaced; the number of a function is one value: `G"A"` is `G[60 - 7]`.
+/// Appends the text of a macro with its own macros replaced. The number of a function is one value: `G"A"` is `G[60 -
+/// 7]`.
 fn insert<'m>(
     text: &'m str,
     is_number: bool,
@@ -176,7 +178,7 @@ fn insert<'m>(
         out.push_str(if is_number { before.trim_ascii_end() } else { before });
         at = range.end;
         insert(inner, is_number, depth + 1, lookup, out)?;
-        // Macros that use others twice grow without bound.
+        // macros that use others twice grow exponentially
         if out.len() > 4 * BLOCK_LENGTH_MAX as usize {
             return Ok(());
         }
@@ -186,7 +188,7 @@ fn insert<'m>(
     Ok(())
 }
 
-/// The text of a macro with the macros in it replaced; `None` if it cannot be used or is longer than a block.
+/// The text of a macro with its own macros replaced; `None` if it cannot be used or is longer than a block.
 pub(crate) fn resolved<'m>(
     text: &'m str,
     lookup: &impl Fn(&str) -> Option<&'m str>,
@@ -196,7 +198,7 @@ pub(crate) fn resolved<'m>(
     (out.chars().count() <= BLOCK_LENGTH_MAX as usize).then_some(out)
 }
 
-/// True for a text that ends where the name of a macro is meant and not its text: `MACRO_LENGTH["NAME"]`.
+/// Whether the text ends where a macro name is expected and not its text: `MACRO_LENGTH["NAME"]`.
 fn names_macro(before: &str) -> bool {
     let Some(head) = before.trim_ascii_end().strip_suffix('[') else { return false };
     let head = head.trim_ascii_end();
@@ -206,7 +208,7 @@ fn names_macro(before: &str) -> bool {
     })
 }
 
-/// Places of macros in a text, and what they stand for.
+/// The positions of macros in a text, and their texts.
 fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range<usize>, &'m str)> {
     let mut found = Vec::new();
     let mut defined = false;
@@ -222,15 +224,15 @@ fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range
     found
 }
 
-/// True for `LL` with nothing between it and the name: `LL"NAME"` (source: TF5200 programming manual 206841355, the blank
-/// is mandatory).
+/// Whether the text ends in `LL` directly before the name: `LL"NAME"` (source: TF5200 programming manual 206841355, the
+/// blank is mandatory).
 fn is_call(before: &str) -> bool {
     let word = before.trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.');
     before[word.len()..].eq_ignore_ascii_case("LL")
 }
 
-/// True for `G`, `M` or `H` with nothing but blanks between it and the name (source: TF5200 channel parameters 149215627, programming
-/// manual 208407691).
+/// Whether the text ends in `G`, `M` or `H`, with only blanks before the name (source: TF5200 channel parameters
+/// 149215627, programming manual 208407691).
 fn numbers(before: &str) -> bool {
     let Some(word) = before.trim_ascii_end().strip_suffix(['G', 'g', 'M', 'm', 'H', 'h']) else {
         return false;
@@ -238,7 +240,7 @@ fn numbers(before: &str) -> bool {
     !word.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.')
 }
 
-/// The piece in which a place of the unexpanded text lies, moved so that it begins there.
+/// The piece that contains a position of the unexpanded text, shifted so that it begins there.
 fn home(raw: &RawBlock<'_>, line: &Arc<str>, at: usize) -> Piece {
     let at = Span::new(at, at).start;
     match raw.pieces.iter().rev().find(|piece| piece.start <= at) {
@@ -256,12 +258,12 @@ fn home(raw: &RawBlock<'_>, line: &Arc<str>, at: usize) -> Piece {
     }
 }
 
-/// Copies unexpanded text together with its places.
+/// Copies unexpanded text together with its positions.
 fn copy(raw: &RawBlock<'_>, line: &Arc<str>, range: Range<usize>, out: &mut Expanded) {
     let mut at = range.start;
     while at < range.end {
         let home = home(raw, line, at);
-        // Up to where the next piece begins.
+        // up to the beginning of the next piece
         let next = raw.pieces.iter().map(|p| p.start as usize).find(|start| *start > at);
         let end = next.unwrap_or(range.end).min(range.end);
         let start = out.text.len();
@@ -317,7 +319,7 @@ mod tests {
         assert_eq!(text("L\"B\"").as_deref(), Some("LZ1"));
         assert_eq!(text("V.P.S = \"other\" ; \"A\""), None);
         assert_eq!(text("P1==\"B\"").as_deref(), Some("P1==Z1"));
-        // as the number of a function a text is one value
+        // as the number of a function, the text is one value
         assert_eq!(text("G\"SUM\"").as_deref(), Some("G[60 - 7]"));
         assert_eq!(text("N10 M\"SUM\"G\"FIVE\"").as_deref(), Some("N10 M[60 - 7]G54"));
         assert_eq!(text("\"CANCEL\" X1").as_deref(), Some("G[60 - 7] X1"));
@@ -344,7 +346,7 @@ mod tests {
             assert_eq!(run(line).unwrap_err().id, Condition::MacroBracket, "{line}");
         }
         assert!(run("X\"WHOLE\"").unwrap().is_some());
-        // the definition itself is text
+        // the definition itself is not expanded
         assert_eq!(run("\"HALF\" = \"COS[\""), Ok(None));
     }
 

@@ -1,6 +1,6 @@
-//! Decimal numbers to `f64`, exactly rounded.
+//! Converts decimal numbers to `f64`, correctly rounded.
 
-/// Powers of ten that `f64` holds exactly and that keep a quotient correctly rounded.
+/// Powers of ten that are exact in `f64` and keep a quotient correctly rounded.
 const POWERS: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
@@ -9,7 +9,7 @@ const EXACT_MAX: u64 = 1 << 53;
 
 /// Number at the beginning of `bytes` (`digits`, `digits.`, `digits.digits`, `.digits`) and its length.
 ///
-/// `None` if there is no number, or one of so many digits that the short way is not exact.
+/// `None` if there is no number, or if it has too many digits for the short method to be exact.
 pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     let (whole, mut mantissa) = digits(bytes, 0);
     let (mut decimals, mut length) = (0, whole);
@@ -21,12 +21,12 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     if count == 0 || count > 17 || decimals >= POWERS.len() || mantissa > EXACT_MAX {
         return None;
     }
-    // Both operands are exact, so the quotient is the correctly rounded value of the decimal.
+    // both operands are exact, so the quotient is the correctly rounded value of the decimal
     Some((mantissa as f64 / POWERS[decimals], length))
 }
 
-/// How many digits there are at the beginning of `bytes`, and the number that they make after the digits of `number`; from 20
-/// digits on the number is not theirs.
+/// The number of digits at the beginning of `bytes`, and the value of `number` with these digits appended; from 20
+/// digits on the value is not valid.
 #[inline]
 fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {
     let mut count = 0;
@@ -41,7 +41,7 @@ fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {
     (count, number)
 }
 
-/// Value of a text that the grammar knows to be a number; `None` if it is beyond the range of `f64`.
+/// Value of a text that is a number by the grammar; `None` if it is outside the range of `f64`.
 pub(super) fn decimal(text: &str) -> Option<f64> {
     match short_decimal(text.as_bytes()) {
         Some((value, _)) => Some(value),
@@ -66,7 +66,7 @@ mod tests {
     }
 
     proptest! {
-        /// The standard library rounds correctly: the same bits must come out.
+        /// The standard library rounds correctly: the result must have the same bits.
         #[test]
         fn rounds_as_the_standard_library(text in "[0-9]{0,20}\\.[0-9]{1,18}|[0-9]{1,25}\\.?") {
             let expected: f64 = text.parse().unwrap();

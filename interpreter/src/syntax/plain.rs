@@ -1,8 +1,8 @@
-//! Byte loop for plain blocks: almost every line of a CAM program.
+//! Byte loop for plain blocks, which are almost all lines of a CAM program.
 //!
 //! It accepts a block number or a label `N10:`, G and M functions, one-letter addresses with plain numbers or sums in
-//! brackets, and comments, and yields numbers: [`Plain::tree`] makes the tree of them that the grammar gives. Everything
-//! else it hands over, so it never reports an error. The tests compare both over random and damaged lines.
+//! brackets, and comments. It yields numbers, from which [`Plain::tree`] makes the same tree as the grammar. All other
+//! blocks are left to the grammar, so it never reports an error. The tests compare both over random and damaged lines.
 
 mod scan;
 mod sum;
@@ -18,13 +18,13 @@ use smallvec::SmallVec;
 /// A plain block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Plain {
-    /// What is around the words.
+    /// Everything except the words.
     pub(crate) frame: PlainFrame,
     /// Words in written order.
     pub(crate) words: SmallVec<[PlainWord; 6]>,
 }
 
-/// Everything of a plain block but its words.
+/// The parts of a plain block other than its words.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PlainFrame {
     /// Block number, also of a label.
@@ -33,7 +33,7 @@ pub(crate) struct PlainFrame {
     label: Option<Span>,
     /// The whole block without blanks and comments at its ends.
     pub(crate) span: Span,
-    /// There may be a comment in it: not every character has been looked at.
+    /// Whether there may be a comment in it: not every character has been checked.
     pub(super) remarks: bool,
 }
 
@@ -59,8 +59,8 @@ pub(crate) enum PlainValue {
     Sum(Box<Expr>),
 }
 
-/// Reads a line as a plain block and hands out its words one by one. `None` if the grammar has to see it, or `take` wants no
-/// more of it; what was handed out until then is void.
+/// Reads a line as a plain block and passes its words on one by one. `None` if the line requires the grammar or `take`
+/// stops the reading; the words passed on until then are void.
 #[inline]
 pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Option<PlainFrame> {
     let mut at = blanks(bytes, 0);
@@ -75,7 +75,7 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
                 at += 1;
                 frame.label = Some(Span::new(begin, at));
             }
-            // a value of the grammar's choice
+            // a value that only the grammar can read
             Some(b'.') => return None,
             _ => {}
         }
@@ -96,7 +96,7 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
         empty = false;
     }
     frame.remarks |= at < bytes.len();
-    // a remark alone has no place
+    // a remark alone has no span
     if frame.number.is_some() || !empty {
         frame.span = Span::new(begin, end);
     }
@@ -104,7 +104,7 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
 }
 
 impl Plain {
-    /// Becomes the block that a line is; `None` if the grammar has to see it.
+    /// Reads a line into this block; `None` if it requires the grammar.
     pub(super) fn recognize(&mut self, bytes: &[u8]) -> Option<()> {
         let Self { frame, words } = self;
         words.clear();
@@ -116,7 +116,7 @@ impl Plain {
         Some(())
     }
 
-    /// The tree that the grammar gives.
+    /// The same tree as by the grammar.
     pub(crate) fn tree(&self) -> Block {
         let words: Vec<Word> = self.words.iter().map(PlainWord::tree).collect();
         let PlainFrame { number, label, span, .. } = self.frame;
@@ -142,7 +142,7 @@ impl PlainWord {
             PlainValue::Code(number) => WordKind::M(CodeNumber::Literal(*number), None),
             PlainValue::Number(x) => {
                 let behind = Span { start: span.start + 1, len: span.len - 1 };
-                // a number without its sign is not negative, 0 neither
+                // a number without a sign is not negative, and neither is 0
                 let sign = x.is_sign_negative().then_some(Sign::Minus);
                 address(sign, Expr { kind: ExprKind::Number(*x), span: behind })
             }
@@ -175,14 +175,14 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<(PlainValue, usize)> {
     }
 }
 
-/// `Some` at the end, or before a letter that this file knows to begin a new word: whether it is one, the
-/// next step finds out. A value may follow a G function, an operator a value; a letter begins a new word, unless it begins
-/// a parameter, variable or function.
+/// `Some` at the end, or before a letter that may begin a new word; the next step checks whether it does. After a G
+/// function a value may follow, after an operand an operator. A letter begins a new word unless it begins a parameter,
+/// variable or function.
 fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
     match bytes.get(at) {
         None | Some(b';') => Some(()),
         Some(byte) if byte.is_ascii_alphabetic() => {
-            // Two letters in a row: an operator (`MOD`), a function or a name.
+            // two letters in a row: an operator (`MOD`), a function or a name
             (!bytes.get(at + 1)?.is_ascii_alphabetic()).then_some(())
         }
         Some(_) => None,

@@ -1,4 +1,4 @@
-//! Tree to text: the spelling that this crate uses in messages, and the check of the parser by parsing again.
+//! Turns trees into text: the spelling used in messages, and in the check of the parser by parsing again.
 
 use super::ast::{
     Binary, BinaryOp, Block, BlockNumber, Body, Call, CallKind, CodeNumber, Command, Control,
@@ -63,7 +63,7 @@ fn spaced(local: bool, text: &str) -> String {
     if local { text.to_owned() } else { format!(" {text}") }
 }
 
-/// Values with commas between them.
+/// Values separated by commas.
 fn list<T: Display>(f: &mut Formatter<'_>, values: &[T]) -> Result {
     for (i, value) in values.iter().enumerate() {
         write!(f, "{}{value}", if i > 0 { ", " } else { "" })?;
@@ -214,7 +214,7 @@ impl Display for Command {
         }
         if !self.arguments.is_empty() {
             f.write_str(" ")?;
-            // A bracket would be read as a group.
+            // a bracket would be read as a group
             if self.arguments.first().is_some_and(begins_with_bracket) {
                 f.write_str("=")?;
             }
@@ -336,7 +336,7 @@ impl Display for Binary {
     }
 }
 
-/// An operand, in brackets if it binds less tightly than `level`.
+/// An operand, in brackets if its precedence is lower than `level`.
 fn operand(f: &mut Formatter<'_>, expr: &Expr, level: u8) -> Result {
     match &expr.kind {
         ExprKind::Binary(inner) if inner.op.precedence() < level => write!(f, "[{expr}]"),
@@ -344,7 +344,7 @@ fn operand(f: &mut Formatter<'_>, expr: &Expr, level: u8) -> Result {
     }
 }
 
-/// True if the printed expression begins with a bracket.
+/// Whether the printed expression begins with a bracket.
 fn begins_with_bracket(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Binary(binary) => match &binary.left.kind {

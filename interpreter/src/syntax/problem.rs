@@ -1,4 +1,4 @@
-//! Errors of the grammar in the words of a user, with the vendor's number where there is one.
+//! Errors of the grammar in terms the user knows, with the vendor's number where there is one.
 
 mod around;
 mod expected;
@@ -15,7 +15,7 @@ use crate::suggest;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::borrow::Cow;
 
-/// Something wrong with a block, before its place in the program is worked out.
+/// A fault in a block, without its position in the program.
 #[derive(Debug)]
 pub(super) struct Problem {
     pub(super) condition: Condition,
@@ -79,7 +79,7 @@ pub(super) fn too_deep(text: &str, at: usize) -> Problem {
     Problem::new(condition, span, format!("{what} nested more than {limit} deep"))
 }
 
-/// Something like `[1,2] + 3` in the brackets of a command.
+/// A list in place of a value in the brackets of a command, such as `[1,2] + 3`.
 pub(super) fn list_among_values(masked: &str, span: Span) -> Problem {
     let text = "a list in brackets has no value to calculate with";
     let before = masked.get(..span.start as usize).unwrap_or_default();
@@ -90,7 +90,7 @@ pub(super) fn list_among_values(masked: &str, span: Span) -> Problem {
     }
 }
 
-/// What the content of a block is, judged by its first character.
+/// Kind of content of a block, judged by its first character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
     Words,
@@ -132,14 +132,14 @@ fn starts_with(text: &str, keyword: &str) -> bool {
         && !text[keyword.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// Where the grammar gave up.
+/// The position at which the grammar failed.
 pub(super) fn place_of(error: &Error<Rule>) -> usize {
     match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
     }
 }
 
-/// The problem that the grammar met with in `masked`, of which `offset` bytes were left out at the beginning.
+/// The problem found by the grammar in `masked`, of which `offset` bytes were left out at the beginning.
 pub(super) fn from_error(
     error: &Error<Rule>,
     masked: &str,
@@ -193,7 +193,7 @@ pub(super) fn from_error(
     }
 }
 
-/// The vendor's number for what is wrong in blocks of every kind.
+/// The vendor's number for faults common to all kinds of blocks.
 fn misplaced(before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
     let written = before.trim_ascii_end();
     let ends_in = |word: &str| {
@@ -212,7 +212,7 @@ fn misplaced(before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
     None
 }
 
-/// The vendor's number for a function that takes a name and got something else; `head`: the text up to its bracket.
+/// The vendor's number for a function that takes a name but got another argument; `head`: the text up to its bracket.
 fn name_expected(head: &str) -> Option<Condition> {
     let head = head.trim_ascii_end().to_ascii_uppercase();
     [
@@ -224,14 +224,14 @@ fn name_expected(head: &str) -> Option<Condition> {
     .find_map(|(name, condition)| head.ends_with(name).then_some(condition))
 }
 
-/// True for a text that begins with a block number.
+/// Whether the text begins with a block number.
 fn is_numbered(text: &str) -> bool {
     let first = text.trim_ascii_start().trim_start_matches(['/', ' ']);
     let number = first.strip_prefix(['N', 'n']).unwrap_or("");
     number.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// True for the name of a function without its bracket.
+/// Whether the text is the name of a function without its bracket.
 fn is_function(rest: &str) -> bool {
     let name = rest.bytes().take_while(|b| b.is_ascii_alphabetic() || *b == b'_').count();
     let behind = rest[name..].trim_start_matches([' ', '\t']);
@@ -244,8 +244,8 @@ fn is_function(rest: &str) -> bool {
     !behind.starts_with('[') && Function::from_name(&rest[..name]).is_some()
 }
 
-/// Length and message for letters that begin no word: the grammar could only have continued with a bracket, or took
-/// several letters for the name of an axis.
+/// Length and message for letters that do not begin a word: the grammar could only have continued with a bracket, or
+/// took several letters for the name of an axis.
 fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
     let before = before.trim_ascii_end();
     let length = before.bytes().rev().take_while(u8::is_ascii_alphanumeric).count();
@@ -273,7 +273,7 @@ fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
     Some((length, text))
 }
 
-/// Puts in the vendor's number and a hint.
+/// Adds the vendor's number and a hint.
 fn refine(
     problem: Problem,
     before: &str,
@@ -345,19 +345,19 @@ fn refine(
     }
 }
 
-/// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, which have a separate number for their bracket.
+/// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, whose brackets have a separate number.
 fn asks_for_positions(content: &str) -> bool {
     let names = [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]];
     names.iter().any(|name| has_name(content, name))
 }
 
-/// The block is the command with these words in its name.
+/// Whether the block is the command with these words in its name.
 fn has_name(content: &str, name: &[&str]) -> bool {
     let words = content.split('[').next().unwrap_or_default().split_ascii_whitespace();
     words.map(str::to_ascii_uppercase).eq(name.iter().copied())
 }
 
-/// The vendor's number for what is wrong after a control statement.
+/// The vendor's number for faults after a control statement.
 fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
     if starts_with(content, "$FOR") {
         return match before.contains('=') {
@@ -370,13 +370,13 @@ fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) ->
             _ => None,
         };
     }
-    // after a value that is complete, or after a statement that takes none
+    // after a complete value, or after a statement without a value
     let complete = !rest.is_empty() && expected.iter().any(|e| [OPERATOR, END].contains(e));
     let of = |(word, _): &&(&str, Condition)| starts_with(content, word);
     TRAILING.iter().find(of).filter(|_| complete).map(|(_, condition)| *condition)
 }
 
-/// Words after each control statement.
+/// Numbers for words after each control statement.
 const TRAILING: [(&str, Condition); 16] = [
     ("$IF", Condition::IfTrailing),
     ("$ELSEIF", Condition::ElseIfTrailing),
@@ -419,26 +419,28 @@ const STATEMENTS: [&str; 19] = [
     "GOTO",
 ];
 
-/// The control statement with this name in upper case.
+/// The control statement with this name, which is in upper case.
 pub(super) fn statement(word: &str) -> Option<&'static str> {
     STATEMENTS.into_iter().find(|statement| *statement == word)
 }
 
-/// Those after which a value follows.
+/// Control statements with a value.
 const WITH_VALUE: [&str; 9] =
     ["ELSEIF", "IF", "SWITCH", "CASE", "FOR", "WHILE", "UNTIL", "ENDDO", "GOTO"];
 
-/// The control statement that `word`, upper case, was meant to be: one with its value but without a blank, or a misspelt one.
+/// The control statement that `word` (upper case) was meant to be: one followed by its value without a blank, or
+/// misspelt.
 pub(crate) fn statement_meant(word: &str) -> Option<&'static str> {
     suggest::nearest(word, STATEMENTS).or_else(|| without_blank(word))
 }
 
-/// The statement that a word in upper case begins with.
+/// The statement at the beginning of a word in upper case.
 fn without_blank(word: &str) -> Option<&'static str> {
     WITH_VALUE.into_iter().find(|statement| word.starts_with(statement))
 }
 
-/// A word after `$` that is not a control statement: one that continues without a blank, a misspelt one, or another one.
+/// A word after `$` that is not a control statement: one followed by its value without a blank, a misspelt one, or any
+/// other.
 fn not_a_statement(problem: &Problem, rest: &str) -> Problem {
     let apart = rest.len() - rest[1..].trim_ascii_start().len();
     let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -458,7 +460,7 @@ fn not_a_statement(problem: &Problem, rest: &str) -> Problem {
     }
 }
 
-/// 20187 for the radius in which `before` ends.
+/// 20187 for the radius at the end of `before`.
 fn negative_radius(problem: &Problem, before: &str) -> Problem {
     let word = last_word(before);
     let start =
@@ -467,7 +469,7 @@ fn negative_radius(problem: &Problem, before: &str) -> Problem {
     Problem::new(Condition::RadiusIndexFormat, Span::new(start, start + word.len()), text)
 }
 
-/// 20194 for the parameter or variable in which `before` ends.
+/// 20194 for the parameter or variable at the end of `before`.
 fn without_value(problem: &Problem, before: &str) -> Problem {
     let trimmed = before.trim_ascii_end();
     let word = last_word(before);

@@ -1,8 +1,7 @@
-//! What has to be known about the characters of a block before its grammar.
+//! Prepares the characters of a block for the grammar.
 //!
-//! The grammar sees a masked text of the same length: comments and invalid characters are blanks, and names of
-//! several characters that the machine configures (`X1`, `AP`) are marked, because which of them exist is not a
-//! question of grammar.
+//! The grammar reads a masked text of the same length: comments and invalid characters are blanks. Names of several
+//! characters configured in the machine (`X1`, `AP`) are marked, because the grammar does not know which of them exist.
 
 use super::ast::Span;
 use crate::source::regions::{self, Region, regions};
@@ -10,14 +9,14 @@ use crate::source::regions::{self, Region, regions};
 /// Byte that replaces every character of a configured name in the masked text.
 pub(super) const MARK: u8 = 1;
 
-/// In the masked text the place of a quote that is never closed.
+/// Replaces a quote that is never closed in the masked text.
 pub(super) const UNCLOSED: char = '\u{2}';
 
-/// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,
-/// and small enough for the stack of every platform.
+/// Deepest nesting of square brackets; deeper blocks get K-0006. Far deeper than in any program written by hand or by a
+/// post-processor, and small enough for the stack of every platform.
 pub(crate) const NESTING_MAX: usize = 64;
 
-/// Text as the grammar sees it.
+/// Text as read by the grammar.
 pub(super) struct Masked {
     /// Same length in bytes as the block.
     pub(super) text: String,
@@ -48,7 +47,7 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
                             }
                         }
                         b']' => depth = depth.saturating_sub(1),
-                        b'"' => out[i] = UNCLOSED as u8, // not closed, or it were a string
+                        b'"' => out[i] = UNCLOSED as u8, // not closed, otherwise it would be a string
                         byte if is_valid(byte) => {}
                         _ => {
                             out[i] = b' ';
@@ -65,12 +64,12 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
     if !names.is_empty() {
         mark_names(&mut out, names);
     }
-    // Whole characters were replaced, or ASCII by ASCII: the bytes are text again.
+    // whole characters were replaced, or ASCII by ASCII, so the bytes are valid UTF-8
     let text = String::from_utf8(out).unwrap_or_default();
     Masked { text, invalid, too_deep }
 }
 
-/// The masked text with blanks for its strings: all of it is ASCII.
+/// The masked text with its strings blanked out; it is then ASCII only.
 pub(super) fn without_texts(masked: &str) -> String {
     let mut out = masked.as_bytes().to_vec();
     for range in regions::strings(masked) {
@@ -95,7 +94,7 @@ fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
         let rest = &bytes[i..];
         let letter_before = i > 0 && (bytes[i - 1].is_ascii_alphabetic() || bytes[i - 1] == b'_');
         match rest[0] {
-            // Commands and control statements have no DIN words, but for the `#` words among them.
+            // commands and control statements contain no DIN words, except for the `#` words among them
             b'$' => return,
             b'#' if hash_word(rest).is_none() => return,
             b'#' => i += hash_word(rest).unwrap_or(1),
@@ -171,7 +170,7 @@ fn call(bytes: &[u8]) -> usize {
     begin + run(&bytes[begin..], |b| !matches!(b, b' ' | b'\t' | b'[' | b'"' | b',' | b'#' | b'$'))
 }
 
-/// Length of the run of bytes at the beginning that fulfil a condition.
+/// Length of the run of bytes at the beginning that meet a condition.
 fn run(bytes: &[u8], accept: impl Fn(u8) -> bool) -> usize {
     bytes.iter().take_while(|b| accept(**b)).count()
 }

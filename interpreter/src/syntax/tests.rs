@@ -1,4 +1,4 @@
-//! Rule tables, real-file shapes, properties over random input.
+//! Tables of rules, the shapes of real files, and properties over random input.
 
 mod random;
 mod tables;
@@ -28,7 +28,7 @@ fn parse_as(line: &str, mode: Mode) -> (Block, Vec<Diagnostic>) {
     (block, diagnostics)
 }
 
-/// The tree of the grammar, whether or not the line is plain.
+/// The tree by the grammar, even if the line is plain.
 fn by_grammar(line: &str) -> (Block, usize) {
     let mut problems = Vec::new();
     let parser = Parser::new(["X1", "AP", "X1A"]);
@@ -44,7 +44,7 @@ fn accepted(line: &str) -> Block {
     block
 }
 
-/// IDs and columns of what a line is refused for.
+/// IDs and columns of the errors of a line that is refused.
 fn refused(line: &str) -> Vec<(String, u32)> {
     let (_, diagnostics) = parse(line);
     diagnostics

@@ -12,7 +12,7 @@ pub struct Ident {
 }
 
 impl Ident {
-    /// Compares without case.
+    /// Compares without regard to case.
     pub fn is(&self, other: &str) -> bool {
         self.text.eq_ignore_ascii_case(other)
     }
@@ -58,14 +58,14 @@ pub struct Command {
 }
 
 impl Command {
-    /// True if the words up to `ON`/`OFF` are exactly these (`"CONTOUR MODE"`: one blank between two words).
+    /// Whether the words up to `ON`/`OFF` are exactly these (`"CONTOUR MODE"`: separated by one blank).
     pub fn is(&self, name: &str) -> bool {
         let mut words = self.words.iter();
         name.split(' ').all(|part| words.next().is_some_and(|word| &*word.text == part))
             && words.next().is_none()
     }
 
-    /// The words up to `ON`/`OFF` with one blank between two.
+    /// The words up to `ON`/`OFF`, separated by one blank.
     pub fn name(&self) -> String {
         let mut name = String::new();
         for word in &self.words {
@@ -78,7 +78,7 @@ impl Command {
     }
 }
 
-/// Contents of a bracket; commas, equals signs and `|` between items are decoration and left no trace.
+/// Contents of a bracket. Commas, equals signs and `|` between items are not kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
     /// Items in written order.
@@ -96,7 +96,7 @@ impl Group {
         })
     }
 
-    /// True if the flag (upper case) is written.
+    /// Whether the flag (upper case) is written.
     pub fn has(&self, flag: &str) -> bool {
         self.items.iter().any(|item| matches!(&item.kind, ItemKind::Flag(f) if f.is(flag)))
     }
@@ -105,7 +105,7 @@ impl Group {
 /// One item of a bracket.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
-    /// What it is.
+    /// Kind.
     pub kind: ItemKind,
     /// Place.
     pub span: Span,
@@ -123,16 +123,16 @@ pub enum ItemKind {
         /// Value.
         value: ItemValue,
     },
-    /// A variable that gets something: `P1=X`, `V.P.POS=Z` of `#GET CMDPOS`.
+    /// A variable that receives a value: `P1=X`, `V.P.POS=Z` of `#GET CMDPOS`.
     Target {
         /// The variable.
         place: Place,
-        /// What it gets.
+        /// The value it receives.
         value: ItemValue,
     },
     /// A value alone: `["text", P1]`, `[0,0,0]`.
     Value(ItemValue),
-    /// Nothing between two commas.
+    /// An empty item between two commas.
     Missing,
 }
 

@@ -5,7 +5,7 @@ use super::{Expr, Ident, ItemValue, Jump, Place, Span};
 /// Control statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
-    /// Which.
+    /// Kind.
     pub kind: ControlKind,
     /// Place.
     pub span: Span,
@@ -14,7 +14,7 @@ pub struct Control {
 /// Kind of a control statement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ControlKind {
-    /// `$IF condition`, with `$GOTO target` on the same line the statement has no `$ENDIF`.
+    /// `$IF condition`; with `$GOTO target` on the same line, the statement has no `$ENDIF`.
     If {
         /// Condition.
         condition: Expr,
@@ -29,7 +29,7 @@ pub enum ControlKind {
     EndIf,
     /// `$SWITCH value`, `$SWITCH P1=value`.
     Switch {
-        /// Assigned on the way.
+        /// Parameter or variable that is assigned as well.
         target: Option<Place>,
         /// Value.
         value: Expr,
@@ -85,13 +85,13 @@ pub struct ProgramHead {
 /// One line between `#VAR` and `#ENDVAR`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declaration {
-    /// What is declared; its subscripts are the sizes of the dimensions.
+    /// The variable declared; its subscripts are the sizes of the dimensions.
     pub place: Place,
     /// Type (`UNS32`, `STRING`), in upper case.
     pub type_name: Option<Ident>,
     /// `20` of `STRING[20]`.
     pub length: Option<Expr>,
-    /// Start value; a list for arrays.
+    /// Initial value; a list for arrays.
     pub value: Option<ItemValue>,
     /// Place of the declaration.
     pub span: Span,

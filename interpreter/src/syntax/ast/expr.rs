@@ -1,17 +1,17 @@
-//! Expressions and the places that hold values.
+//! Expressions, and the places that contain values.
 
 use super::Span;
 
 /// Expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expr {
-    /// What it is.
+    /// Kind.
     pub kind: ExprKind,
     /// Place, outer brackets included.
     pub span: Span,
 }
 
-/// Kind of an expression. Brackets leave no trace; signs of literals are part of them (`-2**2` is (-2)**2 here).
+/// Kind of an expression. Brackets are not kept; signs of literals are part of them (`-2**2` is (-2)**2 here).
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {
     /// Decimal number, sign included.
@@ -20,13 +20,13 @@ pub enum ExprKind {
     Bool(bool),
     /// `PI`.
     Pi,
-    /// `R1`, the last radius of the program.
+    /// `R1`, the last radius programmed.
     Radius,
-    /// `"text"`, `\"` turned into `"`; may also be the use of a macro.
+    /// `"text"`, with `\"` replaced by `"`; may also be the use of a macro.
     Text(Box<str>),
     /// Parameter or variable.
     Place(Box<Place>),
-    /// Minus before anything but a literal.
+    /// Minus before an operand that is not a literal.
     Negate(Box<Expr>),
     /// Two operands.
     Binary(Box<Binary>),
@@ -34,7 +34,7 @@ pub enum ExprKind {
     Call(Box<FunctionCall>),
 }
 
-/// Sign directly after an address, outside of brackets.
+/// Sign directly after an address, outside brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// `C+10`.
@@ -54,7 +54,7 @@ pub struct Binary {
     pub right: Expr,
 }
 
-/// Binary operator, loosest first.
+/// Binary operator, in increasing order of precedence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum BinaryOp {
     /// `||`, `OR`.
@@ -104,7 +104,7 @@ pub struct FunctionCall {
     pub arguments: Vec<Expr>,
 }
 
-/// Declares [`Function`] with the names of the language.
+/// Declares [`Function`] with the names of the functions in the language.
 macro_rules! functions {
     ($($variant:ident $name:literal,)*) => {
         /// Function of the expression language.
@@ -117,7 +117,7 @@ macro_rules! functions {
         }
 
         impl Function {
-            /// Every function.
+            /// All functions.
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
             /// Name in upper case.
@@ -125,7 +125,7 @@ macro_rules! functions {
                 match self { $(Self::$variant => $name),* }
             }
 
-            /// The function of a name in either case.
+            /// The function with this name, in upper or lower case.
             pub(crate) fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|f| f.name().eq_ignore_ascii_case(name))
             }
@@ -143,10 +143,10 @@ functions! {
     StrToReal "STR_TO_REAL", MacroLength "MACRO_LENGTH", MacroContent "MACRO_CONTENT",
 }
 
-/// Something that holds a value and may be on the left of `=`.
+/// Parameter or variable; may be on the left of `=`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// Which.
+    /// Kind.
     pub kind: PlaceKind,
     /// Place, subscripts included.
     pub span: Span,

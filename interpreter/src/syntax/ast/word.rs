@@ -5,7 +5,7 @@ use super::{BinaryOp, Expr, Group, Ident, Jump, Place, Sign, Span};
 /// One word of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Word {
-    /// What it is.
+    /// Kind.
     pub kind: WordKind,
     /// Place, value included.
     pub span: Span,
@@ -14,14 +14,14 @@ pub struct Word {
 /// Kind and contents of a word.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WordKind {
-    /// `G01`, `G131=50`, `G04 P1`, `G80[1,,3]`. Whether a G function takes a value is not known here.
+    /// `G01`, `G131=50`, `G04 P1`, `G80[1,,3]`. The parser does not know whether a G function takes a value.
     G {
         /// Number without leading zeros; `u32::MAX` if it does not fit.
         number: u32,
         /// Value or list.
         value: Option<Box<GValue>>,
     },
-    /// `G[60 - 7]`: what is left of `G"NAME"`.
+    /// `G[60 - 7]`, the expanded form of `G"NAME"`.
     ComputedG(Box<Expr>),
     /// `M30`, `M200=800`, `M@P6`.
     M(CodeNumber, Option<Box<Expr>>),
@@ -44,7 +44,7 @@ pub enum WordKind {
     Assign(Box<Assign>),
     /// `"NAME" = "text"`.
     MacroDefinition(Box<MacroDefinition>),
-    /// `"NAME"` standing for words; still here only if the macro was not expanded before parsing.
+    /// `"NAME"` in place of words; present only if the macro was not expanded before parsing.
     MacroUse(Box<str>),
     /// A `#` word among DIN words: `#FRC=50`, `#CHR`, `#ANG=30`, `#PSET`, ...
     Hash(Box<HashWord>),
@@ -72,14 +72,14 @@ pub enum CodeNumber {
     Computed(Box<Expr>),
 }
 
-/// End of a subroutine that says where the program continues.
+/// End of a subroutine that states where the program continues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Return {
     /// 17 or 29.
     pub number: u32,
-    /// Level it returns to.
+    /// Level to return to.
     pub level: ReturnLevel,
-    /// Place there; without one after the call.
+    /// Target at that level; without it, the program continues after the call.
     pub target: Option<Jump>,
 }
 
@@ -90,7 +90,7 @@ pub enum ReturnLevel {
     Caller,
     /// `MAIN`: the main program.
     Main,
-    /// `JUMPS=2`: so many levels up.
+    /// `JUMPS=2`: this number of levels up.
     Jumps(Expr),
 }
 
@@ -103,7 +103,7 @@ pub enum Name {
     Long(Box<str>),
 }
 
-/// `A` to `Z`, so that a letter can be lent out as a string.
+/// `A` to `Z`, so that a letter can be borrowed as a string.
 const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 impl Name {
@@ -166,14 +166,15 @@ pub struct Assign {
 pub struct MacroDefinition {
     /// Name, as written.
     pub name: Box<str>,
-    /// Text, `\"` already turned into `"`.
+    /// Text, with `\"` already replaced by `"`.
     pub text: Box<str>,
 }
 
 /// A `#` word among DIN words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HashWord {
-    /// Name without `#`, in upper case: `FRC CHR CHF RND ANG CANG ACHSE PSET PRESET ADD`, `SUPPRESS OFFSETS`, `SCALE ON`, `AKIMA STARTVECTOR`.
+    /// Name without `#`, in upper case: `FRC CHR CHF RND ANG CANG ACHSE PSET PRESET ADD`, `SUPPRESS OFFSETS`, `SCALE
+    /// ON`, `AKIMA STARTVECTOR`.
     pub name: Box<str>,
     /// Value, if one is written.
     pub value: Option<Expr>,
@@ -186,16 +187,16 @@ pub struct HashWord {
 pub struct Call {
     /// `LL` is local, `L` global.
     pub local: bool,
-    /// What is called.
+    /// The subroutine called.
     pub kind: CallKind,
 }
 
-/// What a call names.
+/// The way a subroutine is named in its call.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CallKind {
     /// `L file.nc`, `LL NAME`, `L "a b.nc"`: name or path as written, without quotes.
     Program(Ident),
-    /// `L V.E.NAME`, `LV.E.NAME`: a variable holds the name.
+    /// `L V.E.NAME`, `LV.E.NAME`: a variable contains the name.
     Variable(Place),
     /// `L CYCLE [NAME=file @P1=..]`.
     Cycle(Group),

@@ -16,7 +16,7 @@ impl Builder<'_> {
         self.contents(pair).0
     }
 
-    /// `chain`: an expression, or a list if nothing but one bracket is written.
+    /// `chain`: an expression, or a list if only one bracket is written.
     fn chain(&mut self, pair: Pair<'_, Rule>) -> ItemValue {
         let mut parts = pair.clone().into_inner();
         match (parts.next(), parts.next()) {
@@ -27,7 +27,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A bracket as an expression if it holds one and nothing else, or else as a list.
+    /// A bracket as an expression if it contains only one, otherwise as a list.
     pub(in crate::syntax) fn bracket(&mut self, pair: Pair<'_, Rule>) -> Result<Expr, Group> {
         let (mut group, separated) = self.contents(pair);
         if separated || group.items.len() != 1 {
@@ -44,7 +44,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Groups of a command; 20186, 20675, 20880, 21252 where their items need commas between them.
+    /// Groups of a command; 20186, 20675, 20880, 21252 if commas between their items are required but missing.
     fn command_group(&mut self, pair: Pair<'_, Rule>, command: &Command) -> Group {
         let of = |names: &[&str]| names.iter().any(|name| command.is(name));
         let needs = if of(&["GET CMDPOS", "GET ACTPOS", "SET IPO SOLLPOS"]) {
@@ -66,7 +66,7 @@ impl Builder<'_> {
             let span = Span { start: group.span.end() - 1, len: 0 };
             group.items.push(Item { kind: ItemKind::Missing, span });
         }
-        // `[X 1 0]` reads like a key with its value: 21251, when it is carried out
+        // `[X 1 0]` looks like a key with its value: 21251, when the command is carried out
         let keyed = matches!(group.items.first(), Some(Item { kind: ItemKind::Pair { .. }, .. }));
         let exchange = matches!(needs, Some((Condition::ExchangeNumber, _)));
         let needs = needs.filter(|_| commas + 1 < group.items.len() && !(exchange && keyed));
@@ -77,12 +77,12 @@ impl Builder<'_> {
         group
     }
 
-    /// What is in a bracket, and whether commas or bars do.
+    /// Contents of a bracket, and whether commas or bars separate them.
     fn contents(&mut self, pair: Pair<'_, Rule>) -> (Group, bool) {
         let span = self.span(&pair);
         let mut separated = false;
         let mut items: Vec<Item> = Vec::new();
-        // True where an item would be missing if a comma came now.
+        // true where an item would be missing if a comma followed
         let mut bare = true;
         for part in pair.into_inner() {
             let place = self.span(&part);
@@ -197,7 +197,7 @@ impl Builder<'_> {
         command
     }
 
-    /// Rules of shape for single commands.
+    /// Checks of form for individual commands.
     pub(super) fn check_command(&mut self, command: &Command, block: &Block) {
         let words: Vec<&str> = command.words.iter().map(|word| &*word.text).collect();
         let bare =
@@ -223,7 +223,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A warning for `#VIB GUARD ON (MODE=2 FREQ=40)`: the keys are in a remark.
+    /// Warns of `#VIB GUARD ON (MODE=2 FREQ=40)`: the keys are in a remark.
     fn check_remark(&mut self, command: &Command) {
         let end = command.span.end() as usize;
         let Some(behind) = self.text.get(end..) else { return };
@@ -284,7 +284,7 @@ impl Builder<'_> {
                     let text = format!("`{}` cannot count a $FOR loop", part.as_str());
                     let hint = "the counter is a P parameter or a variable that may be written";
                     self.report(Problem::new(Condition::ForCounter, at, text).hint(hint));
-                    // the executor says the same of this place, once is enough
+                    // the executor reports this place as well; once is enough
                     place = Some(Place { kind: PlaceKind::Variable(Vec::new()), span: at });
                 }
                 _ => {}

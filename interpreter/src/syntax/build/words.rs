@@ -207,7 +207,7 @@ impl Builder<'_> {
         Call { local, kind: kind.unwrap_or(CallKind::Program(empty)) }
     }
 
-    /// A program that a variable names.
+    /// A subroutine whose name is in a variable.
     fn variable_call(&mut self, pair: Pair<'_, Rule>) -> Option<CallKind> {
         pair.into_inner().next().map(|place| CallKind::Variable(self.place(place)))
     }

@@ -2,7 +2,7 @@
 
 use crate::source::regions::comment_length;
 
-/// After blanks and comments in brackets, which are blanks for the grammar.
+/// Position after blanks and comments in brackets, which are blanks for the grammar.
 pub(super) fn blanks(bytes: &[u8], mut at: usize) -> usize {
     loop {
         match bytes.get(at) {
@@ -13,7 +13,7 @@ pub(super) fn blanks(bytes: &[u8], mut at: usize) -> usize {
     }
 }
 
-/// Digits from `at` on: value and end; short enough not to overflow.
+/// Digits from `at` on: value and end position; limited in number, so that the value does not overflow.
 pub(super) fn integer(bytes: &[u8], at: usize) -> Option<(u64, usize)> {
     let mut value = 0_u64;
     let mut end = at;

@@ -1,4 +1,4 @@
-//! Sums in brackets: numbers, P parameters, `+ - * /`, brackets inside.
+//! Sums in brackets: numbers, P parameters, `+ - * /`, nested brackets.
 
 use super::scan::{blanks, integer};
 use crate::syntax::ast::{
@@ -6,11 +6,11 @@ use crate::syntax::ast::{
 };
 use crate::syntax::number::short_decimal;
 
-/// Deepest nesting that is looked at here, and operators of one bracket; the rest is for the grammar.
+/// Maximum nesting, and maximum number of operators per bracket; other sums are left to the grammar.
 const DEPTH_MAX: usize = 4;
 const OPERATORS_MAX: usize = 32;
 
-/// The expression of the bracket at `at`, its span with the bracket; `None` if the grammar has to see it.
+/// The expression of the bracket at `at`, its span including the bracket; `None` if it requires the grammar.
 pub(super) fn bracket(bytes: &[u8], at: usize) -> Option<Expr> {
     Sum { bytes, at, depth: 0, operators: 0 }.bracket()
 }
@@ -88,7 +88,7 @@ impl Sum<'_> {
             b'P' | b'p' => {
                 let (index, end) = integer(self.bytes, start + 1)?;
                 self.at = end;
-                // an array, or a name that only begins alike
+                // an array, or a name with the same beginning
                 if matches!(self.bytes.get(end), Some(b'[' | b'_' | b'a'..=b'z' | b'A'..=b'Z')) {
                     return None;
                 }

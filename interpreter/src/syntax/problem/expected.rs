@@ -1,4 +1,4 @@
-//! Rules of the grammar in the words of a user: what could have been written at a place.
+//! Rules of the grammar in terms the user knows: the possible continuations at a position.
 
 use crate::syntax::Rule;
 
@@ -11,14 +11,14 @@ pub(super) const COMMA: &str = "`,`";
 pub(super) const OPERATOR: &str = "an operator";
 pub(super) const END: &str = "the end of the block";
 
-/// What could have been meant, in the order of likelihood and without repetition.
+/// The possible continuations, most likely first, without repetition.
 pub(super) fn expected(rules: &[Rule]) -> Vec<&'static str> {
     let mut words: Vec<(u8, &'static str)> =
         rules.iter().filter_map(|rule| user_word(*rule)).collect();
     words.sort_unstable();
     words.dedup();
     let mut words: Vec<&'static str> = words.into_iter().map(|(_, word)| word).collect();
-    // A value may begin with a bracket or a parameter, and an index may follow nearly everywhere: no news.
+    // a value may begin with a bracket or a parameter, and an index may follow almost everywhere: not worth mentioning
     let value = words.contains(&VALUE);
     let many = words.len() > 1;
     words.retain(|word| !(value && *word == WORD || many && *word == BRACKET));
@@ -26,7 +26,7 @@ pub(super) fn expected(rules: &[Rule]) -> Vec<&'static str> {
     words
 }
 
-/// A rule of the grammar in the words of a user.
+/// A rule of the grammar in terms the user knows.
 fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
     Some(match rule {
         Rule::expression

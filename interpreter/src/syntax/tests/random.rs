@@ -4,7 +4,7 @@ use crate::syntax::ast::{Body, Span};
 use crate::syntax::{Mode, Plain};
 use proptest::prelude::*;
 
-/// Lines that are plain or nearly so.
+/// Lines that are plain or almost plain.
 fn nearly_plain() -> impl Strategy<Value = String> {
     let number =
         prop_oneof!["-?[0-9]{1,5}(\\.[0-9]{0,6})?", "[-+]?\\.?[0-9]{0,20}", "-?0?\\.[0-9]{1,17}",];
@@ -23,7 +23,7 @@ fn nearly_plain() -> impl Strategy<Value = String> {
     })
 }
 
-/// Sums in brackets, and what looks like them.
+/// Sums in brackets, and texts that look like them.
 fn sum() -> impl Strategy<Value = String> {
     let value = prop_oneof![
         6 => "-?[0-9]{1,3}(\\.[0-9]{0,3})?",
@@ -48,7 +48,7 @@ fn sum() -> impl Strategy<Value = String> {
     .prop_map(|sum| format!("[{sum}]"))
 }
 
-/// Every kind of construct, for damage and for printing.
+/// Every kind of construct, to be damaged and to be printed.
 const LINES: &[&str] = &[
     "/3 N[P1+2] G01 X[P20*COS[P21]] Y-5 F[1000*P1]",
     "N10 [A] P1=5 P[P2+1]=PP3 V.P.TAB[2][3]=-V.A.-SWE.X ** 2 MOD 3",
@@ -91,7 +91,7 @@ fn damaged() -> impl Strategy<Value = String> {
     )
 }
 
-/// Spans of a block in the order in which they must lie in the text.
+/// Checks that the spans of a block are in the order of the text.
 fn check_spans(line: &str) -> Result<(), TestCaseError> {
     let (block, diagnostics) = parse(line);
     let inside = |span: Span| {
@@ -115,7 +115,7 @@ fn check_spans(line: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// print(parse(x)) parses to the same tree, and prints the same.
+/// print(parse(x)) parses to the same tree, and prints the same text.
 fn check_print(line: &str, mode: Mode) -> Result<(), TestCaseError> {
     let (block, diagnostics) = parse_as(line, mode);
     if diagnostics.is_empty() {
@@ -163,7 +163,8 @@ proptest! {
     }
 }
 
-/// A cycle call with a mistake in its brackets is not a word of an axis `LCYCLE`, with or without a blank, and says the same.
+/// A cycle call with a mistake in its brackets is not a word of an axis `LCYCLE`, with or without a blank, and causes
+/// the same message.
 #[test]
 fn a_damaged_cycle_call_stays_a_call() {
     for call in ["L CYCLE [", "L CYCLE[", "LCYCLE [", "LCYCLE[", "LLCYCLE [", "CYCLE ["] {

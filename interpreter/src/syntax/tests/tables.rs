@@ -17,7 +17,7 @@ fn printed(line: &str) -> String {
     accepted(line).to_string()
 }
 
-/// Rows of a table in `interpreter/tests/syntax`: a line and what becomes of it. Other lines are comments.
+/// Rows of a table in `interpreter/tests/syntax`: a line and its result. Other lines are comments.
 fn rows(table: &str) -> impl Iterator<Item = (&str, &str)> {
     table.lines().filter_map(|row| row.rsplit_once(" ->")).map(|(line, of)| (line, of.trim_start()))
 }
@@ -76,7 +76,7 @@ fn decoration_leaves_no_trace() {
         let first = shape(&accepted(group[0]));
         for line in group {
             let found = shape(&accepted(line));
-            // The lengths of the lines differ: only block spans and the like do, which `shape` drops.
+            // the lines differ in length: only the spans of the block and similar ones do, which `shape` drops
             assert_eq!(found, first, "{line}");
         }
     }
@@ -84,7 +84,7 @@ fn decoration_leaves_no_trace() {
 
 #[test]
 fn precedence() {
-    // Left to right, and the literal's sign binds tightest: (2**3)**2, (-2)**2.
+    // left to right, and the sign of the literal has the highest precedence: (2**3)**2, (-2)**2
     let value = |line| match words(line).remove(0).kind {
         WordKind::Assign(assign) => assign.value,
         kind => panic!("{kind:?}"),

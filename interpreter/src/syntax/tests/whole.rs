@@ -45,7 +45,7 @@ N370 M30
 
 #[test]
 fn whole_programs_parse_clean() {
-    // Shapes of programs in use: bio printing, additive manufacturing, robots, wood working, plain CAM output.
+    // shapes of real programs: bioprinting, additive manufacturing, robots, woodworking, plain CAM output
     let shapes = "\
 % job
 T1
