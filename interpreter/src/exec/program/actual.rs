@@ -1,4 +1,4 @@
-//! Which blocks read actual positions of the machine: motion has to come to rest before them.
+//! The blocks that read actual positions of the machine: motion must come to rest before them.
 
 use crate::exec::step::Sync;
 use crate::exec::values::system;
@@ -8,7 +8,7 @@ use crate::syntax::ast::{
 };
 use smallvec::{SmallVec, smallvec};
 
-/// What the block waits for to read actual positions of the machine; `None` if it reads none.
+/// The event for which the block waits before it reads actual positions of the machine; `None` if it reads none.
 pub(super) fn needs_actual(block: &Block) -> Option<Sync> {
     if let Body::Command(command) = &block.body
         && command.is("CHANNEL INIT")

@@ -1,6 +1,6 @@
 //! Calls of subroutines and cycles.
 //!
-//! Source: TF5200 programming manual, subroutine techniques. Plain subroutines share everything with their caller.
+//! Source: TF5200 programming manual, subroutine techniques. Plain subroutines share all state with their caller.
 
 use super::executor::Executor;
 use super::state::{ModalCycle, Passed, Target};
@@ -12,7 +12,7 @@ use crate::suggest;
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
 use std::sync::Arc;
 
-/// Program levels. Assumption: the vendor prints no number.
+/// Maximum number of program levels. Assumption: the vendor prints no number.
 pub(super) const LEVELS_MAX: usize = 32;
 
 /// Text for a call beyond [`LEVELS_MAX`].
@@ -23,7 +23,7 @@ pub(super) fn too_deep() -> String {
     )
 }
 
-/// Local subroutines that a hint names.
+/// Maximum number of local subroutines named in a hint.
 const NAMED_MAX: usize = 12;
 
 impl Executor {
@@ -59,7 +59,7 @@ impl Executor {
         if local { self.local(name) } else { self.global(name) }
     }
 
-    /// True if one more level may be entered; otherwise an error.
+    /// Whether one more level may be entered; if not, reports an error.
     fn has_room(&mut self, local: bool, span: Span) -> bool {
         let room = self.levels.len() < LEVELS_MAX;
         if !room {
@@ -123,9 +123,10 @@ impl Executor {
         }
     }
 
-    /// Searches the name of `#FILE EXIST`, as a subroutine of this name would be searched.
+    /// Searches for the file of `#FILE EXIST`, in the same way as for a subroutine of this name.
     ///
-    /// Assumption: the page prints paths with a backslash after the folder and does not say what they are without a file.
+    /// Assumption: the page prints paths with a backslash after the folder, and does not give their value without a
+    /// file.
     pub(super) fn search_file(&mut self) {
         let Some((name, span)) = self.decoder.calls.searched.wanted.take() else { return };
         let caller = self.levels.last().map(|level| Arc::clone(&self.files.file(level.file).name));
@@ -147,7 +148,7 @@ impl Executor {
         };
     }
 
-    /// A note where the file has the name of the call in other letters: not every file system finds it.
+    /// A note if the name of the file differs from the call in upper and lower case: not every file system finds it.
     fn other_case(&mut self, path: &str, file: usize, span: Span) {
         let parts = path.trim_start_matches("./").split('/').count();
         let last = |name: &str| {
@@ -285,7 +286,7 @@ impl Executor {
         self.call_named(&name, false, Some(passed.collect()));
     }
 
-    /// A global subroutine that a parameter names.
+    /// A global subroutine named by a parameter.
     pub(in crate::exec) fn call_of_list(
         &mut self,
         file: &str,
@@ -299,24 +300,26 @@ impl Executor {
         }
     }
 
-    /// M06 with its own program.
+    /// M06 with its program.
     pub(in crate::exec) fn tool_change(&mut self, span: Span) {
         if let Some(file) = self.decoder.calls.tool_change_file.clone() {
             self.call_of_list(&file, "P-CHAN-00118", span);
         }
     }
 
-    /// D with its own program.
+    /// D with its program.
     ///
-    /// Assumption: `#TOOL DATA` is no D word and calls nothing; a D word of the program called calls it again.
+    /// Assumption: `#TOOL DATA` is not a D word and does not call the program; a D word in the program itself calls it
+    /// again.
     pub(in crate::exec) fn tool_data(&mut self, span: Span) {
         if let Some(file) = self.decoder.calls.tool_data_file.clone() {
             self.call_of_list(&file, "P-CHAN-00429", span);
         }
     }
 
-    /// The modal cycle after a block that began at this number of levels; not inside cycles, and after a block that moves nothing
-    /// only where it neither calls nor ends a program. Source: TF5200 programming manual, cycles as subroutines.
+    /// The modal cycle after a block that began at this number of levels. Not inside cycles; after a block without
+    /// motion only if the block neither calls nor ends a program. Source: TF5200 programming manual, cycles as
+    /// subroutines.
     pub(in crate::exec) fn modal_cycle(&mut self, levels: usize) {
         let Some(cycle) = &self.decoder.calls.modal_cycle else { return };
         let inside = self.levels.iter().any(|l| l.cycle.is_some()) || self.levels.len() < levels;
@@ -331,7 +334,7 @@ impl Executor {
     }
 }
 
-/// False for `@P0` and `@P201`. Source: TF5200 programming manual 206859019.
+/// False for `@P0` and for numbers above `@P200`. Source: TF5200 programming manual 206859019.
 fn is_cycle_parameter(key: &str) -> bool {
     let index = key.strip_prefix("@P").filter(|index| index.bytes().all(|b| b.is_ascii_digit()));
     index.is_none_or(|index| matches!(index.parse(), Ok(1..=200_u32)))

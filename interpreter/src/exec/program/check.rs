@@ -1,4 +1,4 @@
-//! Decoding without moving: all diagnostics of a program.
+//! Decodes a program without moving, and collects all its diagnostics.
 
 use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};
@@ -9,30 +9,30 @@ use crate::machine::Machine;
 use crate::source::Sources;
 use std::sync::Arc;
 
-/// What a check found.
+/// Result of a check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// Everything there is to say about the program.
+    /// All diagnostics of the program.
     pub diagnostics: Vec<Diagnostic>,
-    /// Names of its files, the main program first; none if it cannot be opened.
+    /// Names of its files, the main program first; empty if that cannot be opened.
     pub files: Vec<Arc<str>>,
-    /// A run may reach more files, called from a part of the program that the check did not reach.
+    /// Whether a run may open more files, called from a part of the program that the check did not reach.
     pub calls_more: bool,
-    /// What its commands say about the Vibration Guard.
+    /// The settings of its commands for the Vibration Guard.
     pub guard: GuardCommands,
 }
 
 impl Checked {
-    /// True if the program is refused: a run would stop where an error is. A limit (K-0017) stops a run where it is met and
-    /// refuses nothing.
+    /// Whether the program is refused: a run would stop at an error. A limit (K-0017) ends a run where it is reached,
+    /// but does not refuse the program.
     pub fn refuses(&self) -> bool {
         self.diagnostics.iter().any(|d| d.is_error() && d.id != Condition::Endless)
     }
 }
 
-/// Executes a program as if every axis were always at its command position, continues after errors where it can, and
-/// returns all diagnostics; it stops after 20 errors, and where the limits of the options stop a run (K-0017). What did
-/// not run is looked at for its syntax (K-0118).
+/// Executes a program as if every axis were always at its command position, continues after errors where possible, and
+/// returns all diagnostics. It stops after 20 errors, and where the limits in the options stop a run (K-0017). Parts
+/// that were not executed are checked for their syntax (K-0118).
 pub(crate) fn check(
     sources: Arc<dyn Sources>,
     program: &str,

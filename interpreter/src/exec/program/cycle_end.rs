@@ -1,13 +1,14 @@
-//! State that the end of a cycle restores: G functions without values, centre and radius of arcs, the feed.
+//! State restored at the end of a cycle: G functions without values, centre and radius of arcs, the feed rate.
 //!
-//! G functions with values or axis words (G92, G129, G159=2, G351) and what `#` commands set stay. `#RETAIN CYCLE CHANGES` and
-//! P-CHAN-00210 = 1 let all stay, as in subroutines; `V.G.CYCLE_CHANGES_MODAL` is P-CHAN-00210 for the cycle in work and those
-//! after it (assumption: the page names the variable alone). Source: channel parameters 476043659.
+//! G functions with values or axis words (G92, G129, G159=2, G351) and the settings of `#` commands are kept. With
+//! `#RETAIN CYCLE CHANGES` and P-CHAN-00210 = 1 everything is kept, as in subroutines. `V.G.CYCLE_CHANGES_MODAL` sets
+//! P-CHAN-00210 for the current cycle and those after it (assumption: the page only names the variable). Source:
+//! channel parameters 476043659.
 //!
-//! Assumption: G96 stays, as it has a value (S), and so does G97, which ends it.
+//! Assumption: G96 is kept, because it has a value (S), and so is G97, which ends it.
 //!
-//! Assumption: a system of `#CS` that the cycle leaves open, or closes, keeps the zero offset that it has; G69 in a cycle stays,
-//! as G68 has values.
+//! Assumption: a system of `#CS` that the cycle leaves open, or closes, retains its current zero offset; G69 in a cycle
+//! is kept, because G68 has values.
 
 use super::state::BeforeCycle;
 use crate::exec::block::modal::Modal;

@@ -1,4 +1,4 @@
-//! Runs a program: blocks one after the other, through levels, loops and branches.
+//! Runs a program block by block, through levels, loops and branches.
 
 mod budget;
 mod found;
@@ -24,16 +24,16 @@ use kontur_motion::axis::AxisVec;
 use std::fmt;
 use std::sync::Arc;
 
-/// Where the execution is.
+/// Progress of the execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Running,
-    /// The block at the place of the level waits for actual positions.
+    /// The next block of the level waits for actual positions.
     WaitsForActual,
     Ended,
 }
 
-/// Runs one program and hands out its steps.
+/// Runs one program and returns its steps.
 pub(crate) struct Executor {
     pub(in crate::exec) decoder: Decoder,
     pub(in crate::exec) sources: Arc<dyn Sources>,
@@ -47,13 +47,13 @@ pub(crate) struct Executor {
     start: AxisVec,
     pub(super) found: Found,
     budget: Budget,
-    /// Place of the block in work.
+    /// Position of the current block.
     pub(in crate::exec) position: Position,
-    /// What was executed, while checking.
+    /// Blocks executed so far, during a check.
     pub(in crate::exec) reached: Reached,
-    /// What a check did not execute calls further files.
+    /// Whether blocks that a check did not execute call further files.
     pub(in crate::exec) calls_more: bool,
-    /// The program of P-CHAN-00252 has been called.
+    /// Whether the program of P-CHAN-00252 has been called.
     pub(in crate::exec) end_program_called: bool,
     reason: EndReason,
 }
@@ -69,8 +69,8 @@ impl fmt::Debug for Executor {
 }
 
 impl Executor {
-    /// A program before its first block. If it cannot be opened, the first step is [`Step::End`] and the diagnostics
-    /// say why.
+    /// A program before its first block. If it cannot be opened, the first step is [`Step::End`], and the diagnostics
+    /// give the reason.
     pub(crate) fn new(
         sources: Arc<dyn Sources>,
         program: &str,
@@ -168,7 +168,7 @@ impl Executor {
         }
     }
 
-    /// Opens a file; what is wrong is reported.
+    /// Opens a file; reports problems.
     pub(in crate::exec) fn open(&mut self, name: &str, caller: Option<usize>) -> Option<usize> {
         match self.files.open(&*self.sources, name, caller, self.skip, &self.parser) {
             Ok((file, diagnostics)) => {
@@ -190,7 +190,8 @@ impl Executor {
         }
     }
 
-    /// The next step of the program; after [`Step::End`] always that again. Without feedback, that of the last time holds.
+    /// The next step of the program; after [`Step::End`] always that again. Without feedback, the last one remains
+    /// valid.
     pub(crate) fn next(&mut self, feedback: Option<Feedback>) -> Step {
         if let Some(feedback) = feedback {
             self.decoder.feedback = feedback;
@@ -223,7 +224,7 @@ impl Executor {
         }
     }
 
-    /// [`Self::take_diagnostics`] would return some.
+    /// Whether [`Self::take_diagnostics`] would return any.
     pub(crate) fn has_diagnostics(&self) -> bool {
         self.found.any()
     }
@@ -233,12 +234,12 @@ impl Executor {
         self.found.take()
     }
 
-    /// Names of the files that took part so far; [`SourceRef::file`] is an index.
+    /// Names of the files opened so far; [`SourceRef::file`] is an index into them.
     pub(crate) fn files(&self) -> &[Arc<str>] {
         self.files.names()
     }
 
-    /// Place of a block whose step was handed out; its text is read again.
+    /// Position of a block whose step was returned; its text is read again.
     pub(crate) fn locate(&mut self, source: SourceRef) -> Option<Location> {
         if source.line == 0 {
             return None;
@@ -249,12 +250,12 @@ impl Executor {
         Some(location)
     }
 
-    /// Kernels in force; before the first step those of the axis lists.
+    /// Current kernels; before the first step those of the axis lists.
     pub(crate) fn shaping(&self) -> &ShapingSetup {
         &self.decoder.shaping.setup
     }
 
-    /// What the commands executed so far say about the Vibration Guard.
+    /// The settings of the Vibration Guard by the commands executed so far.
     pub(crate) fn guard_commands(&self) -> &GuardCommands {
         &self.decoder.shaping.commands
     }
@@ -264,7 +265,7 @@ impl Executor {
         self.decoder.values.timers.act(id, act, now_s);
     }
 
-    /// The machine as the program has it: with the values of `#MACHINE DATA` up to the step handed out last.
+    /// The machine as seen by the program: with the values of `#MACHINE DATA` up to the last step returned.
     pub(crate) fn machine(&self) -> &Arc<Machine> {
         &self.decoder.machine
     }
@@ -274,7 +275,7 @@ impl Executor {
         self.budget.blocks()
     }
 
-    /// Where the axes are at rest at program start.
+    /// Rest position of the axes at program start.
     pub(crate) fn start_position(&self) -> &AxisVec {
         &self.start
     }
@@ -285,7 +286,7 @@ impl Executor {
     }
 }
 
-/// A file as [`SourceRef`] names it.
+/// The number of a file in [`SourceRef`].
 fn file_number(file: usize) -> u32 {
     u32::try_from(file).unwrap_or(u32::MAX)
 }

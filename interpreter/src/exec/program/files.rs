@@ -1,4 +1,4 @@
-//! Open program files: text, structure, and the parsed blocks of what runs more than once.
+//! Open program files: text, structure, and the parsed blocks that run more than once.
 
 use super::actual::needs_actual;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
@@ -16,26 +16,26 @@ use std::io;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Blocks of all files that are kept parsed; those beyond are parsed again on every pass.
+/// Maximum number of parsed blocks kept for all files; further ones are parsed again on every pass.
 const CACHED_MAX: usize = 50_000;
 
-/// Numbers of several blocks that are remembered for one program.
+/// Maximum number of block numbers used more than once that are kept per program.
 const TWICE_MAX: usize = 10_000;
 
 /// A parsed block.
 #[derive(Debug)]
 pub(in crate::exec) struct Parsed {
     pub(in crate::exec) block: Block,
-    /// What the block waits for to read actual positions.
+    /// The event for which the block waits before it reads actual positions.
     pub(in crate::exec) needs_actual: Option<Sync>,
-    /// Its text has an error.
+    /// Whether its text has an error.
     pub(in crate::exec) faulty: bool,
 }
 
 /// A block to be executed.
 #[derive(Debug)]
 pub(in crate::exec) enum Fetched {
-    /// A plain block that runs once, in [`Files::plain`]: no tree is made without need.
+    /// A plain block that runs once, in [`Files::plain`]: its tree is made only if needed.
     Plain,
     Tree(Tree),
 }
@@ -43,9 +43,9 @@ pub(in crate::exec) enum Fetched {
 /// A block with its tree.
 #[derive(Debug)]
 pub(in crate::exec) enum Tree {
-    /// It runs again: its file keeps it too.
+    /// It runs again, so its file keeps it as well.
     Kept(Arc<Parsed>),
-    /// It is parsed for this once.
+    /// Parsed for this run only.
     Once(Parsed),
 }
 
@@ -71,19 +71,19 @@ pub(in crate::exec) struct ProgramFile {
 
 type Macros = BTreeMap<Box<str>, Box<str>>;
 
-/// How a block is to be read.
+/// The way a block is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) struct Reading {
-    /// Keep the block: it runs again.
+    /// Whether to keep the block, because it runs again.
     pub(in crate::exec) keep: bool,
     /// Between `#VAR` and `#ENDVAR`.
     pub(in crate::exec) declaration: bool,
 }
 
-/// How a block that is not executed is to be looked at.
+/// The way a block that is not executed is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Look {
-    /// Not at all.
+    /// No check.
     Pass,
     Block,
     /// Between `#VAR` and `#ENDVAR`.
@@ -96,9 +96,9 @@ pub(in crate::exec) struct Files {
     open: Vec<ProgramFile>,
     names: Vec<Arc<str>>,
     cached: usize,
-    /// The plain block that was read last.
+    /// The last plain block read.
     plain: Plain,
-    /// File of a name as written in a program of a file.
+    /// Files by the name written in a program of a file.
     resolved: BTreeMap<(usize, Box<str>), usize>,
 }
 
@@ -113,7 +113,7 @@ impl Files {
         }
     }
 
-    /// The block that [`Fetched::Plain`] means.
+    /// The block to which [`Fetched::Plain`] refers.
     pub(in crate::exec) fn plain(&self) -> &Plain {
         &self.plain
     }
@@ -126,7 +126,7 @@ impl Files {
         &self.open[file]
     }
 
-    /// The file of a name as written in `caller`; what is wrong with the structure of a new one comes beside.
+    /// The file with a name as written in `caller`. Faults in the structure of a new file are returned as well.
     pub(in crate::exec) fn open(
         &mut self,
         sources: &dyn Sources,
@@ -166,7 +166,7 @@ impl Files {
         Ok((file, diagnostics))
     }
 
-    /// Forgets parsed blocks: names or macros have changed.
+    /// Discards parsed blocks, because names or macros have changed.
     pub(in crate::exec) fn forget(&mut self) {
         for file in &mut self.open {
             file.cache.clear();
@@ -181,7 +181,7 @@ impl Files {
         }
     }
 
-    /// The block at a place and the place of the next one; `None` at the end of the file.
+    /// The block at a position, and the position of the next one; `None` at the end of the file.
     pub(in crate::exec) fn block(
         &mut self,
         file: usize,
@@ -217,8 +217,8 @@ impl Files {
         Ok(Some((Fetched::Tree(Tree::Kept(parsed)), next)))
     }
 
-    /// Reads the line at a place as a plain block, as [`Parser::plain_line`] does, and returns the place of the next one,
-    /// too; `None` also if it has to be read as a block first, to see what it is.
+    /// Reads the line at a position as a plain block, as [`Parser::plain_line`] does, and returns the position of the
+    /// next one as well. `None` also if its kind shows only when it is read as a block.
     #[inline]
     pub(in crate::exec) fn plain_line(
         &mut self,
@@ -232,8 +232,8 @@ impl Files {
         Some((frame, reader.position()))
     }
 
-    /// The syntax of a block that is not executed, and the place of the next one. A diagnostic is marked if it concerns
-    /// block number or control statement.
+    /// The syntax of a block that is not executed, and the position of the next one. A diagnostic is marked if it
+    /// concerns the block number or a control statement.
     pub(in crate::exec) fn look(
         &mut self,
         file: usize,
@@ -266,7 +266,8 @@ impl Files {
         Ok(Some((block, reader.position())))
     }
 
-    /// Place of the first block of each number of a section, outside of `#COMMENT`; `None` if these are too many to be kept.
+    /// Position of the first block with each number in a section, outside `#COMMENT`; `None` if there are too many to
+    /// keep.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -292,18 +293,18 @@ impl Files {
         Ok(Some(Numbers { first: numbers, twice }).filter(|n| n.first.bytes() <= STRUCTURE_MAX))
     }
 
-    /// Place of the block that follows the one at a position.
+    /// Position of the block that follows the one at a position.
     pub(super) fn behind(&mut self, file: usize, position: Position) -> Position {
         let ProgramFile { reader, .. } = &mut self.open[file];
         reader.seek(position);
-        // it was read before: what cannot be read now ends there
+        // it was read before: where it can no longer be read, the file ends
         match reader.next_block() {
             Ok(Some(_)) => reader.position(),
             _ => position,
         }
     }
 
-    /// Place of all of the block at a position.
+    /// Position of the whole block.
     pub(in crate::exec) fn locate_block(
         &mut self,
         file: usize,
@@ -317,7 +318,7 @@ impl Files {
         Some(raw.locate(name, Span::new(start, end)))
     }
 
-    /// Place of a span of the block at a position.
+    /// Position of a span within the block.
     pub(in crate::exec) fn locate(
         &mut self,
         file: usize,
@@ -372,8 +373,8 @@ fn parse(
     }
 }
 
-/// K-MACRO-CONTROL if a block gets a place in the structure of its program only through its macros: the structure is known
-/// before them.
+/// K-MACRO-CONTROL if only the macros of a block give it a place in the structure of its program: the structure is
+/// determined before the macros are known.
 fn structure_of_macro(
     raw: &RawBlock<'_>,
     expanded: &RawBlock<'_>,

@@ -1,7 +1,7 @@
 //! Control statements; loops are in `loops`, jumps in [`super::jumps`].
 //!
-//! Source: TF5200 programming manual, control blocks. Assumptions: `$CASE` falls through; bounds of `$FOR` are taken
-//! once.
+//! Source: TF5200 programming manual, control blocks. Assumptions: `$CASE` falls through; the bounds of `$FOR` are
+//! evaluated once.
 
 mod loops;
 
@@ -19,7 +19,7 @@ use std::sync::Arc;
 const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
 
 impl Executor {
-    /// Carries out a control statement that the index lists as `id`.
+    /// Executes a control statement listed in the index as `id`.
     pub(in crate::exec) fn control(&mut self, control: &Control, id: EntryId) {
         let span = control.span;
         let outcome = match &control.kind {
@@ -36,7 +36,7 @@ impl Executor {
                 Ok(())
             }
             ControlKind::Switch { target, value } => self.switch(target.as_ref(), value, id, span),
-            // the case before falls through
+            // the case before it falls through
             ControlKind::Case(_) | ControlKind::Default => Ok(()),
             ControlKind::For { counter, start, end, step } => {
                 self.for_loop(counter, start, end, step.as_ref(), id, span)
@@ -59,20 +59,20 @@ impl Executor {
         self.decoder.report.keep(outcome);
     }
 
-    /// A condition; a fault in it is reported and counts as false.
+    /// Evaluates a condition; a fault in it is reported and counts as false.
     fn test(&mut self, condition: &Expr) -> bool {
         let outcome = self.decoder.condition(condition);
         self.decoder.report.keep(outcome).unwrap_or(false)
     }
 
-    /// Execution continues at a place.
+    /// Continues at a position.
     fn jump_to(&mut self, position: Position) {
         if let Some(level) = self.levels.last_mut() {
             level.at = position;
         }
     }
 
-    /// Execution continues after the block at a place.
+    /// Continues after the block at a position.
     pub(in crate::exec) fn jump_behind(&mut self, position: Position) {
         let Some(level) = self.levels.last() else { return };
         let file = level.file;
@@ -103,7 +103,7 @@ impl Executor {
         }
     }
 
-    /// Closes the structure that a clause or closing statement belongs to, and everything inside.
+    /// Closes the structure to which a clause or closing statement belongs, and everything inside it.
     fn pop_frame_of(&mut self, id: EntryId) {
         let Some(level) = self.levels.last_mut() else { return };
         let open = level.index.entry(id).open;
@@ -112,7 +112,7 @@ impl Executor {
         }
     }
 
-    /// 21500, 21501, 21502: the closing statement is missing; the rest of the level is not looked at.
+    /// 21500, 21501, 21502: the closing statement is missing; the rest of the level is ignored.
     fn unclosed(&mut self, id: EntryId, span: Span) -> Box<Fault> {
         self.skip_to_level_end();
         if let Some(level) = self.levels.last_mut() {
@@ -145,7 +145,7 @@ impl Executor {
         self.next_clause(id, span)
     }
 
-    /// Goes through `$ELSEIF` and `$ELSE` until one is taken.
+    /// Evaluates `$ELSEIF` and `$ELSE` until one is taken.
     fn next_clause(&mut self, id: EntryId, span: Span) -> Outcome<()> {
         let mut at = id;
         loop {
@@ -188,12 +188,12 @@ impl Executor {
         }
     }
 
-    /// The taken branch ends at another clause: execution continues after the structure.
+    /// The branch taken ends at another clause: execution continues after the structure.
     fn skip_clauses(&mut self, clause: EntryId, span: Span) -> Outcome<()> {
         let Some(level) = self.levels.last() else { return Ok(()) };
         let entry = level.index.entry(clause);
         match (entry.open, entry.end) {
-            // a stray one has been reported
+            // an unmatched clause has already been reported
             (None, _) => Ok(()),
             (Some(open), None) => {
                 self.pop_frame_of(clause);
@@ -206,7 +206,7 @@ impl Executor {
         }
     }
 
-    /// Execution continues after the structure.
+    /// Continues after the structure.
     fn leave_structure(&mut self, id: EntryId) {
         let Some(level) = self.levels.last() else { return };
         let end = level.index.entry(id).end;
@@ -279,7 +279,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Blocks between `$SWITCH` and its first clause belong to none.
+    /// Blocks between `$SWITCH` and its first clause do not belong to any case.
     fn before_clauses(&mut self, file: usize, first: Position, span: Span) {
         let mut at = self.levels.last().map_or(first, |level| level.at);
         let switch = self.position.offset;

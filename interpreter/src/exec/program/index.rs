@@ -1,7 +1,7 @@
-//! Structure of a program file: heads, control statements and labels with their places; nothing else is kept.
+//! Structure of a program file: heads, control statements and labels with their positions; other blocks are not kept.
 //!
-//! One pass over the text, without parsing: only the beginning of a block is looked at. So a jump needs no search, and
-//! memory does not depend on the blocks in between.
+//! It is built in one pass over the text without parsing: only the beginning of a block is read. So a jump needs no
+//! search, and memory does not depend on the blocks in between.
 
 mod build;
 mod entries;
@@ -34,9 +34,9 @@ pub(in crate::exec) struct Entry {
     /// The keyword in its block.
     pub(in crate::exec) span: Span,
     pub(in crate::exec) keyword: Keyword,
-    /// Statement that opened the structure; itself for an opening one.
+    /// Statement that opened the structure; an opening statement refers to itself.
     pub(in crate::exec) open: Option<EntryId>,
-    /// Next clause of the structure, at last its closing statement.
+    /// Next clause of the structure, finally its closing statement.
     pub(in crate::exec) next: Option<EntryId>,
     /// Closing statement.
     pub(in crate::exec) end: Option<EntryId>,
@@ -45,7 +45,7 @@ pub(in crate::exec) struct Entry {
 }
 
 impl Entry {
-    /// Without partners; `start` is the place of the keyword in its block.
+    /// A statement without partners; `start` is the position of the keyword in its block.
     fn alone(position: Position, start: usize, keyword: Keyword) -> Self {
         let span = Span::new(start, start + keyword.text().len());
         Self { position, span, keyword, open: None, next: None, end: None, parent: None }
@@ -67,7 +67,7 @@ pub(in crate::exec) struct Section {
     pub(in crate::exec) local: bool,
     /// First block.
     pub(in crate::exec) start: Position,
-    /// Where the next section or nothing begins.
+    /// Offset at which the next section begins, or of the end of the file.
     pub(in crate::exec) end: u64,
 }
 
@@ -79,14 +79,14 @@ pub(in crate::exec) struct Index {
     labels: Labels,
     /// First local subroutine of each name.
     locals: BTreeMap<Arc<str>, usize>,
-    /// The same without regard to case: names in upper case.
+    /// The same without regard to case; names in upper case.
     locals_upper: BTreeMap<String, usize>,
     /// Head of a further program with blocks, after the end of the main one.
     pub(super) further: Option<Location>,
 }
 
 impl Index {
-    /// The entry at a place.
+    /// The entry at a position.
     pub(in crate::exec) fn at(&self, position: Position) -> Option<EntryId> {
         let (id, last) = self.entries.last_up_to(position.offset)?;
         (last.offset == position.offset).then_some(id)
@@ -103,7 +103,7 @@ impl Index {
 
     /// Whether a jump leads from outside into a branch between `#IF` and `#ENDIF`.
     ///
-    /// Assumption: such a branch may be none of the program's, and which one is only known when its `#IF` is reached; the
+    /// Assumption: such a branch may not be part of the program, and this is known only when its `#IF` is executed; the
     /// documents are silent.
     pub(super) fn enters_conditional(&self, from: u64, to: u64) -> bool {
         let position = |id: EntryId| self.entry(id).position.offset;
@@ -121,9 +121,9 @@ impl Index {
         self.labels.get(section, label)
     }
 
-    /// Where a block is in the structure of its section; `None` inside `#COMMENT` and `#RT CYCLE`.
+    /// The position of a block in the structure of its section; `None` inside `#COMMENT` and `#RT CYCLE`.
     pub(super) fn block(&self, position: Position) -> Option<LabelPlace> {
-        // the last statement up to the block says what the block is in
+        // the last statement up to the block determines its surroundings
         let Some((id, _)) = self.entries.last_up_to(position.offset) else {
             return Some(LabelPlace { position, parent: None });
         };
@@ -143,17 +143,17 @@ impl Index {
             (_, Some(open)) if closes && !itself => self.entry(open).parent,
             (_, open) => open,
         };
-        // one without its end does not reach into the next section
+        // a structure without its end does not extend into the next section
         let parent = parent.filter(|id| self.entry(*id).end.is_some());
         Some(LabelPlace { position, parent })
     }
 
-    /// True if a jump can lead between two places.
+    /// Whether a jump can lead to a label between two positions.
     pub(super) fn has_label(&self, from: u64, to: u64) -> bool {
         self.labels.any_between(from, to)
     }
 
-    /// The local subroutine of a name: as written, or else without regard to case.
+    /// The local subroutine with a name: as written, otherwise without regard to case.
     pub(super) fn local(&self, name: &str) -> Option<usize> {
         let exact = self.locals.get(name);
         exact.or_else(|| self.locals_upper.get(&name.to_ascii_uppercase())).copied()

@@ -1,8 +1,8 @@
-//! What system variables say about the running program.
+//! Properties of the running program, for system variables.
 
 use std::sync::Arc;
 
-/// Names and place of the running program.
+/// Names and position of the running program.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::exec) struct ProgramInfo {
     pub(in crate::exec) main_file: Arc<str>,

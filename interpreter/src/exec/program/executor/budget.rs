@@ -1,8 +1,8 @@
-//! How many blocks a program may execute.
+//! The number of blocks that a program may execute.
 
 use crate::exec::options::{Options, Stop};
 
-/// Blocks executed, and where a program is ended that does not end itself.
+/// Counts executed blocks, and ends a program that does not end by itself.
 #[derive(Debug)]
 pub(super) struct Budget {
     blocks: u64,
@@ -11,7 +11,7 @@ pub(super) struct Budget {
     max_blocks: u64,
     max_at_rest: u64,
     stop: Stop,
-    /// A limit ended the program before its own end.
+    /// Whether a limit ended the program early.
     is_used_up: bool,
 }
 
@@ -19,9 +19,9 @@ pub(super) struct Budget {
 #[derive(Debug)]
 pub(super) enum Verdict {
     Continue,
-    /// The program is stopped from outside.
+    /// The program is stopped by its host.
     Stopped,
-    /// The reason.
+    /// A limit is exceeded; contains the reason.
     Endless(String),
 }
 
@@ -55,7 +55,7 @@ impl Budget {
         }
     }
 
-    /// Something took time.
+    /// Restarts the count of blocks at rest, after a motion or dwell.
     pub(super) fn moved(&mut self) {
         self.at_rest = 0;
     }
@@ -65,7 +65,7 @@ impl Budget {
         self.blocks
     }
 
-    /// A limit ends the program before its own end.
+    /// A limit ends the program early.
     pub(super) fn use_up(&mut self) {
         self.is_used_up = true;
     }

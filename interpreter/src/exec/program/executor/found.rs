@@ -1,36 +1,36 @@
-//! The messages of one run: each once, and not more than can be read.
+//! The messages of one run: each only once, and a limited number.
 
 use crate::diag::{Diagnostic, Id};
 use crate::exec::block::dialect;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
+/// Number of errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
 pub(super) const ERRORS_MAX: usize = 20;
-/// Blocks that a check executes after the first error: a wrong program may also be an endless one.
+/// Blocks that a check executes after the first error: a faulty program may also be an endless one.
 pub(super) const BLOCKS_BEHIND_ERROR: u64 = 1_000_000;
 
-/// Errors in places that have had one after which a check stops: one that a loop repeats without end says nothing new, and
-/// looking for what may have been meant takes as long each time.
+/// Number of repeated errors after which a check stops: errors that a loop repeats without end contain nothing new, and
+/// the search for the intended word takes the same time at every repetition.
 const REPEATED_MAX: u64 = 10_000;
 
-/// Diagnostics of one run; further ones are reported only if they are errors.
+/// Maximum number of diagnostics of one run; beyond it only errors are reported.
 const DIAGNOSTICS_MAX: usize = 1000;
 
-/// Diagnostics that a run has found.
+/// Diagnostics found by a run.
 #[derive(Debug, Default)]
 pub(in crate::exec::program) struct Found {
     diagnostics: Vec<Diagnostic>,
     known: BTreeSet<(Id, Arc<str>, u32, u64)>,
     errors: usize,
-    /// Errors that were not new.
+    /// Number of repeated errors.
     repeated: u64,
-    /// Blocks executed up to the first error.
+    /// Number of blocks executed up to the first error.
     first_error: Option<u64>,
 }
 
 impl Found {
-    /// True if a diagnostic is new: one at each place, words of other dialects once in a program.
+    /// Whether a diagnostic is new: one per position; words of other dialects once per program.
     pub(super) fn is_new(&mut self, diagnostic: &Diagnostic) -> bool {
         let key = match &diagnostic.source {
             Some(l) if !dialect::is_foreign_word(diagnostic.id) => {
@@ -38,7 +38,7 @@ impl Found {
             }
             _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
-        // a program with a remark in every line must not fill the memory
+        // a program with a remark in every line must not exhaust memory
         let is_new = if self.known.len() >= DIAGNOSTICS_MAX {
             !self.known.contains(&key) && diagnostic.is_error()
         } else {
@@ -48,7 +48,7 @@ impl Found {
         is_new
     }
 
-    /// Adds a diagnostic, met after so many blocks.
+    /// Adds a diagnostic found after this number of blocks.
     pub(super) fn add(&mut self, diagnostic: Diagnostic, blocks: u64) {
         if diagnostic.is_error() {
             self.errors += 1;
@@ -57,7 +57,7 @@ impl Found {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Something has been reported since the last call of [`Self::take`].
+    /// Whether anything has been reported since the last call of [`Self::take`].
     pub(super) fn any(&self) -> bool {
         !self.diagnostics.is_empty()
     }
@@ -72,7 +72,7 @@ impl Found {
         self.errors
     }
 
-    /// Why a check stops after so many blocks, if it does.
+    /// The reason for which a check stops after this number of blocks, if there is one.
     pub(super) fn is_enough(&self, blocks: u64) -> Option<String> {
         let behind = blocks - self.first_error.unwrap_or(blocks);
         if self.errors >= ERRORS_MAX {

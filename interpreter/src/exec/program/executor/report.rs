@@ -1,4 +1,4 @@
-//! Places of messages, the number of messages, and the end of a program.
+//! Positions and number of messages, and the end of a program.
 
 use super::{Executor, State};
 use crate::diag::{Condition, Diagnostic, Location};
@@ -9,7 +9,7 @@ use crate::source::Position;
 use crate::syntax::ast::Span;
 
 impl Executor {
-    /// The diagnostic of a fault with its place.
+    /// The diagnostic of a fault with its position.
     pub(super) fn placed(&mut self, fault: Fault) -> Diagnostic {
         let Fault { mut diagnostic, span, origin } = fault;
         if diagnostic.source.is_none() {
@@ -21,7 +21,7 @@ impl Executor {
         diagnostic
     }
 
-    /// Place of a span of the block in work, also if it has left its level or entered another.
+    /// Position of a span of the current block, even if the block has left its level or entered another.
     pub(in crate::exec) fn here(&mut self, span: Span) -> Option<Location> {
         let Position { offset, line } = self.position;
         self.place_in(SourceRef { line, offset, ..self.decoder.report.source }, span)
@@ -38,13 +38,13 @@ impl Executor {
         Some(location)
     }
 
-    /// Place of a span of a block of the present level.
+    /// Position of a span of a block of the current level.
     pub(in crate::exec) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
         let file = self.levels.last()?.file;
         self.files.locate(file, position, span, &self.decoder.calls.macros)
     }
 
-    /// Adds a diagnostic, once per place; words of other dialects once per program.
+    /// Adds a diagnostic, once per position; words of other dialects once per program.
     pub(in crate::exec) fn report(&mut self, mut diagnostic: Diagnostic) {
         if !self.found.is_new(&diagnostic) {
             return;
@@ -55,12 +55,12 @@ impl Executor {
         let foreign = diagnostic.id == Condition::ForeignProgram.id();
         self.found.add(diagnostic, self.budget.blocks());
         if foreign {
-            // the rest of such a program would give the same messages in other words
+            // the rest of such a program would repeat the same messages with other words
             self.end(EndReason::Aborted);
         }
     }
 
-    /// Ends the program: what was prepared is still driven.
+    /// Ends the program: motion already prepared is still executed.
     pub(in crate::exec) fn end(&mut self, reason: EndReason) {
         if self.state == State::Ended {
             return;

@@ -1,15 +1,15 @@
-//! Plain straight motions in a row: almost all of a long program.
+//! Sequences of plain straight motions, which make up almost all of a long program.
 //!
-//! What the general route looks up for each block cannot have changed after a plain motion: macros, names, loops
-//! and levels change in other blocks only. So the next line is taken as it is in the text; if it is anything but one
-//! more plain motion, nothing has happened and it takes the general route.
+//! Everything that the general path looks up for each block is unchanged after a plain motion, because macros, names,
+//! loops and levels change only in other blocks. The next line is therefore read directly from the text. If it is not
+//! another plain motion, nothing is changed, and it takes the general path.
 
 use super::{Executor, State};
 use crate::exec::motion::state::Straight;
 use crate::exec::motion::straight::StraightWords;
 use crate::source::Position;
 
-/// Where a plain motion is that comes next.
+/// Position of the plain motion that comes next.
 struct Ahead {
     number: Option<u64>,
     file: usize,
@@ -18,8 +18,8 @@ struct Ahead {
 }
 
 impl Executor {
-    /// Executes the next block if it is one more plain motion after one that has left `shared`; false, and nothing done,
-    /// if not.
+    /// Executes the next block if it is another plain motion after one that left `shared`; otherwise returns false and
+    /// changes nothing.
     pub(super) fn straight_on(&mut self, shared: Box<Straight>) -> bool {
         let mut words = StraightWords::default();
         let Some(ahead) = self.straight_ahead(&mut words) else { return false };
@@ -30,9 +30,8 @@ impl Executor {
         true
     }
 
-    /// While the program is only looked at: executes the next block if it is one more plain motion, without making a step
-    /// of it where that is possible, and returns the time in s of the motion before it; `None`, and nothing done, if it is
-    /// anything else.
+    /// During a check: executes the next block if it is another plain motion, where possible without making a step of
+    /// it, and returns the time in s of the motion before it. Otherwise returns `None` and changes nothing.
     pub(in crate::exec::program) fn straight_by(&mut self) -> Option<f64> {
         let in_row = self.decoder.straight.is_some() && self.state == State::Running;
         if !in_row || !self.decoder.contour.lets_by() {
@@ -78,7 +77,7 @@ impl Executor {
         counted
     }
 
-    /// Most motions have nothing to say, and nothing was wrong before them.
+    /// Most motions cause no messages, and there were no errors before them.
     fn end_straight(&mut self) {
         if self.decoder.report.has_faults() || self.found.errors() > 0 {
             self.settle(false);

@@ -1,4 +1,4 @@
-//! One block after the other: fetching, conditions, loops and what a block leads to.
+//! Executes one block after the other: fetching, conditions, loops and the effects of a block.
 
 use super::budget::Verdict;
 use super::{Executor, State, file_number};
@@ -15,15 +15,15 @@ use crate::syntax::Parser;
 use crate::syntax::ast::{Block, BlockNumber, Body, Command, Span};
 use std::sync::Arc;
 
-/// Messages and functions between two motions for which the path does not stop.
+/// Number of messages and functions between two motions up to which the path does not stop.
 ///
-/// Assumption: the buffer of a channel is finite, too; a million messages in a loop must not fill the memory.
+/// Assumption: the buffer of a channel is finite, too; a million messages in a loop must not exhaust memory.
 const EVENTS_MAX: usize = 1000;
 
 impl Executor {
     /// Executes one block.
     pub(super) fn advance(&mut self, actual_known: bool) {
-        // whatever comes between two plain motions ends what they share
+        // any other block between two plain motions invalidates their shared state
         let straight = self.decoder.straight.take();
         if straight.is_some_and(|shared| self.straight_on(shared)) {
             return;
@@ -85,7 +85,7 @@ impl Executor {
         self.settle(faulty);
     }
 
-    /// The block between `at` and `next` is the one in work.
+    /// Makes the block between `at` and `next` the current one.
     pub(super) fn enter(&mut self, file: usize, at: Position, next: Position) {
         self.position = at;
         if self.decoder.checking {
@@ -118,7 +118,7 @@ impl Executor {
         }
     }
 
-    /// Comment blocks, inactive branches and remarks: true if the entry needs no parsing.
+    /// Comment blocks, inactive branches and remarks; true if the entry needs no parsing.
     fn jump_over(&mut self, id: EntryId) -> bool {
         let Some(level) = self.levels.last() else { return true };
         let entry = level.index.entry(id);
@@ -156,7 +156,7 @@ impl Executor {
         }
     }
 
-    /// The block at a place with its tree; reading errors end the program.
+    /// The block at a position with its tree; reading errors end the program.
     pub(in crate::exec) fn fetch(&mut self, file: usize, at: Position) -> Option<(Tree, Position)> {
         let (fetched, next) = self.read(file, at)?;
         let tree = match fetched {
@@ -218,7 +218,7 @@ impl Executor {
         self.settle(false);
     }
 
-    /// False if a limit was reached.
+    /// Counts a block; false if a limit has been reached.
     pub(super) fn count_block(&mut self) -> bool {
         match self.budget.count() {
             Verdict::Continue => return true,
@@ -230,7 +230,7 @@ impl Executor {
         false
     }
 
-    /// The program time of a check is over in the motion or wait of a block.
+    /// Ends a check whose program time ends within the motion or dwell of a block.
     pub(in crate::exec) fn end_by_time(&mut self, max_time_s: f64, at: SourceRef) {
         let more = if self.has_ended() { "" } else { ": the check ends here" };
         let text = format!("the program takes more than {max_time_s} s{more}");
@@ -245,12 +245,12 @@ impl Executor {
         }
     }
 
-    /// Block in work.
+    /// Current block.
     pub(in crate::exec) fn current(&self) -> SourceRef {
         self.decoder.report.source
     }
 
-    /// Ends the program at the block that comes next.
+    /// Ends the program at the next block.
     fn end_by_limit(&mut self, diagnostic: Diagnostic) {
         self.budget.use_up();
         let location =
@@ -262,7 +262,7 @@ impl Executor {
         self.end(EndReason::Aborted);
     }
 
-    /// True if a limit ended the program before its own end.
+    /// Whether a limit ended the program early.
     pub(in crate::exec) fn is_limited(&self) -> bool {
         self.budget.is_used_up()
     }
@@ -272,7 +272,7 @@ impl Executor {
             None => None,
             Some(BlockNumber::Literal(n)) => Some(*n),
             Some(BlockNumber::Computed(expr)) => {
-                // the one number that the control rounds itself
+                // the only number that the control itself rounds
                 let outcome = self.decoder.number(expr).and_then(|x| {
                     whole(x.round(), 0, u32::MAX).ok_or_else(|| {
                         let text = format!("a block number is {x}, allowed are 0 to {}", u32::MAX);
@@ -294,7 +294,7 @@ impl Executor {
         }
     }
 
-    /// What the block says.
+    /// Executes the content of a block.
     fn execute(&mut self, block: &Block, entry: Option<EntryId>) {
         if block.skip.is_some_and(|level| self.skip.contains(level)) {
             return;
@@ -363,7 +363,7 @@ impl Executor {
         self.decoder.report.keep(outcome);
     }
 
-    /// `#OPTIONAL EXECUTION ON` and `OFF` belong to one level; 21720 (255794059).
+    /// `#OPTIONAL EXECUTION ON` and `OFF` must be on the same level; otherwise 21720 (255794059).
     fn optional_execution(&mut self, command: &Command) {
         let (on, here) = (command.on, (self.position, command.span));
         let Some(level) = self.levels.last_mut() else { return };
@@ -378,7 +378,7 @@ impl Executor {
         }
     }
 
-    /// `#IF`: the branch that is not taken is not looked at.
+    /// `#IF`: the branch that is not taken is ignored.
     fn conditional(&mut self, command: &Command, id: EntryId) {
         if self.levels.last().is_some_and(|level| level.index.entry(id).end.is_none()) {
             let text = "#IF without #ENDIF";
@@ -403,7 +403,7 @@ impl Executor {
         }
     }
 
-    /// What is called at the end of a block runs before the block leaves its level or ends the program.
+    /// Programs called at the end of a block run before the block leaves its level or ends the program.
     fn after(&mut self, after: After<'_>) {
         let levels = self.levels.len();
         match after.call {
@@ -433,7 +433,7 @@ impl Executor {
             self.modal_cycle(levels);
         }
         let Some(closing) = closing else { return };
-        // the level that runs last is the one that was called first
+        // the level that runs last is the one called first
         match self.levels.get_mut(levels) {
             Some(called) => called.then = Some(closing),
             None => self.close(closing),

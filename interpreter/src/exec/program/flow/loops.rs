@@ -38,7 +38,7 @@ impl Executor {
             }
         };
         if matches!(&counter.kind, PlaceKind::Variable(name) if name.is_empty()) {
-            // reported while the block was read
+            // reported when the block was read
             self.leave_structure(id);
             return Ok(());
         }
@@ -88,11 +88,12 @@ impl Executor {
         Ok(())
     }
 
-    /// Back to the opening statement (`test`: which tests again) or after it.
+    /// Returns to the opening statement if `test` is set, which evaluates its condition again, otherwise to the block
+    /// after it.
     pub(super) fn repeat(&mut self, id: EntryId, test: bool) {
         let Some(level) = self.levels.last() else { return };
         let open = level.index.entry(id).open;
-        // a stray closing statement repeats nothing
+        // an unmatched closing statement does not repeat anything
         if !level.frames.iter().any(|f| Some(f.open) == open) {
             return;
         }
@@ -132,9 +133,10 @@ impl Executor {
         Ok(())
     }
 
-    /// Repeats while the condition is true, without one forever.
+    /// Repeats while the condition is true; without a condition forever.
     ///
-    /// Here FALSE is all below 0.5, negative values too; for `$WHILE` and `$IF` it is -0.5 to 0.5 (206946827, 206940939).
+    /// Here all values below 0.5 are FALSE, including negative ones; for `$WHILE` and `$IF` it is the range -0.5 to 0.5
+    /// (206946827, 206940939).
     pub(super) fn end_do(&mut self, condition: Option<&Expr>, id: EntryId) {
         let goes_on = condition.is_none_or(|condition| {
             let value = self.decoder.number(condition);
@@ -147,7 +149,7 @@ impl Executor {
         }
     }
 
-    /// Repeats until the condition is true, which is all above 0.5 here (206946827, in its German text and 15556885643).
+    /// Repeats until the condition is true, which here means above 0.5 (206946827, in its German text and 15556885643).
     pub(super) fn until(&mut self, condition: &Expr, id: EntryId) -> Outcome<()> {
         match self.decoder.number(condition) {
             Ok(x) if x <= 0.5 => self.repeat(id, false),
@@ -190,7 +192,7 @@ impl Executor {
     }
 }
 
-/// True if a counter has passed its last value, which is included.
+/// Whether a counter has passed its last value, which itself is included.
 fn passed(value: f64, end: f64, step: f64) -> bool {
     if step > 0.0 { value > end } else { step < 0.0 && value < end }
 }

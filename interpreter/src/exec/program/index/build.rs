@@ -15,22 +15,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::sync::Arc;
 
-/// Deepest nesting of control statements. Assumption: the vendor prints no number for 20211.
+/// Maximum nesting of control statements. Assumption: the vendor prints no number for 20211.
 const NESTING_MAX: usize = 64;
 
-/// Nesting at which the rest of a file is not read any more: mistakes up to there are reported one by one.
+/// Nesting at which reading of the file stops; up to this depth, each fault is reported.
 const NESTING_READ: usize = 4 * NESTING_MAX;
 
-/// Memory in bytes for control statements, labels and programs of one file: its structure is all that is kept of it.
+/// Maximum memory in bytes for control statements, labels and programs of one file: only its structure is kept.
 pub(in crate::exec::program) const STRUCTURE_MAX: usize = 100_000_000;
 
-/// Bytes that a program or a local subroutine takes, with its name.
+/// Memory in bytes of a program or a local subroutine, including its name.
 const SECTION_BYTES: usize = 256;
 
-/// Mistakes of structure that are reported for one file.
+/// Maximum number of structural faults reported for one file.
 const DIAGNOSTICS_MAX: usize = 100;
 
-/// The pass.
+/// State of the pass over the text.
 struct Builder<'a> {
     pub(super) file: &'a Arc<str>,
     pub(super) index: Index,
@@ -44,19 +44,19 @@ struct Builder<'a> {
     last_clause: BTreeMap<EntryId, EntryId>,
     /// Open structures that have had their `$DEFAULT`.
     defaults: BTreeSet<EntryId>,
-    /// Open comment or cycle in real time, and its place.
+    /// Open comment or real-time cycle, and its position.
     silent: Option<(EntryId, Location)>,
     pub(super) section: Option<usize>,
     has_main: bool,
-    /// `%` blocks inside the main program, with the end of the program seen before each.
+    /// `%` blocks inside the main program, each with whether the end of the program came before it.
     remarks: Vec<(EntryId, bool)>,
     end_seen: bool,
-    /// The main program if it has no head, and a local subroutine follows its blocks without M30.
+    /// The main program, if it has no head and a local subroutine follows its blocks without M30.
     unfinished: Option<usize>,
     /// `%` after the end of the main program, until a block follows.
     behind_end: Option<Location>,
     diagnostics: Vec<Diagnostic>,
-    /// Nothing more is read: it is nested too deep, or there is too much of it.
+    /// Whether reading has stopped, because the nesting is too deep or the file too large.
     gives_up: bool,
 }
 
@@ -77,7 +77,7 @@ impl Builder<'_> {
             self.program_head(raw, head.rest);
             return;
         }
-        // in a block that is too long, more may follow the part that is looked at
+        // in a block that is too long, more text may follow the part that is read
         let comment = first == Some(b'#') && is_command(head.rest, "COMMENT", "BEGIN");
         let content = first.is_some_and(|b| b != b';' && !comment)
             || head.label.is_some()
@@ -94,7 +94,7 @@ impl Builder<'_> {
         match first {
             Some(b'$') => self.control(raw, &head),
             Some(b'#') => self.command(raw, &head),
-            // without `$` it is an error of its block alone, not of what belongs to it
+            // without `$` only the block itself is faulty, not its structure
             Some(_) if Keyword::of_control(&word(head.rest)).is_some() => self.control(raw, &head),
             Some(_) if self.has_main => self.end_seen |= ends_program(raw.text),
             _ => {}
@@ -132,7 +132,7 @@ impl Builder<'_> {
         self.index.sections.push(Section { name, local, start, end: u64::MAX });
     }
 
-    /// The section ends here; open structures end with it.
+    /// Ends the section; open structures end with it.
     fn close(&mut self, offset: u64) {
         if let Some(section) = self.section.take() {
             self.index.sections[section].end = offset;
@@ -181,7 +181,7 @@ impl Builder<'_> {
             self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
             self.unfinished = None;
         } else if self.has_main {
-            // whether it is a remark is known at the end of the file
+            // only at the end of the file is it known whether it is a remark
             let id = self.push(raw.position, raw.text.len() - rest.len(), Keyword::Remark);
             if self.end_seen && !self.remarks.iter().any(|(_, ended_before)| *ended_before) {
                 let at = raw.text.len() - rest.len();
@@ -196,8 +196,8 @@ impl Builder<'_> {
         }
     }
 
-    /// What follows the name in the block of a `%` is not executed, unlike a remark it may look as if it were; `head` ends with the
-    /// block.
+    /// The text after the name in a `%` block is not executed, although it may look so, unlike a remark; `head` ends
+    /// with the block.
     fn words_after_name(&mut self, raw: &RawBlock<'_>, head: &str) {
         let Some(name) = name_of(head) else { return };
         let words = head[name.len()..].trim_start();
@@ -212,7 +212,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A `%` block ends the main program if the file continues with a further program.
+    /// A `%` block ends the main program if a further program follows in the file.
     fn decide_remarks(&mut self) {
         let Some(main) = self.index.main() else { return };
         let subroutine_behind =
@@ -297,14 +297,14 @@ impl Builder<'_> {
         }
     }
 
-    /// From here to its end nothing is looked at.
+    /// Ignores all blocks from here to the matching end.
     fn silence(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, keyword: Keyword) {
         let place = Span::new(head.at, head.at + head.rest.trim_end().len());
         let id = self.push(raw.position, head.at, keyword);
         self.silent = Some((id, raw.locate(self.file, place)));
     }
 
-    /// A comment that does not end in its file; a cycle in real time is refused where it is executed.
+    /// Reports a comment that does not end in its file; a real-time cycle is refused where it is executed.
     fn end_of_file(&mut self) {
         let Some((open, place)) = self.silent.take() else { return };
         if self.index.entry(open).keyword == Keyword::CommentBegin {
@@ -313,7 +313,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A command inside of a comment or a cycle in real time, which may be its end.
+    /// A command inside a comment or a real-time cycle, which may be its end.
     fn end_of_silence(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, open: EntryId) {
         let end = if self.index.entry(open).keyword == Keyword::CommentBegin {
             if !is_command(head.rest, "COMMENT", "END") {
@@ -331,7 +331,7 @@ impl Builder<'_> {
         self.silent = None;
     }
 
-    /// `#COMMENT BEGIN` and `#COMMENT END` are alone in their blocks.
+    /// Checks that `#COMMENT BEGIN` and `#COMMENT END` are alone in their blocks.
     fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, condition: Condition) {
         let word = |text: &str| {
             text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
@@ -401,7 +401,7 @@ impl Builder<'_> {
         }
     }
 
-    /// True if the structure has had its last clause, or its only one of this kind.
+    /// Whether the structure has had its last clause, or its only one of this kind.
     fn comes_too_late(&mut self, open: EntryId, keyword: Keyword) -> bool {
         match keyword {
             Keyword::Default => !self.defaults.insert(open),
@@ -413,7 +413,8 @@ impl Builder<'_> {
         }
     }
 
-    /// 20211 for a control statement that is nested too deep, 20590 for `#IF`. Assumption: one limit for both, neither is printed.
+    /// 20211 for a control statement nested too deeply, 20590 for `#IF`. Assumption: both have the same limit; the
+    /// documents print neither.
     fn nested(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, depth: usize, condition: Condition) {
         if depth > NESTING_MAX {
             let text = format!("control statements nested more than {NESTING_MAX} deep");
@@ -429,7 +430,7 @@ impl Builder<'_> {
         self.index.entries.change(last, |e| e.next = Some(id));
     }
 
-    /// The structure is closed: every clause learns where.
+    /// Closes the structure, and sets its end in every clause.
     fn finish(&mut self, open: EntryId, end: EntryId) {
         self.last_clause.remove(&open);
         self.defaults.remove(&open);
@@ -441,12 +442,12 @@ impl Builder<'_> {
     }
 }
 
-/// Closing statement of the structures of a clause.
+/// Closing statement of the structure to which a clause belongs.
 fn closer_of(clause: Keyword) -> &'static str {
     clause.opener().and_then(Keyword::closer).map_or("", Keyword::text)
 }
 
-/// Indexes a program; what is wrong with its structure comes beside.
+/// Builds the index of a program. Faults in its structure are returned as well.
 pub(in crate::exec) fn build(
     reader: &mut BlockReader,
     file: &Arc<str>,

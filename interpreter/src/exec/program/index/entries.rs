@@ -1,8 +1,8 @@
-//! Control statements in the order of the text. A program can consist of them: a million takes some 6 MB.
+//! Control statements in the order of the text. A program may consist only of them: a million takes about 6 MB.
 //!
-//! The last ones are kept as they are. Of those before, place and keyword are packed as differences, and their partners
-//! are found again by going over the statements around them: that is right for the usual structure, which ends a few
-//! statements later. What it does not find right, a long loop or a mistake, is kept as a whole beside.
+//! The last statements are kept unpacked. For earlier ones, position and keyword are packed as differences, and their
+//! partners are found again by scanning the statements around them: this works for the usual structure, which ends a
+//! few statements later. Where it does not, as in a long loop or after a fault, the whole entry is kept separately.
 
 use super::packed::{Bytes, GROUP, Numbers};
 use super::{Entry, EntryId, Keyword};
@@ -11,21 +11,21 @@ use smallvec::SmallVec;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Statements that are gone over to find a partner.
+/// Number of statements scanned to find a partner.
 const NEAR: usize = 32;
 
-/// The group that was looked at last, with the partners of its statements: what comes next is near it as a rule.
+/// The last group read, with the partners of its statements: the next request is usually close to it.
 #[derive(Clone, Debug)]
 struct Near {
     group: usize,
     entries: Vec<Entry>,
 }
 
-/// Where a group begins.
+/// Start of a group.
 #[derive(Clone, Copy, Debug)]
 struct Mark {
     position: Position,
-    /// Of the packed numbers.
+    /// Position of the packed numbers.
     place: usize,
     /// Innermost structure around its first statement.
     inside: Option<EntryId>,
@@ -36,20 +36,20 @@ struct Mark {
 pub(super) struct Entries {
     marks: Vec<Mark>,
     bytes: Bytes,
-    /// Packed ones whose partners going over them does not find.
+    /// Packed statements whose partners the scan does not find.
     special: BTreeMap<EntryId, Entry>,
-    /// Those after the packed ones, each with the innermost structure around it when it was met.
+    /// Statements after the packed ones, each with the innermost structure around it when it was added.
     recent: Vec<(Entry, Option<EntryId>)>,
     near: Mutex<Option<Near>>,
 }
 
-/// What a statement means for the structure around it.
+/// Effect of a statement on the structure around it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Role {
     Opens,
     Clause,
     Closes,
-    /// Nothing: `#IF` and comments are ordered separately.
+    /// None: `#IF` and comments are handled separately.
     None,
 }
 
@@ -75,14 +75,14 @@ impl Entries {
         self.marks.len() * GROUP
     }
 
-    /// Memory in bytes, more or less.
+    /// Approximate memory in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.bytes.end()
             + self.marks.len() * size_of::<Mark>()
             + self.special.len() * 2 * size_of::<Entry>()
     }
 
-    /// Adds one that lies after the others; `inside` is the innermost structure around it.
+    /// Adds a statement after the others; `inside` is the innermost structure around it.
     pub(super) fn push(&mut self, entry: Entry, inside: Option<EntryId>) {
         self.recent.push((entry, inside));
         if self.recent.len() >= 2 * GROUP + NEAR {
@@ -90,7 +90,7 @@ impl Entries {
         }
     }
 
-    /// Packs the oldest group; [`NEAR`] others are after it.
+    /// Packs the oldest group; [`NEAR`] other statements follow it.
     fn pack(&mut self) {
         let first = self.packed();
         let group: Vec<_> = self.recent.drain(..GROUP).collect();
@@ -113,7 +113,7 @@ impl Entries {
         }
     }
 
-    /// Keyword and place of statements, from one on.
+    /// Keyword and position of statements, beginning with `first`.
     fn places(&self, first: EntryId) -> impl Iterator<Item = (EntryId, Entry)> {
         let first = first as usize;
         let behind = first.saturating_sub(self.packed());
@@ -137,7 +137,7 @@ impl Entries {
         })
     }
 
-    /// The statements of a group with the partners that are found by scanning up to [`NEAR`] others after them.
+    /// The statements of a group, with the partners found by scanning up to [`NEAR`] statements after them.
     fn found(&self, group: usize) -> Vec<Entry> {
         let first = (group * GROUP) as EntryId;
         let mut entries: Vec<Entry> =
@@ -185,7 +185,7 @@ impl Entries {
         entries
     }
 
-    /// A group in use.
+    /// Reads a group through the cache.
     fn near<T>(&self, group: usize, read: impl FnOnce(&[Entry]) -> T) -> T {
         let lock = || self.near.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(near) = &*lock()
@@ -213,7 +213,7 @@ impl Entries {
         }
     }
 
-    /// Changes the partners of one.
+    /// Changes the partners of one statement.
     pub(super) fn change(&mut self, id: EntryId, change: impl FnOnce(&mut Entry)) {
         if let Some(i) = (id as usize).checked_sub(self.packed()) {
             change(&mut self.recent[i].0);
@@ -225,13 +225,13 @@ impl Entries {
         }
     }
 
-    /// The last statement that begins at an offset or before it, and where.
+    /// The last statement that begins at an offset or before it, and its position.
     pub(super) fn last_up_to(&self, offset: u64) -> Option<(EntryId, Position)> {
         let recent = self.recent.partition_point(|(entry, _)| entry.position.offset <= offset);
         if let Some(last) = recent.checked_sub(1) {
             return Some(((self.packed() + last) as EntryId, self.recent[last].0.position));
         }
-        // asked for every row: a row before the first mark needs no lock
+        // called for every sequence of motions: an offset before the first mark needs no lock
         if self.marks.first().is_none_or(|first| offset < first.position.offset) {
             return None;
         }
@@ -252,11 +252,11 @@ impl Entries {
         })
     }
 
-    /// Comments, cycles in real time and `#IF` statements.
+    /// Comments, real-time cycles and `#IF` statements.
     pub(super) fn silencing(&self) -> impl Iterator<Item = Entry> {
         let recent = self.recent.iter().map(|(entry, _)| entry);
         let silences = |e: &&Entry| e.keyword.is_silent() || e.keyword == Keyword::ConditionalIf;
-        // their partners are not looked for: they are special
+        // their partners are not found by the scan: they are special
         self.special.values().chain(recent).filter(silences).copied()
     }
 }

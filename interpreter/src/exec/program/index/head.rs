@@ -1,16 +1,16 @@
-//! The beginning of a block, as far as its structure needs it: label, words, ends of programs, empty lines.
+//! The beginning of a block, as far as the structure requires it: label, words, ends of programs, empty lines.
 
 use crate::syntax::ast::LabelKind;
 
-/// Beginning of a block: what an index has to know.
+/// Beginning of a block, as needed by an index.
 pub(super) struct Head<'t> {
     pub(super) skip: Option<u8>,
     pub(super) label: Option<LabelKind>,
-    /// Where the label begins.
+    /// Position of the label.
     pub(super) label_at: usize,
     /// Text after skip mark, number and label.
     pub(super) rest: &'t str,
-    /// Where it begins.
+    /// Position of `rest`.
     pub(super) at: usize,
 }
 
@@ -59,7 +59,8 @@ pub(super) fn head(text: &str) -> Head<'_> {
     Head { skip, label, label_at, rest, at: text.len() - rest.len() }
 }
 
-/// What an index takes from a block beside `$` and labels: `%`, and the commands that hide blocks. With its place.
+/// The structural elements of a block other than `$` and labels, with their position: `%`, and the commands that hide
+/// blocks.
 pub(in crate::exec) fn structure(text: &str) -> Option<(&'static str, usize)> {
     let Head { rest, at, .. } = head(text);
     let name = match rest.bytes().next()? {
@@ -93,7 +94,7 @@ fn digits(text: &str) -> usize {
     text.bytes().take_while(u8::is_ascii_digit).count()
 }
 
-/// Without blanks and closed comments at the beginning.
+/// The text without blanks and closed comments at its beginning.
 pub(super) fn blank(text: &str) -> &str {
     let mut rest = text.trim_start_matches([' ', '\t']);
     while rest.starts_with('(') {
@@ -119,7 +120,7 @@ pub(super) fn word(text: &str) -> String {
     text.chars().take_while(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase()
 }
 
-/// True if a line holds M02 or M30 outside comments.
+/// Whether a line contains M02 or M30 outside comments.
 pub(super) fn ends_program(text: &str) -> bool {
     let bytes = text.as_bytes();
     memchr::memchr2_iter(b'M', b'm', bytes).any(|i| {
@@ -130,11 +131,13 @@ pub(super) fn ends_program(text: &str) -> bool {
     })
 }
 
-/// Bytes of which none is in a line that [says nothing](says_nothing): `M` could end the program, `\` continues a line.
+/// Bytes that do not occur in a line that [has no effect on the structure](says_nothing): `M` could end the program,
+/// `\` continues a line.
 pub(super) const SAYING: [u8; 3] = [b'M', b'm', b'\\'];
 
-/// True for most lines of a long program, inside a section, if nothing of [`SAYING`] is in them: a block number or none,
-/// then a word of one letter: several may be a control statement without its `$`.
+/// Whether a line without bytes of [`SAYING`], inside a section, has no effect on the structure, as most lines of a
+/// long program: an optional block number, then a word of one letter. Several letters may be a control statement
+/// without its `$`.
 pub(super) fn says_nothing(line: &[u8]) -> bool {
     let mut rest = line;
     if let [b'N' | b'n', behind @ ..] = line {
@@ -152,14 +155,15 @@ pub(super) fn name_of(text: &str) -> Option<&str> {
     (end > 0).then(|| &text[..end])
 }
 
-/// True for `#FIRST SECOND`.
+/// Whether it is `#FIRST SECOND`.
 pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
     let behind = rest[1..].trim_start();
     let length = behind.bytes().take_while(u8::is_ascii_alphanumeric).count();
     behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
 }
 
-/// `#RT CYCLE`, `#RT CYCLE DEF` (true) and `#RT CYCLE END`; `None` for other commands, also for those that manage such cycles.
+/// `#RT CYCLE` and `#RT CYCLE DEF` (true), `#RT CYCLE END` (false); `None` for other commands, including those that
+/// manage such cycles.
 pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
     if !is_command(rest, "RT", "CYCLE") {
         return None;
@@ -172,7 +176,7 @@ pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
     }
 }
 
-/// True if `$GOTO` follows the condition; `$` may be missing in both.
+/// Whether `$GOTO` follows the condition; `$` may be missing in both.
 pub(super) fn contains_goto(rest: &str) -> bool {
     let code = rest.split([';', '(']).next().unwrap_or("").to_ascii_uppercase();
     let mut words = code.split_ascii_whitespace();

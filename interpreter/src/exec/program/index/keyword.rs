@@ -1,13 +1,13 @@
-//! Control statements by their words, partners and closers.
+//! Control statements: their words, partners and closing statements.
 
 use crate::diag::Condition;
 use crate::syntax::statement_meant;
 
-/// What begins a block.
+/// The beginning of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Keyword {
     If,
-    /// `$IF .. $GOTO ..`: not a block.
+    /// `$IF .. $GOTO ..`, which does not open a control block.
     IfGoto,
     ElseIf,
     Else,
@@ -28,7 +28,7 @@ pub(in crate::exec) enum Keyword {
     Continue,
     CommentBegin,
     CommentEnd,
-    /// `#RT CYCLE`: its statements are those of another language.
+    /// `#RT CYCLE`: its statements belong to another language.
     RealTimeBegin,
     RealTimeEnd,
     ConditionalIf,
@@ -39,7 +39,7 @@ pub(in crate::exec) enum Keyword {
 }
 
 impl Keyword {
-    /// Every keyword, in the order of their codes (`keyword as u8`).
+    /// All keywords, in the order of their codes (`keyword as u8`).
     const ALL: [Self; 27] = [
         Self::If,
         Self::IfGoto,
@@ -70,13 +70,13 @@ impl Keyword {
         Self::Remark,
     ];
 
-    /// The keyword of a code.
+    /// The keyword with this code.
     pub(super) fn of_code(code: u8) -> Self {
         Self::ALL.get(usize::from(code)).copied().unwrap_or(Self::Remark)
     }
 
-    /// The statement in whose place a word was written that lacks the blank after it, or is misspelt: an error of its block alone,
-    /// not of what belongs to it.
+    /// The statement meant by a word that lacks the blank after it, or is misspelt: then only the block itself is
+    /// faulty, not its structure.
     pub(super) fn meant_by(word: &str) -> Option<Self> {
         statement_meant(word).and_then(Self::of_control)
     }
@@ -105,7 +105,7 @@ impl Keyword {
         })
     }
 
-    /// How it is written.
+    /// Spelling.
     pub(in crate::exec) fn text(self) -> &'static str {
         match self {
             Self::If | Self::IfGoto => "$IF",
@@ -137,12 +137,12 @@ impl Keyword {
         }
     }
 
-    /// Blocks between it and its end are not looked at.
+    /// Whether the blocks up to its end are ignored.
     pub(in crate::exec) fn is_silent(self) -> bool {
         matches!(self, Self::CommentBegin | Self::RealTimeBegin)
     }
 
-    /// What closes a statement that opens a block.
+    /// The closing statement of a statement that opens a block.
     pub(in crate::exec) fn closer(self) -> Option<Self> {
         Some(match self {
             Self::If => Self::EndIf,
@@ -156,7 +156,7 @@ impl Keyword {
         })
     }
 
-    /// What a clause or a closing statement belongs to.
+    /// The opening statement of a clause or a closing statement.
     pub(super) fn opener(self) -> Option<Self> {
         Some(match self {
             Self::ElseIf | Self::Else | Self::EndIf => Self::If,
@@ -170,7 +170,7 @@ impl Keyword {
         })
     }
 
-    /// The message where a clause or a closing statement does not fit the innermost open statement. Source: TF5200
+    /// The message for a clause or a closing statement that does not match the innermost open statement. Source: TF5200
     /// diagnosis manual, 20214 to 20244; those of `$ENDDO` and `$UNTIL` were not found.
     pub(super) fn unexpected(self) -> Condition {
         match self {

@@ -1,12 +1,12 @@
-//! Labels of a file. Some post-processors give one to every block: numbers that rise from block to block are kept as
-//! differences, a million in some 7 MB. Block numbers that are asked for are kept in the same way.
+//! Labels of a file. Some post-processors write one in every block: numbers that increase from block to block are kept
+//! as differences, a million in about 7 MB. Block numbers are kept in the same way, if required.
 
 use super::packed::{Bytes, GROUP};
 use super::{EntryId, LabelPlace};
 use crate::syntax::ast::LabelKind;
 use std::collections::BTreeMap;
 
-/// Memory of a label that is not among the rising ones, more or less, in bytes.
+/// Approximate memory in bytes of a label outside the increasing ones.
 const OTHER_BYTES: usize = 120;
 
 /// A label `N10:`.
@@ -23,7 +23,7 @@ impl Numbered {
     }
 }
 
-/// A group of labels of one section: the first one, and where the packed numbers of the others are.
+/// A group of labels of one section: the first one, and the position of the packed numbers of the others.
 #[derive(Clone, Copy, Debug)]
 struct Mark {
     first: Numbered,
@@ -31,10 +31,10 @@ struct Mark {
     count: usize,
 }
 
-/// Labels by section, entered in the order of the text.
+/// Labels by section, added in the order of the text.
 #[derive(Clone, Debug, Default)]
 pub(in crate::exec::program) struct Labels {
-    /// Those whose number is above that of each one before it: sorted by section, number and offset alike.
+    /// Labels with a number above all before it: sorted by section, number and offset at the same time.
     marks: Vec<Mark>,
     bytes: Bytes,
     last: Option<Numbered>,
@@ -42,7 +42,7 @@ pub(in crate::exec::program) struct Labels {
 }
 
 impl Labels {
-    /// Memory in bytes, more or less.
+    /// Approximate memory in bytes.
     pub(in crate::exec::program) fn bytes(&self) -> usize {
         self.bytes.end() + self.marks.len() * size_of::<Mark>() + self.others.len() * OTHER_BYTES
     }
@@ -63,7 +63,7 @@ impl Labels {
         self.others.get(&(section, label.clone())).copied()
     }
 
-    /// Enters a label that lies after those entered so far and is not among them.
+    /// Adds a label that lies after those added so far and is not among them.
     pub(in crate::exec::program) fn insert(
         &mut self,
         section: usize,
@@ -107,7 +107,7 @@ impl Labels {
         })
     }
 
-    /// True if a label lies between two places.
+    /// Whether a label lies between two positions.
     pub(super) fn any_between(&self, from: u64, to: u64) -> bool {
         let inside = |place: &LabelPlace| (from..to).contains(&place.position.offset);
         // in a group that begins before `from`, or the first label of the next one
@@ -118,7 +118,7 @@ impl Labels {
     }
 }
 
-/// The structure around a label as a number: none is -1.
+/// The structure around a label as a number; -1 if there is none.
 fn code(parent: Option<EntryId>) -> i64 {
     parent.map_or(-1, i64::from)
 }
@@ -141,7 +141,7 @@ mod tests {
     use crate::source::Position;
     use kontur_kit::Random;
 
-    /// Whatever the order of the numbers, labels are found as in a plain table.
+    /// Labels are found as in a plain table, whatever the order of their numbers.
     #[test]
     fn labels_are_found_in_any_order() {
         for seed in 0..200 {

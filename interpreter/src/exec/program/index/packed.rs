@@ -1,16 +1,16 @@
-//! Small differences of what follows each other in a text, some bytes each.
+//! Small differences between consecutive items of a text, packed into a few bytes each.
 
 use integer_encoding::VarInt;
 
-/// What follows each other in a group: a reader finds its place at the beginning of one and continues from there.
+/// Items per group: a reader starts at the beginning of a group and reads on from there.
 pub(super) const GROUP: usize = 16;
 
-/// Numbers in a row, the small ones in one byte.
+/// A sequence of numbers; small ones take one byte.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bytes(Vec<u8>);
 
 impl Bytes {
-    /// Where the next number will be.
+    /// Position of the next number.
     pub(super) fn end(&self) -> usize {
         self.0.len()
     }
@@ -21,7 +21,7 @@ impl Bytes {
         self.0.extend_from_slice(&room[..length]);
     }
 
-    /// Reads from a place on.
+    /// Reads from a position on.
     pub(super) fn from(&self, place: usize) -> Numbers<'_> {
         Numbers(self.0.get(place..).unwrap_or_default())
     }

@@ -105,7 +105,7 @@ fn lines_that_say_nothing_are_words() {
     }
 }
 
-/// The same structure, whether or not plain lines were read as blocks.
+/// The structure is the same, whether or not plain lines are read as blocks.
 #[test]
 fn lines_gone_over_are_counted() {
     let plain = "X1 Y2\r\nN5 X3\nX4\rG01 X5 (M)\nX6 \\\n%L X\nX7\0X8\n";
@@ -137,7 +137,7 @@ fn comments_and_their_ends_are_pairs() {
     assert_eq!(index("X1\n#COMMENT END\nM30\n").1, ["K-0145 2"]);
     assert!(index("# COMMENT BEGIN\n$IF (\n#\tCOMMENT END\nX1\nM30\n").1.is_empty());
     assert!(index("# IF 1\nX1\n# ELSE\nX2\n# ENDIF\nM30\n").1.is_empty());
-    // the first end is that of both
+    // the first end closes both
     let nested = "#COMMENT BEGIN\n#COMMENT BEGIN\n#COMMENT END\nX1\n#COMMENT END\nM30\n";
     assert_eq!(index(nested).1, ["K-0145 5"]);
 }
@@ -169,12 +169,12 @@ fn nothing_inside_cycles_in_real_time_counts() {
     assert_eq!(i.entries.len(), 2);
 }
 
-/// Statements of a program, with their partners as they were written.
+/// Statements of a program, with their partners as written.
 #[derive(Default)]
 struct Written {
     text: String,
     lines: u32,
-    /// Place, opening statement, next clause, closing statement, structure around it.
+    /// Position, opening statement, next clause, closing statement, structure around it.
     partners: Vec<(Position, [Option<EntryId>; 4])>,
 }
 
@@ -193,7 +193,7 @@ impl Written {
         id
     }
 
-    /// Some lines, structures among them, inside of one.
+    /// Some lines with structures among them, inside `around`.
     fn lines(&mut self, random: &mut Random, around: Option<EntryId>, depth: usize) {
         for _ in 0..random.pick(&[0, 1, 2, 5, if depth == 0 { 300 } else { 40 }]) {
             if self.partners.len() > 3000 {
@@ -243,7 +243,7 @@ impl Written {
     }
 }
 
-/// However many statements lie between them, partners are those that were written.
+/// Partners are the statements that were written, however many lie between them.
 #[test]
 fn partners_are_found_in_long_programs() {
     let mut most = 0;
@@ -267,7 +267,7 @@ fn partners_are_found_in_long_programs() {
     assert!(most > 1000, "{most}");
 }
 
-/// A label and a statement on every other line of a long program: there is no limit to their number that it reaches.
+/// A long program with a label and a statement on every other line does not reach any limit to their number.
 #[test]
 fn every_block_of_a_long_program_may_have_a_label() {
     const COUNT: u64 = 300_000;
@@ -286,7 +286,7 @@ fn every_block_of_a_long_program_may_have_a_label() {
     }
 }
 
-/// Statements with mistakes among them mean the same whatever follows them and wherever they are.
+/// Statements with faults among them mean the same whatever follows them and wherever they are.
 #[test]
 fn mistakes_mean_the_same_in_long_programs() {
     let lines = [
@@ -314,7 +314,7 @@ fn mistakes_mean_the_same_in_long_programs() {
     ];
     for seed in 0..300 {
         let mut random = Random::new(seed);
-        // few enough to be kept as they are
+        // few enough to be kept unpacked
         let few: Vec<_> = (0..40).map(|_| random.pick(&lines)).collect();
         let few = few.join("\n") + "\n";
         let before = "$BREAK\n".repeat(random.below(40));
