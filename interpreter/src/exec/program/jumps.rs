@@ -1,10 +1,11 @@
-//! Jumps within a level, and returns to a place of a higher one.
+//! Jumps within a level, and returns to a position in a higher one.
 //!
-//! A jump may leave control blocks, which closes them. It may enter branches of `$IF`, which are then as if their
-//! condition had been true (assumption), but neither loops (21480) nor `$SWITCH`.
+//! A jump may leave control blocks, which closes them. It may enter branches of `$IF`, which are then executed as if
+//! their condition had been true (assumption), but neither loops (21480) nor `$SWITCH`.
 //!
-//! Assumptions for `M17 [..]`: `JUMPS=1` is the return without brackets; JUMPS beyond the main program is said by K-0109,
-//! since no number of the warning is printed; of several blocks with a number the first one counts.
+//! Assumptions for `M17 [..]`: `JUMPS=1` is the return without brackets; JUMPS beyond the main program causes K-0109,
+//! because the documents print no number for this warning; if several blocks have the same number, the first one
+//! counts.
 //!
 //! Source: TF5200 programming manual, `$GOTO` (206915851) and ends of subroutines (206781707).
 
@@ -16,17 +17,17 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Jump, JumpKind, LabelKind, Return, ReturnLevel, Span};
 
-/// Where a jump leads, checked.
+/// The checked target of a jump.
 struct Landing {
     place: LabelPlace,
     /// Open control blocks that stay open.
     depth: usize,
-    /// Branches that are entered, the innermost first.
+    /// Branches entered, the innermost first.
     entered: Vec<EntryId>,
 }
 
 impl Executor {
-    /// The label of a jump; a calculated number is rounded as that of a block is (206817035).
+    /// The label of a jump; a computed number is rounded like that of a block (206817035).
     fn label_of(&mut self, jump: &Jump) -> Outcome<LabelKind> {
         match &jump.kind {
             JumpKind::Label(LabelKind::Number(number)) if *number > LABEL_MAX => {
@@ -73,7 +74,7 @@ impl Executor {
         }
     }
 
-    /// A place of a level as the target of a jump from the block at the offset `from`.
+    /// Checks a position of a level as the target of a jump from the block at offset `from`.
     fn landing(
         &self,
         (level, from): (usize, u64),
@@ -82,7 +83,7 @@ impl Executor {
         span: Span,
     ) -> Outcome<Landing> {
         let level = &self.levels[level];
-        // structures around the place that are not open, the innermost first
+        // structures around the position that are not open, the innermost first
         let mut entered = Vec::new();
         let mut around = place.parent;
         let depth = loop {
@@ -108,7 +109,7 @@ impl Executor {
         Err(Fault::new(condition, text, span))
     }
 
-    /// The current level continues at a place; `from` is the offset of the block that leads there.
+    /// Continues the current level at the target; `from` is the offset of the block that contains the jump.
     fn land(&mut self, landing: Landing, from: u64) {
         let Some(level) = self.levels.last_mut() else { return };
         let Landing { place, depth, entered } = landing;
@@ -120,7 +121,7 @@ impl Executor {
             counter: None,
         }));
         level.at = place.position;
-        // a jump back is a loop: its blocks are parsed once
+        // a jump back forms a loop: its blocks are parsed once
         let to = place.position.offset;
         if to <= from {
             let known = level.again.unwrap_or((to, from));
@@ -131,7 +132,7 @@ impl Executor {
         }
     }
 
-    /// `M17 [..]`, `M29 [..]`; without a valid place the program continues after the call.
+    /// `M17 [..]`, `M29 [..]`; without a valid target the program continues after the call.
     pub(in crate::exec) fn return_to(&mut self, back: &Return, span: Span) {
         let outcome = self.way_back(back, span);
         let (levels, landing) = self.decoder.report.keep(outcome).unwrap_or((1, None));
@@ -146,7 +147,7 @@ impl Executor {
         }
     }
 
-    /// How many levels a return leaves, and where it leads.
+    /// The number of levels that a return leaves, and its target.
     fn way_back(&mut self, back: &Return, span: Span) -> Outcome<(usize, Option<Landing>)> {
         let above = self.levels.len().saturating_sub(1);
         if above == 0 {
@@ -182,7 +183,7 @@ impl Executor {
         Ok((levels, Some(self.landing((level, from), place, &name, jump.span)?)))
     }
 
-    /// A label of a level, or else the block of this number.
+    /// A label of a level, otherwise the block with this number.
     fn place_of(&mut self, level: usize, label: &LabelKind, span: Span) -> Outcome<LabelPlace> {
         let (file, section) = (self.levels[level].file, self.levels[level].section);
         if let Some(place) = self.levels[level].index.label(section, label) {
@@ -226,7 +227,7 @@ fn label_too_large(number: f64, span: Span) -> Box<Fault> {
     })
 }
 
-/// A label as it is written.
+/// A label as written.
 fn shown(label: &LabelKind) -> String {
     match label {
         LabelKind::Number(n) => format!("N{n}:"),

@@ -1,4 +1,4 @@
-//! Program levels: how programs, subroutines and cycles begin and end.
+//! Program levels: start and end of programs, subroutines and cycles.
 
 use super::executor::Executor;
 use super::state::{Closing, Level, Passed, Target};
@@ -62,7 +62,7 @@ impl Executor {
         self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
 
-    /// Leaves a subroutine, and then what the block that called it leaves.
+    /// Leaves a subroutine, and then the levels that the calling block leaves.
     fn leave_level(&mut self) {
         let then = self.levels.last().and_then(|level| level.then);
         self.pop_level();
@@ -71,7 +71,8 @@ impl Executor {
         }
     }
 
-    /// Leaves so many subroutines at once; what the block that called the last of them does after it is still to be done.
+    /// Leaves `count` subroutines at once; returns how the block that called the last of them leaves its level, which
+    /// is still to be done.
     pub(super) fn leave_levels(&mut self, count: usize) -> Option<Closing> {
         let mut then = None;
         for _ in 0..count {
@@ -93,7 +94,7 @@ impl Executor {
         }
     }
 
-    /// The text of a level ends.
+    /// Called at the end of the text of a level.
     pub(in crate::exec) fn level_ends(&mut self) {
         self.open_blocks();
         if let Some(level) = self.levels.last_mut()
@@ -119,7 +120,7 @@ impl Executor {
         self.settle(false);
     }
 
-    /// The main program is over: the program of P-CHAN-00252 runs, once, before the end.
+    /// The main program is over: runs the program of P-CHAN-00252, once, before the end.
     fn finish(&mut self) {
         if let (Some(name), false) =
             (self.decoder.machine.channel.end_program.clone(), self.end_program_called)
@@ -143,7 +144,7 @@ impl Executor {
         self.end(EndReason::Finished);
     }
 
-    /// External variables that have a value for nothing: a name may be mistyped.
+    /// Reports external variables whose values the program does not use: a name may be mistyped.
     fn external_at_end(&mut self) {
         for (name, similar) in self.decoder.values.variables.unused_external() {
             let text = format!("V.E.{name} has a value from outside, the program does not use it");
@@ -155,7 +156,7 @@ impl Executor {
         }
     }
 
-    /// 21719: `#OPTIONAL EXECUTION ON` has no end on its level (255789707).
+    /// 21719: `#OPTIONAL EXECUTION ON` is not ended on its level (255789707).
     fn optional_at_end(&mut self) {
         let Some(level) = self.levels.last_mut() else { return };
         let Some((at, span)) = level.optional.take() else { return };
@@ -168,7 +169,7 @@ impl Executor {
         });
     }
 
-    /// 20375: control blocks that were entered have no end.
+    /// 20375: control blocks were entered and have no end.
     fn open_blocks(&mut self) {
         self.optional_at_end();
         let Some(level) = self.levels.last() else { return };
@@ -192,7 +193,7 @@ impl Executor {
         });
     }
 
-    /// 120206.
+    /// 120206: contouring at the end of the program.
     fn contouring_at_end(&mut self) {
         if self.decoder.modal.contouring {
             let text = "the program ends with contouring on";
@@ -222,7 +223,7 @@ impl Executor {
         self.finish();
     }
 
-    /// M17, M29; at the main level the end of the program.
+    /// M17, M29; on the main level they end the program.
     pub(in crate::exec) fn return_from_level(&mut self) {
         self.open_blocks();
         if self.levels.len() > 1 {

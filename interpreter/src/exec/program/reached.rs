@@ -1,9 +1,9 @@
-//! Which blocks a check has executed.
+//! The blocks that a check has executed.
 
 use crate::source::Position;
 use std::collections::BTreeMap;
 
-/// A run of blocks without gap.
+/// A sequence of blocks without gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Run {
     file: usize,
@@ -11,7 +11,7 @@ struct Run {
     end: Position,
 }
 
-/// What a check has executed. Straight text is one run, so it takes no memory worth mentioning.
+/// The blocks that a check has executed. Text without jumps is a single run, so the memory is negligible.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Reached {
     /// Ends of runs by file and start.
@@ -20,7 +20,7 @@ pub(in crate::exec) struct Reached {
 }
 
 impl Reached {
-    /// A block was executed.
+    /// Adds an executed block.
     pub(in crate::exec) fn add(&mut self, file: usize, from: Position, to: Position) {
         if let Some(run) = &mut self.current
             && run.file == file
@@ -30,7 +30,7 @@ impl Reached {
             return;
         }
         self.store();
-        // a loop comes back into a run
+        // a loop returns into an existing run
         let before = self.runs.range(..=(file, from.offset)).next_back();
         let known = before.filter(|((f, _), end)| *f == file && end.offset >= from.offset);
         self.current = Some(match known {
@@ -70,7 +70,7 @@ impl Reached {
         gaps
     }
 
-    /// Where the last executed block between two places ends.
+    /// End of the last executed block between two positions.
     pub(super) fn last(&self, file: usize, from: u64, to: u64) -> Option<u64> {
         self.runs.range((file, from)..(file, to)).map(|(_, end)| end.offset.min(to)).max()
     }
@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(reached.gaps(0, at(0), 100), [(at(30), 50), (at(70), 100)]);
         assert_eq!(reached.gaps(0, at(0), 70), [(at(30), 50)]);
         assert_eq!(reached.gaps(1, at(0), 5), []);
-        // a file that was opened and not executed, because its call was the error too many
+        // a file that was opened but not executed, because its call was one error too many
         assert_eq!(reached.gaps(2, at(0), 0), []);
         assert_eq!(reached.last(2, 0, 100), None);
         assert_eq!(reached.last(0, 0, 100), Some(70));

@@ -1,9 +1,10 @@
 //! Block sequences: `L SEQUENCE [NAME=.. N10 N50]` runs the blocks from one number to another as a subroutine.
 //!
-//! `REPEAT=n` runs them n times; with `ENDTAG` the call itself ends the sequence, if it comes after its first block.
+//! `REPEAT=n` runs them n times. With `ENDTAG` the call itself ends the sequence, if it comes after its first block.
 //!
-//! Assumptions: of several blocks with a number the first one in the program counts, numbers that are computed do not; one
-//! number alone, without ENDTAG, is a sequence of one block; REPEAT counts all passes, since the manual asks for more than 1.
+//! Assumptions: if several blocks in the program have the same number, the first one counts; computed numbers do not
+//! count. A single number without ENDTAG is a sequence of one block. REPEAT is the total number of passes, because the
+//! manual requires a value greater than 1.
 //!
 //! Source: TF5200 programming manual, calling block sequences; 21696.
 
@@ -22,9 +23,9 @@ use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, LabelKind, Span};
 struct Words {
     name: Option<Ident>,
     numbers: Vec<(u64, Span)>,
-    /// Passes, at least 1.
+    /// Number of passes, at least 1.
     repeat: Option<u32>,
-    /// The call ends the sequence, too.
+    /// Whether the call ends the sequence, too.
     end_tag: Option<Span>,
 }
 
@@ -149,7 +150,7 @@ impl Executor {
         Ok(words)
     }
 
-    /// Looks once for the block numbers of a program, for `sequences`.
+    /// Determines the block numbers of a program once, for `sequences`.
     pub(super) fn learn_numbers(&mut self, file: usize, section: usize, span: Span) -> Outcome<()> {
         if self.sequences.known.contains_key(&(file, section)) {
             return Ok(());
@@ -168,7 +169,8 @@ impl Executor {
         Ok(())
     }
 
-    /// The first block of a number, once the numbers of its program are learnt; several have to be looked at.
+    /// The first block with a number, after the numbers of its program have been determined. If several blocks have it,
+    /// a note names them.
     ///
     /// Source: TF5200 programming manual 205952267 (the numbers have to be unambiguous).
     pub(super) fn numbered(

@@ -1,4 +1,4 @@
-//! State of a program from block to block: its levels with their control blocks, its calls, its known numbers.
+//! State of a program from block to block: its levels with their control blocks, its calls, its known block numbers.
 
 use super::index::{EntryId, Index, Keyword, Labels};
 use super::info::ProgramInfo;
@@ -19,32 +19,32 @@ pub(in crate::exec) struct Level {
     /// Next block.
     pub(in crate::exec) at: Position,
     pub(in crate::exec) end: u64,
-    /// Where it begins again, and how often (REPEAT of `L SEQUENCE`).
+    /// Position at which it begins again, and the number of passes left (REPEAT of `L SEQUENCE`).
     pub(in crate::exec) begin: Position,
     pub(in crate::exec) passes: u32,
     pub(in crate::exec) frames: Vec<Frame>,
-    /// Modal state to return to: the level is a cycle.
+    /// Modal state to be restored; present if the level is a cycle.
     pub(in crate::exec) cycle: Option<Box<BeforeCycle>>,
-    /// Between `#VAR` and `#ENDVAR`.
+    /// Whether it is between `#VAR` and `#ENDVAR`.
     pub(in crate::exec) declarations: bool,
-    /// Between `#OPTIONAL EXECUTION ON` and `OFF`: where it began.
+    /// Start of the present section between `#OPTIONAL EXECUTION ON` and `OFF`.
     pub(in crate::exec) optional: Option<(Position, Span)>,
-    /// A control block without its end took the rest of the text.
+    /// Whether a control block without an end covers the rest of the text.
     pub(in crate::exec) cut: bool,
-    /// First and last block that jumps back lead through again, by their offsets.
+    /// Offsets of the first and last block that jumps back may execute again.
     pub(in crate::exec) again: Option<(u64, u64)>,
-    /// What the block that called it does after it.
+    /// How the block that called it leaves its own level afterwards.
     pub(in crate::exec) then: Option<Closing>,
 }
 
-/// What a call names: a file, and a program in it.
+/// Target of a call: a file, and a program in it.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::exec) struct Target {
     pub(super) file: usize,
     pub(super) section: usize,
 }
 
-/// How a block leaves its level.
+/// The way a block leaves its level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Closing {
     /// M17, M29.
@@ -54,7 +54,8 @@ pub(in crate::exec) enum Closing {
 }
 
 impl Level {
-    /// A block at a place of it may run more than once: it is in a loop, also as its head, or jumps lead back.
+    /// Whether the block at a position may run more than once: it is in a loop or its head, or jumps lead back before
+    /// it.
     pub(super) fn runs_again(&self, at: Position) -> bool {
         self.frames.iter().any(|f| f.keyword.is_loop())
             || self.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
@@ -84,23 +85,23 @@ pub(super) struct Counter {
 pub(in crate::exec) struct BeforeCycle {
     pub(super) modal: Modal,
     pub(super) systems: usize,
-    /// Zero-offset group, and whether G159 selected it.
+    /// Zero-offset group, and whether it was selected by G159.
     pub(super) zero_group: (u32, bool),
     /// G135.
     pub(super) feedforward: bool,
     /// G151.
     pub(super) spline: bool,
-    /// The same of the cycle around.
+    /// The same for the enclosing cycle.
     pub(super) retains: bool,
 }
 
-/// What calls own: subroutines that words call, and what is called after every block.
+/// State of calls: the subroutines called by words, and those called after every block.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Calls {
     pub(in crate::exec) info: ProgramInfo,
     /// Macros and their texts.
     pub(in crate::exec) macros: BTreeMap<Box<str>, Box<str>>,
-    /// The table of macros has changed: parsed blocks are out of date.
+    /// Whether the table of macros has changed, so that parsed blocks are out of date.
     pub(in crate::exec) macros_changed: bool,
     /// Subroutines of G80 to G89 and G800 to G839.
     pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
@@ -108,23 +109,23 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) tool_change_file: Option<String>,
     /// Subroutine of D words.
     pub(in crate::exec) tool_data_file: Option<String>,
-    /// Cycle that is called after every motion or block.
+    /// Cycle called after every motion or block.
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
-    /// `V.G.CYCLE_CHANGES_MODAL`, P-CHAN-00210: cycles give nothing back.
+    /// `V.G.CYCLE_CHANGES_MODAL`, P-CHAN-00210: cycles do not restore anything.
     pub(in crate::exec) cycle_changes_stay: bool,
-    /// `V.G.MAX_NC_BLOCKS_AHEAD` and `V.G.MAX_MOTION_BLOCKS_AHEAD`, 0 without a limit.
+    /// `V.G.MAX_NC_BLOCKS_AHEAD` and `V.G.MAX_MOTION_BLOCKS_AHEAD`; 0: unlimited.
     pub(in crate::exec) blocks_ahead: [f64; 2],
-    /// `#RETAIN CYCLE CHANGES`, or what cycles do: the cycle in work gives nothing back.
+    /// `#RETAIN CYCLE CHANGES`, or the rule for all cycles: the current cycle does not restore anything.
     pub(in crate::exec) retain_cycle_changes: bool,
-    /// What `#SAVE CONFIG` has saved in this run.
+    /// Configuration saved by `#SAVE CONFIG` in this run.
     pub(in crate::exec) saved: SavedConfiguration,
-    /// `#RT WHILE` without its end so far.
+    /// Open `#RT WHILE`.
     pub(in crate::exec) real_time_loop: Option<Span>,
     /// `#FILE EXIST`.
     pub(in crate::exec) searched: Searched,
 }
 
-/// What `#SAVE CONFIG` has saved: a run begins without what earlier programs left.
+/// Configuration saved by `#SAVE CONFIG`: a run does not take over that of earlier programs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::exec) struct SavedConfiguration {
     /// The axes of the channel.
@@ -134,7 +135,7 @@ pub(in crate::exec) struct SavedConfiguration {
 }
 
 impl Calls {
-    /// At program start, with the macros and subroutines of the channel list.
+    /// State at program start, with the macros and subroutines of the channel list.
     pub(in crate::exec) fn new(channel: &Channel) -> Self {
         Self {
             macros: channel.macros.clone(),
@@ -147,12 +148,12 @@ impl Calls {
     }
 }
 
-/// What `#FILE EXIST` searches and has found.
+/// Search and result of `#FILE EXIST`.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Searched {
-    /// Name that the block in work searches, and its place.
+    /// Name searched by the current block, and its position.
     pub(in crate::exec) wanted: Option<(Box<str>, Span)>,
-    /// Path with `\\` between folders, relative to the folder of the program that has searched if it lies below it.
+    /// Path with `\\` between folders, relative to the folder of the searching program if it lies below that folder.
     pub(in crate::exec) found: Option<Box<str>>,
 }
 
@@ -172,21 +173,21 @@ impl Searched {
     }
 }
 
-/// Values of a cycle by the name after `@`.
+/// Values passed to a cycle, by the name after `@`.
 pub(super) type Passed = BTreeMap<Box<str>, Value>;
 
-/// A cycle that follows every motion or block.
+/// A cycle called after every motion or block.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct ModalCycle {
     pub(super) target: Target,
-    /// The place of its name in the call.
+    /// Position of its name in the call.
     pub(super) named: Span,
     pub(super) passed: Passed,
-    /// After every block, not only after motions.
+    /// Whether it is called after every block, not only after motions.
     pub(super) every_block: bool,
 }
 
-/// Block numbers of the programs that sequences or returns asked for, by file and section.
+/// Block numbers of the programs needed for sequences or returns, by file and section.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Sequences {
     pub(super) known: BTreeMap<(usize, usize), Numbers>,
@@ -195,7 +196,7 @@ pub(in crate::exec) struct Sequences {
 /// Block numbers of a program.
 #[derive(Debug, Default)]
 pub(super) struct Numbers {
-    /// The first block of each.
+    /// The first block with each number.
     pub(super) first: Labels,
     /// Line of a second block with the same number.
     pub(super) twice: BTreeMap<u64, u32>,

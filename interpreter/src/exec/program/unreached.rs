@@ -1,9 +1,9 @@
 //! Syntax of the parts that a check did not execute: branches not taken, blocks jumped over, subroutines not called.
 //!
-//! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
-//! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
-//! run of this program, so it is reported as a warning, K-0118. Text in `#COMMENT` blocks and in inactive `#IF` branches is not
-//! looked at; text after the end of the main program is only mentioned, K-0004.
+//! Source: TF5200 programming manual, control blocks: in a branch that is not taken the control reads only block
+//! numbers and nested control statements. Faults in those are errors here, too. Any other fault there would not stop
+//! this program, so it is reported as a warning, K-0118. Text in `#COMMENT` blocks and in inactive `#IF` branches is
+//! ignored; text after the end of the main program is only mentioned, K-0004.
 
 use super::executor::Executor;
 use super::files::Look;
@@ -14,13 +14,13 @@ use crate::exec::commands::is_known;
 use crate::source::Position;
 use crate::syntax::ast::{Block, Body, CallKind, CodeNumber, WordKind};
 
-/// Mistakes reported for parts that were not reached.
+/// Maximum number of faults reported for parts that were not reached.
 const REPORTS_MAX: usize = 20;
 
 impl Executor {
-    /// Looks at the syntax of everything that was not executed.
+    /// Checks the syntax of all parts that were not executed.
     pub(in crate::exec) fn check_unreached(&mut self) {
-        // what lies beyond the limit might run
+        // the text beyond the limit might run
         if self.is_limited() {
             return;
         }
@@ -60,7 +60,7 @@ impl Executor {
     ) {
         let mut at = from;
         let mut declarations = false;
-        // end of what is not looked at
+        // end of the ignored text
         let mut silent = silence.around(from);
         while at.offset < to && *left > 0 {
             if let Some(id) = index.at(at) {
@@ -85,7 +85,7 @@ impl Executor {
                 &self.decoder.calls.macros,
                 &mut found,
             );
-            // the file was read before: what cannot be read now has been reported
+            // the file was read before: parts that can no longer be read have been reported
             let Ok(Some((block, next))) = parsed else { return };
             self.calls_more |= self.may_open(&block);
             if let (Body::Command(command), Look::Block) = (&block.body, look)
@@ -112,8 +112,8 @@ impl Executor {
         }
     }
 
-    /// K-0004: blocks after the M02 or M30 with which the main program has ended. An end inside a control block, or with
-    /// a label after it, does not have to be the end of the program.
+    /// K-0004: blocks after the M02 or M30 that ended the main program. An end inside a control block, or with a label
+    /// after it, need not be the end of the program.
     fn text_behind_end(&mut self, index: &Index, section: &Section, end: u64) {
         let main = matches!(&self.levels[..], [main] if main.frames.is_empty());
         let last = self.position.offset >= section.start.offset && self.position.offset < end;
@@ -158,7 +158,7 @@ impl Executor {
         }
     }
 
-    /// A block that was not executed would open a file that the check may not know.
+    /// Whether a block that was not executed would open a file unknown to the check.
     fn may_open(&self, block: &Block) -> bool {
         let Body::Words(words) = &block.body else { return false };
         words.iter().any(|word| match &word.kind {
@@ -179,7 +179,7 @@ impl Executor {
 
 /// Inactive `#IF` branches and comments of a file.
 struct Silence {
-    /// Where each of them begins, and the furthest end of all up to there.
+    /// Start of each, and the furthest end of all up to there.
     ends: Vec<(Position, u64)>,
 }
 
@@ -194,7 +194,7 @@ impl Silence {
         Self { ends: entries.collect() }
     }
 
-    /// End of what lies around a place, if anything does.
+    /// End of the comment or branch around a position, if there is one.
     fn around(&self, at: Position) -> Option<u64> {
         let before = self.ends.partition_point(|(begin, _)| *begin < at);
         let (_, end) = self.ends.get(before.checked_sub(1)?)?;
@@ -202,7 +202,7 @@ impl Silence {
     }
 }
 
-/// As a warning that says where it is wrong.
+/// Turns a diagnostic into a warning that names its position.
 fn unreached(diagnostic: Diagnostic) -> Diagnostic {
     let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
     let usual = || "no run comes here; the control looks at control statements only".to_owned();

@@ -1,4 +1,4 @@
-//! Files that cannot be opened, or whose text is not of the language.
+//! Files that cannot be opened, or whose text is not NC code.
 
 use crate::diag::Diagnostic;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position};
@@ -7,17 +7,17 @@ use crate::syntax::ast::Body;
 use std::io;
 use std::sync::Arc;
 
-/// Why a file could not be opened.
+/// The reason for which a file could not be opened.
 #[derive(Debug)]
 pub(in crate::exec) enum FileError {
     Open(OpenError),
     Read(io::Error),
-    /// Most of its text is not of the language; the name of the file.
+    /// Most of its text is not NC code; contains the name of the file.
     Foreign(Arc<str>),
 }
 
 impl FileError {
-    /// K-0013 for a file that is called `name` in the program: its text and hint.
+    /// Text and hint of K-0013 for a file that the program calls `name`.
     pub(super) fn text(self, name: &str) -> (String, String) {
         match self {
             Self::Open(e) => {
@@ -42,7 +42,7 @@ impl FileError {
     }
 }
 
-/// True for `SysDrill1.ecy` and the like: cycles of the drilling, milling and measuring libraries.
+/// Whether the name is like `SysDrill1.ecy`: cycles of the drilling, milling and measuring libraries.
 fn is_vendor_cycle(name: &str) -> bool {
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let head = file.get(..3).is_some_and(|head| head.eq_ignore_ascii_case("sys"));
@@ -50,10 +50,10 @@ fn is_vendor_cycle(name: &str) -> bool {
     head && tail
 }
 
-/// Blocks of a called file by which it is judged.
+/// Number of blocks by which a called file is judged.
 const JUDGED_MAX: u32 = 64;
 
-/// True if most blocks at the beginning of a file are not NC blocks: its text is not for messages.
+/// Whether most blocks at the beginning of a file are not NC blocks: its text is then not quoted in messages.
 pub(super) fn is_foreign(
     reader: &mut BlockReader,
     name: &Arc<str>,
@@ -65,7 +65,7 @@ pub(super) fn is_foreign(
     let is_wrong = |found: &mut Vec<Diagnostic>| found.drain(..).any(|d| d.is_error());
     while judged < JUDGED_MAX {
         let Some(raw) = reader.next_block()? else { break };
-        // nothing is known about what is too long
+        // a line that is too long is not judged
         if raw.text.trim_ascii().is_empty() || raw.characters > BLOCK_LENGTH_MAX {
             continue;
         }
