@@ -1,4 +1,4 @@
-//! `V.G.NP[1].ALL = V.G.NP_AKT.ALL`: zero offsets of every axis in one assignment.
+//! `V.G.NP[1].ALL = V.G.NP_AKT.ALL`: zero offsets of all axes in one assignment.
 //!
 //! Source: TF5200 programming manual, access to the current zero offset (tccncprogramming 15556751499).
 
@@ -6,12 +6,12 @@ use crate::syntax::ast::{
     Assign, Binary, Expr, ExprKind, FunctionCall, Place, PlaceKind, Segment, Span,
 };
 
-/// True for `V.G.NP[i].ALL` and `V.G.NP_AKT.ALL`.
+/// Whether it is `V.G.NP[i].ALL` or `V.G.NP_AKT.ALL`.
 pub(in crate::exec) fn is_all(place: &Place) -> bool {
     matches!(&place.kind, PlaceKind::Variable(segments) if names_all(segments))
 }
 
-/// The assignment for one axis, by its index.
+/// The assignment for one axis, given by its index.
 pub(in crate::exec) fn of_axis(assign: &Assign, axis: usize) -> Assign {
     let Assign { target, operator, value } = assign;
     let (target, value) = (place(target, axis), expression(value, axis));

@@ -1,7 +1,6 @@
 //! Values of expressions.
 //!
-//! Source: TF5200 programming manual, arithmetic expressions. Assumption: results that are not finite numbers
-//! are K-0009.
+//! Source: TF5200 programming manual, arithmetic expressions. Assumption: results that are not finite cause K-0009.
 
 use super::functions;
 use super::number::{as_number, bits, finite, is_true, whole};
@@ -33,7 +32,7 @@ impl Decoder {
         }
     }
 
-    /// `R1`: the radius that was programmed last (R, `R1=`, G163), in the unit that is active (206014219).
+    /// `R1`: the last radius programmed (R, `R1=`, G163), in the active unit (206014219).
     fn last_radius(&self, span: Span) -> Outcome<Value> {
         let radius_mm = self.modal.radius_mm.ok_or_else(|| {
             let text = "R1 has no value: no radius has been programmed";
@@ -42,7 +41,7 @@ impl Decoder {
         Ok(Value::Number(radius_mm / self.modal.unit_mm()))
     }
 
-    /// Number of an expression; a text is 21461.
+    /// Numeric value of an expression; 21461 for a text.
     pub(in crate::exec) fn number(&self, expr: &Expr) -> Outcome<f64> {
         match &expr.kind {
             ExprKind::Number(x) => Ok(*x),
@@ -50,12 +49,12 @@ impl Decoder {
         }
     }
 
-    /// Truth of an expression.
+    /// Truth value of an expression.
     pub(in crate::exec) fn condition(&self, expr: &Expr) -> Outcome<bool> {
         self.number(expr).map(is_true)
     }
 
-    /// A whole number in a range.
+    /// An integer within a range.
     pub(in crate::exec) fn whole(
         &self,
         expr: &Expr,
@@ -70,7 +69,7 @@ impl Decoder {
         })
     }
 
-    /// A run of minus signs, however long.
+    /// A run of minus signs, of any length.
     fn negated(&self, expr: &Expr) -> Outcome<Value> {
         let (mut negative, mut inner) = (false, expr);
         while let ExprKind::Negate(next) = &inner.kind {
@@ -81,7 +80,7 @@ impl Decoder {
         Ok(Value::Number(if negative { -x } else { x }))
     }
 
-    /// A chain of operators that lean to the left, without recursion along the chain.
+    /// A chain of left-associative operators, without recursion along the chain.
     fn chain(&self, top: &Binary) -> Outcome<Value> {
         let mut spine = vec![top];
         let mut left = &top.left;
@@ -124,7 +123,7 @@ fn apply(
         BinaryOp::Or => return truth(is_true(a) || is_true(b)),
         BinaryOp::Xor => return truth(is_true(a) != is_true(b)),
         BinaryOp::And => return truth(is_true(a) && is_true(b)),
-        // exact comparison is the rule of the language
+        // the language compares exactly
         BinaryOp::Equal => return truth(a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq)),
         BinaryOp::NotEqual => {
             return truth(!a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq));
@@ -152,7 +151,7 @@ fn apply(
 }
 
 fn texts(op: BinaryOp, a: &str, b: &str, span: Span) -> Outcome<Value> {
-    /// Longest text that an expression may build, so that a loop cannot exhaust memory.
+    /// Maximum length of a text built by an expression, so that a loop cannot exhaust memory.
     const LONGEST: usize = 4096;
     Ok(match op {
         BinaryOp::Add if a.len() + b.len() > LONGEST => {

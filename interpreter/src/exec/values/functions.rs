@@ -1,7 +1,7 @@
-//! Functions of the expression language. Angles are degrees.
+//! Functions of the expression language. Angles are in degrees.
 //!
-//! Source: TF5200 programming manual, arithmetic functions. Assumption: `INT` cuts towards 0, `ROUND` rounds half away
-//! from 0, positions in texts count from 1, `FIND` of something absent is 0.
+//! Source: TF5200 programming manual, arithmetic functions. Assumption: `INT` truncates towards 0, `ROUND` rounds half
+//! away from 0, positions in texts count from 1, `FIND` returns 0 if the text is not found.
 
 use super::number::{as_number, bits, finite, is_true, whole};
 use crate::diag::{Condition, ValueKind};
@@ -12,7 +12,7 @@ use crate::exec::options::Value;
 use crate::syntax::ast::{Expr, ExprKind, Function, FunctionCall, Place, Span};
 use crate::syntax::macros;
 
-/// Numbers of arguments that a function takes.
+/// Least and greatest number of arguments of a function.
 fn arity(function: Function) -> (usize, usize) {
     match function {
         Function::Atan2
@@ -79,7 +79,7 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
     finite(number, span).map(Value::Number)
 }
 
-/// Bits inverted within 16 bits if the number fits, else within 32.
+/// Inverts the bits within 16 bits if the number fits, otherwise within 32.
 fn inverted(x: f64, span: Span) -> Outcome<u32> {
     let pattern = bits(x, span)?;
     Ok(if pattern <= 0xFFFF { pattern ^ 0xFFFF } else { !pattern })
@@ -149,10 +149,11 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
     })
 }
 
-/// `MACRO_CONTENT["NAME"]`, `MACRO_LENGTH["NAME"]`: the text of a macro, the macros in it replaced, and its characters.
+/// `MACRO_CONTENT["NAME"]`, `MACRO_LENGTH["NAME"]`: the text of a macro with its own macros replaced, and the number of
+/// its characters.
 ///
-/// Source: TF5200 diagnosis 1097005579, 1152060811, 1147344395. Assumption: the length is that of the same text; no page says
-/// so. An unknown macro has no length: K-UNDEFINED.
+/// Source: TF5200 diagnosis 1097005579, 1152060811, 1147344395. Assumption: the length is that of the expanded text;
+/// the documents do not specify it. An unknown macro has no length: K-UNDEFINED.
 fn of_macro(decoder: &Decoder, call: &FunctionCall) -> Outcome<Value> {
     let argument = &call.arguments[0];
     let wants_length = call.function == Function::MacroLength;
@@ -185,7 +186,7 @@ fn of_macro(decoder: &Decoder, call: &FunctionCall) -> Outcome<Value> {
     }
 }
 
-/// Size of a dimension of an array; without a dimension that of the first one, -1 if there is none.
+/// Size of a dimension of an array; if none is given, that of the first one, or -1 for a scalar.
 fn size_of(decoder: &Decoder, place: &Place, dimension: Option<&Expr>) -> Outcome<Value> {
     let sizes = decoder.dimensions(place)?;
     let Some(dimension) = dimension else {
@@ -220,11 +221,12 @@ fn is_text_function(function: Function) -> bool {
     )
 }
 
-/// Highest count of characters. Assumption: the vendor prints no limit for 21472; it is the length of a block.
+/// Largest number of characters as an argument. Assumption: the vendor prints no limit for 21472; this is the length of
+/// a block.
 const COUNT_MAX: u32 = 4096;
 
-/// Largest result of `STR_TO_INT`. Assumption: the vendor prints no limit for 21465; it is that of the widest type of whole
-/// numbers, UNS32.
+/// Largest result of `STR_TO_INT`. Assumption: the vendor prints no limit for 21465; this is that of the widest integer
+/// type, UNS32.
 const INTEGER_MAX: f64 = u32::MAX as f64;
 
 /// Functions of texts (206023179): `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`, `INSERT[s, t, position]`,
@@ -241,8 +243,9 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
             Fault::new(Condition::TextCount, text, call.arguments[i].span)
         })
     };
-    // where a text is taken apart, counted from 0. Assumption: 21545 has limits and prints no numbers for them; MID, DELETE
-    // and REPLACE begin at one of the characters, INSERT may also put its text before the first one.
+    // position at which a text is split, counted from 0. Assumption: 21545 has limits, but the documents print no
+    // numbers for them; MID, DELETE and REPLACE begin at one of the characters, INSERT may also insert before the first
+    // one.
     let position = |i: usize, least: usize, s: &[char]| {
         let (x, most) = (decoder.number(&call.arguments[i])?, s.len());
         let at = whole(x, 0, u32::MAX).map(|at| at as usize);
@@ -275,7 +278,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
     };
     Ok(match call.function {
         Function::Len => Value::Number(text(0)?.len() as f64),
-        // the value of a character, of the first one without a position
+        // the code of a character, of the first one if no position is given
         Function::Ord => {
             let s = text(0)?;
             let at = call.arguments.get(1).map_or(Ok(1), |_| count(1))?;

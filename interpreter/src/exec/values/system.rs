@@ -1,4 +1,4 @@
-//! System variables `V.A.`, `V.G.`, `V.SPDL.`, `V.SPDL_PROG.`: what they give and take.
+//! System variables `V.A.`, `V.G.`, `V.SPDL.`, `V.SPDL_PROG.`: reading and writing.
 //!
 //! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.
 
@@ -18,17 +18,17 @@ use refused::unknown;
 use rows::{ROWS, Row};
 pub(in crate::exec) use write::write;
 
-/// A variable as it is written, taken apart.
+/// A variable as written, split into its parts.
 struct Path<'a> {
     segments: &'a [Segment],
     span: Span,
 }
 
-/// Names that are followed by an index.
+/// Names followed by an index.
 const INDEXED: [&str; 6] = ["NP", "WZ", "P", "MERR", "TIMER", "@P"];
 
 impl Row {
-    /// As it is written in a program, with X for an axis, S for a spindle and i for an index.
+    /// The name as used in programs, with X for an axis, S for a spindle and i for an index.
     fn title(&self) -> String {
         let segment = |name: &&str| match *name {
             "*" => "X".to_owned(),
@@ -40,12 +40,12 @@ impl Row {
     }
 }
 
-/// Every variable with its meaning.
+/// All variables with their meanings.
 pub(crate) fn meanings() -> impl Iterator<Item = (String, &'static str)> {
     ROWS.iter().map(|row| (row.title(), row.meaning))
 }
 
-/// The variable that a text like `V.A.ABS.X` or `V.G.WZ[2].R` names, with its meaning.
+/// The variable named by a text such as `V.A.ABS.X` or `V.G.WZ[2].R`, with its meaning.
 pub(crate) fn meaning_of(text: &str) -> Option<(String, &'static str)> {
     let upper = text.to_ascii_uppercase();
     let written: Vec<&str> = upper
@@ -72,8 +72,8 @@ impl Path<'_> {
         Ok(Value::Number(f(d, axis) / d.axis_unit(axis)))
     }
 
-    /// A coordinate of the program; refused for an axis that is scaled, as no page says whether it is the coordinate
-    /// before or after it.
+    /// A coordinate of the program. Refused for a scaled axis, because the documents do not specify whether it is the
+    /// coordinate before or after scaling.
     fn coordinate(
         &self,
         d: &Decoder,
@@ -88,7 +88,7 @@ impl Path<'_> {
         self.position(d, at, f)
     }
 
-    /// Position of an axis with all offsets; 21784 for one that follows a master.
+    /// Position of an axis with all offsets; 21784 for an axis that follows a master.
     fn axis_position(&self, d: &Decoder) -> Outcome<Value> {
         let axis = self.axis(d, 3)?;
         if d.motion.couplings.is_slave(axis) {
@@ -98,7 +98,7 @@ impl Path<'_> {
         self.position(d, 3, |d, a| d.geometry.coordinates.target()[a])
     }
 
-    /// Axis by name in the segment `at`, or by the index after the segment before.
+    /// Axis by its name in the segment `at`, or by the index after the segment before.
     fn axis(&self, d: &Decoder, at: usize) -> Outcome<usize> {
         if let Some(segment) = self.segments.get(at) {
             return d.names.of_name(&segment.name).ok_or_else(|| {
@@ -119,7 +119,7 @@ impl Path<'_> {
         })
     }
 
-    /// A value that only the main spindle has, 0 for another one.
+    /// A value that exists only for the main spindle; 0 for any other.
     fn of_main_spindle(&self, d: &Decoder, value: f64) -> Outcome<Value> {
         Ok(Value::Number(if self.spindle(d, 2)? == 0 { value } else { 0.0 }))
     }
@@ -165,7 +165,7 @@ impl Path<'_> {
     }
 }
 
-/// The row of a variable. A last `*` may be missing: then an index follows the segment before.
+/// The row of a variable. A last `*` may be missing, if an index follows the segment before.
 fn find(segments: &[Segment]) -> Option<&'static Row> {
     ROWS.iter().find(|row| {
         let open = |pattern: &str| matches!(pattern, "*" | "s");
@@ -200,7 +200,7 @@ pub(in crate::exec) fn read(d: &Decoder, segments: &[Segment], span: Span) -> Ou
     }
 }
 
-/// 21768 for an index that the variable does not have; the last name may stand for an axis by its index.
+/// 21768 for an index that the variable does not have; the last name may be replaced by the index of an axis.
 fn indices_fit(row: &Row, segments: &[Segment], span: Span) -> Outcome<()> {
     let by_index = row.name.len() > segments.len();
     let takes = |i: usize| INDEXED.contains(&row.name[i]) || by_index && i + 1 == segments.len();
@@ -214,14 +214,14 @@ fn indices_fit(row: &Row, segments: &[Segment], span: Span) -> Outcome<()> {
     }
 }
 
-/// True for `V.G.KIN..`: parameters of kinematic transformations.
+/// Whether it is `V.G.KIN..`: parameters of kinematic transformations.
 fn is_kinematic(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
     is(0, "G") && is(1, "KIN")
 }
 
-/// Name of a kinematic parameter with its indices; refused unless transformations are taken as the identity.
+/// Name of a kinematic parameter with its indices; refused unless transformations are treated as the identity.
 fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     if !d.identity_trafo {
         let hint =
@@ -238,20 +238,20 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
-/// True if reading this variable needs the machine at rest and its actual positions.
+/// Whether reading this variable requires the machine at rest and its actual positions.
 pub(in crate::exec) fn needs_actual(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
     is(0, "A") && (is(1, "ACT_POS") || segments.get(1).is_some_and(|s| is_compensation(&s.name)))
 }
 
-/// True for `V.A.LEAD_COMP_ACTIVE` and the like, whose page says that reading them flushes the channel.
+/// Whether it is `V.A.LEAD_COMP_ACTIVE` or a similar variable, whose page states that reading it flushes the channel.
 fn is_compensation(name: &str) -> bool {
     let name = name.to_ascii_uppercase();
     name.ends_with("_COMP_INIT") || name.ends_with("_COMP_ACTIVE")
 }
 
-/// True for `V.G.WZ_AKT`, `V.G.WZL` and `V.G.WZR`: the tool data in use.
+/// Whether it is `V.G.WZ_AKT`, `V.G.WZL` or `V.G.WZR`: the tool data in use.
 pub(in crate::exec) fn is_active_tool(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));

@@ -4,25 +4,25 @@
 
 use std::collections::BTreeMap;
 
-/// What is done to a timer.
+/// Operation on a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TimerAct {
-    /// It counts.
+    /// Starts the timer.
     Start,
-    /// It is at rest.
+    /// Stops the timer.
     Stop,
-    /// `V.G.TIMER` takes its count.
+    /// Copies its count to `V.G.TIMER`.
     Read,
-    /// It is at 0 and stopped; `V.G.TIMER` stays.
+    /// Stops it and sets it to 0; `V.G.TIMER` is unchanged.
     Clear,
 }
 
 /// One timer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Timer {
-    /// Program time in s since which it runs.
+    /// Program time in s at which it was started; `None` if stopped.
     since_s: Option<f64>,
-    /// What it had counted before, in s.
+    /// Time counted before that, in s.
     counted_s: f64,
     latched_ms: f64,
 }
@@ -40,7 +40,7 @@ pub(in crate::exec) struct Timers {
 }
 
 impl Timers {
-    /// Something happens to a timer at a program time in s.
+    /// Executes an operation on a timer at a program time in s.
     pub(in crate::exec) fn act(&mut self, id: u32, act: TimerAct, now_s: f64) {
         let timer = self.timers.entry(id).or_default();
         match act {
@@ -58,7 +58,7 @@ impl Timers {
         }
     }
 
-    /// `V.G.TIMER[id]`: the count of the last READ in ms, 0 before it.
+    /// `V.G.TIMER[id]`: the count at the last READ in ms; 0 before the first one.
     pub(in crate::exec) fn latched_ms(&self, id: u32) -> f64 {
         self.timers.get(&id).map_or(0.0, |timer| timer.latched_ms)
     }

@@ -1,7 +1,7 @@
 //! P parameters, self-defined variables (`V.P`, `V.L`, `V.S`, `V.CYC`), external variables and cycle parameters.
 //!
-//! Source: TF5200 programming manual, parameters and variables. Assumptions: array indices begin at 0, a number written
-//! to an integer variable is rounded, an index of a P parameter is at most [`INDEX_MAX`] and all arrays together hold
+//! Source: TF5200 programming manual, parameters and variables. Assumptions: array indices begin at 0; a number written
+//! to an integer variable is rounded; an index of a P parameter is at most [`INDEX_MAX`], and all arrays together have
 //! at most [`storage::ELEMENTS_MAX`] elements, so that a program cannot exhaust memory.
 
 mod declare;
@@ -45,7 +45,7 @@ fn outside_cycle(name: &str, span: Span) -> Box<Fault> {
     Fault::new(Condition::CycleParameterOutside, text, span)
 }
 
-/// `G04 P500` of other controls is a value read from P500 here.
+/// `G04 P500` of other controls is read as the value of P500 here.
 fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
     Fault::new(Condition::ParameterUnknown, format!("P{index} has no value"), span).hint(format!(
         "P is a parameter in this dialect, not an address: P{index}=5 assigns a value"
@@ -57,7 +57,7 @@ fn number_of(name: &str) -> Option<u32> {
     name.strip_prefix(['P', 'p']).and_then(|rest| rest.parse().ok())
 }
 
-/// What to do about a parameter that a cycle was not given.
+/// Advice for a parameter that was not passed to a cycle.
 fn pass_it(name: &str) -> String {
     match number_of(name) {
         Some(number) => format!("pass it, or test V.G.@P[{number}].VALID first"),
@@ -68,7 +68,7 @@ fn pass_it(name: &str) -> String {
 impl Variables {
     /// Value of `@name`; `creates`: reading a `@P` that was not passed creates it (P-CHAN-00463).
     ///
-    /// Assumption: it is created with 0, and `V.G.@P[i].VALID` remains FALSE.
+    /// Assumption: its initial value is 0, and `V.G.@P[i].VALID` remains FALSE.
     fn cycle_parameter(&self, name: &str, creates: bool, span: Span) -> Outcome<Value> {
         let Some(scope) = self.cycles.last() else {
             return Err(outside_cycle(name, span));
@@ -92,7 +92,7 @@ impl Variables {
         }
     }
 
-    /// The parameters that reading has created in this block.
+    /// The parameters created by reading in this block.
     pub(in crate::exec) fn take_created(&self) -> Vec<(Box<str>, Span)> {
         self.created.take()
     }
@@ -114,7 +114,7 @@ impl Variables {
 }
 
 impl Decoder {
-    /// Says once of each `@P` that reading has created it.
+    /// Reports each `@P` created by reading, once.
     pub(in crate::exec) fn report_created(&mut self) {
         for (name, span) in self.values.variables.take_created() {
             let text = format!("@{name} was not passed to the cycle: reading it creates it with 0");
@@ -262,7 +262,7 @@ impl Decoder {
         }
     }
 
-    /// Writes a place; a text may go to variables, not to P parameters.
+    /// Writes a place; texts may be written to variables, not to P parameters.
     pub(in crate::exec) fn write(
         &mut self,
         place: &Place,
@@ -346,7 +346,7 @@ impl Decoder {
     /// Whether a variable or parameter exists.
     pub(in crate::exec) fn exists(&self, place: &Place) -> Outcome<bool> {
         Ok(match self.resolve(place)? {
-            // an element outside the array is none
+            // an element outside the array does not exist
             Target::Parameter(index, subscripts) => {
                 self.values.variables.parameters().contains_key(&index)
                     && (subscripts.is_empty() || self.read(place).is_ok())
@@ -387,7 +387,7 @@ impl Decoder {
                     return self.absent_cycle_variable(&name, span);
                 }
                 if gone.is_none() && class == Class::Shared {
-                    // on the control they outlive programs, so a program may tidy up after another one
+                    // on the control they outlive programs, so a program may delete those of another one
                     let text = format!(
                         "V.S.{name} does not exist: a run begins without what earlier programs left"
                     );
@@ -416,7 +416,8 @@ impl Decoder {
 }
 
 impl Decoder {
-    /// A V.CYC variable that this level has not created: without any there is nothing to do, 20933 for that of a level above.
+    /// A V.CYC variable that this level has not created: if there is none, nothing is done; 20933 if it belongs to a
+    /// level above.
     ///
     /// Source: TF5200 programming manual, 486167307.
     fn absent_cycle_variable(&self, name: &str, span: Span) -> Outcome<()> {

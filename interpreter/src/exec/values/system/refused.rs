@@ -1,4 +1,4 @@
-//! Variables that are refused by their own name, with the reason, and names that no list has.
+//! Variables refused individually with a reason, and names that are in no list.
 
 use super::{ROWS, written};
 use crate::diag::Condition;
@@ -7,7 +7,7 @@ use crate::exec::fault::Fault;
 use crate::suggest;
 use crate::syntax::ast::{Segment, Span};
 
-/// Classes of variables that are refused as a whole, and why.
+/// Classes of variables that are refused as a whole, with the reason.
 const CLASSES: &[(&str, &str)] = &[
     (
         "TOOL",
@@ -19,9 +19,9 @@ const CLASSES: &[(&str, &str)] = &[
     ("I", "no page says what these variables are"),
 ];
 
-/// Variables of functions that are not simulated, and why. Source: TF5200 volumetric compensation; outputs of M and H
-/// functions before their place (148946059); number of the commanding channel of a job manager (1139945739); block type
-/// (tccncprogramming 15557116555); ADS access (312808843).
+/// Variables of functions that are not simulated, with the reason. Source: TF5200 volumetric compensation; outputs of M
+/// and H functions before their place (148946059); number of the commanding channel of a job manager (1139945739);
+/// block type (tccncprogramming 15557116555); ADS access (312808843).
 const OTHERS: &[(&str, &str, &str)] = &[
     ("A", "RETRACT_ACS_POS", "tools are not retracted after a fault"),
     ("A", "WCS", "the page names the variable and not the system that it counts in"),
@@ -32,8 +32,8 @@ const OTHERS: &[(&str, &str, &str)] = &[
     ("G", "PROG_SA", "the numbers of the block types are printed nowhere"),
 ];
 
-/// Data of tools that nothing here needs. Source: TF5200 external tool management 318262795; online tool compensation
-/// 213748491, whose wear only the simulation knows.
+/// Tool data that is not used here. Source: TF5200 external tool management 318262795; online tool compensation
+/// 213748491, whose wear is known only to the simulation.
 const OTHER_TOOL_DATA: &[&str] = &[
     "KIN_ID",
     "KIN_PARAM",
@@ -75,7 +75,7 @@ pub(super) fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Faul
     let names: Vec<String> =
         ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
     let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
-    // a name that is not written to its end, or one without its axis
+    // an incomplete name, or one without its axis
     let begun = || names.iter().filter(|known| known.starts_with(&name.to_ascii_uppercase()));
     let near = suggest::nearest(&name, names.iter().map(String::as_str));
     match near.or_else(|| begun().min_by_key(|known| known.len()).map(String::as_str)) {

@@ -1,6 +1,6 @@
 //! The variables that can be read: one row each.
 //!
-//! Served values are kontur's choice where a headless tool has none.
+//! Where a simulator without a control has no such value, kontur chooses one.
 
 use super::Path;
 use crate::exec::decoder::Decoder;
@@ -17,7 +17,7 @@ type Reader = fn(&Decoder, &Path<'_>) -> Outcome<Value>;
 pub(super) struct Row {
     /// Segments in upper case; `*` an axis, `n` a name with an index, `?` anything.
     pub(super) name: &'static [&'static str],
-    /// In one sentence, for `explain`.
+    /// Meaning in one sentence, for `explain`.
     pub(super) meaning: &'static str,
     pub(super) read: Reader,
 }
@@ -53,7 +53,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["A", "MEIN", "*"], meaning: "measuring offset of an axis that G101 has taken in", read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.measuring_offset(a)) },
     Row { name: &["A", "MEAS", "ACS", "VALUE", "*"], meaning: "measured value of an axis in coordinates of the axis", read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].axis) },
     Row { name: &["A", "MEAS", "PCS", "VALUE", "*"], meaning: "measured value of an axis in coordinates of the program", read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].program) },
-    // axes count as homed where they are, and no clamp position offsets are read
+    // axes count as homed at their position, and clamp position offsets are not read
     Row { name: &["A", "RERF", "*"], meaning: "1 if the axis is homed; here always 1", read: |d, p| { p.axis(d, 2)?; truth(true) } },
     Row { name: &["A", "PZV", "*"], meaning: "clamp position offset of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     // axis compensations are not simulated (308731019)
@@ -69,7 +69,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["A", "FRICT_COMP_ACTIVE", "*"], meaning: "1 if friction compensation of an axis is active; here 0", read: not_compensated },
     Row { name: &["A", "CROSSTALK_COMP_INIT", "*"], meaning: "1 if crosstalk compensation of an axis is initialised; here 0", read: not_compensated },
     Row { name: &["A", "CROSSTALK_COMP_ACTIVE", "*"], meaning: "1 if crosstalk compensation of an axis is active; here 0", read: not_compensated },
-    // manual mode moves nothing here
+    // manual mode is not simulated
     Row { name: &["A", "MANUAL_OFFSETS", "*"], meaning: "offset of manual mode of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["A", "SOFFS", "*"], meaning: "offset of manual mode of an axis (older name); here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["G", "AX_LINK", "NR"], meaning: "coupling group that was switched on last (#ENABLE AX LINK); 0 before the first one", read: |d, _| number(f64::from(d.motion.couplings.last)) },
@@ -179,7 +179,7 @@ fn offset(tool: &Tool, axis: usize) -> f64 {
     tool.offsets_mm.get(&axis).copied().unwrap_or(0.0)
 }
 
-/// Wear by the way of the tool in use in 0.1 um/m, as it was written.
+/// Wear constant of the tool in use by distance, in 0.1 um/m, as written.
 fn wear_constant(d: &Decoder) -> f64 {
     (d.geometry.tools.active.wear_ratio / WEAR_UNIT * 1e9).round() / 1e9
 }

@@ -11,7 +11,7 @@ use crate::exec::options::Value;
 use crate::exec::values::number::{as_number, is_true, whole};
 use crate::syntax::ast::{Segment, Span};
 
-/// Kinematic parameters that are kept.
+/// Maximum number of kinematic parameters stored.
 const KINEMATICS_MAX: usize = 10_000;
 
 /// Writes a system variable; 20100 if it cannot be written.
@@ -64,7 +64,7 @@ pub(in crate::exec) fn write(
                 d.apply_wear(span)?;
             }
         }
-        // no M function of a spindle is free for other purposes here (P-CHAN-00098)
+        // spindles have no M functions free for other purposes here (P-CHAN-00098)
         ["SPDL", "M_FCT_FREE"] => {
             if is_true(x()?) {
                 return Err(Fault::unsupported("V.SPDL.M_FCT_FREE = 1", span));

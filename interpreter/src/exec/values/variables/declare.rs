@@ -1,4 +1,4 @@
-//! Declarations: `#VAR`, types, sizes and start values of variables and arrays.
+//! Declarations: `#VAR`, types, sizes and initial values of variables and arrays.
 
 use super::scopes::class;
 use super::storage::{DIMENSIONS_MAX, ELEMENTS_MAX, Type, Values, Variable};
@@ -121,7 +121,7 @@ impl Decoder {
         }
     }
 
-    /// Start values with fractions of a variable that holds whole numbers.
+    /// Reports initial values with fractions for a variable of an integer type.
     fn note_fractions(&mut self, declaration: &Declaration, kind: Type) {
         let exprs: Vec<&Expr> = match &declaration.value {
             Some(ItemValue::Expr(e)) => vec![e],
@@ -144,9 +144,9 @@ impl Decoder {
         }
     }
 
-    /// A number with a fraction goes into a variable that holds whole numbers.
+    /// Reports a number with a fraction that is written to a variable of an integer type.
     ///
-    /// Assumption: it is rounded; the vendor does not print whether the control rounds or cuts.
+    /// Assumption: it is rounded; the documents do not specify whether the control rounds or truncates.
     pub(super) fn note_rounded(&mut self, name: &str, x: f64, span: Span) {
         let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
         let fault = Fault::new(Condition::Odd, text, span).warning();

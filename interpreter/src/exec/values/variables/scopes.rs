@@ -1,4 +1,4 @@
-//! Which variables exist at a place of the program: per class, level and cycle.
+//! The variables that exist at a position in the program: by class, level and cycle.
 
 use super::storage::Variable;
 use crate::diag::Condition;
@@ -11,10 +11,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 type Table = BTreeMap<Box<str>, Variable>;
 
-/// What belongs to one call of a cycle.
+/// Variables of one call of a cycle.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CycleScope {
-    /// Own P parameters.
+    /// P parameters of the cycle.
     parameters: BTreeMap<u32, Variable>,
     /// `@P1`, `@X`, ... by the name after `@`.
     pub(super) passed: BTreeMap<Box<str>, Value>,
@@ -28,15 +28,15 @@ pub(in crate::exec) struct Variables {
     shared: Table,
     /// One table per program level: V.L.
     locals: Vec<Table>,
-    /// The same for V.CYC, which every program may declare. Source: TF5200 programming manual, cycle variables.
+    /// The same for V.CYC, which any program may declare. Source: TF5200 programming manual, cycle variables.
     cycle: Vec<Table>,
     pub(super) cycles: Vec<CycleScope>,
     pub(super) external: BTreeMap<String, External>,
-    /// External variables that the program has named, in an expression or as a target.
+    /// External variables named by the program, in an expression or as a target.
     named: RefCell<BTreeSet<String>>,
     pub(super) elements: usize,
-    /// Cycle parameters that reading has created and that nothing has been said about yet: an expression reads without changing
-    /// anything else.
+    /// Cycle parameters created by reading and not reported yet: an expression is evaluated without changing anything
+    /// else.
     pub(super) created: RefCell<Vec<(Box<str>, Span)>>,
 }
 
@@ -46,7 +46,7 @@ impl Variables {
         Self { locals, cycle, external, ..Self::default() }
     }
 
-    /// Notes that the program names an external variable.
+    /// Records that the program names an external variable.
     pub(super) fn uses_external(&self, name: &str) {
         let mut named = self.named.borrow_mut();
         if !named.contains(name) {
@@ -54,7 +54,7 @@ impl Variables {
         }
     }
 
-    /// External variables that the program has not named, each with a similar name that it has.
+    /// External variables not named by the program, each with a similar name that the program does use.
     pub(in crate::exec) fn unused_external(&self) -> Vec<(String, Option<String>)> {
         let named = self.named.borrow();
         let unused = self.external.keys().filter(|name| !named.contains(*name));
@@ -69,7 +69,7 @@ impl Variables {
         self.cycle.push(Table::new());
     }
 
-    /// Leaves a program level: its local variables are gone.
+    /// Leaves a program level, and drops its local variables.
     pub(in crate::exec) fn leave_level(&mut self) {
         for gone in [self.locals.pop(), self.cycle.pop()].into_iter().flatten() {
             self.elements -= gone.values().map(Variable::elements).sum::<usize>();
@@ -86,7 +86,7 @@ impl Variables {
         self.elements -= gone.parameters.values().map(Variable::elements).sum::<usize>();
     }
 
-    /// True inside a cycle.
+    /// Whether the program is inside a cycle.
     pub(in crate::exec) fn is_cycle(&self) -> bool {
         !self.cycles.is_empty()
     }
@@ -122,7 +122,7 @@ impl Variables {
         }
     }
 
-    /// The table that declarations go to at present.
+    /// The table that currently receives declarations.
     pub(super) fn table(&mut self, class: Class) -> Option<&mut Table> {
         match class {
             Class::Program => Some(&mut self.program),
@@ -140,7 +140,7 @@ impl Variables {
         }
     }
 
-    /// Declares a variable; true if it existed before.
+    /// Declares a variable; true if it already existed.
     pub(super) fn insert(
         &mut self,
         class: Class,
@@ -181,7 +181,7 @@ pub(super) enum Class {
     Cycle,
 }
 
-/// Class of the first segment, if it is one of self-defined variables.
+/// Class of the first segment, if it denotes self-defined variables.
 pub(super) fn class(segment: &str) -> Option<(Class, &'static str)> {
     const CLASSES: [(&str, Class); 4] =
         [("P", Class::Program), ("L", Class::Local), ("S", Class::Shared), ("CYC", Class::Cycle)];

@@ -7,23 +7,23 @@ use crate::exec::values::number::{as_number, is_true, is_whole, whole};
 use crate::syntax::ast::Span;
 use smallvec::SmallVec;
 
-/// Elements of all arrays together.
+/// Maximum number of elements of all arrays together.
 pub(super) const ELEMENTS_MAX: usize = 4_000_000;
 
-/// Dimensions of an array.
+/// Maximum number of dimensions of an array.
 pub(super) const DIMENSIONS_MAX: usize = 4;
 
 /// Type of a declared variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Type {
     Boolean,
-    /// Whole numbers of a range.
+    /// Integers within a range.
     Integer {
         low: i64,
         high: i64,
     },
     Real,
-    /// Text of so many characters.
+    /// Text with a maximum number of characters.
     Text(usize),
 }
 
@@ -53,7 +53,7 @@ impl Type {
         }
     }
 
-    /// The number with a fraction that a variable of this type would round.
+    /// The number with a fraction, if a variable of this type would round it.
     pub(super) fn rounds(self, value: &Value) -> Option<f64> {
         match (self, value) {
             (Self::Integer { .. }, Value::Number(x)) if !is_whole(*x) => Some(*x),
@@ -61,7 +61,7 @@ impl Type {
         }
     }
 
-    /// The value as a variable of this type holds it.
+    /// The value converted to this type.
     pub(super) fn converted(self, value: Value, span: Span) -> Outcome<Value> {
         Ok(match self {
             Self::Boolean => Value::truth(is_true(as_number(&value, span)?)),
@@ -100,7 +100,7 @@ impl Type {
     }
 }
 
-/// What an array is: the vendor has other numbers for P parameters than for variables.
+/// Kind of an array: the vendor's message numbers differ between P parameters and variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
     Parameter,
@@ -116,7 +116,7 @@ pub(super) struct Variable {
 }
 
 impl Variable {
-    /// A variable that its first write creates: it takes the type of what is written.
+    /// A variable created by its first write: it takes the type of the value.
     pub(super) fn created(value: Value) -> Self {
         let kind = match value {
             Value::Number(_) => Some(Type::Real),
