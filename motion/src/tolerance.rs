@@ -51,7 +51,7 @@
 //! Neither exact nor bounded: the choice of the blocks that are slowed down. It keeps the tolerance but is not an
 //! optimum; `motion/tests/promise.rs` compares it with the best even speed (`EVEN=1`).
 //!
-//! Settings are made in the planner at standstill; tolerances that could not be kept are returned by
+//! The kernels are set in the planner at standstill; tolerances that could not be kept are returned by
 //! [`crate::planner::Planner::take_unkept`].
 //!
 //! ```

@@ -151,8 +151,8 @@ enum Wrong<'m> {
     Control(&'m str),
 }
 
-/// Appends the text of a macro with its own macros replaced. The number of a function is one value: `G"A"` is `G[60 -
-/// 7]`.
+/// Appends the text of a macro with its own macros replaced. The number of a function is one value: `G"A"` is
+/// `G[60 - 7]`.
 fn insert<'m>(
     text: &'m str,
     is_number: bool,

@@ -173,8 +173,8 @@ pub struct MacroDefinition {
 /// A `#` word among DIN words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HashWord {
-    /// Name without `#`, in upper case: `FRC CHR CHF RND ANG CANG ACHSE PSET PRESET ADD`, `SUPPRESS OFFSETS`, `SCALE
-    /// ON`, `AKIMA STARTVECTOR`.
+    /// Name without `#`, in upper case: `FRC CHR CHF RND ANG CANG ACHSE PSET PRESET ADD`, `SUPPRESS OFFSETS`,
+    /// `SCALE ON`, `AKIMA STARTVECTOR`.
     pub name: Box<str>,
     /// Value, if one is written.
     pub value: Option<Expr>,
