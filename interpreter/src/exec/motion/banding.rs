@@ -55,7 +55,7 @@ impl Decoder {
     }
 
     /// If edge banding is on and the block of the motion has an M function for it, the motion waits for the signal. Returns the
-    /// index of that function.
+    /// position of that function in the program text.
     pub(in crate::exec) fn banding_run(&mut self, words: &Words<'_>) -> Outcome<Option<Span>> {
         let at_signal = &self.machine.channel.m_at_signal;
         let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
