@@ -1,7 +1,7 @@
-//! Which block is next: files, levels, loops, branches and calls.
+//! Determines the next block: files, levels, loops, branches and calls.
 //!
-//! Owns the open files, their indices and the levels of the program; it hands blocks to the decoder and reads nothing of
-//! its state but values of conditions and what a call has left in it.
+//! Owns the open files, their indices and the levels of the program. It passes blocks to the decoder, and of the state of the
+//! decoder it reads only the values of conditions and the results of a call.
 
 mod actual;
 pub(super) mod calls;

@@ -1,7 +1,7 @@
-//! Values of expressions: numbers, texts, functions, variables and what the control makes readable.
+//! Values of expressions: numbers, texts, functions, variables and readable states of the control.
 //!
-//! Owns the variables and timers; reads everything that a system variable shows and changes nothing else, but for the few
-//! system variables that may be written.
+//! Owns the variables and timers. It reads the state that system variables show, and changes no other state, except through the
+//! few writable system variables.
 
 pub(super) mod every_axis;
 pub(super) mod expr;
@@ -16,14 +16,14 @@ use std::collections::BTreeMap;
 use timers::Timers;
 use variables::scopes::Variables;
 
-/// What the room owns.
+/// State that the values own.
 #[derive(Debug)]
 pub(super) struct Values {
     pub(super) variables: Variables,
-    /// `V.G.KIN..` under `--identity-trafo`, by their names with indices: known, and without effect.
+    /// `V.G.KIN..` under `--identity-trafo`, by their names with indices: accepted without effect.
     pub(super) kinematics: BTreeMap<String, f64>,
     pub(super) timers: Timers,
-    /// `V.TLM.TIME_FACT` and `V.TLM.DIST_FACT`: kept, and without effect. Source: TF5200 programming manual, 208584843.
+    /// `V.TLM.TIME_FACT` and `V.TLM.DIST_FACT`: stored without effect. Source: TF5200 programming manual, 208584843.
     pub(super) tool_life: [f64; 2],
 }
 
