@@ -11,7 +11,8 @@ fn ends(text: &str) -> Vec<Vec<f64>> {
     clean(&format!("{TOOL}{text}\nM30\n")).ends()
 }
 
-/// entered at the distance r / sin(half of its angle), each notch at r / sin(half of the outer one) from the corner.
+/// The star of the page on inside corner selection (207798283): eight lines around the origin, with radius 10 inside it. The path
+/// passes each tip at the distance r / sin(half of its angle) from the corner, each notch at r / sin(half of the outer angle).
 #[test]
 fn inside_corner_selection() {
     const STAR: [[f64; 2]; 8] = [
