@@ -1,4 +1,4 @@
-//! The command line from outside, one module per subject: one target, linked once.
+//! The command line from outside, one module per subject: a single test target, linked once.
 
 #![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
 

@@ -1,4 +1,4 @@
-//! What `explain`, `response`, `tune`, `sweep` and `report --signals` answer.
+//! Output of `explain`, `response`, `tune`, `sweep` and `report --signals`.
 
 use crate::kit::Folder;
 use kontur::Exit;
@@ -49,7 +49,7 @@ fn response_writes_tables_and_pictures() {
 #[test]
 fn response_of_shapers_and_axes() {
     let f = Folder::new();
-    // at the set frequency nothing is left; a column per convention
+    // zero at the set frequency; one column per convention
     let guard = ["response", "--guard", "MODE=2,FREQ=40"];
     let residual = ["--residual", "--range", "40..80", "--damping", "0.1,0.2"];
     let (exit, out, _) = f.call(&[&guard[..], &residual].concat());
@@ -62,7 +62,7 @@ fn response_of_shapers_and_axes() {
     let (_, out, _) = f.call(&["response", "--hsc-mean", "10,50", "--corner", "F1000"]);
     assert!(out.contains("HSC mean 10,10,1000,0.022727273,0.032141217,5.000000"), "{out}");
     assert!(out.contains("HSC mean 50,50,1000,0.106209150,"), "{out}");
-    // the lists of the built-in machine switch nothing on; a setting does
+    // the lists of the built-in machine activate nothing; an option does
     let (exit, out, err) = f.call(&["response", "--axis", "X", "--step"]);
     assert_eq!(exit, Exit::Finished);
     assert!(err.contains("no filter") && out.contains("0.000000,1.000000000"), "{err}");
@@ -139,13 +139,13 @@ fn tune_judges_the_choices_on_a_program() {
     program(square);
     let (exit, out, err) = tune("@corner.nc", "1");
     assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
-    // the limits of the machine and what was assumed
+    // the limits of the machine and the assumptions
     assert!(out.contains("machine   xyz, cycle 1 ms") && out.contains("v_max"), "{out}");
     assert!(out.contains("no AX_DEV in the program"), "{out}");
     let rows: Vec<&str> = out.lines().skip_while(|l| !l.contains("machining time")).collect();
     assert!(rows[1].starts_with("off") && rows[1].ends_with("no"), "{out}");
     let chosen = rows.iter().find_map(|l| l.strip_prefix("choice    ")).unwrap();
-    // the shortest kernel that keeps 5 % has the least to flush at the end of a pass
+    // the shortest kernel that keeps 5 % has the shortest run-out at the end of a pass
     let times: Vec<f64> = rows[2..]
         .iter()
         .filter(|row| row.ends_with("yes"))
@@ -154,18 +154,18 @@ fn tune_judges_the_choices_on_a_program() {
     let least = times.iter().copied().fold(f64::MAX, f64::min);
     assert!(times.len() > 2 && out.contains(&format!("1 mm: {least:.3} s")), "{out}");
     assert!(chosen.starts_with("#VIB GUARD ON [MODE="), "{chosen}");
-    // what leaves the bound runs again with it as AX_DEV, and keeps it or not
+    // settings that exceed the bound run again with it as AX_DEV, and keep it or not
     let (_, out, _) = tune("@corner.nc", "0.001");
     let again = |l: &&str| l.contains(" 0.001  ");
     assert!(out.lines().filter(again).count() > 2, "{out}");
-    // what the program says itself
+    // the settings of the program
     program(&square.replace("N10", "N10 #VIB GUARD ON [AX_DEV=0.02]\nN20"));
     let (_, out, _) = tune("@corner.nc", "1");
     assert!(out.contains("AX_DEV=0.02 (line 1)") && out.contains(" AX_DEV=0.02]\n"), "{out}");
     let rows = |out: &str| -> Vec<String> {
         out.lines().skip_while(|l| !l.contains("machining time")).map(str::to_owned).collect()
     };
-    // words that are to be chosen are replaced, also where they are computed or are in a subroutine
+    // words to be varied are replaced, also if they are computed or in a subroutine
     let plain = rows(&out);
     let computed = "#VIB GUARD ON [MODE=P1 FREQ=[P1*20] AX_DEV=0.02]";
     program(&square.replace("N10", &format!("P1=2\n{computed}\nN20")));
@@ -179,19 +179,19 @@ fn tune_judges_the_choices_on_a_program() {
     assert!(out.contains("(line 3) give way"), "{out}");
     assert_eq!(rows(&out), plain);
     assert_eq!(f.read("corner.nc"), sub);
-    // a program that ends the guard at once: none of the choices acts for long enough to compare
+    // a program that switches the guard off at once: none of the choices is active for long enough to compare
     program(&square.replace("N10", "N10 #VIB GUARD OFF\nN20"));
     let (_, out, _) = tune("@corner.nc", "1");
     assert!(out.contains("line 1 switches the guard off"), "{out}");
     assert!(out.contains("up to line 1: after it nothing was damped"), "{out}");
-    // what is asked of recordings has no effect on given frequencies
+    // options for recordings have no effect on given frequencies
     for option in ["--column=a", "--rate=1000", "--range=1..2", "--window=0..1"] {
         assert_eq!(f.call(&["tune", "--freq", "6.9,6.0", option]).0, Exit::Usage, "{option}");
     }
     assert_eq!(tune("@bad.nc", "1").0, Exit::Aborted);
 }
 
-/// One row per combination in their order, the same from the same input, whatever core was first.
+/// One row per combination in order; the same output for the same input, whatever the order in which the cores finish.
 #[test]
 fn sweep_has_a_row_for_every_combination() {
     let f = Folder::new();
@@ -214,7 +214,7 @@ fn sweep_has_a_row_for_every_combination() {
     assert_eq!((&header[0], &header[1]), ("X.vib_guard.mode", "X.vib_guard.freq"));
     for row in &rows {
         assert_eq!((cell(row, "state"), cell(row, "error")), ("finished".into(), String::new()));
-        // what `run` says of the same settings
+        // the output of `run` for the same settings
         let settings = [0, 1].map(|i| format!("{}={}", &header[i], &row[i]));
         let (_, out, _) = f.call(&[
             "run",
@@ -253,7 +253,7 @@ fn sweep_has_a_row_for_every_combination() {
     }
 }
 
-/// Runs that an error ends have their rows; only if no run finishes, neither does the command.
+/// Runs that end with an error have rows; the command fails only if no run finishes.
 #[test]
 fn sweep_of_aborted_runs_and_wrong_words() {
     let f = Folder::new();
@@ -278,7 +278,7 @@ fn sweep_of_aborted_runs_and_wrong_words() {
     assert_eq!(f.call(&["sweep", "@absent.nc", "--vary", vary]).0, Exit::Io);
 }
 
-/// What is wrong with a word of the command line is said of this word.
+/// An error in an argument of the command line is reported with this argument.
 #[test]
 fn refused_words_are_named() {
     let f = Folder::new();
@@ -293,7 +293,7 @@ fn refused_words_are_named() {
         let (exit, _, err) = f.call(words);
         assert_eq!((exit, err.contains(said)), (Exit::Usage, true), "{words:?}: {err}");
     }
-    // at a limit, and beyond one that only warns (P-AXIS-00554)
+    // at a limit, and beyond a limit that only warns (P-AXIS-00554)
     for more in
         [&["--start", "X500"][..], &["--start", "X600", "--set", "X.kenngr.swe_behaviour=WARNING"]]
     {
@@ -306,7 +306,7 @@ fn refused_words_are_named() {
 #[test]
 fn report_draws_signals_and_variants() {
     let f = Folder::new();
-    // beyond the end of the run, and beyond what the cycle can show, there is nothing to draw
+    // beyond the end of the run, and beyond the resolution of the cycle, there is nothing to plot
     for part in [["--window", "7000..9000"], ["--spectrum", "600..900"]] {
         let words = ["report", "@corner.nc", "--signals", "set", "-o", "@a.svg"];
         let (exit, _, err) = f.call(&[&words[..], &part].concat());
@@ -347,20 +347,20 @@ fn report_draws_signals_and_variants() {
     ] {
         assert_eq!(f.call(wrong).0, Exit::Usage, "{wrong:?}");
     }
-    // neither do more runs than can be distinguished
+    // more runs than can be distinguished are refused as well
     for form in [&["-o", "@m.html"][..], &["--signals", "X_set_mm", "-o", "@m.svg"]] {
         let words = ["report", "@corner.nc", "--vary", "X.vib_guard.freq=20..36"];
         let (exit, _, err) = f.call(&[&words[..], form].concat());
         assert_eq!((exit, err.contains("17 runs, at most 16")), (Exit::Usage, true), "{err}");
     }
-    // without --signals the contours overlay
+    // without --signals the contours are overlaid
     let contours = ["report", "@corner.nc", "--vary", "X.vib_guard.mode=1,4", "-o", "@c.svg"];
     assert_eq!(f.call(&contours).0, Exit::Finished);
     assert!(f.read("c.svg").contains("mode = 4"));
 }
 
-/// What is kept of a long run has a bound: of one column with its spectrum 262,144 cycles, of ten columns less. What is beyond is
-/// refused, whatever the picture is to be.
+/// The data kept of a long run are bounded: 262,144 cycles of one column with its spectrum, fewer of ten columns. Larger
+/// requests are refused, whatever the kind of plot.
 #[test]
 fn signals_of_long_runs_have_a_bound() {
     let f = Folder::new();

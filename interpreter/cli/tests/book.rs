@@ -1,5 +1,5 @@
-//! Every command of the book: blocks marked `sh` run here, in a copy of the sample programs; those marked `sh ci` need tools that
-//! only `.ci/run` installs, so they have to be there.
+//! Every command of the book: blocks marked `sh` run here, in a copy of the sample programs; blocks marked `sh ci` need tools
+//! that only `.ci/run` installs, so these must be present there.
 
 #![cfg(unix)]
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A block of commands: its page, what follows the fence, its lines.
+/// A block of commands: its page, the info string of the fence, its lines.
 struct Block {
     page: String,
     info: String,
@@ -81,7 +81,7 @@ fn commands_with_further_tools_stand_in_ci() {
     }
 }
 
-/// A command is not left out by a fence of another name.
+/// A command must not be skipped because of a fence with another name.
 #[test]
 fn fences_are_known() {
     for block in blocks() {

@@ -1,4 +1,4 @@
-//! The command line as tests call it: without a process and without a terminal.
+//! The command line as called by tests: without a process and a terminal.
 
 use kontur::console::Console;
 use kontur::{Exit, run_with};
@@ -22,7 +22,7 @@ impl Write for Buffer {
     }
 }
 
-/// A square of 1 mm driven three times: with exact stops, with its corners cut by the guard, and without a guard.
+/// A square of 1 mm, executed three times: with exact stops, with its corners rounded by the guard, and without a guard.
 pub(crate) const CORNER: &str = "\
 N10 G01 F3600
 N20 G90
@@ -51,7 +51,7 @@ impl Folder {
     /// The folder with its programs.
     pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        // the last edge of the first pass at a lower feed; a mistake; a guard of the lists
+        // the last edge of the first pass at a lower feed rate; an error; a guard in the lists
         for (name, text) in [
             ("corner.nc", CORNER.to_owned()),
             ("slow.nc", CORNER.replace("N70 G60 Y0", "N70 G60 Y0 F600")),
@@ -63,12 +63,12 @@ impl Folder {
         Self(folder)
     }
 
-    /// A file of it.
+    /// A file in it.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    /// Calls a command: exit code, stdout, stderr. Words that start with `@` are files of the folder.
+    /// Calls a command and returns exit code, stdout and stderr. Words that start with `@` are files in the folder.
     pub(crate) fn call(&self, words: &[&str]) -> (Exit, String, String) {
         let (out, err) = (Buffer::default(), Buffer::default());
         let mut console = Console::new(out.clone(), err.clone());
@@ -82,7 +82,7 @@ impl Folder {
         (exit, text(&out), text(&err))
     }
 
-    /// Text of a file of it.
+    /// Text of a file in it.
     pub(crate) fn read(&self, name: &str) -> String {
         std::fs::read_to_string(self.path(name)).unwrap()
     }

@@ -1,4 +1,4 @@
-//! What other machines read: SARIF, workflow commands, `JUnit`, and the recipes for build servers.
+//! Machine-readable output: SARIF, workflow commands, `JUnit`, and the recipes for build servers.
 
 use crate::kit::Folder;
 use kontur::Exit;
@@ -36,14 +36,14 @@ fn a_folder_stands_for_its_programs() {
         (&place["line"], &place["column"], &place["end_column"]),
         (&2.into(), &5.into(), &9.into())
     );
-    // text counts at the end, and an empty folder is not a success
+    // the text output ends with the counts, and an empty folder is not a success
     let (exit, out, err) = f.call(&["check", "@parts"]);
     assert!(exit == Exit::Aborted && out.starts_with("3 programs: 1 error, "), "{out}");
     assert!(err.contains("error[20131]"), "{err}");
     std::fs::create_dir(f.path("empty")).unwrap();
     let (exit, _, err) = f.call(&["check", "@empty"]);
     assert!(exit == Exit::Usage && err.contains("no .nc file"), "{err}");
-    // one that cannot be read does not hide the others
+    // an unreadable file does not hide the others
     let (exit, out, err) = f.call(&["check", "@absent.nc", "@bad.nc", "--format", "json"]);
     let found: Value = serde_json::from_str(&out).unwrap();
     assert_eq!((exit, &found["errors"], &found["programs"]), (Exit::Io, &1.into(), &1.into()));
@@ -64,7 +64,8 @@ fn what_two_programs_share_is_reported_once() {
     assert_eq!(found["errors"], 1, "{out}");
 }
 
-/// A subroutine relies on what its caller sets: in a folder it is checked with that alone. Named, it is checked on its own.
+/// A subroutine relies on the settings of its caller: in a folder it is checked only through the caller. If named explicitly,
+/// it is checked separately.
 #[test]
 fn subroutines_of_a_folder_are_no_programs() {
     let f = Folder::new();
@@ -73,7 +74,7 @@ fn subroutines_of_a_folder_are_no_programs() {
         ("parts/main.nc", "F1000\nL cycles/pocket.nc\nL ./cycles/../hole.nc\nM30\n"),
         ("parts/cycles/pocket.nc", "G01 X1\nM17\n"),
         ("parts/hole.nc", "G01 Y1\nM17\n"),
-        // two that call each other are programs as well
+        // two that call each other also count as programs
         ("parts/one.nc", "P1=0 G01 X1 F1000\n$IF P1 > 0\nL two.nc\n$ENDIF\nM30\n"),
         ("parts/two.nc", "P1=0 G01 X1 F1000\n$IF P1 > 0\nL one.nc\n$ENDIF\nM30\n"),
     ] {
@@ -89,7 +90,7 @@ fn subroutines_of_a_folder_are_no_programs() {
     assert_eq!((&of_folder["programs"], lacking(&of_folder)), (&3.into(), 0), "{of_folder}");
     let named = checked(&["check", "@parts/main.nc", "@parts/hole.nc"]);
     assert_eq!((&named["programs"], lacking(&named)), (&2.into(), 1), "{named}");
-    // an error in it is there once, with its own file
+    // an error in it is reported once, with its file
     std::fs::write(f.path("parts/hole.nc"), "G01 Y1 G777\nM17\n").unwrap();
     let of_folder = checked(&["check", "@parts"]);
     assert_eq!(of_folder["errors"], 1, "{of_folder}");
@@ -126,7 +127,7 @@ fn sarif_names_rule_place_and_level() {
     assert!(place["artifactLocation"]["uri"].as_str().unwrap().ends_with("/bad.nc"));
     let region = serde_json::json!({ "startLine": 6, "startColumn": 5, "endColumn": 9 });
     assert_eq!(place["region"], region);
-    // a check without a finding is a log without results
+    // a check without findings is a log without results
     let (exit, out, _) = f.call(&["check", "@corner.nc", "--format", "sarif"]);
     let log: Value = serde_json::from_str(&out).unwrap();
     assert_eq!((exit, &log["runs"][0]["results"]), (Exit::Finished, &Value::Array(Vec::new())));
@@ -153,7 +154,7 @@ fn workflow_commands_stand_at_the_line() {
     assert_eq!(f.call(&["diff", "@corner.csv", "@corner.nc", "--format", "github"]).1, "");
 }
 
-/// As many test cases as columns and two for the whole; those that fail are the columns that the JSON form names.
+/// As many test cases as columns, plus two for the whole; those that fail are the columns that the JSON output names.
 #[test]
 fn junit_has_a_case_for_each_signal() {
     let f = Folder::new();
@@ -167,7 +168,7 @@ fn junit_has_a_case_for_each_signal() {
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     let suite = &report.test_suites[0];
     assert_eq!((suite.tests, suite.failures), (columns + 2, failed), "{xml}");
-    // the attributes that Jenkins' junit-10.xsd has for it, no others
+    // only the attributes defined for it in Jenkins' junit-10.xsd
     let whole = xml.split("<testsuites ").nth(1).unwrap().split('>').next().unwrap();
     let names: Vec<&str> =
         whole.split('"').step_by(2).map(|s| s.trim_matches([' ', '='])).collect();
@@ -179,7 +180,7 @@ fn junit_has_a_case_for_each_signal() {
     assert_eq!((exit, suite.tests, suite.failures), (Exit::Finished, columns + 2, 0));
 }
 
-/// A recording of a machine gives the same forms.
+/// A recording of a machine gives the same formats.
 #[test]
 fn a_recording_has_a_verdict_too() {
     let f = Folder::new();
@@ -190,7 +191,7 @@ fn a_recording_has_a_verdict_too() {
     assert_eq!(exit, Exit::Finished, "{xml}{err}");
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     assert_eq!((report.test_suites[0].tests, report.test_suites[0].failures), (1, 0));
-    // without times the rate says them
+    // without times the sampling rate must be given
     std::fs::write(f.path("rec.csv"), f.read("rec.csv").replace("t_s,", "Zeit,")).unwrap();
     assert_eq!(f.call(&words).0, Exit::Usage);
     assert_eq!(f.call(&[&words[..], &["--rate", "1000"]].concat()).0, Exit::Finished);
@@ -209,8 +210,8 @@ fn a_recording_has_a_verdict_too() {
     assert!(out.starts_with("::error file=") && out.contains("slow.nc,line="), "{out}");
 }
 
-/// The scripts of the recipes, with the binary in the search path: they pass, and fail when a program is wrong or its set
-/// points have changed.
+/// The scripts of the recipes, with the binary in the search path: they succeed, and fail when a program has an error or its
+/// setpoints have changed.
 #[test]
 #[cfg(unix)]
 fn the_recipes_for_build_servers_work() {
@@ -254,7 +255,7 @@ fn the_recipes_for_build_servers_work() {
     }
 }
 
-/// What follows a key of a recipe: the rest of the line, or the block below it.
+/// The value of a key of a recipe: the rest of the line, or the block below it.
 #[cfg(unix)]
 fn scripts(recipe: &str, key: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();

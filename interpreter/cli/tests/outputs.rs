@@ -1,4 +1,4 @@
-//! What becomes of the files that commands write: refused and broken-off runs, kills, and outputs that are inputs.
+//! Output files of commands: refused and aborted runs, kills, and outputs that are also inputs.
 
 #![cfg(unix)]
 use std::fs;
@@ -17,7 +17,7 @@ fn run(folder: &Path, words: &[&str]) -> Output {
     kontur(folder, words).output().unwrap()
 }
 
-/// Names in a folder that begin with `start`, in order.
+/// Names in a folder that begin with `start`, sorted.
 fn names(folder: &Path, start: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
     let is = |p: &PathBuf| p.file_name().unwrap().to_string_lossy().starts_with(start);
@@ -29,11 +29,11 @@ fn names(folder: &Path, start: &str) -> Vec<PathBuf> {
 /// Takes longer than any test: 4000 s of program time.
 const LONG: &str = "G01 X400 F6\nM30\n";
 
-/// Calls `sub.nc` if the motion has taken time, which the check ahead cannot know.
+/// Calls `sub.nc` if the motion has taken time, which the preceding check cannot know.
 const LATE: &str = "#TIMER START SYN [ID=1]\nG01 X2 F6000\n#TIMER READ SYN [ID=1]\n\
                     $IF V.G.TIMER[1] > 0\nL sub.nc\n$ENDIF\nM30\n";
 
-/// A recording of a vibration of 30 Hz that decays.
+/// A recording of a decaying vibration of 30 Hz.
 fn ringing() -> String {
     let sample = |k: u32| {
         let t = f64::from(k) * 1e-3;
@@ -153,14 +153,14 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         let _ = fs::remove_file(f.join("old.csv.rows"));
         let _ = fs::remove_file(f.join("sub.csv.rows"));
     }
-    // and what succeeds replaces the file, and the file alone
+    // and a successful run replaces this file only
     assert_eq!(run(f, &with(&["old.csv", "-o", "old.parquet"])).status.code(), Some(0));
     assert!(fs::read_to_string(f.join("old.csv")).unwrap().starts_with("t_s,"));
     assert!(fs::read(f.join("old.parquet")).unwrap().starts_with(b"PAR1"));
     assert_eq!(fs::read_to_string(f.join("5")).unwrap(), "old", "a hard link keeps what it had");
 }
 
-/// Rows of a CSV trace; every line is whole, and time continues by a cycle from line to line.
+/// Rows of a CSV trace; every line is complete, and time increases by one cycle per line.
 fn csv_rows(path: &Path) -> u64 {
     let text = fs::read_to_string(path).unwrap();
     assert!(text.ends_with('\n'));
@@ -194,7 +194,7 @@ fn a_signal_ends_a_run_with_whole_files() {
         } else {
             assert!(!parquet.exists());
             assert_eq!(names(f, ".").len(), 1, "the parts, and no file that is empty");
-            // what was being written at the time of the kill has another name
+            // data being written at the time of the kill are under another name
             let parts = names(f, ".a.parquet.").into_iter().find(|p| p.is_dir()).unwrap();
             let parts = names(&parts, "").into_iter();
             let whole: Vec<PathBuf> =
@@ -204,7 +204,7 @@ fn a_signal_ends_a_run_with_whole_files() {
     }
 }
 
-/// Rows of Parquet files one after the other; time continues by a cycle from row to row.
+/// Rows of consecutive Parquet files; time increases by one cycle per row.
 #[cfg(feature = "parquet")]
 fn parquet_rows(paths: &[PathBuf]) -> u64 {
     use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -221,7 +221,7 @@ fn parquet_rows(paths: &[PathBuf]) -> u64 {
     k
 }
 
-/// A kill at any moment leaves whole lines, but for the last one if it comes in the middle of writing.
+/// A kill at any moment leaves complete lines, except for the last one if it occurs during a write.
 #[test]
 fn a_kill_at_any_moment_leaves_a_trace() {
     for wait_ms in [20, 150, 333, 700, 1300] {
@@ -268,7 +268,7 @@ fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
     assert!(!f.join("a.csv.rows").exists());
 }
 
-/// Also where the trace is so short that this is noticed at its end.
+/// Also for a trace so short that this is noticed only at its end.
 #[test]
 fn a_reader_that_goes_away_does_not_end_the_other_output() {
     let folder = tempfile::tempdir().unwrap();
@@ -285,13 +285,15 @@ fn a_reader_that_goes_away_does_not_end_the_other_output() {
     }
 }
 
-/// Every other command: its exit code is documented, nothing half-done has a name or stays under a temporary one.
+/// All other commands: the exit code is documented, incomplete output has neither its final name nor remains under a temporary
+/// one.
 #[test]
 fn a_signal_ends_every_command_and_leaves_no_half_file() {
     let sweep = ["sweep", "a.nc", "--vary", "X.getriebe[0].kv=1000..9000:10", "-o", "s.csv"];
     let commands: [(&[&str], i32); 5] = [
         (&["report", "a.nc", "-o", "a.html"], 1),
-        // a window far ahead: more cycles than a picture takes would end it with 2 before the signal comes
+        // a window far ahead: if it had more cycles than a plot accepts, the command would exit with 2 before the signal
+        // arrives
         (&["report", "a.nc", "-o", "a.svg", "--signals", "ipo", "--window", "3900..3901"], 1),
         (&sweep, 1),
         (&["diff", "a.nc", "a.nc"], 130),
@@ -315,10 +317,10 @@ fn a_signal_ends_every_command_and_leaves_no_half_file() {
     }
 }
 
-/// A limit of the file size does what a full disk does: from one write to the next there is no room.
+/// A limit of the file size has the effect of a full disk: a write fails after the previous one succeeded.
 #[test]
 fn a_full_disk_leaves_whole_rows() {
-    // units of 512 bytes; one group of rows has room, and the whole table has none
+    // units of 512 bytes; one row group fits, the complete table does not
     for (name, room) in [("a.csv", 3000), ("a.parquet", 800), ("s.csv", 8)] {
         let folder = tempfile::tempdir().unwrap();
         let f = folder.path();

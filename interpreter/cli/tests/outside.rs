@@ -1,4 +1,4 @@
-//! The command line from outside: files, forms, exit codes.
+//! The command line from outside: files, formats, exit codes.
 
 use crate::kit::{self, Folder};
 use kontur::Exit;
@@ -92,7 +92,7 @@ fn parquet_and_csv_side_by_side() {
     assert_eq!(f.call(&words).0, Exit::Aborted);
     let bytes = std::fs::read(f.path("a.parquet")).unwrap();
     assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "complete after an abort");
-    // every bit against seven decimals, and all of it against a fresh run
+    // every bit against seven decimals, and all of it against a new run
     for words in [["@a.parquet", "@a.csv"], ["@a.csv", "@a.parquet"]] {
         let (exit, out, _) = f.call(&[&["diff"][..], &words].concat());
         assert_eq!((exit, out.as_str()), (Exit::Finished, "equal: 101 rows\n"));
@@ -101,7 +101,7 @@ fn parquet_and_csv_side_by_side() {
     assert_eq!(f.call(&["diff", "@corner.nc", "@whole.parquet"]).0, Exit::Finished);
     let (exit, out, _) = f.call(&["diff", "@whole.parquet", "@slow.nc"]);
     assert!(exit == Exit::Aborted && out.contains(" s, line 7 N70: "), "{out}");
-    // a table that is not a trace, and what is cut off
+    // a table that is not a trace, and a truncated one
     std::fs::write(f.path("cut.parquet"), &bytes[..bytes.len() / 2]).unwrap();
     assert_eq!(f.call(&["diff", "@cut.parquet", "@a.csv"]).0, Exit::Io);
     std::fs::write(f.path("no.parquet"), "t_s,line\n0,1\n").unwrap();
@@ -148,7 +148,7 @@ fn diff_names_line_and_recognises_a_shift() {
     for name in ["corner", "slow"] {
         f.call(&["run", &format!("@{name}.nc"), "-o", &format!("@{name}.csv")]);
     }
-    // the same trace, at rest for two cycles first
+    // the same trace after two cycles at standstill
     let trace = f.read("corner.csv");
     let (header, rows) = trace.split_once('\n').unwrap();
     let cells = |row: &str| row.split_once(',').unwrap().1.to_owned();
@@ -161,7 +161,7 @@ fn diff_names_line_and_recognises_a_shift() {
     assert_eq!((exit, out.starts_with("equal")), (Exit::Finished, true));
     let (exit, out, _) = f.call(&["diff", "@corner.csv", "@slow.csv"]);
     assert_eq!(exit, Exit::Aborted);
-    // the fourth edge of the first pass, line 7, is the first that is slower
+    // the fourth edge of the first pass, line 7, is the first slower one
     assert!(out.contains(" s, line 7 N70: "), "{out}");
     let rows = |name: &str| f.read(name).lines().count() - 1;
     let counts = format!("rows   {} in A, {} in B", rows("corner.csv"), rows("slow.csv"));
@@ -189,7 +189,7 @@ fn diff_runs_a_program_with_the_columns_of_the_trace() {
 fn report_is_one_self_contained_file() {
     let f = Folder::new();
     assert_eq!(f.call(&["report", "@corner.nc", "@slow.nc", "-o", "@two.html"]).0, Exit::Finished);
-    // the name of a name space is not an address to go to
+    // the name of a namespace is not a link
     let page = f.read("two.html").replace("http://www.w3.org/2000/svg", "");
     assert!(!page.contains("http://") && !page.contains("https://"), "works offline");
     assert!(!page.contains("/*"), "every place of the template is filled");
@@ -203,11 +203,11 @@ fn report_is_one_self_contained_file() {
     assert_eq!(data[0]["passes"], 3);
     assert_eq!(f.call(&["report", "@corner.nc", "-o", "@a.svg"]).0, Exit::Finished);
     let svg = f.read("a.svg");
-    // the second pass cuts the corners most
+    // the corners of the second pass have the largest deviation
     let most = format!("{:.4} mm", summary["max_contour_error"]["mm"].as_f64().unwrap());
     assert!(svg.contains(&format!("pass 2, lines 9 to 12: contour error at most {most}")), "{svg}");
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
-    // a part of the run, and one that lies beyond its end
+    // a part of the run, and a part beyond its end
     let window =
         |span: &str| f.call(&["report", "@corner.nc", "-o", "@part.html", "--window", span]);
     assert_eq!(window("0.1..0.2").0, Exit::Finished);
@@ -245,7 +245,7 @@ fn exit_codes_of_wrong_usage_and_files() {
         err.contains("`bogus`") && err.contains("spindle") && err.contains("X_set_mm"),
         "{err}"
     );
-    // a slip of the hand must not cost the program
+    // a typing error must not overwrite the program
     for words in [
         ["run", "@corner.nc", "-o", "@corner.nc"].as_slice(),
         &["run", "@corner.nc", "-o", "@a.csv", "-o", "@a.csv"],

@@ -1,4 +1,4 @@
-//! What only a process has: standard input, and a reader of stdout that goes away.
+//! Behaviour that needs a process: standard input, and a reader that closes stdout.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Output, Stdio};
@@ -28,7 +28,7 @@ fn a_program_from_standard_input() {
     assert_eq!(piped.stdout, from_file.stdout);
     assert!(piped.stdout.starts_with(b"t_s,"));
     assert!(String::from_utf8(piped.stderr).unwrap().starts_with("<stdin>  finished"));
-    // a fault is named with its place
+    // an error is reported with its position
     let wrong = with_input(&["check", "-"], "G01 X10 F100\nG7\nM30\n", folder.path());
     assert_eq!(wrong.status.code(), Some(1));
     assert!(String::from_utf8(wrong.stderr).unwrap().contains("<stdin>:2:1"));
@@ -48,7 +48,7 @@ fn a_reader_that_has_seen_enough_ends_the_run_silently() {
     assert_eq!((ended.status.code(), ended.stderr), (Some(3), Vec::new()));
 }
 
-/// Two rounds of a circle of 10 mm as chords, with the smallest tolerance that leaves the spline alone: a sixth of a chord
+/// Two turns of a circle of 10 mm as chords, with the smallest tolerance that leaves the spline unchanged: a sixth of a chord
 /// times the change of direction.
 fn splined_circle(chord_mm: f64, feed: u32) -> String {
     use std::f64::consts::PI;
@@ -65,7 +65,7 @@ fn splined_circle(chord_mm: f64, feed: u32) -> String {
     text + "M30\n"
 }
 
-/// The ripple of the path speed stays under 1 %, by the trace and by the summary, at half the speed that the acceleration
+/// The ripple of the path velocity stays below 1 %, in the trace and in the summary, at half the velocity that the acceleration
 /// of machine `xyz` allows on the circle (200 mm/s).
 #[test]
 fn a_splined_circle_has_no_ripple() {
@@ -89,7 +89,7 @@ fn a_splined_circle_has_no_ripple() {
             .collect();
         let steps: Vec<f64> =
             points.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).collect();
-        // the second half of the way: after the rapid block, before the stop
+        // the second half of the path: after the rapid block, before the stop
         let middle = &steps[steps.len() / 2..steps.len() * 9 / 10];
         let high = middle.iter().copied().fold(0.0, f64::max);
         let low = middle.iter().copied().fold(f64::INFINITY, f64::min);

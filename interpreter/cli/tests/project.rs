@@ -1,4 +1,4 @@
-//! A TwinCAT project as machine: the built-in machine packed into one must move as it does out of its folder.
+//! A TwinCAT project as machine: the built-in machine packed into a project must give the same motion as from its folder.
 
 mod parts;
 
@@ -13,9 +13,9 @@ fn list(name: &str) -> String {
     fs::read_to_string(xyz.join(name)).unwrap()
 }
 
-/// An axis as the engineering tool keeps it; its list holds the defaults as well.
+/// An axis as stored by the engineering tool; its list also contains the defaults.
 fn axis(name: &str, list_of: &str, (channel, index): (u32, u32)) -> String {
-    // the own values follow those of the defaults, whose keys they replace
+    // the actual values come after the defaults and replace them
     let own = list(list_of);
     let is_own = |line: &&str| {
         let key = line.split_whitespace().next().unwrap_or("#");
@@ -72,7 +72,7 @@ fn all_axes() -> String {
         .collect()
 }
 
-/// Exit, trace and messages of the program on a machine.
+/// Exit code, trace and messages of the program on a machine.
 fn run(folder: &Folder, machine: &str) -> (Exit, String, String) {
     let machine = format!("@{machine}");
     let words = ["run", "@part.nc", "-m", &machine, "-o", "@out.csv", "--summary", "none"];
@@ -144,13 +144,13 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     assert_eq!(exit, Exit::Finished, "{said}");
     assert_eq!(trace, expected);
 
-    // the items alone, exported into a folder; without the project the cycle is unknown
+    // only the items, exported into a folder; without the project the cycle is unknown
     fs::remove_file(folder.path("machine.tsproj")).unwrap();
     let (exit, trace, said) = run(&folder, "_Config");
     assert_eq!(exit, Exit::Finished, "{said}");
     assert!(said.contains("no GEO task with a cycle"), "{said}");
     assert!(said.contains("warning[K-0140]") && said.contains("1000 us is assumed"), "{said}");
-    // kontur.lis is not in that folder: other drives, the same set positions
+    // kontur.lis is not in that folder: different drives, the same setpoints
     let column = |text: &str, name: &str| -> Vec<String> {
         let at = text.lines().next().unwrap().split(',').position(|c| c == name).unwrap();
         text.lines().map(|l| l.split(',').nth(at).unwrap_or_default().to_owned()).collect()
@@ -162,7 +162,7 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
 #[test]
 fn prototypes_are_numbered_and_dialogs_name_the_axes() {
     let folder = folder();
-    // every list says number 1, the channel has other names: as a configuration that was never activated
+    // every list has number 1, the channel has other names: like a configuration that was never activated
     let axes = all_axes();
     let mut same = String::new();
     for line in axes.split("\r\n") {
@@ -221,7 +221,7 @@ fn mistakes_are_named_at_their_line_of_the_project() {
     assert!(said.contains("several projects"), "{said}");
 }
 
-/// A project is read like a list: no output takes its place; and a path may be written in any way.
+/// A project is an input like a list: outputs must not replace it; its path may be written in any form.
 #[test]
 fn a_project_is_not_overwritten() {
     let folder = folder();
@@ -255,7 +255,8 @@ fn hostile_xml_ends_in_a_message() {
     }
 }
 
-/// The cycle of the GEO task reaches a `kontur.lis` with an end mark, gives way to a key of any case, and is not cut off.
+/// The cycle of the GEO task is added to a `kontur.lis` with an end mark, is overridden by a key in upper or lower case, and is
+/// not truncated.
 #[test]
 fn the_cycle_of_the_task() {
     let folder = folder();
@@ -283,7 +284,7 @@ fn the_cycle_of_the_task() {
     }
 }
 
-/// A run does not take a cycle that was not named without a warning; whoever names one is not warned.
+/// A run that uses an unspecified cycle warns; with a specified cycle it does not.
 #[test]
 fn a_cycle_that_is_assumed_is_a_warning() {
     let folder = folder();
@@ -306,7 +307,7 @@ fn a_cycle_that_is_assumed_is_a_warning() {
             let (passed, text) = said(more);
             assert!(passed && !text.contains("assumed"), "{text}");
         }
-        // of a list with the line ends of an old Mac as well, and in capital letters
+        // from a list with the line ends of an old Mac, and in capital letters
         fs::write(
             folder.path("KONTUR.LIS"),
             format!("{own}kontur.cycle_time_us 2000\nEnde\n").replace('\n', "\r"),
@@ -323,7 +324,7 @@ fn a_cycle_that_is_assumed_is_a_warning() {
     assert!(passed && !text.contains("assumed"), "{text}");
 }
 
-/// The folder of a solution, whose project has a separate folder.
+/// The folder of a solution with its project in a subfolder.
 #[test]
 fn a_solution_has_its_project_below() {
     let folder = folder();

@@ -1,7 +1,7 @@
-//! Words of one block: what letters, G functions and brackets of a block mean together.
+//! Words of one block: the combined meaning of letters, G functions and brackets.
 //!
-//! Owns the modal state ([`modal`]) and the words of the current block; reads values, and directs motion, contour, shaping
-//! and geometry. It knows neither files nor other blocks.
+//! Owns the modal state ([`modal`]) and the words of the current block. Reads values, and controls motion, contour, shaping and
+//! geometry. It has no access to files or other blocks.
 
 mod addresses;
 pub(super) mod brackets;

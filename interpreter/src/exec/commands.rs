@@ -1,7 +1,7 @@
 //! Plain-text commands: one row each, found by their words; the longest row wins.
 //!
-//! A new command is a file with its arguments, its row and its function, and the name of the row in [`ROWS`]. The form, keys
-//! and meaning of the row are all that `explain`, the search for misspelt names and the documentation know.
+//! A new command needs a file with its arguments, its row and its function, and the name of the row in [`ROWS`]. `explain`, the
+//! search for misspelt names and the documentation use only the syntax, keys and meaning of the row.
 //!
 //! Source: TF5200 programming manual, list of commands.
 
@@ -61,14 +61,13 @@ const fn unsupported(name: &'static str) -> Row {
     Row::of(name, Act::Unsupported)
 }
 
-/// Every row. Commands in the manual's overview of additional functions that kontur does not carry out are refused by
-/// name.
+/// All rows. Commands in the manual's overview of additional functions that kontur does not execute are refused by name.
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
-    // shape of acceleration
+    // acceleration profile
     slope::SLOPE,
     slope::SET_SLOPE_PROFIL,
-    // smoothing of set positions
+    // smoothing of setpoints
     shaping::VIB_GUARD,
     shaping::FILTER,
     // contour
@@ -79,7 +78,7 @@ const ROWS: &[Row] = &[
     path_limits::VECTORACC,
     path_limits::TRANSVELMIN,
     path_limits::OVERRIDE,
-    // waiting and synchronising
+    // waiting and synchronisation
     misc::FLUSH,
     misc::CHANNEL_INIT,
     run("SET DEC LR SOLL", misc::take_command_positions).bare(),
@@ -229,7 +228,7 @@ const ROWS: &[Row] = &[
     // cycles
     run("DISABLE MODAL CYCLE", misc::disable_modal_cycle).bare(),
     run("RETAIN CYCLE CHANGES", misc::retain_cycle_changes).bare(),
-    // no influence on set positions
+    // no influence on setpoints
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
     tools::TLAX,
@@ -255,12 +254,12 @@ const ROWS: &[Row] = &[
     ignored("SCENE"),
 ];
 
-/// Every row there is something to explain about.
+/// All rows with an explanation.
 pub(crate) fn explained() -> impl Iterator<Item = &'static Row> {
     ROWS.iter().filter(|row| !row.form.is_empty())
 }
 
-/// The longest name of a command that a text begins with, and what becomes of it; for a command there is nothing else to say about.
+/// The longest command name at the start of a text, with one sentence on whether the command is executed, ignored or refused.
 pub(crate) fn state_of(text: &str) -> Option<(&'static str, &'static str)> {
     let named = ROWS.iter().filter(|row| {
         text.strip_prefix(row.name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
@@ -277,7 +276,7 @@ pub(crate) fn state_of(text: &str) -> Option<(&'static str, &'static str)> {
     Some((row.name, state))
 }
 
-/// The row of a command and how many of its words belong to the name.
+/// The row of a command and the number of words of its name.
 fn find(command: &Command) -> Option<(&'static Row, usize)> {
     ROWS.iter()
         .filter_map(|row| {
@@ -313,7 +312,7 @@ fn without_blanks(name: &str) -> Option<String> {
     Some(if rest.is_empty() { row.to_owned() } else { format!("{row} {rest}") })
 }
 
-/// `CONTOUR MODE` for `CONTOUR ON`: a command that begins with the same word.
+/// `CONTOUR MODE` for `CONTOUR ON`: a command with the same first word.
 fn begun(name: &str) -> Option<String> {
     let first = name.split(' ').next()?.to_ascii_uppercase();
     let mut rows = ROWS
@@ -323,13 +322,13 @@ fn begun(name: &str) -> Option<String> {
     rows.next().filter(|_| !first.is_empty()).map(str::to_owned)
 }
 
-/// True for a command of the manual.
+/// Whether the manual has this command.
 pub(super) fn is_known(command: &Command) -> bool {
     find(command).is_some()
 }
 
-/// A word of the program after a command, `X5` of `#TRAFO OFF X5`: no command has a word of a letter and a number, or a value after
-/// OFF.
+/// A word of the program after a command, such as `X5` in `#TRAFO OFF X5`: commands have neither words of a letter and a
+/// number, nor a value after OFF.
 fn words_after(call: &Call<'_>) -> Option<Span> {
     let is_word = |word: &&Ident| {
         let mut letters = word.text.bytes();
@@ -353,7 +352,7 @@ impl Decoder {
         }
         match row.act {
             Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)).map_err(|fault| {
-                // what is expected says more than where to look it up
+                // the expected syntax is more helpful than a reference
                 let general = condition::row(Condition::TokenUnknown.id()).hint;
                 let unhinted = fault.diagnostic.id == Condition::TokenUnknown.id()
                     && fault.diagnostic.hint.as_deref() == general;

@@ -1,4 +1,4 @@
-//! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
+//! From programmed motions to steps: a motion is held until the next one is known if an element may be inserted between them.
 
 pub(super) mod akima;
 pub(super) mod bottleneck;
@@ -37,35 +37,35 @@ fn bottleneck(cut: &Cut) -> Fault {
     *Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)
 }
 
-/// Motions and events on their way to the simulation.
+/// Motions and events to be sent to the simulation.
 #[derive(Debug, Default)]
 pub(super) struct Contour {
     /// `#CONTOUR MODE`.
     pub(super) contouring: Contouring,
     /// `#HSC`.
     pub(super) hsc: Hsc,
-    /// Steps in their order, still without the numbers of their blocks.
+    /// Steps in order, without the numbers of their blocks yet.
     queue: VecDeque<Item>,
     /// The end, after the queue.
     end: Option<Box<Step>>,
-    /// What the compensator has just completed.
+    /// Items that the compensation has just completed.
     done: Vec<Item>,
     events: Vec<Event>,
-    /// Events of motions of which compensation has left nothing, for the next step.
+    /// Events of motions that the compensation has removed, for the next step.
     stray: Vec<Event>,
     held: Option<Box<Motion>>,
     insertion: Option<Box<Insertion>>,
     compensator: Compensator,
-    /// The next motion begins or ends compensation in an arc (G05).
+    /// Whether the next motion starts or ends compensation with an arc (G05).
     pub(super) tangential: bool,
     /// G151.
     pub(super) akima: Akima,
     interim: Interim,
     driven: Vec<Driven>,
-    /// Control areas that motions violate, since the last call.
+    /// Control areas violated by motions since the last call.
     violations: Vec<Fault>,
     blocks: u64,
-    /// The position of the tool at the contour has to be reported (`#OTC`), and the one reported last.
+    /// Whether the position of the tool at the contour must be reported (`#OTC`), and the last reported one.
     tells_engagement: bool,
     engaged: Option<([usize; 2], bool)>,
 }
@@ -118,7 +118,7 @@ impl Contour {
         }
     }
 
-    /// `#OTC`: from here on the simulation needs to know where the tool is at the contour.
+    /// `#OTC`: from here on the simulation needs the position of the tool at the contour.
     pub(super) fn tell_engagement(&mut self) {
         self.tells_engagement = true;
     }
@@ -127,22 +127,22 @@ impl Contour {
         self.events.push(event);
     }
 
-    /// A chamfer or rounding waits for the next motion.
+    /// Whether a chamfer or rounding is pending until the next motion.
     pub(super) fn inserts(&self) -> bool {
         self.insertion.is_some()
     }
 
-    /// Number of events that wait for the next step.
+    /// Number of events pending until the next step.
     pub(super) fn waiting(&self) -> usize {
         self.events.len()
     }
 
-    /// Events that wait for the next step.
+    /// Events pending until the next step.
     pub(super) fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
     }
 
-    /// Drops the last motion: its block has an error.
+    /// Discards the last motion: its block has an error.
     pub(super) fn drop_held(&mut self) {
         if self.akima.drop_last() {
             return;
@@ -151,7 +151,7 @@ impl Contour {
         self.insertion = None;
     }
 
-    /// G301, G302 and relatives: between the motion before and the next one.
+    /// G301, G302 and related functions: between the previous motion and the next one.
     pub(super) fn insert(&mut self, insertion: Insertion) -> Option<Box<Fault>> {
         let span = insertion.span;
         if self.akima.runs() {
@@ -197,8 +197,8 @@ impl Contour {
         faults
     }
 
-    /// While a program is only looked at: a straight motion with the settings of the held one may take its place, because
-    /// the held one would go out as it is.
+    /// Used while a program is only examined: a straight motion with the settings of the held one may replace it, because the
+    /// held one would be output unchanged.
     pub(super) fn lets_by(&self) -> bool {
         let nothing_waits = self.queue.is_empty() && self.end.is_none() && self.events.is_empty();
         nothing_waits
@@ -210,8 +210,8 @@ impl Contour {
             && !self.tangential
     }
 
-    /// Puts a line in the place of the held motion, and returns the time in s that the latter takes; `None`, and nothing
-    /// done, if no axis moves along the line.
+    /// Replaces the held motion by a line, and returns the time in s of the held one; `None`, without an effect, if no axis
+    /// moves along the line.
     pub(super) fn pass_by(
         &mut self,
         (start, end): (&[f64], &[f64]),
@@ -231,7 +231,7 @@ impl Contour {
         Some(time_s)
     }
 
-    /// Nothing comes between a motion and the next one, and nothing changes it.
+    /// Whether nothing is inserted between a motion and the next one, and nothing changes it.
     fn goes_out_as_it_is(&self, motion: &Motion) -> bool {
         self.insertion.is_none() && self.compensator.is_idle() && motion.is_complete()
     }
@@ -277,7 +277,7 @@ impl Contour {
         faults
     }
 
-    /// A step at rest.
+    /// A step at standstill.
     pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
         if self.akima.runs() && self.akima.selected {
             return vec![*akima::rest_inside().in_block(source)];
@@ -291,7 +291,7 @@ impl Contour {
         faults
     }
 
-    /// Time in s that the motion of a block takes at its feed; 0 if it has none.
+    /// Time in s of the motion of a block at its feed rate; 0 without a motion.
     pub(super) fn time_of_s(&self, block: SourceRef) -> f64 {
         let held = self.held.as_ref().filter(|held| held.source == block);
         held.map_or(0.0, |held| programmed_time_s(&held.block))
@@ -309,13 +309,13 @@ impl Contour {
         self.compensator.deselected = off;
     }
 
-    /// The tool is on its way to, at, or not yet away from a compensated contour.
+    /// Whether the tool is in the approach to a compensated contour, on it, or in the departure from it.
     pub(super) fn compensates(&self) -> bool {
         self.compensator.is_active()
             || self.held.as_ref().is_some_and(|motion| motion.compensation.is_some())
     }
 
-    /// G40 with G239: axes of the plane, and where the centre of the tool is, if compensation was active.
+    /// G40 with G239: axes of the plane and position of the tool centre, if compensation was active.
     pub(super) fn deselect_in_place(&mut self) -> (Option<([usize; 2], Point)>, Vec<Fault>) {
         let mut faults = self.flush();
         let left = self.compensator.leave(&mut self.done);
@@ -343,14 +343,14 @@ impl Contour {
         faults
     }
 
-    /// Nothing follows a spline.
+    /// Ends a spline at its last point.
     fn end_spline(&mut self) -> Vec<Fault> {
         let mut curves = Vec::new();
         let outcome = self.akima.finish(None, &mut curves);
         self.splined(curves, outcome)
     }
 
-    /// The path rests after the held motion: nothing can be inserted any more.
+    /// The path stops after the held motion: no element can be inserted any more.
     fn flush(&mut self) -> Vec<Fault> {
         let mut faults = Vec::new();
         if let Some(motion) = self.held.take() {
@@ -369,7 +369,7 @@ impl Contour {
         std::mem::take(&mut self.driven)
     }
 
-    /// Control areas that motions violate, since the last call.
+    /// Control areas violated by motions since the last call.
     pub(super) fn take_violations(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.violations)
     }
@@ -388,7 +388,7 @@ impl Contour {
         self.compensator.take_cut().map(|cut| bottleneck(&cut))
     }
 
-    /// Passes on what is complete, in the coordinates of the machine.
+    /// Outputs completed items in machine coordinates.
     fn emit(&mut self) {
         for item in &mut self.done {
             if let Item::Motion(motion) = item {

@@ -1,6 +1,6 @@
 //! State of a program and the execution of one block.
 //!
-//! The decoder knows blocks, not files: the executor decides where the next block comes from.
+//! The decoder handles single blocks, not files: the executor determines the next block.
 
 use super::block::dialect::Seen;
 use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane, Selection};
@@ -21,18 +21,18 @@ use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use std::sync::Arc;
 
-/// A signal that has been sent.
+/// A signal that was sent.
 #[derive(Debug)]
 pub(super) struct Signal {
     pub(super) id: u32,
-    /// Sent to all channels; otherwise to this channel itself.
+    /// Whether it was sent to all channels; otherwise to this channel.
     pub(super) broadcast: bool,
-    /// Waits that it still serves, `None` without limit.
+    /// Number of waits that it can still satisfy, `None`: unlimited.
     pub(super) count: Option<u32>,
     pub(super) parameters: Vec<(u32, f64)>,
 }
 
-/// State of a running program: what the rooms own, and what all of them read.
+/// State of a running program: the state owned by each module, and the state that all of them read.
 #[derive(Debug)]
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
@@ -51,11 +51,11 @@ pub(super) struct Decoder {
     pub(super) calls: Calls,
     /// Signals that have not been consumed.
     pub(super) signals: Vec<Signal>,
-    /// Syntax check: blocks with errors are carried out as far as possible.
+    /// Syntax check: blocks with errors are executed as far as possible.
     pub(super) checking: bool,
-    /// A motion of the current block has been passed on.
+    /// Whether a motion of the current block was output.
     pub(super) moved: bool,
-    /// What the plain motions of a row share.
+    /// State shared by consecutive plain motions.
     pub(super) straight: Option<Box<Straight>>,
 }
 
@@ -86,7 +86,7 @@ impl Decoder {
         };
         decoder.presets();
         let diagnostics = decoder.shaping.start(&decoder.machine);
-        // what is wrong with single filters of the lists is reported, with its place, when the chains are set up
+        // errors of single filters in the lists are reported, with their position, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
         let of_forced =
             [Condition::GuardMode, Condition::GuardRange, Condition::GuardNotRealisable];
@@ -145,7 +145,7 @@ impl Decoder {
         }
     }
 
-    /// A step at rest; left out if the block has an error, unless only the syntax is checked.
+    /// A step at standstill; omitted if the block has an error, unless only the syntax is checked.
     pub(super) fn sync(&mut self, what: Sync) {
         if self.report.failed() && !self.checking {
             return;
@@ -162,11 +162,12 @@ impl Decoder {
         self.report.extend(outside);
     }
 
-    /// Axes take over where they really are; all of them if none is named. The set position goes back by the lag, which is inside its
-    /// window, and the axis follows it: repeated in a loop, it drifts (206709515). The lag and not the actual position, which has
-    /// additional values of the position loop in it: they would act twice.
+    /// Sets the axes to their real positions; all of them if none is named. The setpoint moves back by the following error,
+    /// which is within the window, and the axis follows it: repeated in a loop, it drifts (206709515). The following error is
+    /// used instead of the actual position, because the latter includes additional values of the position loop, which would
+    /// then act twice.
     ///
-    /// Assumption: coupled axes keep their set positions, so that slaves stay where their masters put them.
+    /// Assumption: coupled axes keep their setpoints, so that slaves stay at the positions given by their masters.
     pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
         self.motion.independent.all_arrived();
         for axis in 0..self.geometry.coordinates.target().len() {
@@ -204,23 +205,24 @@ impl Decoder {
                 Fault::new(Condition::TokenUnknown, text, span)
             })?;
         for diagnostic in corrected {
-            // also of what the list says and the new value no longer permits
+            // also checks list values that the new value makes invalid
             self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
         if changed.software_limits_mm() != limits_mm {
-            // Assumption: also over what G98 and G99 have set, as the last command that names the limit
+            // Assumption: also replaces a limit set by G98 or G99, as the later command for this limit
             self.geometry.limits_mm[axis] = changed.software_limits_mm();
         }
         let number = changed.number();
         let reshaped = changed.kernel_preset(cycle) != listed;
-        // what is not as it was: a filter that cannot be designed with the new value, an input that the drive does not have
+        // consequences of the change: a filter that cannot be designed with the new value, an input that the drive does not
+        // have
         let new = machine.chain_issues(axis).into_iter().filter(|issue| !known.contains(issue));
         let new: Vec<Diagnostic> = new.collect();
         for diagnostic in new {
             self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
         self.motion.dynamics_changed();
-        // first: a kernel is replaced when the axes have been at rest for as long as it remembers
+        // first: a kernel is replaced only after the axes have been at standstill for its whole length
         let before = self.shaping.setup.clone();
         self.update_shaping(span);
         if let Some(command) = self.shaping.outranks_the_list()
@@ -232,7 +234,7 @@ impl Decoder {
             self.report.note(fault.hint(format!("write the value into {command}")));
         }
         self.sync(Sync::MachineData { axis: number });
-        // the list decides what the state of G135 is worth
+        // the list determines the effect of G135
         self.feedforward_event();
         Ok(())
     }
@@ -251,14 +253,14 @@ impl Decoder {
         if self.machine.channel.contouring_consider_inch { self.modal.unit_mm() } else { 1.0 }
     }
 
-    /// Spindle of a name in either case: that of its list, and for the main spindle P-CHAN-00053.
+    /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
     pub(super) fn spindle_of_name(&self, name: &str) -> Option<usize> {
         let main = name.eq_ignore_ascii_case(&self.machine.channel.main_spindle_name);
         let listed = self.motion.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
         if main { Some(0) } else { listed }
     }
 
-    /// Names of several characters that the parser has to know.
+    /// Names of several characters that the parser must recognise.
     pub(super) fn long_names(&self) -> Vec<String> {
         let axes = self.names.axes.iter().flatten().cloned();
         let main = [self.machine.channel.main_spindle_name.clone()];
@@ -268,7 +270,7 @@ impl Decoder {
             .collect()
     }
 
-    /// Works the shaping out anew; a changed kernel needs the path at rest.
+    /// Recomputes the shaping; a changed kernel requires the path at standstill.
     pub(super) fn update_shaping(&mut self, span: Span) {
         let Worked { setup, diagnostics } = self.shaping.work_out(&self.machine);
         for diagnostic in diagnostics {

@@ -1,10 +1,10 @@
-//! Conditions met while a block is executed, with their place in the block.
+//! Conditions raised while a block is executed, with their position in the block.
 
 use super::step::SourceRef;
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::syntax::ast::Span;
 
-/// A diagnostic whose place is known only within its block.
+/// A diagnostic with a position that is relative to its block.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fault {
     pub(super) diagnostic: Diagnostic,
@@ -13,7 +13,7 @@ pub(super) struct Fault {
     pub(super) origin: Option<SourceRef>,
 }
 
-/// Result of something that may end in a fault.
+/// Result of an operation that may fail with a fault.
 pub(super) type Outcome<T> = Result<T, Box<Fault>>;
 
 impl Fault {
@@ -26,18 +26,18 @@ impl Fault {
         Self::of(Diagnostic::new(condition, text), span)
     }
 
-    /// A legal word that the tool does not execute.
+    /// A valid word that the tool does not execute.
     pub(super) fn unsupported(what: impl std::fmt::Display, span: Span) -> Box<Self> {
         Self::new(Condition::Unsupported, format!("{what} is not supported"), span)
     }
 
-    /// Changes the diagnostic.
+    /// Modifies the diagnostic.
     pub(super) fn with(mut self: Box<Self>, f: impl FnOnce(Diagnostic) -> Diagnostic) -> Box<Self> {
         self.diagnostic = f(self.diagnostic);
         self
     }
 
-    /// The span belongs to this block, unless another one was named.
+    /// Assigns the span to this block, unless another one was named.
     pub(super) fn in_block(mut self: Box<Self>, source: SourceRef) -> Box<Self> {
         self.origin = self.origin.or(Some(source));
         self

@@ -1,6 +1,6 @@
-//! Where a programmed point is: coordinates, frames, planes, arcs and angles.
+//! Positions of programmed points: coordinates, frames, planes, arcs and angles.
 //!
-//! Owns offsets, coordinate systems and tool data; pure geometry otherwise, it touches no other room.
+//! Owns offsets, coordinate systems and tool data. Otherwise pure geometry, which uses no other module of `exec`.
 
 pub(super) mod angle;
 pub(super) mod arc;
@@ -30,7 +30,7 @@ pub(super) struct LastArc {
     pub(super) radius_mm: f64,
 }
 
-/// What the room owns.
+/// State that the geometry owns.
 #[derive(Debug)]
 pub(super) struct Geometry {
     pub(super) coordinates: Coordinates,
@@ -41,7 +41,7 @@ pub(super) struct Geometry {
     pub(super) last_arc: LastArc,
     /// Coordinate system stored last.
     pub(super) last_system: u32,
-    /// `#TRAFO` or `#RTCP` is on.
+    /// Whether `#TRAFO` or `#RTCP` is on.
     pub(super) transformation_on: bool,
     pub(super) tools: Tools,
 }

@@ -123,7 +123,7 @@ impl Decoder {
         self.stop_exactly(words);
     }
 
-    /// The axes arrive at the end of a motion, if G60, G360 or P-CHAN-00235 ask for it.
+    /// The axes settle at the end of a motion if G60, G360 or P-CHAN-00235 requires it.
     fn stop_exactly(&mut self, words: &Words<'_>) {
         let after_rapid =
             self.modal.path == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
@@ -134,8 +134,8 @@ impl Decoder {
 
     /// 20003: G60 in a block that moves nothing.
     ///
-    /// Assumption: the documents print only the warning. As at the end of every block with G60 the speed is zero; waiting is
-    /// for the axes of the block, and it has none.
+    /// Assumption: the documents print only the warning. As at the end of every block with G60 the velocity is zero; the
+    /// channel waits for the axes of the block, and this block has none.
     fn stop_without_motion(&mut self, words: &Words<'_>) {
         if let Some(g) = exact_stop_once(words) {
             let text = "G60 without motion: the path stops here and waits for no axis";
@@ -157,7 +157,7 @@ impl Decoder {
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
         if let (Some((radius, span)), false) = (words.radius, rotates) {
-            // R alone is for the arcs that follow; beside G02 or G03 it looks like one
+            // R alone applies to the arcs that follow; in a block with G02 or G03 it would be taken for a radius
             self.modal.radius_mm = Some(radius * self.modal.unit_mm());
             if words.group(Group::Path).is_some() {
                 let text = "R without an end point moves nothing: it is kept for the next arc";
@@ -170,8 +170,8 @@ impl Decoder {
         }
     }
 
-    /// True if braking to a lower feed may begin after the end of this block: G901 without G09 (source: TF5200
-    /// programming manual, G08/G09/G900/G901).
+    /// Whether braking to a lower feed rate may begin after the end of this block: G901 without G09 (source: TF5200 programming
+    /// manual, G08/G09/G900/G901).
     fn late_braking(&mut self, early_once: bool, span: Span) -> bool {
         let late = self.modal.late_braking && !early_once;
         if late && self.modal.slope.kind == SlopeKind::Hsc {
@@ -204,7 +204,7 @@ impl Decoder {
             }
             if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.modal.unit_mm());
-                // in a block with an error, such as a cycle of another control, R is the least of the problems
+                // in a block with an error, such as a cycle of another control, a complaint about R would only distract
                 if !self.report.failed() {
                     let text = "R has no meaning in a straight motion: it is kept for the next arc";
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
@@ -217,14 +217,14 @@ impl Decoder {
         if self.motion.areas.is_defining() {
             return self.area_block(path.as_ref(), words, span);
         }
-        // a block without travel needs no feed
+        // a block without travel needs no feed rate
         let Some(path) = path else { return Ok(()) };
         let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
         if begins && self.motion.wear.on && !path.is_straight() {
             let text = "the compensation begins with an arc while #OTC is on";
             return Err(Fault::new(Condition::WearSelectedInArc, text, span));
         }
-        // a compensated path is known later
+        // the path with tool radius compensation is known only later
         if self.modal.compensation == Compensation::Off {
             let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
             self.check_limits(&path, place, span);
@@ -261,7 +261,7 @@ impl Decoder {
             self.spline_fits(rapid, rounds, span)?;
             self.spline_leads(&path, span)?;
         }
-        // a block with an error moves nothing; what was reported before it is still reported
+        // a block with an error causes no motion; conditions reported before it are still output
         if self.report.failed() && !self.checking {
             return Ok(());
         }
@@ -292,7 +292,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What cannot be combined with splines.
+    /// Functions that cannot be combined with splines.
     fn spline_fits(&self, rapid: bool, rounds: bool, span: Span) -> Outcome<()> {
         if self.contour.hsc.spline().is_some() {
             let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
@@ -318,7 +318,7 @@ impl Decoder {
         Err(Fault::unsupported(what, span))
     }
 
-    /// 120566: the feed of contoured motions is that of the main axes.
+    /// 120566: the feed rate of contoured motions refers to the main axes.
     ///
     /// Source: TF5200 diagnosis 265098635.
     fn contouring_fits(&self, span: Span) -> Outcome<()> {
@@ -331,7 +331,7 @@ impl Decoder {
         Err(Fault::new(Condition::ContouringFeedGroup, text, span))
     }
 
-    /// 120180: a point of a spline moves a main axis.
+    /// 120180: a point of a spline must move a main axis.
     fn spline_leads(&self, path: &Path, span: Span) -> Outcome<()> {
         let moves = |axis: usize| {
             path.extent(axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
@@ -344,7 +344,7 @@ impl Decoder {
         Err(Fault::new(Condition::SplineWithoutMainAxis, text, span))
     }
 
-    /// A motion with G95 under G96: its feed changes with the speed of the spindle.
+    /// A motion with G95 under G96: its feed rate changes with the speed of the spindle.
     fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
         if in_plane.compensation.is_some() {
             let what = "G95 under G96 with tool radius compensation";

@@ -7,11 +7,11 @@ use crate::syntax::ast::{Group, Ident, ItemKind};
 /// Names of the axes in the program.
 #[derive(Debug)]
 pub(super) struct AxisNames {
-    /// `None` for an axis that was given away.
+    /// `None` for an axis that was released.
     pub(super) axes: Vec<Option<String>>,
     /// Letters of one-letter axes.
     letters: [Option<u8>; 26],
-    /// Parsed blocks are out of date.
+    /// Whether parsed blocks are out of date.
     pub(super) changed: bool,
 }
 
@@ -23,7 +23,7 @@ impl AxisNames {
         names
     }
 
-    /// To be called when `axes` has changed.
+    /// Must be called after a change of `axes`.
     pub(super) fn change(&mut self) {
         self.find_letters();
         self.changed = true;
@@ -44,7 +44,7 @@ impl AxisNames {
         self.letters.get(i).copied().flatten().map(usize::from)
     }
 
-    /// Axis of a name in either case.
+    /// Axis of a name, in upper or lower case.
     pub(super) fn of_name(&self, name: &str) -> Option<usize> {
         self.axes.iter().position(|n| n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
     }
@@ -73,7 +73,7 @@ impl AxisNames {
         Ok(axes)
     }
 
-    /// Which axes there are.
+    /// Hint that lists the existing axes.
     pub(super) fn hint(&self) -> String {
         let names: Vec<&str> = self.axes.iter().filter_map(|n| n.as_deref()).collect();
         if names.is_empty() {
@@ -87,7 +87,7 @@ impl AxisNames {
         self.axes[axis].is_some()
     }
 
-    /// Name of an axis, `?` for one that was given away.
+    /// Name of an axis, `?` for a released one.
     pub(super) fn name(&self, axis: usize) -> &str {
         self.axes[axis].as_deref().unwrap_or("?")
     }

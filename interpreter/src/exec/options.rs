@@ -19,13 +19,13 @@ impl SkipLevels {
     /// Every `/` block is skipped.
     pub const ALL: Self = Self(0x3FF);
 
-    /// Switches a level from 1 to 10 on; others are ignored.
+    /// Activates a level from 1 to 10; other values are ignored.
     #[must_use]
     pub const fn with(self, level: u8) -> Self {
         if level >= 1 && level <= 10 { Self(self.0 | 1 << (level - 1)) } else { self }
     }
 
-    /// True if blocks of this level are skipped.
+    /// Whether blocks of this level are skipped.
     pub const fn contains(self, level: u8) -> bool {
         level >= 1 && level <= 10 && self.0 & 1 << (level - 1) != 0
     }
@@ -34,7 +34,7 @@ impl SkipLevels {
 /// A value of the language.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Every number and truth value.
+    /// Numbers and truth values.
     Number(f64),
     /// A text.
     Text(Box<str>),
@@ -61,18 +61,18 @@ pub struct External {
     pub access: Access,
 }
 
-/// A Vibration Guard instead of the one that lists and program describe: what a program would be like with it.
+/// A Vibration Guard that replaces the one of lists and program, to try its effect on a program.
 ///
-/// `OFF`, `ACC_FACT` and an `AX_DEV` of the program still act; its MODE, FREQ and DAMPING do not.
+/// `OFF`, `ACC_FACT` and an `AX_DEV` of the program still apply; its MODE, FREQ and DAMPING do not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForcedGuard {
     /// On for every path axis from program start with these settings; `None`: off until the program switches it on.
     pub settings: Option<VibGuardSettings>,
-    /// Tolerance in mm where the program gives none: from program start, and in commands without `AX_DEV`.
+    /// Tolerance in mm where the program does not set one: from program start, and in commands without `AX_DEV`.
     pub ax_dev_mm: Option<f64>,
 }
 
-/// What the commands of a program say about the Vibration Guard, in the order in which they are executed.
+/// Commands of a program for the Vibration Guard, in the order of execution.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GuardCommands {
     /// The first one that switches it on.
@@ -85,34 +85,34 @@ pub struct GuardCommands {
     pub ax_dev: Option<(Location, f64)>,
 }
 
-/// Ends a check or a run from another thread; copies belong together.
+/// Ends a check or a run from another thread; clones share their state.
 ///
-/// Read before every block and between two stretches of cycles. What was stopped is aborted and says nothing
-/// about it: the caller who stops it knows.
+/// Read before every block and between two groups of cycles. A stopped run is aborted without a message, because the caller who
+/// stops it knows the reason.
 #[derive(Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// Stops everything that has a copy.
+    /// Stops every run that has a clone.
     pub fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// It has been stopped.
+    /// Whether it was stopped.
     pub(crate) fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
 impl fmt::Debug for Stop {
-    /// Without its state, which has no influence on what is computed.
+    /// Omits the state, which has no influence on the result.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Stop")
     }
 }
 
 impl PartialEq for Stop {
-    /// Any two are equal: stopping does not change what is computed.
+    /// Any two are equal: stopping does not change the result.
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -129,18 +129,19 @@ pub struct Options {
     pub max_blocks: u64,
     /// Blocks without motion or dwell after which a program counts as endless (K-0017), default 1e7.
     pub max_blocks_at_rest: u64,
-    /// Program time in s after which a run is stopped (K-0017), default unlimited; a check does not look beyond it, by
-    /// the programmed speeds and dwells.
+    /// Program time in s after which a run is stopped (K-0017), default unlimited; a check also ends there, based on the
+    /// programmed feed rates and dwells.
     pub max_time_s: f64,
-    /// Takes `#TRAFO ON` and relatives as identity, with a warning, instead of refusing them.
+    /// Treats `#TRAFO ON` and related commands as identity, with a warning, instead of refusing them.
     pub identity_trafo: bool,
-    /// Durations of M, H and S functions that the lists declare are waited for (P-CHAN-00026, 00040, 00042 to 00048, 00080).
+    /// Whether the path waits for durations of M, H and S functions declared in the lists (P-CHAN-00026, 00040, 00042 to 00048,
+    /// 00080).
     pub techno_times: bool,
     /// External variables by their name after `V.E.`.
     pub external: BTreeMap<String, External>,
-    /// Vibration Guard instead of that of lists and program.
+    /// Vibration Guard that replaces that of lists and program.
     pub guard: Option<ForcedGuard>,
-    /// Ends it from outside.
+    /// Stops the run from outside.
     pub stop: Stop,
 }
 

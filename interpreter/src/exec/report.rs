@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// Messages about the program, each with its block.
 #[derive(Debug, Default)]
 pub(super) struct Report {
-    /// Place of the block in work.
+    /// Position of the current block.
     pub(super) source: SourceRef,
     /// Its first line, for conditions that name an earlier place.
     pub(super) location: Option<Location>,
@@ -16,7 +16,7 @@ pub(super) struct Report {
     faults: Vec<Fault>,
     /// Conditions without a place in a block.
     pub(super) unplaced: Vec<Diagnostic>,
-    /// Keys of the conditions that are reported once in a program.
+    /// Keys of the conditions that are reported only once per program.
     said: BTreeSet<String>,
 }
 
@@ -38,17 +38,17 @@ impl Report {
         self.faults.extend(faults);
     }
 
-    /// A condition with this key may be reported again.
+    /// Allows a condition with this key to be reported again.
     pub(super) fn unsay(&mut self, key: &str) {
         self.said.remove(key);
     }
 
-    /// Conditions of the current block, handed over.
+    /// Takes the conditions of the current block.
     pub(super) fn take_faults(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.faults)
     }
 
-    /// Adds to the condition noted last.
+    /// Extends the condition added last.
     pub(super) fn amend(&mut self, f: impl FnOnce(Diagnostic) -> Diagnostic) {
         if let Some(fault) = self.faults.pop() {
             let diagnostic = f(fault.diagnostic);
@@ -56,12 +56,12 @@ impl Report {
         }
     }
 
-    /// True if there is anything to say about the block in work.
+    /// Whether the current block has conditions.
     pub(super) fn has_faults(&self) -> bool {
         !self.faults.is_empty()
     }
 
-    /// True if the block in work has an error.
+    /// Whether the current block has an error.
     pub(super) fn failed(&self) -> bool {
         self.faults.iter().any(Fault::is_error)
     }

@@ -1,7 +1,8 @@
-//! Vibration Guard, FIR and HSC filters that result from program and axis lists together.
+//! Vibration Guard, FIR and HSC filters as they result from the program and the axis lists.
 //!
-//! One rule for all keys: written now, else written last in this program, else the axis list. `AX_DEV` is the exception:
-//! not written means off. A change of a kernel needs the path at rest; a change of tolerances does not.
+//! The same rule applies to all keys: the value in the command, else the last value in this program, else that of the axis
+//! list. `AX_DEV` is the exception: without it the monitoring is off. A change of a kernel requires the path at standstill; a
+//! change of tolerances does not.
 //!
 //! Source: TF5250 Vibration Guard, TF5200 FIR filter, TF5200 axis filters.
 use super::options::{ForcedGuard, GuardCommands};
@@ -17,7 +18,7 @@ use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::block::Tolerance;
 use std::sync::Arc;
 
-/// Keys of `#VIB GUARD` that persist.
+/// Modal keys of `#VIB GUARD`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct GuardKeys {
     pub(super) mode: Option<u8>,
@@ -26,7 +27,7 @@ pub(super) struct GuardKeys {
 }
 
 impl GuardKeys {
-    /// What the program gave, and the rest as listed.
+    /// Values of the program, completed by those of the list.
     pub(super) fn over(&self, listed: VibGuardSettings) -> VibGuardSettings {
         VibGuardSettings {
             mode: self.mode.unwrap_or(listed.mode),
@@ -36,7 +37,7 @@ impl GuardKeys {
     }
 }
 
-/// Keys of `#FILTER` that persist.
+/// Modal keys of `#FILTER`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct FilterKeys {
     pub(super) order: Option<u32>,
@@ -46,7 +47,7 @@ pub(super) struct FilterKeys {
     pub(super) quality: Option<f64>,
 }
 
-/// Which of the two exclusive commands a program has used.
+/// The one of two exclusive commands that a program has used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Family {
     VibGuard,
@@ -65,7 +66,7 @@ impl Family {
 /// State of the shaping functions of a program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ShapingState {
-    /// `None`: as the axis lists say.
+    /// `None`: as defined by the axis lists.
     pub(super) guard_on: Option<bool>,
     pub(super) guard: GuardKeys,
     pub(super) fir_on: Option<bool>,
@@ -77,15 +78,15 @@ pub(super) struct ShapingState {
     pub(super) acc_fact: Option<f64>,
     /// First use of one of the two command families.
     pub(super) used: Option<(Family, Location)>,
-    /// What the commands of the program say.
+    /// The commands of the program for the guard.
     pub(super) commands: GuardCommands,
-    /// What takes the place of the guard of lists and program.
+    /// The guard that replaces that of lists and program.
     forced: Option<ForcedGuard>,
-    /// What is in force.
+    /// The active setup.
     pub(super) setup: ShapingSetup,
 }
 
-/// A setup that was worked out, with everything there is to say about it.
+/// A computed setup, with its conditions.
 #[derive(Debug, Default)]
 pub(super) struct Worked {
     pub(super) setup: ShapingSetup,
@@ -99,7 +100,7 @@ impl ShapingState {
         Self { ax_dev_mm, forced, ..Self::default() }
     }
 
-    /// The kernel slot of an axis as the lists have it, or as it is forced.
+    /// The kernel slot of an axis as defined by the lists, or as forced.
     pub(super) fn listed(&self, axis: &Axis, cycle: CycleTime) -> KernelPreset {
         let mut listed = axis.kernel_preset(cycle);
         if let Some(forced) = &self.forced {
@@ -109,18 +110,18 @@ impl ShapingState {
         listed
     }
 
-    /// Tolerance in mm of a command of the Vibration Guard that names this one, 0 for none.
+    /// Tolerance in mm of a command of the Vibration Guard that sets this one, 0 for none.
     pub(super) fn guard_tolerance_mm(&self, named: Option<f64>) -> Option<f64> {
         named.or(self.forced.and_then(|f| f.ax_dev_mm)).filter(|mm| *mm > 0.0)
     }
 
-    /// Settings of the guard, from those of the list and of the program.
+    /// Settings of the guard, from the list and the program.
     fn guard_settings(&self, listed: VibGuardSettings) -> VibGuardSettings {
         let forced = self.forced.and_then(|f| f.settings);
         forced.unwrap_or_else(|| self.guard.over(listed))
     }
 
-    /// The command of the program that outranks the list of an axis.
+    /// The command of the program that overrides the list of an axis.
     pub(super) fn outranks_the_list(&self) -> Option<&'static str> {
         if self.guard_on.is_some() {
             Some(Family::VibGuard.command())
@@ -129,7 +130,7 @@ impl ShapingState {
         }
     }
 
-    /// True if a kernel of any axis is active.
+    /// Whether the kernel of any axis is active.
     pub(super) fn is_active(&self) -> bool {
         self.setup.axes.iter().any(|a| a.kernel.is_some())
     }
@@ -142,9 +143,9 @@ impl ShapingState {
         Tolerance { ax_dev_mm: self.ax_dev_mm, acc_fact: self.acc_fact.unwrap_or(1.0) }
     }
 
-    /// Puts the setup of the program start in force, and returns what there is to say about it.
+    /// Activates the setup of the program start, and returns its conditions.
     ///
-    /// Spindles are shaped by their lists alone: the commands act on the path axes of the channel.
+    /// Spindles are shaped by their lists only: the commands apply to the path axes of the channel.
     pub(super) fn start(&mut self, machine: &Machine) -> Vec<Diagnostic> {
         let (of_lists, mut found) = (Self::default(), Vec::new());
         let spindles = machine.spindles.iter();
@@ -156,7 +157,7 @@ impl ShapingState {
         found
     }
 
-    /// The setup that follows from lists and program.
+    /// The setup that results from lists and program.
     pub(super) fn work_out(&self, machine: &Machine) -> Worked {
         let mut worked = Worked::default();
         worked.setup.spindles.clone_from(&self.setup.spindles);
@@ -237,8 +238,8 @@ fn with_axis(axis: &Axis, text: &str) -> String {
     format!("axis {}: {text}", axis.name())
 }
 
-/// Axes of one group whose kernels and standard filters together delay them differently run asynchronously; gantry slaves
-/// have the kernel of their master and their own filters.
+/// Axes of one group are asynchronous if the total delays of their kernels and standard filters differ. Gantry slaves have the
+/// kernel of their master and their own filters.
 fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic> {
     let slaves =
         machine.gantry_slaves.iter().filter_map(|slave| Some((machine.master_of(slave)?, slave)));
@@ -252,7 +253,7 @@ fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic>
     let low = delays.iter().map(|(_, d)| *d).fold(f64::INFINITY, f64::min);
     let high = delays.iter().map(|(_, d)| *d).fold(0.0, f64::max);
     let ms = f64::from(machine.cycle.us()) / 1e3;
-    // what is printed with three digits
+    // printed with three digits
     if (high - low) * ms < 1e-3 || delays.is_empty() {
         return None;
     }

@@ -1,4 +1,4 @@
-//! What the executor passes to the simulation: motions, rests and events, in the order of the program.
+//! The output of the executor to the simulation: motions, stops and events, in program order.
 
 use crate::exec::values::timers::TimerAct;
 use crate::machine::SpindleLimits;
@@ -12,7 +12,7 @@ use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::independent::IndependentSpeed;
 use std::sync::Arc;
 
-/// Place of a block in the programs that take part in a run.
+/// Position of a block in the programs of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SourceRef {
     /// Index into [`Executor::files`](super::Executor::files).
@@ -34,32 +34,31 @@ pub(crate) enum Step {
         block: Box<Block>,
         /// Where it was programmed.
         source: SourceRef,
-        /// They act in the first cycle of the motion, without a stop.
+        /// They occur in the first cycle of the motion, without a stop.
         events: Vec<Event>,
     },
-    /// The path comes to rest after everything before; then the simulation acts or waits as required and asks for the
-    /// next step.
+    /// The path stops after all previous motions; then the simulation acts or waits as required and requests the next step.
     Sync {
-        /// What happens at rest.
+        /// The action at standstill.
         what: Sync,
         /// Where it was programmed.
         source: SourceRef,
-        /// They act when the path has come to rest, before any waiting.
+        /// They occur when the path has stopped, before any waiting.
         events: Vec<Event>,
     },
     /// End of the program; no step follows.
     End {
-        /// Why.
+        /// The reason.
         reason: EndReason,
         /// The block that ended it.
         source: SourceRef,
-        /// They act at the end of the last motion.
+        /// They occur at the end of the last motion.
         events: Vec<Event>,
     },
 }
 
 impl Step {
-    /// True if the program goes forward in time by it. A loop of steps that do not would run for ever.
+    /// Whether the step advances the program time. A loop of steps that do not would never end.
     pub(crate) fn takes_time(&self, cycle: CycleTime) -> bool {
         match self {
             Self::Motion { .. } => true,
@@ -86,68 +85,68 @@ impl Step {
     }
 }
 
-/// What happens while the path is at rest.
+/// Actions while the path is at standstill.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Sync {
-    /// G60, G360: waiting until every axis is in its window (P-AXIS-00236).
+    /// G60, G360: waits until every axis is in its window (P-AXIS-00236).
     ExactStop {
-        /// Those that are on their way alone too (P-CHAN-00297 = 1).
+        /// Whether this includes axes in independent motion (P-CHAN-00297 = 1).
         alone: bool,
     },
-    /// A stop at the end of the block before and nothing else (`#FLUSH`, G115 and similar).
+    /// Only a stop at the end of the previous block (`#FLUSH`, G115 and similar).
     Stop,
-    /// G04, `#TIME`: waiting so long, in s.
+    /// G04, `#TIME`: dwell, in s.
     Dwell {
         /// Time in s, not negative.
         seconds: f64,
     },
-    /// M, H and S functions whose durations the lists declare and the user wants to be counted: waiting so long.
+    /// M, H and S functions with durations declared in the lists, if the user includes them: waits for this time.
     Technology {
         /// Time in s, above 0.
         seconds: f64,
     },
-    /// `#FLUSH WAIT`, `#CHANNEL INIT [CMDPOS]`: waiting until the axes have arrived.
+    /// `#FLUSH WAIT`, `#CHANNEL INIT [CMDPOS]`: waits until the axes have arrived.
     FlushWait,
-    /// `INDP_SYN`, `#WAIT INDP`: waiting until the set positions of these independent axes have arrived.
+    /// `INDP_SYN`, `#WAIT INDP`: waits until the setpoints of these independent axes have arrived.
     Independent {
         /// Path axes, in channel order.
         axes: Vec<usize>,
     },
-    /// Threads: waiting until a spindle is at rest, or passes its mark; in the latter case the path then goes with it.
+    /// Threads: waits until a spindle is at standstill, or passes its zero mark; in the latter case the path then follows it.
     Spindle {
         /// Index into `Machine::spindles`.
         spindle: usize,
-        /// What is waited for.
+        /// The condition to wait for.
         state: SpindleState,
     },
-    /// The end of a measuring run: the motion before it ends where the probe signals.
+    /// The end of a measuring run: the preceding motion ends where the probe signals.
     Measured {
-        /// The signal does not stop the path (G106).
+        /// Whether the path continues after the signal (G106).
         through: bool,
-        /// Path axes whose lag is the signal instead of the probe (measuring type 7).
+        /// Path axes with a following error that replaces the probe as signal (measuring type 7).
         stops: Vec<usize>,
     },
     /// The end of G33.
     ThreadEnd,
-    /// M00, M01; headless the program continues at once.
+    /// M00, M01; without an operator the program continues at once.
     ProgramStop {
         /// M01.
         optional: bool,
     },
-    /// Settings of the axis filters or the Vibration Guard changed: flush the kernels, then swap them.
+    /// Settings of the axis filters or the Vibration Guard have changed: the kernels are run out, then replaced.
     Shaping(Box<ShapingSetup>),
-    /// The next call of [`Executor::next`](super::Executor::next) needs actual positions of the machine at rest.
+    /// The next call of [`Executor::next`](super::Executor::next) requires actual positions of the machine at standstill.
     ReadActual,
-    /// The same with every axis in its window first (P-AXIS-00236): `#CHANNEL INIT [ACTPOS]`.
+    /// As before, after every axis has settled in its window (P-AXIS-00236): `#CHANNEL INIT [ACTPOS]`.
     TakeActual,
-    /// An axis in its window gets another set position.
+    /// An axis in its window is assigned another setpoint.
     SetPosition {
         /// Path axis.
         axis: usize,
-        /// New position less the present one in mm (deg).
+        /// New position minus the current one in mm (deg).
         offset_mm: f64,
-        /// The axis follows (`#CHANNEL INIT [ACTPOS]`); otherwise it does not move, its place has another position from now on
-        /// (`X[SET_POSITION ..]`).
+        /// Whether the axis follows (`#CHANNEL INIT [ACTPOS]`); otherwise it does not move, and its current position is
+        /// redefined (`X[SET_POSITION ..]`).
         moves: bool,
     },
     /// `#MACHINE DATA`: a parameter of an axis list has changed in [`Executor::machine`](super::Executor::machine).
@@ -157,7 +156,7 @@ pub(crate) enum Sync {
     },
 }
 
-/// Why a program ended.
+/// Reason for the end of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum EndReason {
     /// M02, M30 or the end of the text.
@@ -169,22 +168,22 @@ pub(crate) enum EndReason {
 /// Kernels of path axes and spindles, in channel order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ShapingSetup {
-    /// One entry per path axis; its gantry slaves are shaped like it.
+    /// One entry per path axis; its gantry slaves use the same kernel.
     pub axes: Vec<AxisShaping>,
-    /// One entry per spindle: what its list says, from the start of the program to its end.
+    /// One entry per spindle: defined by its list, constant throughout the program.
     pub spindles: Vec<AxisShaping>,
 }
 
 /// Kernel of one axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct AxisShaping {
-    /// What the kernel is made from.
+    /// The parameters of the kernel.
     pub settings: ShapingSettings,
-    /// The kernel; `None` changes nothing.
+    /// The kernel; `None` leaves the setpoints unchanged.
     pub kernel: Option<Arc<Kernel>>,
 }
 
-/// Which of the functions that exclude each other fills the kernel slot of an axis.
+/// The one of the mutually exclusive functions that occupies the kernel slot of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum ShapingSettings {
     /// None.
@@ -198,17 +197,17 @@ pub(crate) enum ShapingSettings {
     Hsc(HscConfig),
 }
 
-/// Something that acts at a moment of the program without moving the path.
+/// An action at a point of the program that does not move the path.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Event {
-    /// G135, G136, G137: the whole state, not the change.
+    /// G135, G136, G137: the complete state, not the change.
     Feedforward {
         /// G135 (true) or G137.
         on: bool,
         /// Weight of each path axis, 0 to 1 (G136).
         weight_ratios: AxisVec,
     },
-    /// `S[G135 G136=80]`: the whole state of one spindle.
+    /// `S[G135 G136=80]`: the complete state of one spindle.
     SpindleFeedforward {
         /// Index into `Machine::spindles`.
         spindle: usize,
@@ -224,71 +223,71 @@ pub(crate) enum Event {
         /// Weight, above 0; 1 is the acceleration of the list.
         ratio: f64,
     },
-    /// `S[GET_DYNAMIC_DATA]`, or a start from rest: the tool of a spindle limits it from now on.
+    /// `S[GET_DYNAMIC_DATA]`, or a start from standstill: the limits of the tool apply to a spindle from now on.
     SpindleLimits {
         /// Index into `Machine::spindles`.
         spindle: usize,
-        /// The limits; `None`: those of the list alone.
+        /// The limits; `None`: those of the list only.
         limits: Option<SpindleLimits>,
     },
-    /// Tapping: a spindle at rest turns with the way of a path axis, from the next cycle on.
+    /// Tapping: a spindle at standstill is coupled to the motion of a path axis, from the next cycle on.
     SpindleFollows {
         /// Index into `Machine::spindles`.
         spindle: usize,
-        /// The axis, and degrees for a mm of its way; `None`: the spindle is at rest again.
+        /// The axis, and degrees per mm of its travel; `None`: ends the coupling, with the spindle at standstill.
         way: Option<(usize, f64)>,
     },
-    /// G96, G97: the speed of a spindle keeps a cutting speed from now on, or stays as it is.
+    /// G96, G97: from now on a spindle follows a constant cutting speed, or keeps its current speed.
     CuttingSpeed {
         /// Index into `Machine::spindles`.
         spindle: usize,
-        /// How fast; `None` ends it.
+        /// The cutting speed; `None` ends it.
         cutting: Option<CuttingSpeed>,
     },
-    /// M3, M4, M5, M19 with the speed or position of one spindle: the whole state.
+    /// M3, M4, M5, M19 with the speed or position of one spindle: the complete state.
     Spindle {
         /// Index into `Machine::spindles`.
         spindle: usize,
-        /// What it does.
+        /// Its commanded state.
         motion: SpindleMotion,
     },
     /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`: an axis starts a separate motion, independently of the path.
     Independent {
         /// Path axis.
         axis: usize,
-        /// What it does.
+        /// Its motion.
         motion: IndependentMotion,
     },
     /// `X[OSC ON ..]`: an axis oscillates independently of the path until the program waits for it.
     Oscillation {
         /// Path axis.
         axis: usize,
-        /// What it does.
+        /// Its motion.
         motion: OscillatingMotion,
     },
-    /// `#ENABLE AX LINK`: an axis follows another one from here on; both are at rest.
+    /// `#ENABLE AX LINK`: an axis follows another one from now on; both are at standstill.
     Couple {
-        /// Path axis that follows.
+        /// Path axis of the slave.
         slave: usize,
-        /// Path axis that is followed.
+        /// Path axis of the master.
         master: usize,
-        /// Way of the slave for a way of the master.
+        /// Travel of the slave per travel of the master.
         ratio: f64,
-        /// Where the master is, in mm (deg).
+        /// Position of the master, in mm (deg).
         master_mm: f64,
     },
     /// `#OTC ON`, or OFF with `None`.
     Wear(Option<WearSetting>),
-    /// The tool comes to the contour of G41 or G42 in these axes, to its left if true, or leaves it.
+    /// The tool reaches the contour of G41 or G42 in these axes, on its left if true, or leaves it.
     Engaged(Option<([usize; 2], bool)>),
     /// Edge banding: the motion waits for the signal of the probe.
     Banding(BandingRun),
-    /// `#DISABLE AX LINK`: the axis stays where it is.
+    /// `#DISABLE AX LINK`: the axis keeps its position.
     Uncouple {
         /// Path axis.
         slave: usize,
     },
-    /// An M function without a meaning here.
+    /// An M function without a predefined meaning.
     MFunction {
         /// Number, 0 to 65535.
         number: u32,
@@ -307,16 +306,16 @@ pub(crate) enum Event {
         /// Pocket or tool number.
         number: u32,
     },
-    /// A function that takes a time on the machine which is not part of the run; once for each function.
+    /// A function with a duration on the machine that is not included in the run; once per function.
     Uncounted {
         /// The function, with its duration if the lists declare one.
         function: String,
     },
-    /// `#TIMER .. SYN`: at this moment of the motion.
+    /// `#TIMER .. SYN`: takes effect at this point of the motion.
     Timer {
         /// Number.
         id: u32,
-        /// What happens to it.
+        /// The operation on it.
         act: TimerAct,
     },
     /// `#MSG`: text for the log.
@@ -327,23 +326,23 @@ pub(crate) enum Event {
         text: String,
         /// `#MSG SAVE`: also for the message file.
         save: bool,
-        /// The block that says it.
+        /// The block of the command.
         source: SourceRef,
     },
 }
 
-/// G96: a cutting speed that the spindle keeps.
+/// G96: the cutting speed that the spindle maintains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CuttingSpeed {
     /// Face turning axis.
     pub axis: usize,
-    /// Position of the axis in mm where its tool is at the turning centre.
+    /// Position of the axis in mm with its tool at the turning centre.
     pub centre_mm: f64,
     /// Cutting speed in mm/min, above 0.
     pub speed_mm_min: f64,
     /// Highest speed in rev/min.
     pub max_rpm: f64,
-    /// In rapid blocks: position of the axis whose speed is kept.
+    /// In rapid blocks: position of the axis for which the speed is kept.
     pub held_mm: Option<f64>,
 }
 
@@ -354,35 +353,35 @@ impl CuttingSpeed {
     }
 }
 
-/// What a wait for a spindle waits for.
+/// The condition that ends a wait for a spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpindleState {
-    /// It is at rest.
+    /// It is at standstill.
     Rest,
-    /// It has its commanded speed or position.
+    /// It has reached its commanded speed or position.
     Reached,
-    /// It turns with its speed, and in this cycle through this angle in deg.
+    /// It rotates at its speed, and passes this angle in deg in this cycle.
     Mark {
         /// Angle.
         deg: f64,
-        /// The override does not act on the thread.
+        /// Whether the override has no effect on the thread.
         full_override: bool,
     },
 }
 
-/// Motion of an independent axis from rest to rest.
+/// Motion of an independent axis from standstill to standstill.
 ///
-/// The motions of the path do not contain it: their coordinates of the axis are less by the ways of its independent
+/// The motions of the path do not contain it: their coordinates of the axis are reduced by the travel of its independent
 /// motions so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct IndependentMotion {
-    /// Where the axis is, in mm (deg).
+    /// Start position, in mm (deg).
     pub from_mm: f64,
     /// Target in mm (deg).
     pub to_mm: f64,
-    /// How fast.
+    /// Its speed.
     pub speed: IndependentSpeed,
-    /// Shape of the acceleration.
+    /// Acceleration profile.
     pub slope: SlopeKind,
     /// Its block.
     pub source: SourceRef,
@@ -391,15 +390,15 @@ pub(crate) struct IndependentMotion {
 /// Motion of an oscillating axis; it always ends at its second position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OscillatingMotion {
-    /// Where the axis is, in mm (deg).
+    /// Start position, in mm (deg).
     pub from_mm: f64,
-    /// First and second reversal position in mm (deg), different ones.
+    /// First and second reversal position in mm (deg), not equal.
     pub reversal_mm: [f64; 2],
-    /// Rest at each of them in s.
+    /// Dwell at each of them in s.
     pub rest_s: [f64; 2],
-    /// How fast; a time is that of one way.
+    /// Its speed; a time is that of one stroke.
     pub speed: IndependentSpeed,
-    /// Shape of the acceleration.
+    /// Acceleration profile.
     pub slope: SlopeKind,
     /// Number of oscillations; `None`: until the program waits for the axis.
     pub count: Option<u32>,
@@ -407,7 +406,7 @@ pub(crate) struct OscillatingMotion {
     pub source: SourceRef,
 }
 
-/// What a spindle does.
+/// Commanded state of a spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpindleMotion {
     /// M3: clockwise.
@@ -426,17 +425,17 @@ pub(crate) enum SpindleMotion {
     Position {
         /// Angle in deg.
         deg: f64,
-        /// Speed in rev/min, above 0; none: as fast as the spindle can.
+        /// Speed in rev/min, above 0; `None`: the maximum speed of the spindle.
         rpm: Option<f64>,
-        /// Which way round.
+        /// Direction of the motion to the angle.
         approach: Approach,
     },
 }
 
-/// The way of a spindle to an angle.
+/// Direction of a spindle to an angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Approach {
-    /// The shorter way from rest, the direction of rotation of a spindle that turns.
+    /// The shorter way from standstill, the current direction of rotation otherwise.
     Free,
     /// M3 with M19.
     Clockwise,
@@ -444,16 +443,16 @@ pub(crate) enum Approach {
     CounterClockwise,
 }
 
-/// What the simulation knows when it asks for the next step.
+/// State of the simulation when it requests the next step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Feedback {
     /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`].
     pub actual_mm: AxisVec,
-    /// Lag of each path axis in its position loop in mm (deg); used after [`Sync::TakeActual`].
+    /// Following error of each path axis in its position loop in mm (deg); used after [`Sync::TakeActual`].
     pub lag_mm: AxisVec,
     /// Program time in s.
     pub time_s: f64,
-    /// What a measuring run has found, after [`Sync::Measured`].
+    /// Result of a measuring run, after [`Sync::Measured`].
     pub measured: Option<Box<Probed>>,
 }
 
@@ -462,27 +461,27 @@ pub(crate) struct Feedback {
 pub(crate) struct Probed {
     /// Actual position of each path axis where the probe has signalled; `None` if it has not.
     pub signal_mm: Option<AxisVec>,
-    /// Where the axes have come to rest, as set positions.
+    /// Setpoints of the axes after the stop.
     pub rest_mm: AxisVec,
 }
 
 /// Edge banding in one motion: the path stops once after the signal of the probe and continues after the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BandingRun {
-    /// Way from the place of the signal to the stop in mm, not negative.
+    /// Distance from the position of the signal to the stop in mm, not negative.
     pub(crate) way_mm: f64,
-    /// M function that is called at the stop.
+    /// M function executed at the stop.
     pub(crate) number: u32,
     /// Its value.
     pub(crate) value: Option<f64>,
-    /// How long the path waits for it, in s.
+    /// Duration for which the path waits, in s.
     pub(crate) seconds: f64,
 }
 
-/// What wears of a grinding wheel.
+/// The dimension of a grinding wheel that wears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WornPart {
-    /// The radius: the axes of the plane follow, while the tool is at the contour.
+    /// The radius: the axes of the plane compensate it while the tool is at the contour.
     Radius,
     /// The length.
     Length {
@@ -491,17 +490,17 @@ pub(crate) enum WornPart {
     },
 }
 
-/// Online tool compensation in force.
+/// Active online tool compensation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WearSetting {
-    /// What wears.
+    /// The dimension that wears.
     pub(crate) part: WornPart,
-    /// Wear in mm for a mm of way.
+    /// Wear in mm per mm of travel.
     pub(crate) ratio: f64,
-    /// Wear from outside counts (input `wear_mm`).
+    /// Whether external wear is included (input `wear_mm`).
     pub(crate) from_outside: bool,
-    /// Most wear from outside in mm (P-TOOL-00031).
+    /// Maximum external wear in mm (P-TOOL-00031).
     pub(crate) most_mm: f64,
-    /// Share of the acceleration limit of the axes with which they follow a change.
+    /// Share of the acceleration limit of the axes that is used to follow a change.
     pub(crate) acceleration_ratio: f64,
 }

@@ -1,4 +1,4 @@
-//! Programs and what becomes of them. Expected values are those of the language's documents and plain geometry.
+//! Programs and their results. Expected values are from the language documents and plain geometry.
 
 mod akima;
 mod arcs;
@@ -32,7 +32,7 @@ pub(super) fn machine(settings: &[&str]) -> Arc<Machine> {
     Arc::new(Machine::builtin(&settings).unwrap().0)
 }
 
-/// What a program does.
+/// Results of a program.
 pub(super) struct Run {
     pub(super) steps: Vec<Step>,
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -40,7 +40,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// IDs, in the order of raising.
+    /// IDs, in the order in which they were raised.
     pub(super) fn ids(&self) -> Vec<String> {
         ids(&self.diagnostics)
     }
@@ -138,17 +138,17 @@ pub(super) fn run(text: &str) -> Run {
     run_on(&[], text)
 }
 
-/// Runs a text on the built-in machine with other settings.
+/// Runs a text on the built-in machine with different settings.
 pub(super) fn run_on(settings: &[&str], text: &str) -> Run {
     run_with(MemorySources::new().with("main.nc", text), machine(settings), Options::default())
 }
 
-/// IDs that a text gets which ends with M30.
+/// IDs raised by a text, to which M30 is appended.
 pub(super) fn said(text: &str) -> Vec<String> {
     run(&format!("{text}\nM30\n")).ids()
 }
 
-/// Runs a text; it must have no diagnostics.
+/// Runs a text without diagnostics; any diagnostic fails the test.
 pub(super) fn clean(text: &str) -> Run {
     let run = run(text);
     assert!(run.diagnostics.is_empty(), "{text}: {:?}", shown(&run.diagnostics));
@@ -172,7 +172,7 @@ pub(super) fn assert_near(actual: &[f64], expected: &[f64]) {
     assert!(near, "{actual:?} instead of {expected:?}");
 }
 
-/// End position after a text that ends with M30.
+/// End position of a text, to which M30 is appended.
 #[track_caller]
 pub(super) fn assert_end(text: &str, expected: [f64; 3]) {
     assert_near(&clean(&format!("{text}\nM30\n")).end, &expected);

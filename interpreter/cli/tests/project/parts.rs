@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// The number of a channel says which is the first, not the place of its file or element.
+/// The number of a channel determines which one is first, not the position of its file or element.
 #[test]
 fn the_first_channel_is_that_with_the_smallest_number() {
     let folder = folder();
@@ -19,7 +19,7 @@ fn the_first_channel_is_that_with_the_smallest_number() {
     let (exit, trace, said) = run(&folder, "machine.tsproj");
     assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
     assert!(said.contains("one channel is simulated") && !said.contains("kanal_anzahl"), "{said}");
-    // the same by files: Aux.xti comes first by its name
+    // the same with separate files: Aux.xti is first by name
     fs::create_dir_all(folder.path("_Config")).unwrap();
     fs::write(folder.path("_Config/Aux.xti"), item(&channel(&second))).unwrap();
     fs::write(folder.path("_Config/Main.xti"), item(&channel(&first))).unwrap();
@@ -30,7 +30,7 @@ fn the_first_channel_is_that_with_the_smallest_number() {
     assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
 }
 
-/// Files that the project does not name and items that are switched off are not axes; they are named.
+/// Files that the project does not reference and disabled items are not axes; they are reported.
 #[test]
 fn what_does_not_belong_to_the_project_is_left_out() {
     let folder = folder();
@@ -57,8 +57,8 @@ fn what_does_not_belong_to_the_project_is_left_out() {
     assert!(said.contains("K-0141") && said.contains("kopf.achs_nr 1"), "{said}");
 }
 
-/// A part that the project names and that was not copied is named in a warning; a terminal, or an axis that is switched off,
-/// is not missed.
+/// A part that the project references but that was not copied is reported by a warning; a missing terminal or disabled axis is
+/// not.
 #[test]
 fn a_missing_part_is_named() {
     let folder = folder();
@@ -96,7 +96,7 @@ fn a_missing_part_is_named() {
     );
 }
 
-/// Names of lists in other capital letters, as copies from Windows have them: the same machine, with a note for each.
+/// Names of lists in different case, as in copies from Windows: the same machine, with a note for each.
 #[test]
 fn names_of_lists_in_other_capital_letters() {
     let expected = expected();
@@ -127,7 +127,7 @@ fn names_of_lists_in_other_capital_letters() {
     assert!(exit == Exit::Usage && said.contains("x.lis` cannot be read"), "{said}");
 }
 
-/// Names and places of the axes: none at all, and places that are left empty.
+/// Names and positions of the axes: none at all, and empty positions.
 #[test]
 fn names_and_places_of_the_axes() {
     let folder = folder();

@@ -1,4 +1,4 @@
-//! Addresses of a block: axes, spindles, centre, feed, radius, tools, and everything else.
+//! Addresses of a block: axes, spindles, centre, feed rate, radius, tools, and all others.
 
 use super::collected::Words;
 use crate::diag::{Condition, ValueKind};
@@ -37,7 +37,7 @@ impl Decoder {
         if let Some((spindle, what)) = name.as_str().split_once('.') {
             return self.spindle_angle(spindle, what, value, span, block);
         }
-        // R1 is the only index of the radius
+        // the index 1 (R1) is the only valid one of the radius
         let written = name.as_str().eq_ignore_ascii_case("R1");
         let radius = (written || self.is_radius_of_parameter(name.as_str(), span)?).then_some(b'R');
         let Some(letter) = name.letter().or(radius) else {
@@ -70,7 +70,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// True for `RP2` where P2 is 1, the only index of the radius.
+    /// Whether it is `RP2` with P2 = 1, the only valid index of the radius.
     fn is_radius_of_parameter(&self, name: &str, span: Span) -> Outcome<bool> {
         let digits = name.strip_prefix(['R', 'r']).and_then(|rest| rest.strip_prefix(['P', 'p']));
         let Some(index) = digits.and_then(|digits| digits.parse().ok()) else { return Ok(false) };
@@ -122,7 +122,7 @@ impl Decoder {
         if let Some(sign) = sign
             && self.machine.axes[axis].is_modulo()
         {
-            // of a sum in brackets the last term ends before the bracket does
+            // in a sum in brackets the last term ends before the bracket
             let sum = match &value.kind {
                 ExprKind::Binary(binary) => binary.right.span.end() == value.span.end(),
                 _ => false,
@@ -130,7 +130,7 @@ impl Decoder {
             block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
         }
         let value = self.number(value)?;
-        // the direction of a modulo axis belongs to one word
+        // a direction of a modulo axis applies to a single word
         let several = self.machine.channel.several_words && !self.machine.axes[axis].is_modulo();
         if !several && block.axes.iter().any(|(a, _, _)| *a == axis) {
             return Err(self.axis_twice(axis, span));
@@ -139,7 +139,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// An axis that one block moves twice.
+    /// An axis that is moved twice by one block.
     pub(in crate::exec) fn axis_twice(&self, axis: usize, span: Span) -> Box<Fault> {
         let number = self.machine.axes[axis].number();
         let name = self.names.name(axis).to_owned();
@@ -175,7 +175,7 @@ impl Decoder {
                 Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
                     .hint("write R=..")
             }
-            // names of spindles begin with S, those of axes never do (20524)
+            // names of spindles begin with S, those of axes must not (20524)
             Some(b'S' | b's') => {
                 let text = format!("the channel has no spindle {name}");
                 Fault::new(Condition::SpindleUnknown, text, span)
@@ -200,11 +200,12 @@ impl Decoder {
         Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.names.hint())
     }
 
-    /// `@X=..`, `@I=..`, `@S=..`: words of cycles for the main axes, the centre and the main spindle, whatever their
-    /// names in the channel are.
+    /// `@X=..`, `@I=..`, `@S=..`: words of cycles for the main axes, the centre and the main spindle, regardless of their names
+    /// in the channel.
     ///
     /// Source: TF5200 programming manual, cycles (a cycle does not depend on the plane and the names of axes); diagnosis
-    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` is perpendicular to it.
+    /// 21383 to 21385. Assumption: `@X` and `@Y` are the first and second axis of the active plane, `@Z` is perpendicular to
+    /// it.
     pub(super) fn cycle_address(
         &mut self,
         name: &str,
@@ -250,7 +251,7 @@ impl Decoder {
     }
 }
 
-/// The speed of a spindle, once in a block.
+/// The speed of a spindle, only once in a block.
 fn spindle_word(block: &mut Words<'_>, spindle: usize, rpm: f64, span: Span) -> Outcome<()> {
     if block.speeds.iter().any(|(other, _, _)| *other == spindle) {
         let text = "the speed of a spindle twice in one block";
@@ -260,7 +261,7 @@ fn spindle_word(block: &mut Words<'_>, spindle: usize, rpm: f64, span: Span) -> 
     Ok(())
 }
 
-/// There are no O words: 20192, or 20191 for a number that is no SGN32.
+/// O words are not supported: 20192, or 20191 for a number outside SGN32.
 fn o_word(value: f64, span: Span) -> Box<Fault> {
     let condition = if (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&value) {
         Condition::ONotImplemented

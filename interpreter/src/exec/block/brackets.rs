@@ -15,7 +15,7 @@ use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
 use crate::syntax::ast::{Bracket, Group, Ident, Item, ItemKind, ItemValue, Span};
 
-/// Words that belong to the functions of an axis and cannot come before them (21301).
+/// Words that belong to the functions of an axis and must not precede them (21301).
 const OF_FUNCTIONS: &[&str] = &[
     "POS",
     "FEED",
@@ -59,7 +59,7 @@ impl Decoder {
         if let Some(spindle) = self.spindle_of_name(name) {
             return self.spindle_bracket(spindle, bracket, words);
         }
-        // `X100 [NAME]` reads like the bracket of an axis X100
+        // `X100 [NAME]` looks like a bracket of an axis X100
         if let ([Item { kind: ItemKind::Flag(_), .. }], true) =
             (&bracket.group.items[..], name.ends_with(|c: char| c.is_ascii_digit()))
         {
@@ -123,7 +123,7 @@ impl Decoder {
                 }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
-            // OSC_ON: as the diagnosis manual writes it, 120470
+            // OSC_ON: the spelling of the diagnosis manual, 120470
             Some((Item { kind: ItemKind::Flag(word), .. }, rest))
                 if word.is("OSC") || word.is("OSC_ON") =>
             {
@@ -169,7 +169,7 @@ impl Decoder {
         }
     }
 
-    /// Another bracket of the same axis that moves it, or sets the same.
+    /// Another bracket of the same axis that moves it, or sets the same value.
     fn excludes(&self, other: &Bracket, axis: usize, bracket: &Bracket) -> bool {
         const MOVES: [&str; 5] = ["INDP_SYN", "INDP_ASYN", "OSC", "OSC_ON", "SET_POSITION"];
         fn first(bracket: &Bracket) -> Option<&Ident> {
@@ -215,7 +215,7 @@ impl Decoder {
         }
     }
 
-    /// An M or H function of an axis or spindle: for the log, and for the time it takes.
+    /// An M or H function of an axis or spindle: written to the log, with its duration included.
     fn call_function(&mut self, function: Function, value: Option<f64>) {
         self.takes_time(function);
         match function {
@@ -226,7 +226,7 @@ impl Decoder {
     }
 }
 
-/// The user's M or H function that an item names: not those that end programs or turn spindles.
+/// The M or H function of the user that an item names: not one that ends programs or controls spindles.
 fn function(item: &Item) -> Option<(Function, Span)> {
     let (ItemKind::Flag(word) | ItemKind::Pair { key: word, value: ItemValue::Expr(_) }) =
         &item.kind

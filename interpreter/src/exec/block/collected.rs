@@ -1,4 +1,4 @@
-//! What has been collected from one block.
+//! The words collected from one block.
 
 use crate::diag::Condition;
 use crate::exec::block::groups::{Act, Group, Row};
@@ -6,7 +6,7 @@ use crate::exec::options::Value;
 use crate::syntax::ast::{Bracket, Call, HashWord, Jump, Return, Sign, Span};
 use smallvec::SmallVec;
 
-/// Number and place of a value.
+/// A value with its position in the text.
 pub(in crate::exec) type Placed = (f64, Span);
 
 /// A G function of the block.
@@ -29,7 +29,7 @@ pub(in crate::exec) struct Code {
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct CycleCall {
     pub(in crate::exec) number: u32,
-    /// Values in written order, `None` for an empty place; without any it is not a cycle.
+    /// Values in written order, `None` for an omitted one; without values it is not a cycle.
     pub(in crate::exec) values: Option<Vec<Option<Value>>>,
     pub(in crate::exec) span: Span,
 }
@@ -38,12 +38,12 @@ pub(in crate::exec) struct CycleCall {
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) g: SmallVec<[GWord; 6]>,
-    /// Axis, value as written, place.
+    /// Axis, value as written, position in the text.
     pub(in crate::exec) axes: SmallVec<[(usize, f64, Span); 8]>,
-    /// First sign of the words of modulo axes: the direction of rotation; or the place of a sum whose first sign may
+    /// First sign of the words of modulo axes: the direction of rotation; or the position of a sum with a first sign that may
     /// also belong to its first term.
     pub(in crate::exec) turns: SmallVec<[(usize, Result<Sign, Span>); 1]>,
-    /// G90 and G91 that act from their place on (P-CHAN-00116): number of axis words before, and whether absolute.
+    /// G90 and G91 that apply from their position on (P-CHAN-00116): number of axis words before, and whether absolute.
     pub(in crate::exec) dimensions: SmallVec<[(usize, bool); 2]>,
     /// I, J, K.
     pub(in crate::exec) centre: [Option<Placed>; 3],
@@ -54,7 +54,7 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
     /// Spindle and angle of M19 (`S.POS=180`).
     pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
-    /// Spindle and angle at which a thread begins (`S.OFFSET=90`).
+    /// Spindle and angle of the start of a thread (`S.OFFSET=90`).
     pub(in crate::exec) offsets: SmallVec<[(usize, f64, Span); 1]>,
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
@@ -71,19 +71,19 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) addition: Option<(&'b HashWord, Span)>,
     /// Where the last assignment ends.
     pub(in crate::exec) assigned_to: Option<u32>,
-    /// Where M17 or M29 leads, if they say so.
+    /// Target of M17 or M29, if they name one.
     pub(in crate::exec) back: Option<(&'b Return, Span)>,
 }
 
 impl<'b> Words<'b> {
-    /// A G function that moves, measures, dwells or stops in this block.
+    /// A G function of this block that moves, measures, dwells or stops.
     pub(in crate::exec) fn of_the_path(&self) -> Option<&GWord> {
         self.g.iter().find(|g| {
             matches!(g.row.group, Group::Path | Group::Measuring) || g.row.act == Act::ExactStopOnce
         })
     }
 
-    /// The signal of a measuring run decides about the jump (G310).
+    /// Whether the signal of a measuring run decides on the jump (G310).
     pub(in crate::exec) fn jumps_on_signal(&self) -> bool {
         self.g.iter().any(|g| g.row.number == 310)
     }
@@ -96,12 +96,12 @@ impl<'b> Words<'b> {
         self.brackets.iter().copied().take_while(move |other| !std::ptr::eq(*other, bracket))
     }
 
-    /// The first word of an axis before a place in the block.
+    /// The first word of an axis before a position in the block.
     pub(in crate::exec) fn axis_before(&self, at: Span) -> Option<Span> {
         self.axes.iter().map(|(_, _, span)| *span).find(|span| span.start < at.start)
     }
 
-    /// True if the axis word in place `i` is absolute; `modal` is the dimension in force after the block.
+    /// Whether the axis word with index `i` is absolute; `modal` is the active dimension after the block.
     pub(in crate::exec) fn is_absolute(&self, i: usize, modal: bool) -> bool {
         let last = self.dimensions.iter().rfind(|(place, _)| *place <= i);
         last.map_or(modal, |(_, absolute)| *absolute)

@@ -1,12 +1,12 @@
-//! Words that other controls give another meaning: what this dialect means by them.
+//! Words with a different meaning in other controls, and their meaning in this dialect.
 
 use super::collected::{Code, Words};
 use crate::diag::{Condition, Id};
 use crate::exec::fault::Fault;
 use crate::syntax::ast::Span;
 
-/// True for errors that a file of another control repeats in every line: unassigned G functions (20131) and parameters
-/// without a value (20194), each for itself, and O words (20191, 20192).
+/// Whether an error is one that a file of another control repeats in every line: unassigned G functions (20131) and parameters
+/// without a value (20194), each separately, and O words (20191, 20192).
 pub(in crate::exec) fn is_foreign_word(id: Id) -> bool {
     [
         Condition::GUnknown,
@@ -39,19 +39,19 @@ pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
     })
 }
 
-/// Signs that a program is written for this dialect.
+/// Evidence that a program is written for this dialect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::exec) struct Seen {
-    /// G22, G23, G351, G70 or G71: G20 and G21 are meant as they are.
+    /// G22, G23, G351, G70 or G71: G20 and G21 are then used in their meaning here.
     pub(in crate::exec) unit_or_mirror: bool,
     /// `#` commands, `$` statements or G numbers from 127 on.
     pub(in crate::exec) own: bool,
-    /// An M function with which programs of 3D printers set a temperature.
+    /// An M function that sets a temperature in programs of 3D printers.
     pub(in crate::exec) temperature: bool,
 }
 
-/// True for a block that sets a temperature of a 3D printer: `M104 S200`, `M109`, `M140`, `M190`. It is one of this dialect
-/// as well, so that it alone says nothing.
+/// Whether a block sets a temperature of a 3D printer: `M104 S200`, `M109`, `M140`, `M190`. Such a block is also valid in this
+/// dialect, so it proves nothing by itself.
 pub(in crate::exec) fn is_temperature(words: &Words<'_>) -> bool {
     let code = matches!(words.m[..], [Code { number: 104 | 109 | 140 | 190, .. }]);
     code && words.speeds.len() == 1 && words.axes.is_empty() && words.g.is_empty()
@@ -65,7 +65,7 @@ pub(in crate::exec) fn printer(word: &str, meaning: &str, span: Span) -> Box<Fau
     Fault::new(Condition::ForeignProgram, text, span)
 }
 
-/// K-0120 for a name with a value that only Sinumerik programs have: `CYCLE81(..)`, `CR=5`.
+/// K-0120 for a name with a value that occurs in Sinumerik programs only: `CYCLE81(..)`, `CR=5`.
 pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
     let (meaning, hint) = match name.to_ascii_uppercase().as_str() {
         "CYCLE" | "HOLES" | "POCKET" | "SLOT" | "LONGHOLE" => {
@@ -81,12 +81,12 @@ pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
     Some(Fault::new(Condition::ForeignProgram, text, span).hint(hint))
 }
 
-/// True for calls of subroutines of other controls, whose words are values for them.
+/// Whether it is a subroutine call of another control, in which the words are arguments.
 pub(in crate::exec) fn is_call(number: u32) -> bool {
     (65..=67).contains(&number)
 }
 
-/// Meaning here of a G function that other dialects know with another one.
+/// Meaning here of a G function that has another meaning in other dialects.
 pub(in crate::exec) fn g_function(number: u32) -> Option<&'static str> {
     Some(match number {
         20 => "G20 switches mirroring off in this dialect; inch is G70",
@@ -101,7 +101,7 @@ pub(in crate::exec) fn g_function(number: u32) -> Option<&'static str> {
     })
 }
 
-/// Hint for a letter that is not a word here.
+/// Hint for a letter that is not an address here.
 pub(in crate::exec) fn letter(letter: u8) -> &'static str {
     match letter {
         b'M' => "M needs a number",

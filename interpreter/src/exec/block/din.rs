@@ -1,7 +1,7 @@
-//! What the words of a block do, in the order of execution: plane, unit and dimension; tool, offsets and frames; feed,
-//! spindle, weights and modes; functions before the motion; motion or dwell; functions after it.
+//! Execution of the words of a block, in this order: plane, unit and dimension; tool, offsets and frames; feed rate, spindle,
+//! weights and modes; functions before the motion; motion or dwell; functions after it.
 //!
-//! Assumption: this order; the vendor documents only that the order of words in the block is irrelevant.
+//! Assumption: this order; the vendor documents only that the order of the words in the block is irrelevant.
 
 mod functions;
 mod insertions;
@@ -19,37 +19,37 @@ use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_behind;
 
-/// What follows a block: a call first, then where the program continues.
+/// Actions after a block: first a call, then the point where the program continues.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct After<'b> {
     pub(in crate::exec) call: Option<CallAfter<'b>>,
     pub(in crate::exec) then: Then<'b>,
 }
 
-/// What a block calls at its end.
+/// The call at the end of a block.
 #[derive(Debug)]
 pub(in crate::exec) enum CallAfter<'b> {
     Written(&'b Call, Span),
     Cycle(CycleCall),
-    /// M06 with its own program.
+    /// M06 with an assigned program.
     ToolChange(Span),
-    /// D with its own program.
+    /// D with an assigned program.
     ToolData(Span),
 }
 
-/// Where a program continues after a block.
+/// The point where a program continues after a block.
 #[derive(Debug, Default)]
 pub(in crate::exec) enum Then<'b> {
     #[default]
     Next,
     Goto(&'b Jump),
-    /// M17, M29, with the place they name.
+    /// M17, M29, with the target that they name.
     Return(Option<(&'b Return, Span)>),
     /// M02, M30.
     End,
 }
 
-/// Largest value of G115 beyond which it is 20712 and not 20151. Assumption: the data format has 16 bits.
+/// Largest value of G115; larger ones are 20712 instead of 20151. Assumption: the data format has 16 bits.
 const LOOK_AHEAD_FORMAT: u32 = 65535;
 
 impl Decoder {
@@ -78,7 +78,7 @@ impl Decoder {
             || self.spline_vectors(&words);
         self.motion.feed_before = self.modal.feed();
         self.feeds_and_modes(&words, takes_axes);
-        // after G04 the S word is a number of revolutions, after G74 an order
+        // after G04 the S word is a number of revolutions, after G74 a sequence
         let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
         let is_speed = !words.group(Group::Path).is_some_and(arguments);
         let late_speed = is_speed.then(|| self.spindle_speeds(&words)).flatten();
@@ -122,7 +122,7 @@ impl Decoder {
         after
     }
 
-    /// How axes move in a block: as its words say, otherwise as before.
+    /// Interpolation of the axes in a block: as programmed in it, otherwise the modal one.
     pub(in crate::exec) fn path_mode(&self, words: &Words<'_>) -> PathMode {
         match words.group(Group::Path).map(|g| g.row.act) {
             Some(Act::Path(mode)) => mode,
@@ -130,7 +130,7 @@ impl Decoder {
         }
     }
 
-    /// S words: speeds, cutting speeds, or speeds of tapping with a sign. A speed that acts after the motion is returned.
+    /// S words: speeds, cutting speeds, or signed speeds of tapping. Returns a speed that takes effect after the motion.
     fn spindle_speeds(&mut self, words: &Words<'_>) -> Option<Placed> {
         let mut late = None;
         let taps = self.path_mode(words).is_tapping();
@@ -138,7 +138,7 @@ impl Decoder {
         self.report.keep(outcome);
         let cuts = self.motion.cutting.takes_s_words(words);
         for (i, speed, span) in &words.speeds {
-            // of the main spindle, tapping and cutting take care
+            // for the main spindle, tapping and constant cutting speed process it
             if *i == 0 {
                 self.motion.threads.speed(taps.then_some(*speed));
             }
@@ -184,7 +184,7 @@ impl Decoder {
         }
         if plane != self.modal.plane {
             self.modal.plane = plane;
-            // the length acts along the third axis of the plane
+            // the tool length applies along the third axis of the plane
             self.tool_offsets();
         }
     }
@@ -194,7 +194,7 @@ impl Decoder {
             if let Act::FeedType(feed_type) = g.row.act {
                 self.modal.feed_type = feed_type;
                 if feed_type == FeedType::Time {
-                    // one time per use of G93
+                    // one time value per use of G93
                     self.modal.feeds[feed_type as usize] = None;
                 }
             }
@@ -223,7 +223,7 @@ impl Decoder {
     pub(in crate::exec) fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
         let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
         if !(0.0..=most).contains(&value) {
-            // a check continues, and blocks without F have no fault of their own
+            // a check continues, and blocks without F have no error themselves
             let word = FeedWord { value: 1.0, inch: self.modal.inch };
             self.modal.feeds[self.modal.feed_type as usize].get_or_insert(word);
             let text = format!("F{value} is outside 0 to {most}");
@@ -280,7 +280,7 @@ impl Decoder {
                 self.motion.feedforward.on = on;
                 self.feedforward_event();
             }
-            // Assumption: without axes, every transition is a stop; the pages do not say what the values of the axes are
+            // Assumption: without axes, every transition is a stop; the pages do not define the values of the axes
             Act::StopAtTransitions(_) if !words.axes.is_empty() => {
                 let what = format!("G{} with axes", g.row.number);
                 return Err(Fault::unsupported(what, g.span));
@@ -335,7 +335,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// K-0120 for a block that only a 3D printer understands: G92 with the way of an extruder.
+    /// K-0120 for a block that only a 3D printer understands: G92 with the position of an extruder.
     fn is_of_a_printer(&mut self, words: &Words<'_>) -> bool {
         self.dialect.temperature |= super::dialect::is_temperature(words);
         let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
@@ -349,7 +349,7 @@ impl Decoder {
         true
     }
 
-    /// Words with another meaning in other dialects: once per program and word.
+    /// Words with another meaning in other dialects: reported once per program and word.
     fn dialect_guard(&mut self, words: &Words<'_>) {
         for g in &words.g {
             match g.row.number {

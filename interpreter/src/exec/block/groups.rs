@@ -1,4 +1,4 @@
-//! G functions: one row each, with its group, its meaning and whether it takes a value.
+//! G functions: one row each, with group, meaning and whether a value is expected.
 //!
 //! Source: TF5200 programming manual, list of G functions; diagnosis manual for the IDs of double programming.
 
@@ -48,7 +48,7 @@ pub(in crate::exec) enum Group {
 }
 
 impl Group {
-    /// Condition of double programming; K-DUPGROUP where no document read names a number.
+    /// Condition of double programming; K-DUPGROUP if the documents read do not name an ID.
     pub(in crate::exec) fn duplicate(self) -> Condition {
         match self {
             Self::Path => Condition::TwoMotionModes,
@@ -182,9 +182,9 @@ pub(in crate::exec) enum Act {
     CentreCorrection(bool),
     /// G163.
     Radius,
-    /// By axis words.
+    /// With axis words.
     WeightOfAxes(Weight),
-    /// By a value.
+    /// With a value.
     WeightOfAll(Weight),
     Feedforward(bool),
     /// G136.
@@ -218,11 +218,11 @@ pub(in crate::exec) enum Act {
     Banding(bool),
     /// G101 (true), G102.
     MeasuringOffsets(bool),
-    /// What holds anyway in this tool.
+    /// Already the behaviour of this tool.
     Nothing,
     /// No influence on set positions.
     Ignored(&'static str),
-    /// Its part of the motion is simulated without it, as the text says.
+    /// The corresponding part of the motion is simulated without it, as the text states.
     Simplified(&'static str),
     /// Changes the path and is not simulated.
     Unsupported(&'static str),
@@ -257,7 +257,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without these weights";
 
-/// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
+/// All rows, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in the table.
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
     g(0, Group::Path, Act::Path(PathMode::Rapid)),
@@ -348,7 +348,7 @@ const ROWS: &[Row] = &[
     g(164, Group::CentreCorrection, Act::CentreCorrection(false)),
     g(165, Group::CentreCorrection, Act::CentreCorrection(true)),
     g(166, Group::FullOverride, Act::FullOverride),
-    // no override from outside acts on spindles
+    // an external override has no effect on spindles
     g(167, Group::None, Act::Nothing),
     g(193, Group::FeedInterpolation, Act::FeedOverPath),
     g(194, Group::FeedType, Act::FeedType(FeedType::ShareOfMaximum)),
@@ -383,7 +383,7 @@ const ROWS: &[Row] = &[
     g(901, Group::Deceleration, Act::LateBraking(true)),
 ];
 
-/// Highest number of the data format; above it 20107, unassigned numbers below it are 20131.
+/// Highest number of the data format; above it 20107. Unassigned numbers below it are 20131.
 ///
 /// Assumption: four digits; the documents give 20131 for G1234, and 20107 for a number with five.
 pub(in crate::exec) const NUMBER_MAX: u32 = 9999;
@@ -393,10 +393,10 @@ pub(in crate::exec) fn row(number: u32) -> Option<&'static Row> {
     ROWS.binary_search_by_key(&number, |r| r.number).ok().map(|i| &ROWS[i])
 }
 
-/// Why two functions of different groups cannot share a block.
+/// The reason why two functions of different groups cannot share a block.
 ///
 /// Source: TF5200 programming manual, feed interpolation (G193/G293): not in the block of G09. The diagnosis manual gives
-/// 20109 for G08 beside them, and no number for G09.
+/// 20109 for G08 beside them; no ID is printed for G09.
 pub(in crate::exec) fn exclude(one: &Row, other: &Row) -> Option<&'static str> {
     let over = |row: &Row| matches!(row.act, Act::FeedOverPath | Act::FeedOverTime);
     let brakes = |row: &Row| row.act == Act::EarlyBrakingOnce;
@@ -404,12 +404,12 @@ pub(in crate::exec) fn exclude(one: &Row, other: &Row) -> Option<&'static str> {
         .then_some("both set how the feed is reached")
 }
 
-/// True for the implicit subroutine calls.
+/// Whether it is an implicit subroutine call.
 pub(in crate::exec) fn is_cycle_call(number: u32) -> bool {
     (80..=89).contains(&number) || (800..=839).contains(&number)
 }
 
-/// True if the axis words of the block are arguments of this function, not targets.
+/// Whether the axis words of the block are arguments of this function instead of targets.
 pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
     matches!(
         row.act,
@@ -426,7 +426,7 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
     ) || matches!(row.number, 74 | 107 | 108 | 112 | 200..=202 | 333 | 338)
 }
 
-/// What a G function does that is refused.
+/// The effect of a G function that is refused.
 pub(crate) fn unsupported(number: u32) -> Option<&'static str> {
     ROWS.iter().filter(|row| row.number == number).find_map(|row| match row.act {
         Act::Unsupported(what) => Some(what),

@@ -1,4 +1,4 @@
-//! Modal state: what words set until others of their group change it.
+//! Modal state: settings that stay active until another word of their group replaces them.
 
 use kontur_motion::block::{Slope, SlopeKind};
 
@@ -27,7 +27,7 @@ impl PathMode {
         matches!(self, Self::Thread) || self.is_tapping()
     }
 
-    /// G63, G331, G332: the spindle turns with the path.
+    /// G63, G331, G332: the spindle rotates in step with the path.
     pub(in crate::exec) fn is_tapping(self) -> bool {
         matches!(self, Self::Tapping | Self::TapIn | Self::TapBack)
     }
@@ -76,7 +76,7 @@ impl FeedType {
     }
 }
 
-/// An F word with the unit of length that was active.
+/// An F word with the active unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct FeedWord {
     pub(in crate::exec) value: f64,
@@ -121,13 +121,13 @@ pub(in crate::exec) enum Selection {
     WithoutBlock,
 }
 
-/// Everything that G words and F, R, I keep.
+/// Everything that G words and F, R, I set modally.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a group of two words")]
 pub(in crate::exec) struct Modal {
     pub(in crate::exec) path: PathMode,
     pub(in crate::exec) plane: Plane,
-    /// G20 to G23: the first and the second main axis are mirrored.
+    /// G20 to G23: mirroring of the first and the second main axis.
     pub(in crate::exec) mirrored: [bool; 2],
     pub(in crate::exec) inch: bool,
     pub(in crate::exec) absolute: bool,
@@ -136,13 +136,13 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) feeds: [Option<FeedWord>; 4],
     pub(in crate::exec) exact_stop: bool,
     pub(in crate::exec) contouring: bool,
-    /// G901: a lower feed of the next block may be reached after the end of the block.
+    /// G901: a lower feed rate of the next block may be reached after the end of the block.
     pub(in crate::exec) late_braking: bool,
     /// G13.
     pub(in crate::exec) corner_deceleration: bool,
-    /// G11: F acts where the tool touches compensated arcs.
+    /// G11: F applies at the point where the tool touches compensated arcs.
     pub(in crate::exec) engagement_feed: bool,
-    /// `#TANGFEED`: least radius of such arcs in mm.
+    /// `#TANGFEED`: smallest radius of such arcs in mm.
     pub(in crate::exec) engagement_radius_mm: f64,
     /// `#TRC [STRETCH_FACTOR]`: reach of the lines at acute outer corners in tool radii.
     pub(in crate::exec) corner_stretch: f64,
@@ -150,27 +150,27 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) turns_back: bool,
     /// `#TRC [PERPENDICULAR_RADIUS_CHANGE]`.
     pub(in crate::exec) perpendicular_change: bool,
-    /// `#TRC [SUPPRESS_TRC]`: the tool follows the contour itself.
+    /// `#TRC [SUPPRESS_TRC]`: the tool centre follows the contour.
     pub(in crate::exec) compensation_suppressed: bool,
-    /// G161: centres in coordinates of the program.
+    /// G161: centres in program coordinates.
     pub(in crate::exec) centre_absolute: bool,
     /// G165.
     pub(in crate::exec) centre_correction: bool,
-    /// R of the last arc that had one, in mm.
+    /// The last programmed R of an arc, in mm.
     pub(in crate::exec) radius_mm: Option<f64>,
-    /// I, J and K of the last arcs that had them in their planes, in mm, while they hold (P-CHAN-00159).
+    /// The last programmed I, J and K of arcs in their planes, in mm, while they are modal (P-CHAN-00159).
     pub(in crate::exec) centre_mm: [Option<f64>; 3],
     pub(in crate::exec) slope: Slope,
-    /// Selective weights act (P-CHAN-00001, P-CHAN-00073): from the start of a program on, and with the slope in its older form. With
-    /// `#SLOPE` the weights act on everything.
+    /// Whether selective weights apply (P-CHAN-00001, P-CHAN-00073): from program start, and with the older form of the slope
+    /// command. With `#SLOPE` the weights apply to all values.
     pub(in crate::exec) old_slope: bool,
     pub(in crate::exec) look_ahead: LookAhead,
     pub(in crate::exec) compensation: Compensation,
     /// Outer corners of tool radius compensation.
     pub(in crate::exec) corners: Corners,
-    /// How tool radius compensation begins and ends.
+    /// Selection and deselection of tool radius compensation.
     pub(in crate::exec) selection: Selection,
-    /// G51: the face turning axis whose words are diameters.
+    /// G51: the face turning axis, programmed in diameters.
     pub(in crate::exec) diameter: Option<usize>,
     /// I of G301/G302 in mm.
     pub(in crate::exec) insertion_mm: Option<f64>,

@@ -1,4 +1,4 @@
-//! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
+//! Weights, feedforward, tools, rotation and tool radius compensation: words that change the motion of later blocks.
 
 use super::collected::{GWord, Placed, Words};
 use super::groups::{Act, Group};
@@ -24,8 +24,8 @@ pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> 
 }
 
 impl Decoder {
-    /// Sets a weight; 50130 if it exceeds what the lists allow, 120028, 120030, 120032 or 120034 if nothing is left of an
-    /// acceleration.
+    /// Sets a weight; 50130 if it exceeds the limits of the lists, 120028, 120030, 120032 or 120034 if an acceleration would
+    /// become 0.
     pub(in crate::exec) fn set_weight(
         &mut self,
         weight: Weight,
@@ -38,7 +38,7 @@ impl Decoder {
         self.motion.dynamics_changed();
         for (axis, condition) in self.motion.limited_weights(&self.machine, &self.modal) {
             let zero = condition != Condition::DynamicsLimited;
-            // what an earlier word has left like this was reported there
+            // the same result of an earlier word was reported there
             let earlier = (ratio - 1.0).abs() < 1e-12 || (zero && weight != Weight::Acceleration);
             if earlier && before.contains(&(axis, condition)) {
                 continue;
@@ -87,7 +87,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// G136: weights of feedforward in percent, limited to 100.
+    /// G136: weights of feedforward in percent, at most 100.
     pub(in crate::exec) fn feedforward_weights(
         &mut self,
         g: &GWord,
@@ -144,7 +144,7 @@ impl Decoder {
         }
     }
 
-    /// D: tool data; the length acts on the third main axis of the plane.
+    /// D: tool data; the length applies along the third main axis of the plane.
     pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
         if self.report.keep(self.keeps_tool_while_coupled(span)).is_none() {
             return;
@@ -193,7 +193,7 @@ impl Decoder {
         self.geometry.coordinates.set_tool(offsets);
     }
 
-    /// G138, G139, G237 to G239; 21317, 21318 where G238 and an active compensation meet.
+    /// G138, G139, G237 to G239; 21317, 21318 for G238 during active compensation.
     pub(in crate::exec) fn select_compensation_by(
         &mut self,
         selection: Selection,
@@ -216,7 +216,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// G05: the motion that begins or ends compensation becomes an arc.
+    /// G05: the motion that starts or ends compensation becomes an arc.
     pub(in crate::exec) fn select_tangentially(
         &mut self,
         g: &GWord,
@@ -239,7 +239,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// G40 with G239: the tool stays where it is, and the program counts from there.
+    /// G40 with G239: the tool keeps its position, and the program continues from there.
     fn deselect_in_place(&mut self) {
         let (left, faults) = self.contour.deselect_in_place();
         for fault in faults {
@@ -258,7 +258,7 @@ impl Decoder {
     /// G40, G41, G42.
     ///
     /// # Errors
-    /// 20136 and 21555 for a plane without its two axes, or with one that counts modulo.
+    /// 20136 and 21555 for a plane that lacks one of its axes, or contains a modulo axis.
     pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
         if side != Compensation::Off {
             self.plane_has_axes(span)?;

@@ -1,7 +1,7 @@
-//! One block of DIN words: collecting them with their values, left to right.
+//! One block of DIN words: collects them with their values, left to right.
 //!
-//! Assignments act while the words are collected, so that a value sees the assignments written before it. Everything
-//! else acts afterwards, in the order that [`super::din`] keeps.
+//! Assignments take effect while the words are collected, so that a value uses the assignments written before it. Everything
+//! else takes effect afterwards, in the order of [`super::din`].
 
 use super::collected::{Code, CycleCall, GWord, Words};
 use super::groups::{self, Act, Group, Row, ValueRule};
@@ -17,7 +17,7 @@ use crate::syntax::ast::{
 };
 
 impl Decoder {
-    /// Collects the words of a block and carries out its assignments. What cannot be used is reported and left out.
+    /// Collects the words of a block and executes its assignments. Invalid words are reported and skipped.
     pub(in crate::exec) fn collect<'b>(&mut self, words: &'b [Word], block: &mut Words<'b>) {
         for word in words {
             if let Err(fault) = self.collect_word(word, block) {
@@ -31,7 +31,7 @@ impl Decoder {
                 }
             }
         }
-        // several words of an axis are those of a motion (P-CHAN-00148)
+        // several words of an axis are possible in motions (P-CHAN-00148)
         if self.machine.channel.several_words
             && block.g.iter().any(|g| groups::takes_axes(g.row))
             && let Some(i) = (1..block.axes.len())
@@ -133,7 +133,7 @@ impl Decoder {
                     }
                 }
                 let outcome = self.assign(assign);
-                // a check continues, and what reads the parameter has no fault of its own
+                // a check continues, and words that read the parameter have no error themselves
                 if outcome.is_err()
                     && let PlaceKind::Parameter { indirections: 0, subscripts, .. } =
                         &assign.target.kind
@@ -148,7 +148,7 @@ impl Decoder {
                 let name = definition.name.trim_ascii();
                 self.macro_fits(name, &definition.text, span)?;
                 let before = self.calls.macros.insert(name.into(), definition.text.clone());
-                // blocks that contain the earlier text have to be read again
+                // blocks that contain the earlier text must be parsed again
                 self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
                 Ok(())
             }
@@ -236,7 +236,7 @@ impl Decoder {
         letter: &str,
         span: Span,
     ) -> Outcome<Code> {
-        // the diagnosis manual prints the limit of M (20160, 250945931), but none of H
+        // the diagnosis manual prints the limit of M (20160, 250945931), but not that of H
         let (highest, condition) = match letter {
             "M" => (1000, Condition::MNumberTooLarge),
             _ => (65535, Condition::Range),
@@ -268,9 +268,9 @@ impl Decoder {
         Ok(Code { number, value, span })
     }
 
-    /// The name and the text of a macro are not too long (P-CHAN-00511, 00512).
+    /// Checks the length of the name and the text of a macro (P-CHAN-00511, 00512).
     ///
-    /// Assumption: the pages print an ID for the name alone; a text beyond its limit runs, with the warning K-RANGE.
+    /// Assumption: the pages print an ID for the name only; a text beyond its limit is used, with the warning K-RANGE.
     fn macro_fits(&mut self, name: &str, text: &str, span: Span) -> Outcome<()> {
         let channel = &self.machine.channel;
         for (what, written, most, condition, parameter) in [
@@ -305,7 +305,7 @@ impl Decoder {
         if number > groups::NUMBER_MAX {
             let text = format!("the number of the G function is above {}", groups::NUMBER_MAX);
             return Err(Fault::new(Condition::GNumberTooLarge, text, span).with(|d| {
-                // more digits than a number of the tree holds
+                // more digits than a number in the syntax tree can have
                 let known = number < u32::MAX;
                 let d = if known { d.value(ValueKind::Wrong, number, "-") } else { d };
                 d.value(ValueKind::UpperLimit, groups::NUMBER_MAX, "-")
@@ -349,7 +349,7 @@ impl Decoder {
             return Ok(());
         }
         if let Act::Unsupported(what) = row.act {
-            // it takes its axis words and the place of its group all the same
+            // it still uses its axis words and occupies its group
             block.g.push(GWord { row, value: None, span });
             return Err(Fault::unsupported(format!("G{number:02} ({what})"), span));
         }
@@ -425,7 +425,7 @@ impl Decoder {
     }
 }
 
-/// A function may appear once in a block.
+/// A function may appear only once in a block.
 fn once(written: &[Code], code: &Code, letter: &str, condition: Condition) -> Outcome<()> {
     if !written.iter().any(|other| other.number == code.number) {
         return Ok(());

@@ -16,7 +16,7 @@ use crate::machine::Axis;
 
 /// Highest ID of an area.
 ///
-/// Assumption: IDs are 1 to 20, because a channel has 20 areas; the documents print no range.
+/// Assumption: IDs range from 1 to 20, because a channel has 20 areas; the documents print no range.
 const ID_MAX: f64 = 20.0;
 
 arguments! {

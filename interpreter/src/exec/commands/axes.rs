@@ -1,7 +1,7 @@
 //! Axis exchange within the axes of the machine: `#PUT AX`, `#CALL AX`, `#SET AX`.
 //!
-//! An exchange gives an axis a name and a place among the main axes, or takes both away. It switches a Vibration Guard
-//! off that the program has activated.
+//! An exchange assigns a name and a position among the main axes to an axis, or removes both. It switches off a Vibration Guard
+//! activated by the program.
 //!
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
@@ -16,7 +16,7 @@ use crate::syntax::ast::{Group, Item, ItemKind, ItemValue, Span};
 /// Options after name, number and index of an axis.
 const OPTIONS: &[&str] = &["CMDPOS", "ACTPOS", "OFFSETS", "NO_OFFSETS", "ALL"];
 
-/// Places of an axis in the channel.
+/// Positions of an axis in the channel.
 const PLACES: u32 = 32;
 
 /// Row of `#PUT AX`.
@@ -29,7 +29,7 @@ pub(super) const PUT_AX: Row = Row::run("PUT AX", put).several()
     )
     .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 
-/// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not there is legal.
+/// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not in the channel is accepted.
 pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
     let released = |item: &crate::syntax::ast::Item| match &item.kind {
@@ -101,7 +101,7 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
     )
     .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 
-/// `#SET AX [name, number, index, options]..`: a new set of axes.
+/// `#SET AX [name, number, index, options]..`: replaces the set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let axes = 0..decoder.machine.axes.len();
     decoder.moves_no_coupled(axes, Condition::CoupledAxisSorted, call.span())?;
@@ -139,7 +139,7 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
-/// `#FGROUP [X, Y]`: the axes that the feed refers to; without a bracket those of the channel list.
+/// `#FGROUP [X, Y]`: the axes to which the feed rate refers; without a bracket those of the channel list.
 pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.rest.iter().any(|w| w.is("ROT") || w.is("WAXIS")) {
         return Err(Fault::unsupported("#FGROUP ROT and #FGROUP WAXIS", call.span()));
@@ -170,7 +170,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     Ok(())
 }
 
-/// The feed group of the channel list; without one the main axes.
+/// The feed group of the channel list; if it has none, the main axes.
 fn default_feed_group(decoder: &mut Decoder) {
     let channel = &decoder.machine.channel;
     decoder.motion.feed_axes = if channel.lists_feed_axes {
@@ -182,7 +182,7 @@ fn default_feed_group(decoder: &mut Decoder) {
     decoder.motion.dynamics_changed();
 }
 
-/// Names and main axes are others now.
+/// Called after a change of names and main axes.
 fn exchanged(decoder: &mut Decoder) {
     decoder.names.change();
     if !decoder.motion.feed_axes_named {
@@ -190,7 +190,7 @@ fn exchanged(decoder: &mut Decoder) {
     }
 }
 
-/// The path comes to rest; a Vibration Guard of the program ends.
+/// The path stops; a Vibration Guard of the program is switched off.
 ///
 /// # Errors
 /// 20535 under G63, 20684 while a coordinate system is active.
@@ -211,7 +211,7 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
     }
     if decoder.shaping.guard_on.take().is_some() {
         decoder.shaping.ax_dev_mm = None;
-        // what the list says holds again, with the values of the list
+        // the list applies again, with its values
         decoder.shaping.guard = crate::exec::shaping::GuardKeys::default();
         decoder.update_shaping(span);
     }
@@ -225,7 +225,7 @@ fn release(decoder: &mut Decoder, axis: usize) {
     }
 }
 
-/// What the brackets of one command have taken.
+/// Names and indices already used in the brackets of one command.
 #[derive(Default)]
 struct Taken {
     indices: Vec<u32>,
@@ -233,7 +233,7 @@ struct Taken {
 }
 
 impl Taken {
-    /// 21257, 21258: an index or an axis may be named once.
+    /// 21257, 21258: an index or an axis may be named only once.
     fn add(&mut self, index: u32, number: u32, at: [Span; 2]) -> Outcome<()> {
         if self.numbers.contains(&number) {
             let text = format!("axis number {number} twice in one axis exchange");
@@ -295,7 +295,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     let items = &group.items;
     let name = match items.first().map(|i| (&i.kind, i.span)) {
         Some((ItemKind::Flag(name), _)) => name.clone(),
-        // `[X 1 2]`: the commas are missing
+        // `[X 1 2]`: missing commas
         Some((ItemKind::Pair { .. }, span)) => {
             return Err(Fault::new(
                 Condition::ExchangeComma,
@@ -358,7 +358,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     taken.add(index, logical, [at(1), at(2)])?;
     decoder.moves_no_coupled(std::iter::once(axis), Condition::CoupledAxisSorted, at(0))?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
-        // the manual has a number for two names of the command, and one for an axis that is there already
+        // the manual has an ID for two names within the command, and another one for an axis that is already in the channel
         let condition = if taken.numbers.contains(&decoder.machine.axes[other].number()) {
             Condition::ExchangeNameTwice
         } else {
@@ -393,7 +393,7 @@ fn full_feedforward(decoder: &mut Decoder, axes: &[usize]) {
     }
 }
 
-/// The same for every axis of the machine.
+/// As above, for every axis of the machine.
 fn full_feedforward_of_all(decoder: &mut Decoder) {
     let all: Vec<usize> = (0..decoder.machine.axes.len()).collect();
     full_feedforward(decoder, &all);

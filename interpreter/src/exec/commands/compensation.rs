@@ -151,7 +151,7 @@ fn tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// The least radius of the tangential feed; 20963 below 0, 20962 outside the data format.
+/// The smallest radius of the tangential feed rate; 20963 below 0, 20962 outside the data format.
 fn set_least_radius(
     decoder: &mut Decoder,
     call: &Call<'_>,

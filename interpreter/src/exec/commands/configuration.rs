@@ -1,5 +1,5 @@
-//! `#SAVE CONFIG`, `#LOAD CONFIG`, `#CLEAR CONFIG`: axes and axis couplings of the channel, for a program that clears the tool
-//! after a reset.
+//! `#SAVE CONFIG`, `#LOAD CONFIG`, `#CLEAR CONFIG`: axes and axis couplings of the channel, for a program that retracts the
+//! tool after a reset.
 //!
 //! Source: TF5200 programming manual (207542155, 15557055627, 15557057163); 21274, 21275, 21277.
 

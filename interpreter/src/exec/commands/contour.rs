@@ -1,4 +1,4 @@
-//! Commands that act on the contour: `#CONTOUR MODE`, `#HSC`.
+//! Commands for the contour: `#CONTOUR MODE`, `#HSC`.
 //!
 //! Source: TF5200 programming manual.
 
@@ -50,7 +50,7 @@ arguments! {
 }
 
 impl ContourArguments {
-    /// Modes that are written, with their words and places.
+    /// Modes in the command, with their words and positions.
     fn modes(&self) -> Vec<(&'static str, Mode, Span)> {
         let modes = [
             ("DEV", Mode::Dev, self.dev),
@@ -64,7 +64,7 @@ impl ContourArguments {
         modes.into_iter().filter_map(|(word, mode, at)| Some((word, mode, at?))).collect()
     }
 
-    /// Keys without effect that are written.
+    /// Keys without effect in the command.
     fn without_effect(&self) -> Vec<(&'static str, Span)> {
         let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
         let keys = [
@@ -78,8 +78,8 @@ impl ContourArguments {
         keys.into_iter().filter_map(|(key, at)| Some((key, at?))).collect()
     }
 
-    /// Lengths that are written together with a mode that does not use them: the mode, the key and its place. Source: the pages
-    /// of the modes (475180811, 475198987, 475227019 and their neighbours).
+    /// Lengths in the command that its mode does not use: the mode, the key and its position. Source: the pages of the modes
+    /// (475180811, 475198987, 475227019 and their neighbours).
     fn of_another_mode(&self) -> Vec<(&'static str, &'static str, Span)> {
         let [(word, mode, _)] = self.modes()[..] else { return Vec::new() };
         let used: &[&str] = match mode {
@@ -111,7 +111,7 @@ pub(super) const CONTOUR_MODE: Row = Row::run("CONTOUR MODE", contour_mode)
 /// Smallest `PATH_DEV` and distance in mm: one increment of the language.
 const LEAST_MM: f64 = 1e-4;
 
-/// 120129, 120131 for a length below the least one.
+/// 120129, 120131 for a length below the minimum.
 fn at_least_an_increment(
     condition: Condition,
     key: &str,
@@ -133,7 +133,7 @@ fn at_least_an_increment(
     }
 }
 
-/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: a key that is omitted keeps its value.
+/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: an omitted key keeps its value.
 fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let unit = decoder.tolerance_unit_mm();
@@ -153,7 +153,7 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::DuplicateKey, text, at));
         }
     }
-    // POS alone allows a distance of 0
+    // only POS allows a distance of 0
     if settings.mode != Mode::Pos {
         let condition = Condition::CornerDistanceTooSmall;
         at_least_an_increment(condition, "PRE_DIST", keys.pre_dist, unit)?;
@@ -217,21 +217,21 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// Takes over a number that is written, in its unit.
+/// Applies a number if it is given, converted from its unit.
 fn set(slot: &mut f64, written: Option<(f64, Span)>, unit: f64) {
     if let Some((x, _)) = written {
         *slot = x * unit;
     }
 }
 
-/// Takes over a switch that is written: a key alone switches on.
+/// Applies a switch if it is given: a key without a value switches on.
 fn switch(slot: &mut bool, written: Option<(Option<f64>, Span)>) {
     if let Some((x, _)) = written {
         *slot = x.is_none_or(is_true);
     }
 }
 
-/// Takes the coordinates of an interim point out of the bracket; the rest is keys.
+/// Removes the coordinates of an interim point from the bracket; the remaining items are keys.
 fn points(
     decoder: &Decoder,
     group: Option<&Group>,

@@ -1,4 +1,4 @@
-//! `#CORNER PARAM`: how the feed falls before corners (G13).
+//! `#CORNER PARAM`: reduction of the feed rate before corners (G13).
 //!
 //! Source: TF5200 programming manual, parameterising corner deceleration (206444555, 15556729995).
 

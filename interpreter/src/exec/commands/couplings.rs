@@ -1,6 +1,6 @@
 //! `#SET AX LINK`, `#AX LINK`, `#ENABLE AX LINK`, `#DISABLE AX LINK`: groups of axis couplings.
 //!
-//! The commands read and check groups; what couplings do is in [`crate::exec::motion`].
+//! The commands read and check groups; the couplings themselves are in [`crate::exec::motion`].
 //!
 //! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579), gantry operation (285670667);
 //! 20461, 20475 to 20477, 21077, 21110, 21111 and 21281.
@@ -13,7 +13,7 @@ use crate::exec::motion::state::coupling::Pair;
 use crate::exec::values::number::whole;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
-/// Pairs of a group. Source: TF5200 channel parameters, synchro_data (149192587).
+/// Maximum number of pairs of a group. Source: TF5200 channel parameters, synchro_data (149192587).
 const PAIRS_MAX: usize = 15;
 
 /// Row of `#SET AX LINK`.
@@ -71,7 +71,7 @@ fn disable(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     decoder.switch_couplings_off(group, call.span())
 }
 
-/// `[group]`, if there is one.
+/// `[group]`, if given.
 fn named_group(decoder: &Decoder, call: &Call<'_>) -> Outcome<Option<u32>> {
     let Some(Group { items, span }) = call.command.groups.first() else { return Ok(None) };
     let [Item { kind: ItemKind::Value(ItemValue::Expr(number)), .. }] = &items[..] else {
@@ -114,7 +114,7 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let [Item { kind: ItemKind::Value(ItemValue::Expr(number)), .. }, pairs @ ..] = items else {
         return Err(wrong(call.span()));
     };
-    // group 0 is that of the channel list
+    // group 0 is defined by the channel list
     let group = group_number(decoder, number, 1)?;
     if pairs.is_empty() {
         return Err(wrong(call.span()));
@@ -158,7 +158,7 @@ fn coupling(item: &Item) -> Option<(&Ident, &Ident)> {
 
 /// `8 = 2`, `[8 = 2, ..]`: the logical numbers of two axes.
 ///
-/// Assumption: unlike on the control an axis has to be there when the group is defined, not only when it is switched on.
+/// Assumption: unlike on the control an axis must exist when the group is defined, not only when it is activated.
 fn numbered_coupling(decoder: &Decoder, item: &Item) -> Outcome<Option<(usize, usize)>> {
     let (key, master) = match &item.kind {
         ItemKind::Pair { key, value: ItemValue::Expr(master) } => (key, master),
@@ -183,8 +183,9 @@ fn numbered_coupling(decoder: &Decoder, item: &Item) -> Outcome<Option<(usize, u
 
 /// `-1, 1` after a pair: its factor from numerator and denominator, 1 or -1.
 ///
-/// Assumption: of two pages that disagree, 21111 (253496203: factors other than 1 and -1 become 1) holds and not the
-/// description of scaled couplings (285670667), since it says what the control does. A denominator of 0 is such a factor.
+/// Assumption: two pages disagree. 21111 (253496203: factors other than 1 and -1 become 1) is used instead of the description
+/// of scaled couplings (285670667), because it describes the reaction of the control. A denominator of 0 counts as such a
+/// factor.
 fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
     let (numerator, rest) = match items {
         [] => return Ok(1.0),
@@ -216,7 +217,7 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
     let fault = Fault::new(Condition::CouplingFactorInvalid, text, numerator.span);
     decoder.report.note(fault.with(|d| {
         let d = d.value(ValueKind::Current, above, "-").value(ValueKind::Current, below, "-");
-        // of the denominator 0 there is no factor
+        // a denominator of 0 gives no factor
         let factor = above / below;
         if factor.is_finite() { d.value(ValueKind::Wrong, factor, "-") } else { d }
     }));
@@ -233,7 +234,7 @@ fn axis(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
     })
 }
 
-/// An axis follows one master, which follows no other axis.
+/// An axis follows one master only, which must not follow another axis.
 fn fits(
     decoder: &Decoder,
     group: u32,

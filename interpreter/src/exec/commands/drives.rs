@@ -1,6 +1,6 @@
-//! `#DRIVE WR SYN`, `#DRIVE WAIT SYN`: functions of drives, which a simulated drive does not have.
+//! `#DRIVE WR SYN`, `#DRIVE WAIT SYN`: functions of drives, which the simulated drives do not have.
 //!
-//! What is written has no effect (K-0111). WAIT stops the path; the drive answers at once.
+//! Written values have no effect (K-0111). WAIT stops the path; the drive answers at once.
 //!
 //! Source: TF5200 programming manual 207630987, 207636491, 207643147. Assumptions: the path comes to rest for WAIT and for
 //! `#DRIVE WAIT SYN` even if the drive has answered before; no page prints a number for a turning spindle.
@@ -94,7 +94,7 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// The spindle that is named; `None` for an axis. 20797 if there is neither.
+/// The named spindle; `None` for an axis. 20797 if neither exists.
 fn driven(
     decoder: &Decoder,
     call: &Call<'_>,

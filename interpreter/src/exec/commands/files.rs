@@ -1,7 +1,7 @@
-//! `#FILE EXIST`: whether a file can be opened.
+//! `#FILE EXIST`: checks whether a file can be opened.
 //!
-//! The command only notes the name: the executor, which knows where programs come from, searches it after the block.
-//! `#FILE RENAME` and `#FILE DELETE` are refused: a simulation changes no files.
+//! The command only records the name: the executor, which has access to the programs, looks it up after the block. `#FILE
+//! RENAME` and `#FILE DELETE` are refused: a simulation does not change files.
 //!
 //! Source: TF5200 programming manual, 207524491.
 

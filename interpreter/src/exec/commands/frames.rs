@@ -1,4 +1,4 @@
-//! `#ROTATION`, `#CS`, `#MCS`, `#TRAFO` and relatives.
+//! `#ROTATION`, `#CS`, `#MCS`, `#TRAFO` and related commands.
 //!
 //! Source: TF5200 programming manual, coordinate systems (208480907); P-CHAN-00394 (rotations ZYX); 20671, 20676, 20825,
 //! 20875, 21556.
@@ -37,7 +37,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let text = format!("the centre {x} of the rotation is outside the data format");
                 return Err(Fault::new(Condition::RotationCentreTooLarge, text, span));
             }
-            // offsets of the centre from the origin of the program; 0 if not written
+            // offsets of the centre from the program origin; 0 if omitted
             let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
             let deg = value(keys.angle);
@@ -51,7 +51,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
-/// Six values `[x, y, z, a, b, c]`, the last ones optional, gaps 0.
+/// Six values `[x, y, z, a, b, c]`; the last ones are optional, omitted ones are 0.
 pub(super) fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
     let mut values = [0.0; 6];
     if group.items.len() > values.len() {
@@ -128,7 +128,7 @@ fn stored(decoder: &Decoder, id: u32, span: Span) -> Outcome<(Frame, Option<u32>
     Ok((frame, Some(id)))
 }
 
-/// Millimetres do not become degrees: a system turns linear axes among themselves, and rotary ones.
+/// Millimetres and degrees must not mix: a system rotates linear axes among themselves, and rotary axes among themselves.
 pub(super) fn turns_alike(decoder: &Decoder, call: &Call<'_>, frame: &Frame) -> Outcome<()> {
     let main = |i: usize| decoder.geometry.coordinates.main_axis(i);
     let kind = |i: usize| main(i).map(|axis| decoder.machine.axes[axis].kind());
@@ -142,7 +142,7 @@ pub(super) fn turns_alike(decoder: &Decoder, call: &Call<'_>, frame: &Frame) -> 
     Ok(())
 }
 
-/// 21556: no main axis of a coordinate system counts modulo.
+/// 21556: a main axis of a coordinate system must not be a modulo axis.
 pub(super) fn no_modulo_axes(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     let axes = (0..3).filter_map(|main| decoder.geometry.coordinates.main_axis(main));
     let mut modulo = axes.map(|axis| &decoder.machine.axes[axis]).filter(|axis| axis.is_modulo());
@@ -187,7 +187,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             }
             let (frame, number) = match groups {
                 [] => stored(decoder, decoder.geometry.last_system, call.span())?,
-                // one value alone is the number of a stored system
+                // a single value is the number of a stored system
                 [group] if group.items.len() == 1 => {
                     let id = id_of(decoder, group)?;
                     stored(decoder, id, group.span)?
@@ -239,7 +239,7 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
     match &call.command.groups[..] {
         [group] => {
             let frame = system(decoder, group)?;
-            // the next number that is free
+            // the next free number
             let coordinates = &decoder.geometry.coordinates;
             let is_taken = |id: &u32| coordinates.stored_system(*id).is_some();
             let id = (1..=SYSTEMS_MAX as u32).find(|id| !is_taken(id));
@@ -298,7 +298,7 @@ fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// `#CYL`, `#FACE`, `#TLC`: refused, after their other mistakes have been reported.
+/// `#CYL`, `#FACE`, `#TLC`: refused, after their other errors have been reported.
 pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.command.on == Some(false) {
         return Ok(());
@@ -313,8 +313,8 @@ pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Err(super::refused::refused(decoder, call))
 }
 
-/// What the manual calls a mistake in `#CYL [Z, C, X60]` and `#FACE [X, C]`: the axes of the surface, and the radius of the
-/// cylinder as a word of the third one.
+/// Errors defined by the manual for `#CYL [Z, C, X60]` and `#FACE [X, C]`: in the axes of the surface, and in the radius of the
+/// cylinder given as a word of the third axis.
 fn rotary_surface(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut named = Vec::new();
     for item in call.command.groups.iter().flat_map(|group| &group.items) {

@@ -1,5 +1,4 @@
-//! Keys of the brackets: one description per command, from which its arguments are read into a struct, checked, and
-//! explained.
+//! Keys in brackets: one description per command, used to read its arguments into a struct, to check and to explain them.
 
 use super::range::Range;
 use crate::diag::Condition;
@@ -40,7 +39,7 @@ macro_rules! arguments {
         }
 
         impl $name {
-            /// What is known about the keys.
+            /// Description of the keys.
             $vis const KEYS: &'static [$crate::exec::commands::keys::Key] = &[
                 $($crate::exec::commands::keys::Key {
                     name: $key,
@@ -51,10 +50,10 @@ macro_rules! arguments {
                 },)*
             ];
 
-            /// Reads the bracket. Unknown keys are 21220, a key twice is 21887; both are reported and left out.
+            /// Reads the bracket. Unknown keys are 21220, a repeated key is 21887; both are reported and skipped.
             ///
             /// # Errors
-            /// The first key whose number is outside its range.
+            /// The first key with a number outside its range.
             $vis fn read(
                 decoder: &mut $crate::exec::decoder::Decoder,
                 title: &str,
@@ -70,7 +69,7 @@ macro_rules! arguments {
 }
 pub(in crate::exec) use arguments;
 
-/// What follows a key.
+/// The kind of value after a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum KeyKind {
     /// A number.
@@ -92,18 +91,18 @@ impl KeyKind {
     }
 }
 
-/// A key that a command knows.
+/// A key of a command.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Key {
-    /// As it is written.
+    /// Name as written.
     pub(crate) name: &'static str,
-    /// What follows it.
+    /// Kind of its value.
     pub(crate) kind: KeyKind,
-    /// Range of its number, `None`: any, or checked by the command.
+    /// Range of its number, `None`: unlimited, or checked by the command.
     pub(crate) range: Option<Range>,
-    /// Unit, empty if it has none.
+    /// Unit, empty without one.
     pub(crate) unit: &'static str,
-    /// What else there is to say: default, key of the list.
+    /// Further notes: default, key of the list.
     pub(crate) text: &'static str,
 }
 
@@ -132,28 +131,28 @@ pub(in crate::exec) const fn optional<const N: usize>(ranges: [Range; N]) -> Opt
 
 /// A kind of key with the type of its values.
 pub(in crate::exec) trait Argument {
-    /// What the command gets.
+    /// Type passed to the command.
     type Value;
     /// The kind.
     const KIND: KeyKind;
 
-    /// The value of a key that is written.
+    /// The value of a key in the bracket.
     fn take(found: &Found, name: &str) -> Option<Self::Value>;
 }
 
-/// A number and its place.
+/// A number with its position.
 #[derive(Debug)]
 pub(in crate::exec) struct Number;
-/// A number or nothing, and the place.
+/// An optional number, with its position.
 #[derive(Debug)]
 pub(in crate::exec) struct MaybeNumber;
-/// A word or text, and its place.
+/// A word or text, with its position.
 #[derive(Debug)]
 pub(in crate::exec) struct Word;
-/// A number or a text, and its place.
+/// A number or a text, with its position.
 #[derive(Debug)]
 pub(in crate::exec) struct Scalar;
-/// The place of a key without value.
+/// The position of a key without value.
 #[derive(Debug)]
 pub(in crate::exec) struct Flag;
 
@@ -223,7 +222,7 @@ enum Written {
     Nothing,
 }
 
-/// The keys that are written.
+/// The keys in the bracket.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Found {
     found: Vec<(&'static str, Written, Span)>,
@@ -235,7 +234,7 @@ impl Found {
     }
 }
 
-/// Condition of a key given twice: that of the command, that of all commands, or K-DUPKEY in a bracket of an axis.
+/// Condition of a repeated key: that of the command, that of all commands, or K-DUPKEY in a bracket of an axis.
 ///
 /// Source: TF5200 diagnosis, 21388 (254466699), 21887 (256433803).
 fn key_twice(title: &str) -> Condition {
@@ -261,7 +260,7 @@ pub(in crate::exec) fn read_all(
     let mut at = 0;
     while let Some(item) = items.get(at) {
         at += 1;
-        // `TYPE HSC`: the equals sign is missing
+        // `TYPE HSC`: missing equals sign
         let pair = pair_of_words(item, items.get(at), keys);
         at += usize::from(pair.is_some());
         let item = pair.as_ref().unwrap_or(item);
@@ -280,7 +279,7 @@ pub(in crate::exec) fn read_all(
             && !range.contains(*x)
         {
             let text = format!("{name}={x}, allowed are {}", range.allowed());
-            // the general number of commands (254101131); brackets of axes have none
+            // the general ID of commands (254101131); brackets of axes have none
             let condition = match range.condition {
                 Condition::Range if title.starts_with('#') => Condition::KeyRange,
                 condition => condition,
@@ -291,7 +290,7 @@ pub(in crate::exec) fn read_all(
     Ok(found)
 }
 
-/// A key for a word and a word after it as one item.
+/// Joins a key and the word after it to one item.
 fn pair_of_words(item: &Item, next: Option<&Item>, keys: &[Key]) -> Option<Item> {
     let (ItemKind::Flag(key), ItemKind::Flag(word)) = (&item.kind, &next?.kind) else {
         return None;
@@ -318,14 +317,14 @@ fn read(
                     }
                 };
             }
-            // `ID455`: a key and its number written together
+            // `ID455`: a key and its number without separator
             if let Some((name, number)) = ident.split_number() {
                 let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
                 if let Some(key) = key.filter(|k| k.kind.takes_number()) {
                     return Ok(Some((key.name, Written::Number(number))));
                 }
             }
-            // `IDP100`: a key and a parameter written together
+            // `IDP100`: a key and a parameter without separator
             if let Some((name, place)) = ident.split_parameter() {
                 let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
                 if let Some(key) = key.filter(|k| k.kind.takes_number()) {

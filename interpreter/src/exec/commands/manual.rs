@@ -1,7 +1,7 @@
 //! Settings of manual mode: `#HANDWHEEL`, `#JOG`, `#MANUAL LIMITS`, their older forms `#SET HR`, `#SET TIP`, `#SET JOG`,
 //! `#SET OFFSET`, and `#GET MANUAL OFFSETS`.
 //!
-//! Nobody turns a handwheel here: the settings are checked and have no effect (K-0100), and offsets of manual mode are 0.
+//! The simulation has no handwheel: the settings are checked and have no effect (K-0100), and offsets of manual mode are 0.
 //!
 //! Source: TF5200 programming manual 206654731, 206668043, 206683659, 206697739, tccncprogramming 15556797579, 15556802699,
 //! 15556807819, 15556811915; diagnosis, 20485 (251737995), 20486 (251742347), 20490 (251755403), 20491 (251759755), 20493
@@ -16,7 +16,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 
-/// Most stages of a setting.
+/// Maximum number of stages of a setting.
 const STAGES: usize = 3;
 
 /// Row of `#HANDWHEEL`.
@@ -223,7 +223,7 @@ fn set_limits(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#GET MANUAL OFFSETS`, `#GET IPO OFFSET`: the decoder waits for the interpolator.
 ///
-/// Assumption: the path comes to rest, as for `#GET CMDPOS`; the page says that the values are requested and supplied.
+/// Assumption: the path stops, as for `#GET CMDPOS`; the page states that the values are requested and supplied.
 fn get_offsets(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     may_flush(decoder, call)?;
     call.no_more_words()?;
@@ -231,7 +231,7 @@ fn get_offsets(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// Axis after the bracket and what the bracket holds.
+/// The axis after the bracket, and the contents of the bracket.
 fn older_form<'c>(decoder: &Decoder, call: &'c Call<'_>) -> Outcome<(usize, &'c [Item])> {
     let empty = |group: &&Group| group.items.is_empty();
     if let Some(group) = call.command.groups.first().filter(empty) {
@@ -248,7 +248,7 @@ fn older_form<'c>(decoder: &Decoder, call: &'c Call<'_>) -> Outcome<(usize, &'c 
     }
 }
 
-/// The numbers of a bracket with `AX=` or `AXNR=`; keys are `names`, with the numbers of stages if there are any.
+/// The numbers of a bracket with `AX=` or `AXNR=`; `names` are the keys, with their numbers of stages if they have any.
 fn numbers(
     decoder: &Decoder,
     call: &Call<'_>,
@@ -330,8 +330,8 @@ fn has_sign(
     Err(Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, value, "-")))
 }
 
-/// Settings are made under G202 (tccncprogramming 15556802699). Assumption: this holds for the newer forms, too, whose
-/// examples switch G202 on before; no page prints a number.
+/// Settings are made under G202 (tccncprogramming 15556802699). Assumption: this also applies to the newer forms, because their
+/// examples activate G202 before; the pages print no ID.
 fn only_in_normal_mode(decoder: &Decoder, call: &Call<'_>, axis: usize) -> Outcome<()> {
     if !decoder.motion.manual[axis] {
         return Ok(());

@@ -1,4 +1,4 @@
-//! `#MEAS`: the type of measuring runs, and what a missing signal is.
+//! `#MEAS`: the type of measuring runs, and the reaction to a missing signal.
 //!
 //! Source: TF5200 programming manual, switching of the measuring type (207084683), extended programming (207092107).
 

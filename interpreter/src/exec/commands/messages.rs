@@ -16,7 +16,7 @@ use crate::syntax::ast::{Expr, Group, HashWord, ItemKind, ItemValue, Span};
 /// Receivers of a message.
 const RECEIVERS: &[&str] = &["ISG_DIAG_BED", "HMI", "PLC", "DIAG", "EVENT_LOGGER"];
 
-/// Modes and destinations; the log is the same for all of them.
+/// Modes and destinations; all of them write to the same log.
 const MODES: &[&str] = &["SYN", "SYN_ACK", "ACK", "SAVE", "EXCLUSIVE", "CONTINUE", "INFO"];
 
 /// Row of `#MSG`.
@@ -44,7 +44,7 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     send(decoder, receiver, save, text, call.span())
 }
 
-/// `#ADD [receiver] ["text", values]` at the end of a block: the message of `#MSG SYN` after what the block does.
+/// `#ADD [receiver] ["text", values]` at the end of a block: the message of `#MSG SYN` after the actions of the block.
 ///
 /// Source: TF5200 programming manual 207177099, tccncprogramming 15556955787.
 pub(in crate::exec) fn addition(decoder: &mut Decoder, hash: &HashWord, span: Span) -> Outcome<()> {
@@ -86,7 +86,7 @@ fn text_of(decoder: &Decoder, title: &str, group: Option<&Group>, span: Span) ->
     formatted(decoder, &format_text, format.span, values)
 }
 
-/// Hands a message out, unless the channel list discards it.
+/// Outputs a message, unless the channel list discards it.
 fn send(
     decoder: &mut Decoder,
     receiver: String,
@@ -117,7 +117,7 @@ fn send(
     Ok(())
 }
 
-/// Replaces `%d`, `%f`, `%s` by the values in turn, as `printf` does (207145355).
+/// Replaces `%d`, `%f`, `%s` by the values in order, as `printf` does (207145355).
 fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Outcome<String> {
     let mut text = String::new();
     let mut values = values.iter();
@@ -168,10 +168,10 @@ struct Form {
 }
 
 impl Form {
-    /// Most characters of a value.
+    /// Maximum number of characters of a value.
     const WIDEST: usize = 200;
 
-    /// Takes a character; false for the letter of the format.
+    /// Processes a character; false for the letter of the format.
     fn takes(&mut self, c: char) -> bool {
         let digit = c.to_digit(10).map(|d| d as usize);
         match (c, digit, &mut self.precision) {
@@ -245,13 +245,13 @@ pub(super) const ERROR: Row = Row::run("ERROR", error)
     .keys(ErrorArguments::KEYS)
     .example("#ERROR [ID=455 RC=2]");
 
-/// Longest text as a value (207457163).
+/// Maximum length of a text as a value (207457163).
 const TEXT_MAX: usize = 23;
 
-/// Meaning of a value for which none is written.
+/// Default meaning of a value.
 const CURRENT: u32 = 2;
 
-/// What a number of PM1 to PM5 says of its value; `None`: the value is ignored.
+/// Meaning of a number in PM1 to PM5 for its value; `None`: the value is ignored.
 ///
 /// Source: TF5200 diagnosis 249247371, error management 207457163.
 fn kind_of(meaning: u32) -> Option<ValueKind> {

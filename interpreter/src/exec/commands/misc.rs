@@ -41,7 +41,7 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [] => decoder.sync(Sync::Stop),
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
-        // no stop while more blocks are known; the corner is not contoured (207042443)
+        // no stop while further blocks are available; the corner is not contoured (207042443)
         [word] if word.is("CONTINUE") => decoder.contour.keep_corner(),
         [word, ..] => return Err(call.unexpected(word)),
     }
@@ -54,7 +54,7 @@ pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
     .meaning("the programmed position becomes the command or actual position, with ACTPOS after waiting for every window")
     .example("#CHANNEL INIT [CMDPOS]");
 
-/// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AXNR=2]`; the axes also without `AX=`.
+/// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AXNR=2]`; axes can also be given without `AX=`.
 fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     may_flush(decoder, call)?;
     call.no_more_words()?;
@@ -103,8 +103,7 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
-/// `#CHANNEL INIT [CMDPOS]`, and `#SET DEC LR SOLL`, its older name (206703627): set positions are what the program already counts
-/// with.
+/// `#CHANNEL INIT [CMDPOS]`, and `#SET DEC LR SOLL`, its older name (206703627): the program already uses setpoints.
 pub(super) fn take_command_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.sync(Sync::FlushWait);
@@ -148,7 +147,8 @@ pub(super) const WAIT: Row = Row::run("WAIT", wait).several().values()
     .example("#WAIT INDP [X]")
     .related(&["INDP_ASYN", "#SIGNAL", "K-0018"]);
 
-/// `#WAIT INDP ..` joins independent axes; headless a condition is tested once, and a signal has come or never will.
+/// `#WAIT INDP ..` waits for independent axes. Without other channels a condition is tested once, and a signal either was sent
+/// or never will be.
 fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let [word, more @ ..] = call.rest
         && word.is("INDP")
@@ -202,7 +202,7 @@ pub(super) const TIMER: Row = Row::run("TIMER", timer)
     .note("without SYN the timer runs with the decoder, which is ahead of the motion; READ SYN brings the path to rest")
     .example("#TIMER START SYN [ID=3]");
 
-/// What `#TIMER` does.
+/// Operation of `#TIMER`.
 const TIMER_ACTS: &[(&str, TimerAct)] = &[
     ("START", TimerAct::Start),
     ("STOP", TimerAct::Stop),
@@ -265,7 +265,7 @@ pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// `#INIT MACRO TAB`: the macros of the channel list stay.
+/// `#INIT MACRO TAB`: the macros of the channel list are kept.
 pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.calls.macros.clone_from(&decoder.machine.channel.macros);
@@ -314,7 +314,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         };
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
-        // a blank text is the default of the lists: no program (P-CHAN-00118)
+        // an empty text restores the default of the lists: no program (P-CHAN-00118)
         let file = Some(file).filter(|file| !file.trim_ascii().is_empty());
         match number {
             Some(n) if crate::exec::block::groups::is_cycle_call(n) => {
@@ -325,7 +325,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
             _ if key.is("M6") || key.is("M06") => decoder.calls.tool_change_file = file,
             _ if key.is("D") => decoder.calls.tool_data_file = file,
-            // messages go to the log, whatever the name of their file
+            // messages are written to the log, whatever the name of their file
             _ if key.is("MSG") => {}
             _ => {
                 let text = format!("#FILE NAME: unknown key {}", key.text);

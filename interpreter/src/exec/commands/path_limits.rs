@@ -12,7 +12,7 @@ use crate::syntax::ast::{Command, Group, Ident, Item, ItemKind, ItemValue, Span}
 use kontur_motion::block::VectorLimits;
 
 arguments! {
-    /// Keys of `#VECTOR LIMIT`; without a value the configured limit.
+    /// Keys of `#VECTOR LIMIT`; without a value the configured limit applies.
     struct VectorArguments {
         vel: MaybeNumber "VEL" in above_zero(), "mm/min (G70: inch/min)", "P-CHAN-00090";
         acc: MaybeNumber "ACC" in above_zero(), "mm/min2, mm/s2 by P-CHAN-00351", "P-CHAN-00002";
@@ -26,7 +26,7 @@ arguments! {
     }
 }
 
-/// Acceleration of `#VECTOR LIMIT` below which its unit is doubted, in mm/s2.
+/// Acceleration of `#VECTOR LIMIT` in mm/s2 below which its unit is probably wrong.
 const TINY_MM_S2: f64 = 10.0;
 
 /// Row of `#VECTOR LIMIT`.
@@ -38,13 +38,13 @@ pub(super) const VECTOR_LIMIT: Row = Row::run("VECTOR LIMIT", vector_limit)
     .example("#VECTOR LIMIT ON [ACC=1800000]")
     .related(&["P-CHAN-00002", "P-CHAN-00090", "P-CHAN-00208", "P-CHAN-00361", "P-CHAN-00351"]);
 
-/// `#VECTOR LIMIT ON [..]`, `ON ALL`, `OFF [VEL]`, `OFF`. FEED or RAPID restrict what is said to these blocks.
+/// `#VECTOR LIMIT ON [..]`, `ON ALL`, `OFF [VEL]`, `OFF`. FEED or RAPID restrict the command to these blocks.
 ///
-/// The unit of ACC, DEC, RADIAL_ACC and RADIAL_JERK is the one of P-CHAN-00351, mm/min2 and mm/min3 by default.
+/// The unit of ACC, DEC, RADIAL_ACC and RADIAL_JERK is that of P-CHAN-00351, mm/min2 and mm/min3 by default.
 ///
-/// Assumption: the meaning of FEED and RAPID, from their names; without them, or with both, all blocks are meant. JERK and
-/// TRANS_ACC, which P-CHAN-00351 does not name, are in mm/s3 and mm/s2. VEL follows G70 as the speed of `#TRANSVELMIN`
-/// does; accelerations and jerks, whose units are in mm, do not.
+/// Assumption: the meaning of FEED and RAPID follows from their names; without them, or with both, the command applies to all
+/// blocks. JERK and TRANS_ACC, which P-CHAN-00351 does not name, are in mm/s3 and mm/s2. G70 applies to VEL as to the velocity
+/// of `#TRANSVELMIN`, but not to accelerations and jerks, which have units in mm.
 fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let Some(on) = call.command.on else {
         let text = "#VECTOR LIMIT needs ON or OFF";
@@ -131,7 +131,7 @@ pub(super) const VECTORACC: Row = Row::run("VECTORACC", vector_of_one)
     .example("#VECTORACC ON [2700000]")
     .related(&["#VECTOR LIMIT", "P-CHAN-00002"]);
 
-/// `#VECTORVEL`, `#VECTORACC` (HSC 15427960971): the same as `#VECTOR LIMIT` with one key.
+/// `#VECTORVEL`, `#VECTORACC` (HSC 15427960971): equivalent to `#VECTOR LIMIT` with one key.
 fn vector_of_one(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let key = if call.name == "VECTORVEL" { "VEL" } else { "ACC" };
@@ -159,7 +159,7 @@ pub(super) const TRANSVELMIN: Row = Row::run("TRANSVELMIN", transition_velocity)
     .example("#TRANSVELMIN ON")
     .related(&["P-AXIS-00013"]);
 
-/// `#TRANSVELMIN ON [v]`, `OFF`: lower bound of the velocity at kinks in mm/min.
+/// `#TRANSVELMIN ON [v]`, `OFF`: lower bound of the velocity at corners in mm/min.
 fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let value = match (call.command.on, &call.command.arguments[..], call.command.groups.first()) {
         (Some(false), _, _) | (Some(true), [], None) => 0.0,

@@ -1,8 +1,8 @@
-//! Positions of the machine into variables: `#GET CMDPOS`, `#GET ACTPOS` and the older `#SET IPO SOLLPOS`.
+//! Reads positions of the machine into variables: `#GET CMDPOS`, `#GET ACTPOS` and the older `#SET IPO SOLLPOS`.
 //!
-//! The path stops, then each variable gets the position of its axis. Nothing else changes: neither the position that the
-//! program counts with nor `V.A.ABS`. Assumption: positions are those of the axis, without zero offsets, coordinate
-//! systems and mirroring, as `V.A.ACT_POS` has them.
+//! The path stops, then each variable is set to the position of its axis. Nothing else changes: neither the programmed position
+//! nor `V.A.ABS`. Assumption: positions are those of the axis, without zero offsets, coordinate systems and mirroring, as in
+//! `V.A.ACT_POS`.
 //!
 //! Source: TF5200 programming manual, request command and actual positions; 20186, 20500.
 
@@ -14,7 +14,8 @@ use crate::exec::options::Value;
 use crate::exec::step::Sync;
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
 
-/// Assignments of one command. Assumption: one for each axis that a channel can have; the vendor prints no number.
+/// Maximum number of assignments of one command. Assumption: one for each axis that a channel can have; the vendor prints no
+/// number.
 const MOST: usize = 32;
 
 /// Row of `#GET CMDPOS`.
@@ -47,7 +48,7 @@ fn command_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     assign(decoder, call, |d, axis| d.geometry.coordinates.target()[axis])
 }
 
-/// The executor has waited for the actual positions before the block.
+/// The executor has waited for the actual positions before this block.
 fn actual_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let actual = |d: &Decoder, axis: usize| {
         let known = d.feedback.actual_mm.get(axis).copied();

@@ -3,14 +3,14 @@
 use crate::diag::Condition;
 use crate::exec::values::number::is_whole;
 
-/// A range of numbers and the condition of those outside.
+/// A range of numbers and the condition for values outside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
     low: f64,
     high: f64,
-    /// The lower end does not belong to it.
+    /// Whether the lower end is excluded.
     open: bool,
-    /// Fractions do not belong to it.
+    /// Whether fractions are excluded.
     whole: bool,
     pub(super) condition: Condition,
 }
@@ -36,7 +36,7 @@ pub(in crate::exec) const fn above_zero_to(high: f64) -> Range {
 }
 
 impl Range {
-    /// A condition other than 21296, K-RANGE in the bracket of an axis.
+    /// A condition other than 21296, or K-RANGE in the bracket of an axis.
     pub(in crate::exec) const fn or(self, condition: Condition) -> Self {
         Self { condition, ..self }
     }
@@ -52,7 +52,7 @@ impl Range {
             && (!self.whole || is_whole(x))
     }
 
-    /// For the message of a wrong value.
+    /// Text for the message of an invalid value.
     pub(super) fn allowed(&self) -> String {
         let Self { low, high, .. } = self;
         if self.whole {
@@ -66,7 +66,7 @@ impl Range {
         }
     }
 
-    /// For `explain`.
+    /// Text for `explain`.
     pub(super) fn short(&self) -> String {
         let Self { low, high, .. } = self;
         match (self.open, *high < f64::MAX) {

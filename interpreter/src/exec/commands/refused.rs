@@ -1,4 +1,4 @@
-//! Commands that are refused: what the diagnosis manual calls a mistake in them is said in place of the refusal.
+//! Refused commands: errors that the diagnosis manual defines for them are reported instead of the refusal.
 //!
 //! Source: TF5200 diagnosis, 21089 (253417867), 21158 (253618059), 21235 (253879179), 21236 (253883531), 21349 (254314379),
 //! 21410 (254562443), 21453 (254732171), 21872 (256368523), 22003 (480451723), 22128 and 22129 (real-time loops 791893515),
@@ -11,7 +11,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::syntax::ast::{Command, Ident, ItemKind, ItemValue};
 
-/// Numbers of a key that is written twice.
+/// IDs for a repeated key.
 const KEY_TWICE: &[(&str, Condition)] = &[
     ("FACE", Condition::FaceKeyTwice),
     ("IDENT", Condition::IdentKeyTwice),
@@ -22,7 +22,7 @@ const KEY_TWICE: &[(&str, Condition)] = &[
     ("WCS TO MCS", Condition::ConversionTwice),
 ];
 
-/// Why the command is not carried out.
+/// Reason why the command is not executed.
 pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
     if call.command.groups.iter().any(|group| group.items.is_empty()) {
         let text = format!("{}: there is nothing in its brackets", call.title());
@@ -56,7 +56,7 @@ pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
     real_time_loop(decoder, call).unwrap_or_else(|| Fault::unsupported(call.title(), call.span()))
 }
 
-/// 21410 for VC1, VC2 and VC3 that are all 0.
+/// 21410 if VC1, VC2 and VC3 are all 0.
 fn direction_zero(decoder: &Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
     let components = call.command.groups.iter().flat_map(|group| &group.items);
     let components = components.filter_map(|item| match &item.kind {
@@ -73,7 +73,7 @@ fn direction_zero(decoder: &Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
         .then(|| Fault::new(Condition::DirectionZero, text, call.span()))
 }
 
-/// What is wrong with the place of `#RT WHILE` or `#RT ENDWHILE`.
+/// Errors in the position of `#RT WHILE` or `#RT ENDWHILE`.
 fn real_time_loop(decoder: &mut Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
     let (begins, title, span) = (call.name == "RT WHILE", call.title(), call.span());
     if !begins && call.name != "RT ENDWHILE" {
@@ -95,7 +95,7 @@ fn real_time_loop(decoder: &mut Decoder, call: &Call<'_>) -> Option<Box<Fault>> 
     None
 }
 
-/// A key twice, or two that exclude each other, in a command that the simulation does not carry out.
+/// A repeated key, or two exclusive ones, in a command that is not simulated.
 pub(super) fn keys_wrong(call: &Call<'_>) -> Option<Box<Fault>> {
     let (_, condition) = KEY_TWICE.iter().find(|(name, _)| *name == call.name)?;
     if let Some(key) = key_twice(call.command) {

@@ -1,4 +1,4 @@
-//! A row of the table of commands, and the call that its function receives.
+//! A row of the table of commands, and the call passed to its function.
 
 use super::keys::Key;
 use crate::diag::Condition;
@@ -6,38 +6,38 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{Command, Ident, Span};
 
-/// What a command does.
+/// Effect of a command.
 pub(super) enum Act {
-    /// It does something.
+    /// It is executed.
     Run(fn(&mut Decoder, &Call<'_>) -> Outcome<()>),
-    /// It changes neither path nor position, speed or spindle; what else there is to say about it.
+    /// It affects neither path nor position, speed or spindle; with a note.
     Ignored(&'static str),
-    /// Switching it off does nothing; on it changes the path and is not simulated.
+    /// Switching it off has no effect; on it would change the path, and is not simulated.
     OffOnly,
     /// It would change the path and is not simulated.
     Unsupported,
 }
 
-/// One row: what a command does and what there is to say about it.
+/// One row: the function of a command and its description.
 pub(crate) struct Row {
     /// Words of the name without `#`.
     pub(crate) name: &'static str,
     pub(super) act: Act,
-    /// How it is written; empty if there is nothing to explain.
+    /// Syntax; empty if there is nothing to explain.
     pub(crate) form: &'static str,
-    /// What it does, in one sentence.
+    /// Effect, in one sentence.
     pub(crate) meaning: &'static str,
     /// Its keys.
     pub(crate) keys: &'static [Key],
-    /// What else to know.
+    /// Further notes.
     pub(crate) note: &'static str,
-    /// A line for a program.
+    /// An example for a program.
     pub(crate) example: &'static str,
-    /// Things to look up next.
+    /// Related topics.
     pub(crate) related: &'static [&'static str],
-    /// Most brackets after the name; what its function does not look at must not be written.
+    /// Maximum number of brackets after the name; brackets that its function does not read must not be written.
     brackets: usize,
-    /// Values may follow the name without a bracket.
+    /// Whether values may follow the name without a bracket.
     values: bool,
 }
 
@@ -57,7 +57,7 @@ impl Row {
         }
     }
 
-    /// A command that does something.
+    /// A command that is executed.
     pub(super) const fn run(
         name: &'static str,
         f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>,
@@ -65,22 +65,22 @@ impl Row {
         Self::of(name, Act::Run(f))
     }
 
-    /// It takes no bracket.
+    /// It accepts no bracket.
     pub(super) const fn bare(self) -> Self {
         Self { brackets: 0, ..self }
     }
 
-    /// It takes several brackets, or looks at their number itself.
+    /// It accepts several brackets, or checks their number itself.
     pub(super) const fn several(self) -> Self {
         Self { brackets: usize::MAX, ..self }
     }
 
-    /// It takes values without a bracket, or looks at them itself.
+    /// It accepts values without a bracket, or checks them itself.
     pub(super) const fn values(self) -> Self {
         Self { values: true, ..self }
     }
 
-    /// 21220 for a bracket or a value that the command would not look at.
+    /// 21220 for a bracket or a value that the command would not read.
     pub(super) fn takes(&self, command: &Command) -> Outcome<()> {
         let name = self.name;
         let (text, span) = if let Some(group) = command.groups.get(self.brackets) {
@@ -142,13 +142,13 @@ impl Call<'_> {
         self.command.span
     }
 
-    /// 21220 for a word that does not belong here.
+    /// 21220 for an unexpected word.
     pub(in crate::exec) fn unexpected(&self, word: &Ident) -> Box<Fault> {
         let text = format!("{}: unexpected `{}`", self.title(), word.text);
         Fault::new(Condition::TokenUnknown, text, word.span)
     }
 
-    /// No further words, neither after the name nor after ON and OFF.
+    /// Checks that there are no further words, neither after the name nor after ON and OFF.
     pub(in crate::exec) fn no_more_words(&self) -> Outcome<()> {
         match self.rest.first().or(self.command.tail.first()) {
             Some(word) => Err(self.unexpected(word)),

@@ -15,7 +15,7 @@ use kontur_filters::fir::MAX_ORDER;
 use kontur_filters::vib_guard::VibGuardSettings;
 
 impl Decoder {
-    /// 22060: the two commands exclude each other in a program.
+    /// 22060: a program must use only one of the two commands.
     fn use_family(&mut self, family: Family, span: Span) -> Outcome<()> {
         match &self.shaping.used {
             Some((first, place)) if *first != family => {
@@ -148,7 +148,7 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     decoder.tolerances(Family::VibGuard, keys.ax_dev, keys.acc_fact);
     decoder.shaping.guard = programmed;
     decoder.shaping.guard_on = call.command.on.or(decoder.shaping.guard_on);
-    // a plain OFF has nothing to store
+    // OFF without a bracket has no settings to store
     let given = call.command.groups.first().is_some_and(|group| !group.items.is_empty());
     let stores = given || call.command.on.is_none();
     if stores && !guard_is_on(decoder) {
@@ -158,14 +158,14 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// Whether the guard of any axis is on, by the program or by its list.
+/// Whether the guard of any axis is on, by program or list.
 fn guard_is_on(decoder: &Decoder) -> bool {
     let cycle = decoder.machine.cycle;
     let listed = |axis| decoder.shaping.listed(axis, cycle).vib_guard.active;
     decoder.shaping.guard_on.unwrap_or_else(|| decoder.machine.axes.iter().any(listed))
 }
 
-/// Settings given while the guard is off: they must be realisable (50820), and the user learns what becomes of them.
+/// Settings given while the guard is off: they must be realisable (50820), and a message reports that they are stored.
 fn stored_for_later(
     decoder: &mut Decoder,
     programmed: GuardKeys,
@@ -182,7 +182,7 @@ fn stored_for_later(
     Ok(())
 }
 
-/// Keeps the first command of each kind, for those who force a guard on the program.
+/// Records the first command of each kind, for the case that a guard is forced on the program.
 fn note_command(decoder: &mut Decoder, keys: &GuardArguments, on: Option<bool>) {
     let Some(place) = &decoder.report.location else { return };
     let commands = &mut decoder.shaping.commands;
@@ -223,7 +223,7 @@ fn realisable(decoder: &Decoder, programmed: GuardKeys, span: Span) -> Outcome<(
     }
 }
 
-/// Greatest order that a program may ask for; the filters correct what is too high for their type (50911).
+/// Maximum order in a program; the filters correct an order that is too high for their type (50911).
 const ORDER_MAX: f64 = {
     let most = MAX_ORDER as f64;
     if most > u16::MAX as f64 { most } else { u16::MAX as f64 }
@@ -298,7 +298,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// Whether the HSC filter, or the FIR filter of any axis, is on, by the program or by its list.
+/// Whether the HSC filter, or the FIR filter of any axis, is on, by program or list.
 fn filter_is_on(decoder: &Decoder, hsc: bool) -> bool {
     let cycle = decoder.machine.cycle;
     let listed = |axis| decoder.shaping.listed(axis, cycle).fir.is_some_and(|fir| fir.enable);
@@ -313,7 +313,7 @@ fn filter_keys(keys: &FilterArguments, stored: &mut FilterKeys) {
     let number = |key: Option<(f64, Span)>| key.map(|(x, _)| x);
     let whole = |key| number(key).and_then(|x| crate::exec::values::number::whole(x, 0, u32::MAX));
     if keys.order.is_some() || keys.order_time.is_some() {
-        // the newer of the two rules; both in one command: the order
+        // the later of the two settings applies; if one command has both, the order
         (stored.order, stored.order_time_us) = (whole(keys.order), whole(keys.order_time));
     }
     stored.share_ratio = number(keys.share).map(|p| p / 100.0).or(stored.share_ratio);

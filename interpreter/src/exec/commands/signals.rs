@@ -1,7 +1,7 @@
 //! Signals between channels: `#SIGNAL`, and the `#WAIT [ID=..]` that consumes them.
 //!
-//! There is one channel: signals to itself or to all can be waited for, signals to others are dropped, and a wait
-//! for another channel does not wait (K-0018).
+//! There is only one channel: signals to itself or to all can be waited for, signals to others are discarded, and a wait for
+//! another channel does not wait (K-0018).
 //!
 //! Source: TF5200 programming manual, sending signals, waiting for signals; 21344.
 
@@ -18,7 +18,7 @@ use crate::syntax::ast::{
 /// Number of the channel. Assumption: the simulated channel is the first one of the machine.
 const OWN_CHANNEL: u32 = 1;
 
-/// Signals that may be open at a time. Assumption: the vendor prints no number for 250001.
+/// Maximum number of pending signals. Assumption: the vendor prints no number for 250001.
 const MOST: usize = 1000;
 
 /// Highest index of a signal parameter.
@@ -159,7 +159,7 @@ fn signal(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if !broadcast && !words.channels.contains(&OWN_CHANNEL) {
         return Ok(());
     }
-    // a broadcast without COUNT stays: the newer one takes its place
+    // a broadcast without COUNT remains: a newer one replaces it
     if broadcast && words.count.is_none() {
         decoder.signals.retain(|s| s.id != id || !s.broadcast || s.count.is_some());
     }
@@ -173,7 +173,7 @@ fn signal(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// `#WAIT [ID=.. P[0]=V.P.A CH=..]`: false if no such signal has been sent.
+/// `#WAIT [ID=.. P[0]=V.P.A CH=..]`: returns false if no such signal was sent.
 pub(super) fn wait_for_signal(
     decoder: &mut Decoder,
     call: &Call<'_>,

@@ -20,12 +20,12 @@ const TYPES: [(&str, SlopeKind); 4] = [
     ("HSC", SlopeKind::Hsc),
 ];
 
-/// Slope type of a word.
+/// Slope type for a word.
 pub(in crate::exec) fn slope_type(name: &str) -> Option<SlopeKind> {
     TYPES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
 }
 
-/// Slope type of a number, as in P-CHAN-00071.
+/// Slope type for a number, as in P-CHAN-00071.
 pub(in crate::exec) fn slope_of_number(number: u32) -> Option<SlopeKind> {
     TYPES.get(number as usize).map(|(_, kind)| *kind)
 }
@@ -96,10 +96,10 @@ pub(super) const SET_SLOPE_PROFIL: Row = Row::run("SET SLOPE PROFIL", set_slope_
     .example("#SET SLOPE PROFIL [1]")
     .related(&["#SLOPE", "P-CHAN-00071", "P-CHAN-00001", "P-CHAN-00073", "120020"]);
 
-/// `#SET SLOPE PROFIL [n]`; without number as `#SLOPE DEFAULT`.
+/// `#SET SLOPE PROFIL [n]`; without a number as `#SLOPE DEFAULT`.
 ///
-/// Further numbers say which ramp times and accelerations the weights act on (120020). No document says in which order they
-/// come, so only 0, all of them, is taken.
+/// Further numbers select the ramp times and accelerations to which the weights apply (120020). Their order is not documented,
+/// so only 0, all of them, is accepted.
 fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {

@@ -57,7 +57,7 @@ fn main_spindle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let text = "#MAIN SPINDLE: the channel has no such spindle";
                 return Err(Fault::new(Condition::MainSpindleUnknown, text, item.span).hint(hint));
             };
-            // the main spindle is the first one
+            // the main spindle is the first in the list
             decoder.motion.spindles.swap(0, index);
             Ok(())
         }

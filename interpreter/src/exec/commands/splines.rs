@@ -134,7 +134,7 @@ fn transitions_by_number(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     Ok(())
 }
 
-/// A transition that is not written is AUTO.
+/// An omitted transition is AUTO.
 fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
     let Some((name, span)) = written else { return Ok(Transition::Auto) };
     let known = [
@@ -151,7 +151,8 @@ fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
 }
 
 impl Decoder {
-    /// `#AKIMA STARTVECTOR X1 Y1`, `#AKIMA ENDVECTOR` and their older names: true if the axis words of the block belong to one of them.
+    /// `#AKIMA STARTVECTOR X1 Y1`, `#AKIMA ENDVECTOR` and their older names: returns whether the axis words of the block belong
+    /// to one of them.
     pub(in crate::exec) fn spline_vectors(&mut self, words: &Words<'_>) -> bool {
         let named =
             |names: [&str; 2]| words.hashes.iter().any(|(hash, _, _)| names.contains(&&*hash.name));

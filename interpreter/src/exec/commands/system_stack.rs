@@ -1,7 +1,7 @@
-//! Coordinate systems with names, one upon another: `#CS ADD`, `#CS SELECT`, `#CS SET`, `#CS DEL`.
+//! Named coordinate systems, stacked on each other: `#CS ADD`, `#CS SELECT`, `#CS SET`, `#CS DEL`.
 //!
 //! Source: TF5200 programming manual 1037259147 (ADD), 1037628043 (SELECT), 1048407819 (SET), 1048405643 (DEL); 21599. Systems of
-//! `#CS ON` and of a stack are not active together: no page says how they would follow one another.
+//! `#CS ON` and of a stack are not active together: the pages do not define their order.
 
 use super::frames;
 use super::row::{Call, Row};
@@ -11,10 +11,10 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::SYSTEMS_MAX;
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, Span};
 
-/// Longest name of a system.
+/// Maximum length of the name of a system.
 const NAME_MAX: usize = 8;
 
-/// Names that are reserved.
+/// Reserved names.
 const RESERVED: [&str; 3] = ["ACS", "IMCS", "MCS"];
 
 /// Row of `#CS ADD`.
@@ -58,7 +58,7 @@ fn name(group: &Group) -> Outcome<&Ident> {
     Ok(name)
 }
 
-/// Place of a name in the stack.
+/// Index of a name in the stack.
 fn place(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
     let mut names = decoder.geometry.coordinates.stack();
     names.position(|known| known == &*name.text).ok_or_else(|| {
@@ -73,7 +73,7 @@ fn place(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
     })
 }
 
-/// Where the active systems may change.
+/// Checks that the active systems may change.
 fn changes(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     frames::no_compensation(decoder, call)?;
     let coordinates = &decoder.geometry.coordinates;
@@ -92,7 +92,7 @@ fn wrong_form(text: &str, span: Span) -> Box<Fault> {
     Fault::new(Condition::CoordinateSystemSyntax, text, span)
 }
 
-/// No words after ON and OFF, and neither of them.
+/// Checks that there are neither ON and OFF nor other words.
 fn plain(call: &Call<'_>) -> Outcome<()> {
     if call.command.on.is_some() {
         return Err(wrong_form("neither ON nor OFF belongs here", call.span()));

@@ -1,8 +1,8 @@
-//! Tools by their ID: `#TOOL DATA`, `#TOOL PREP`, `#TOOL REFRESH`; the axis of their length: `#TLAX`.
+//! Tools by their ID: `#TOOL DATA`, `#TOOL PREP`, `#TOOL REFRESH`; the axis of the tool length: `#TLAX`.
 //!
 //! Source: TF5200 programming manual, using tool ID, refreshing tool data, axis-specific assignment of tool length compensation
-//! (304765835). Assumption: with `-` the length counts against the axis; the length goes to another axis with the next absolute
-//! word, as that of another tool does.
+//! (304765835). Assumption: with `-` the length is subtracted along the axis; the length is applied to another axis with the
+//! next absolute word, as for a change of the tool.
 
 use super::row::{Call, Row};
 use crate::diag::Condition;
@@ -123,7 +123,7 @@ fn basic_number(decoder: &Decoder, call: &Call<'_>) -> Outcome<(f64, Span)> {
     }
 }
 
-/// Left out or 0.
+/// Omitted or 0.
 fn is_zero(decoder: &Decoder, item: &Item) -> Outcome<bool> {
     Ok(match &item.kind {
         ItemKind::Missing => true,

@@ -32,7 +32,7 @@ pub(super) const TURN: Row = Row::run("TURN", turn)
     .example("#TURN [THREAD_CHAIN=1]")
     .related(&["G33", "K-0132", "P-CHAN-00836", "P-CHAN-00837"]);
 
-/// `#TURN [..]`: a key that is omitted keeps its value.
+/// `#TURN [..]`: an omitted key keeps its value.
 fn turn(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let group = call.command.groups.first();
@@ -52,7 +52,7 @@ fn turn(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::unsupported(format!("#TURN [{name}=1]"), span));
         }
     }
-    // a thread that is under way ends as it began
+    // a thread in progress is completed with its previous settings
     decoder.end_thread();
     let modes = &mut decoder.motion.threads.turning;
     if let Some((x, _)) = keys.thread_cut_ignore_ov {

@@ -90,11 +90,11 @@ fn wear(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if ends {
         decoder.contour.event(Event::Wear(None));
     }
-    // where it fails the function counts as on, so that OFF is no second error
+    // after an error the function counts as on, so that OFF does not cause a second error
     decoder.apply_wear(call.span())
 }
 
-/// Two words that exclude each other.
+/// Two exclusive words.
 fn one_of(words: &[(&str, Option<Span>)]) -> Outcome<()> {
     let mut written = words.iter().filter_map(|(name, span)| Some((name, (*span)?)));
     match (written.next(), written.next()) {

@@ -1,11 +1,11 @@
 //! Akima splines: a curve through the programmed points with a continuous tangent (G151, `#SPLINE ON`).
 //!
-//! Each axis is a cubic over the lengths of the chords; the derivative at a point comes from the two chords on either side
-//! of it, weighed as Akima does (J. ACM 17 (1970) 589, equation 1): the chord whose neighbours agree more counts more. At
-//! the ends two chords are extrapolated, or the tangent is that of the motion before or after, or of the program.
+//! Each axis is a cubic over the lengths of the chords. The derivative at a point is computed from two chords on either side of
+//! it with the weights of Akima (J. ACM 17 (1970) 589, equation 1): a side with similar slopes has more weight. At the ends two
+//! chords are extrapolated, or the tangent of the motion before or after, or of the program, is used.
 //!
-//! Assumptions: the parameter is the chord length over the feed axes, over all axes where none of them moves; where the
-//! weights of both sides are 0, both chords count the same; a given tangent has the length 1.
+//! Assumptions: the parameter is the chord length over the feed axes, or over all axes if none of them moves; if the weights of
+//! both sides are 0, both chords have equal weight; a given tangent has the length 1.
 //!
 //! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`); 120112. Assumption: after
 //! a rest there is no direction, and a tangential start is automatic; the vendor asks for a motion before it alone.
@@ -18,22 +18,22 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{Coefficients, Path, PolyPath, PolyPiece};
 use std::collections::VecDeque;
 
-/// Chords after a segment that decide its end.
+/// Number of chords after a segment that determine its end.
 const AHEAD: usize = 2;
 
-/// Chords before a segment that decide its start.
+/// Number of chords before a segment that determine its start.
 const BEHIND: usize = 2;
 
-/// Smallest speed of the parameter, as a part of that on a straight line: below it the curve has a cusp, whose tip is sharper
-/// than the positions of a trace.
+/// Smallest speed of the parameter, relative to a straight line. Below it the curve has a cusp sharper than the positions of a
+/// trace can show.
 const CUSP: f64 = 1e-5;
 
-/// Samples of a segment in the search for a cusp.
+/// Samples of a segment for the search for a cusp.
 const SAMPLES: u32 = 64;
-/// Thirds taken off around the slowest place between samples: to the resolution of the parameter.
+/// Ternary search steps around the slowest sample, down to the resolution of the parameter.
 const THIRDS: u32 = 80;
 
-/// How the tangent at an end of a spline is found.
+/// Determination of the tangent at an end of a spline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::exec) enum Transition {
     /// From the points.
@@ -70,7 +70,7 @@ impl End {
     }
 }
 
-/// What is given of a tangent.
+/// The given components of a tangent.
 #[derive(Clone, Debug)]
 enum Given {
     Nothing,
@@ -89,16 +89,16 @@ impl Given {
     }
 }
 
-/// A spline whose segments are not all complete.
+/// A spline with incomplete segments.
 #[derive(Debug)]
 struct Run {
-    /// Segments that wait for the chords after them.
+    /// Segments that need the chords after them.
     waiting: VecDeque<Box<Motion>>,
     /// Slopes of up to [`BEHIND`] chords before them, then their own.
     slopes: VecDeque<AxisVec>,
-    /// What is given at the start, until the first segment is complete.
+    /// The given tangent at the start, until the first segment is complete.
     start: Option<Given>,
-    /// Derivative at the start of the first segment that waits.
+    /// Derivative at the start of the first incomplete segment.
     tangent: Option<AxisVec>,
 }
 
@@ -111,7 +111,7 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// What the software limits are compared with, and the motion.
+    /// Range for the check against the software limits, and the motion.
     pub(super) fn parts(self) -> (Driven, Box<Motion>) {
         let Self { motion, extents_mm } = self;
         (Driven { extents_mm, source: motion.source, span: motion.span }, motion)
@@ -123,11 +123,11 @@ impl Curve {
 pub(in crate::exec) struct Akima {
     pub(in crate::exec) start: End,
     pub(in crate::exec) end: End,
-    /// G151 is in force.
+    /// Whether G151 is active.
     pub(in crate::exec) selected: bool,
-    /// Something has moved before: a tangential start has a direction.
+    /// Whether there was a motion before, which gives the direction of a tangential start.
     pub(super) moved: bool,
-    /// An arc has interrupted the spline: it continues tangentially.
+    /// Whether an arc has interrupted the spline, which then continues tangentially.
     behind_arc: bool,
     run: Option<Box<Run>>,
 }
@@ -156,7 +156,7 @@ fn chord(motion: &Motion) -> (f64, AxisVec) {
 }
 
 impl Run {
-    /// Slope of a chord counted from the first segment that waits; beyond the ends it is extrapolated.
+    /// Slope of a chord counted from the first incomplete segment; extrapolated beyond the ends.
     fn slope(&self, chord: isize) -> AxisVec {
         let before = self.slopes.len() - self.waiting.len();
         let index = chord + before.cast_signed();
@@ -193,7 +193,7 @@ impl Run {
             .collect()
     }
 
-    /// Completes the first segment that waits; `end` is given at its end.
+    /// Completes the first incomplete segment; `end` is given at its end.
     fn complete(&mut self, end: Given) -> Option<Outcome<Curve>> {
         let from = match (self.start.take(), self.tangent.take()) {
             (Some(given), _) => given.over(self.derivative(0)),
@@ -244,8 +244,8 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
     Ok(Curve { motion, extents_mm })
 }
 
-/// True if a function falls below a limit between 0 and 1, where it changes by at most `slope`: a cusp is narrow, and lies
-/// between samples. Only samples that it can fall from are looked around, in the valley that they are the lowest of.
+/// Whether a function falls below a limit between 0 and 1, if its slope is at most `slope`. A cusp is narrow and lies between
+/// samples. The search is restricted to samples from which the limit can be reached, in the valley of the lowest one.
 fn falls_below(f: impl Fn(f64) -> f64, limit: f64, slope: f64) -> bool {
     let at = |k: u32| f64::from(k) / f64::from(SAMPLES);
     let values: Vec<f64> = (0..=SAMPLES).map(|k| f(at(k))).collect();
@@ -273,12 +273,12 @@ impl Akima {
         self.behind_arc = false;
     }
 
-    /// A spline is under way.
+    /// Whether a spline is in progress.
     pub(in crate::exec) fn runs(&self) -> bool {
         self.run.is_some()
     }
 
-    /// A point of the spline; `before`: the motion before it, if the path does not rest.
+    /// A point of the spline; `before`: the motion before it, unless the path stops.
     pub(super) fn point(
         &mut self,
         motion: Box<Motion>,
@@ -287,7 +287,7 @@ impl Akima {
     ) -> Outcome<()> {
         let tangential = self.start.transition == Transition::Tangential;
         if self.run.is_none() && tangential && !self.moved {
-            // said once
+            // reported once
             self.moved = true;
             let text = "a spline with a tangential start needs a motion before it";
             return Err(Fault::new(Condition::SplineWithoutMotion, text, motion.span)
@@ -315,7 +315,7 @@ impl Akima {
         Ok(())
     }
 
-    /// The spline ends; `behind`: the motion that follows it without a rest.
+    /// End of the spline; `behind`: the motion that follows without a stop.
     pub(super) fn finish(&mut self, behind: Option<&Motion>, out: &mut Vec<Curve>) -> Outcome<()> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
         let neighbour = behind.map(|behind| direction(&behind.block.path, false));
@@ -336,7 +336,7 @@ impl Akima {
         Ok(())
     }
 
-    /// Drops the last point: its block has an error.
+    /// Discards the last point: its block has an error.
     pub(super) fn drop_last(&mut self) -> bool {
         let Some(run) = &mut self.run else { return false };
         run.slopes.pop_back();
@@ -344,7 +344,7 @@ impl Akima {
     }
 }
 
-/// A rest in a spline.
+/// A stop in a spline.
 pub(super) fn rest_inside() -> Box<Fault> {
     Fault::unsupported("a stop of the path inside a spline", Span::default())
 }
@@ -355,7 +355,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A dip of known depth anywhere, wide or far narrower than the samples are apart, is found, and one less deep is not.
+        /// Dips of known depth at any place, wide or far narrower than the sample spacing, are found, and shallower ones are
+        /// not.
         #[test]
         fn a_dip_is_found_wherever_it_lies(
             at in 0.0..=1.0_f64, slope in 0.01..10.0_f64, depth in -9.0..-1.0_f64

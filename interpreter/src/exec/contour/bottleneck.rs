@@ -1,8 +1,8 @@
-//! Places where a compensated tool cuts into its own contour: gaps narrower than the tool, loops over several blocks.
+//! Positions where a compensated tool cuts into its own contour: gaps narrower than the tool, loops over several blocks.
 //!
-//! Compensation looks at the corners between neighbouring elements only, as the control does: a bottleneck anywhere else goes
-//! unnoticed there (source: TF5200 programming manual, limits of tool radius compensation) and is driven. So it is a
-//! warning here, once per program.
+//! As in the control, the compensation checks only the corners between neighbouring elements: a bottleneck anywhere else is not
+//! detected there (source: TF5200 programming manual, limits of tool radius compensation), and the path is executed. Therefore
+//! it is a warning here, once per program.
 
 use super::compensation::Item;
 use crate::exec::geometry::arc::Point;
@@ -11,30 +11,31 @@ use crate::exec::step::SourceRef;
 use rstar::{AABB, RTree, RTreeObject};
 use std::collections::VecDeque;
 
-/// Elements, the last ones of the contour and of the way each, that are compared with a new one: a limit of the memory.
+/// Number of elements that are compared with a new one, the last ones of the contour and of the tool path each: limits the
+/// memory.
 const WINDOW: usize = 20_000;
-/// Elements around a new one that are looked at, at most: a limit of the time where many passes lie beside each other.
+/// Maximum number of elements near a new one that are checked: limits the time when many passes lie side by side.
 const MOST_AROUND: usize = 200;
-/// Distance in mm within which an element lies on another one: a pass that repeats it says nothing new.
+/// Distance in mm below which elements count as coincident: a pass that repeats another one gives no new information.
 const SAME_MM: f64 = 1e-6;
 
-/// How much closer than its radius the tool must come, in mm: the smallest increment of the language.
+/// Distance in mm by which the tool must come closer than its radius: the smallest increment of the language.
 const TOLERANCE_MM: f64 = 1e-4;
 
-/// An element of the contour or of the way of the tool's centre.
+/// An element of the contour or of the tool centre path.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     side: Side,
-    /// A box around it.
+    /// Bounding box.
     low: Point,
     high: Point,
-    /// A circle around it: the middle of its way and half of its length.
+    /// Bounding circle: the midpoint of its path and half of its length.
     middle: Point,
     half: f64,
     source: SourceRef,
-    /// Number of the element of the contour; what compensation inserts after an element has its number.
+    /// Number of the element of the contour; elements inserted after it by the compensation have the same number.
     number: u64,
-    /// Its own number among all parts.
+    /// Number among all parts.
     place: u64,
 }
 
@@ -46,14 +47,14 @@ impl RTreeObject for Part {
     }
 }
 
-/// Two parts are the same.
+/// Compares the numbers of two parts.
 impl PartialEq for Part {
     fn eq(&self, other: &Self) -> bool {
         self.number == other.number && self.place == other.place
     }
 }
 
-/// The last elements, found by where they are.
+/// The last elements, indexed by position.
 #[derive(Clone, Debug, Default)]
 struct Parts {
     tree: RTree<Part>,
@@ -79,7 +80,7 @@ impl Parts {
         self.tree.locate_in_envelope_intersecting(around).take(MOST_AROUND)
     }
 
-    /// The first one of those around a part with which it gives something.
+    /// The first nearby part for which the function returns a value.
     fn first<T>(&self, part: &Part, gap: f64, with: impl Fn(&Part) -> Option<T>) -> Option<T> {
         let near = self.around(part, gap);
         let found = near.filter_map(|other| Some((other.number, other.place, with(other)?)));
@@ -92,22 +93,23 @@ impl Parts {
 pub(in crate::exec) struct Watch {
     contour: Parts,
     way: Parts,
-    /// Number of the next element, and of parts so far.
+    /// Number of the next element, and number of parts so far.
     next: u64,
     parts: u64,
 }
 
-/// The tool at one block cuts the contour of another one.
+/// The tool at one block cuts the contour of another block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Cut {
     pub(in crate::exec) tool: SourceRef,
     pub(in crate::exec) contour: SourceRef,
-    /// What is left between the tool's centre and the contour, in mm.
+    /// Remaining distance between the tool centre and the contour, in mm.
     pub(in crate::exec) distance_mm: f64,
 }
 
 impl Watch {
-    /// An element of the contour is complete: the way of the tool along it, with what is inserted after it, is `way`.
+    /// Called when an element of the contour is complete: `way` is the tool path along it, including the elements inserted
+    /// after it.
     pub(in crate::exec) fn element(
         &mut self,
         side: Side,
@@ -157,13 +159,13 @@ impl Part {
         Self { side, low, high, middle, half, source, number, place }
     }
 
-    /// The boxes are further apart than `gap`.
+    /// Whether the boxes are further apart than `gap`.
     fn is_beyond(&self, other: &Self, gap: f64) -> bool {
         (0..2).any(|i| self.low[i] > other.high[i] + gap || other.low[i] > self.high[i] + gap)
     }
 }
 
-/// Where the tool on `way` comes closer to `contour` than its radius. Along its own element it has its distance.
+/// Position where the tool on `way` comes closer to `contour` than its radius. Along its own element the distance is correct.
 fn cut(way: &Part, contour: &Part, radius: f64) -> Option<Cut> {
     let between = norm(sub(way.middle, contour.middle)) - way.half - contour.half;
     if way.number == contour.number || between >= radius || way.is_beyond(contour, radius) {
@@ -174,8 +176,8 @@ fn cut(way: &Part, contour: &Part, radius: f64) -> Option<Cut> {
     (distance_mm < radius - TOLERANCE_MM).then_some(found)
 }
 
-/// The smallest distance between two elements: where they cross, at an end of one of them, or within both where a
-/// line passes an arc or an arc another one.
+/// The smallest distance between two elements: at an intersection, at an end of one of them, or inside both where a line passes
+/// an arc or an arc passes another one.
 fn distance(first: &Part, second: &Part) -> f64 {
     let (a, b) = (&first.side, &second.side);
     let crosses = || {
@@ -206,13 +208,13 @@ fn distance(first: &Part, second: &Part) -> f64 {
     ends.into_iter().fold(passing, f64::min)
 }
 
-/// Distance of a point of the curve of `a` from `b`, if it lies on the element `a`.
+/// Distance of a point of the curve of `a` from `b`, if the point is on the element `a`.
 fn passing(a: &Side, b: &Side, p: Point) -> f64 {
     if a.contains(p) { b.distance(p) } else { f64::INFINITY }
 }
 
 impl Side {
-    /// True if another element lies where this one does.
+    /// Whether another element coincides with this one.
     fn is_at(&self, other: &Self) -> bool {
         let same = |a: f64, b: f64| (a - b).abs() <= SAME_MM;
         let at = |p: Point, q: Point| same(p[0], q[0]) && same(p[1], q[1]);
@@ -233,7 +235,7 @@ impl Side {
         }
     }
 
-    /// True if a point of the element's curve lies between its ends.
+    /// Whether a point of the curve of the element lies between its ends.
     fn contains(&self, p: Point) -> bool {
         (0.0..=1.0).contains(&self.share_of(p))
     }
@@ -257,7 +259,7 @@ impl Side {
         self.middle().1
     }
 
-    /// The middle of the way along the element, and half of its length.
+    /// The midpoint of the element, and half of its length.
     fn middle(&self) -> (Point, f64) {
         match self {
             Self::Line { from, to } => {
@@ -272,7 +274,7 @@ impl Side {
         }
     }
 
-    /// A box around the element; of an arc the one around its circle.
+    /// Bounding box of the element; for an arc that of its circle.
     fn extent(&self) -> (Point, Point) {
         match self {
             Self::Line { from, to } => {

@@ -1,17 +1,16 @@
-//! Tool radius compensation: the path of the tool's centre at the distance of its radius from the contour.
+//! Tool radius compensation: the tool centre path at the distance of the tool radius from the contour.
 //!
-//! Outer corners are rounded by arcs about the corner (G26) or go round by lines (G25), inner corners are the
-//! intersection of the parallels. The first line after G41 or G42 leads to the point perpendicular above the beginning
-//! of the next element, the first line after G40 leads back to the contour. With G237 a line perpendicular to the
-//! contour does both, and the contour may begin and end with arcs. With G05 the lines that lead to the contour and away from it
-//! become arcs that touch the parallel. With G238 the tool enters and leaves a closed contour at
-//! an inside corner; with G239 it stays after G40 where it is.
+//! Outer corners are passed on arcs about the corner (G26) or on lines (G25); at inner corners the parallels intersect. The
+//! first line after G41 or G42 ends perpendicular to the start of the next element, the first line after G40 returns to the
+//! contour. With G237 both are lines perpendicular to the contour, and the contour may start and end with arcs. With G05 the
+//! lines of approach and departure become arcs that touch the parallel. With G238 approach and departure of a closed contour
+//! are at an inside corner; with G239 the tool keeps its position after G40.
 //!
 //! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G138, G139, G237 to G239); generation
-//! of compensation blocks; restrictions of inside corner selection; 90008, 90017, 90031, 90050, 90127, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
-//! lists by angle.
-//! Assumption: the approach for every angle between approach and first element, with G139 as with G138; the figures of the
-//! manual show more lines for G139 at outer corners.
+//! of compensation blocks; restrictions of inside corner selection; 90008, 90017, 90031, 90050, 90127, 20651. Derived: the lines
+//! of G25 from the numbers of inserted blocks that the manual lists by angle.
+//! Assumption: the approach is the same for every angle between approach and first element, with G139 as with G138; the figures
+//! of the manual show more lines for G139 at outer corners.
 
 mod active;
 mod corner;
@@ -46,21 +45,21 @@ pub(in crate::exec) use item::{Item, Rest};
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Compensator {
     active: Option<Box<Active>>,
-    /// A closed contour that waits for its end (G238).
+    /// A closed contour that is still incomplete (G238).
     closed: Option<Box<Closed>>,
     /// The last motion.
     source: SourceRef,
-    /// The first bottleneck, until it has been reported.
+    /// The first bottleneck, until it is reported.
     cut: Option<Cut>,
     told: bool,
-    /// The next motion in the plane begins or ends compensation in an arc (G05).
+    /// Whether the next motion in the plane starts or ends compensation with an arc (G05).
     tangential: bool,
-    /// G40 is programmed; the next motion in the plane leads away from the contour.
+    /// Whether G40 is programmed; the next motion in the plane is the departure.
     pub(in crate::exec) deselected: bool,
 }
 
 impl Compensator {
-    /// A motion with its compensation; what is complete goes to `out`.
+    /// Processes a motion with its compensation; completed items are appended to `out`.
     pub(in crate::exec) fn motion(
         &mut self,
         motion: Box<Motion>,
@@ -70,17 +69,17 @@ impl Compensator {
         self.next(motion, out).map_err(|f| f.in_block(self.source))
     }
 
-    /// True between G41 or G42 and the motion after G40.
+    /// Whether compensation is active: from G41 or G42 until the motion after G40.
     pub(in crate::exec) fn is_active(&self) -> bool {
         self.active.is_some() || self.closed.is_some()
     }
 
-    /// What is not compensated goes through as it is.
+    /// Motions without compensation pass unchanged.
     pub(in crate::exec) fn is_idle(&self) -> bool {
         !self.is_active() && !self.tangential && self.cut.is_none()
     }
 
-    /// G40 with G239: axes of the plane, and where the centre of the tool is then.
+    /// G40 with G239: axes of the plane, and the current position of the tool centre.
     pub(in crate::exec) fn leave(
         &mut self,
         out: &mut Vec<Item>,
@@ -97,7 +96,7 @@ impl Compensator {
         Ok(Some((plane, at)))
     }
 
-    /// The first bottleneck of the program, once.
+    /// The first bottleneck of the program, returned once.
     pub(in crate::exec) fn take_cut(&mut self) -> Option<Cut> {
         let cut = self.cut.take();
         self.told |= cut.is_some();
@@ -171,7 +170,7 @@ impl Compensator {
             self.found(found);
             return Ok(());
         }
-        // another side or radius, or none: a line leads there
+        // a different side or radius, or none: connected by a line
         if active.perpendicular
             || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
         {
@@ -198,7 +197,7 @@ impl Compensator {
         self.select(motion, Some((at, away)), out)
     }
 
-    /// A step at rest between motions.
+    /// A step at standstill between motions.
     pub(in crate::exec) fn sync(&mut self, rest: Rest, out: &mut Vec<Item>) -> Fallible<()> {
         if self.active.is_none() && self.closed.is_none() {
             out.push(Item::Rest(Box::new(rest)));
@@ -230,12 +229,12 @@ impl Compensator {
         }
     }
 
-    /// An error ends the program: what waits for the end of its contour is not driven.
+    /// An error ends the program: items that need the end of their contour are not executed.
     pub(in crate::exec) fn abandon(&mut self) {
         self.closed = None;
     }
 
-    /// The program ends: the last element ends perpendicular above its end.
+    /// End of the program: the last element ends perpendicular to its end.
     pub(in crate::exec) fn end(&mut self, out: &mut Vec<Item>) -> Fallible<()> {
         let mut found = None;
         let ended = match (self.closed.take(), self.active.take()) {
@@ -247,8 +246,8 @@ impl Compensator {
         ended.map_err(|f| f.in_block(self.source))
     }
 
-    /// A motion without active compensation; `at` is the place that an earlier one has left, with its direction there if
-    /// an arc leads away (G05).
+    /// A motion without active compensation; `at` is the position left by an earlier one, with its direction there if the
+    /// departure is an arc (G05).
     fn select(
         &mut self,
         mut motion: Box<Motion>,
@@ -256,7 +255,7 @@ impl Compensator {
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
         let plane = motion.plane;
-        // the element as it is programmed: its direction counts, not that of the tool on its way from where it is
+        // the element as programmed: its direction applies, not that of the tool from its current position
         let programmed = match motion.compensation {
             Some(_) => moving_side(&motion, plane)?,
             None => None,
@@ -280,7 +279,7 @@ impl Compensator {
             return Ok(());
         };
         let Some(side) = programmed else {
-            // the approach is still to come
+            // the approach is still incomplete
             out.push(Item::Motion(motion));
             return Ok(());
         };
@@ -320,10 +319,10 @@ impl Compensator {
         Ok(())
     }
 
-    /// A motion of other axes only: it happens at the corner.
+    /// A motion of other axes only, executed at the corner.
     fn outside_plane(&mut self, mut active: Box<Active>, motion: Box<Motion>) -> Fallible<()> {
         let span = motion.span;
-        // G40 acts with the next motion in the plane
+        // G40 takes effect with the next motion in the plane
         let held = active.hold(Item::Motion(motion), span);
         self.active = Some(active);
         held

@@ -1,4 +1,4 @@
-//! Rounding of corners and smoothing of short blocks: what the program has set for the stages before the planner.
+//! Rounding of corners and smoothing of short blocks: the programmed settings of the stages before the planner.
 //!
 //! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
 //! the spline.
@@ -17,7 +17,7 @@ pub(in crate::exec) enum Mode {
     DistMaster,
 }
 
-/// Parameters of `#CONTOUR MODE`; each keeps its value until it is written again.
+/// Parameters of `#CONTOUR MODE`; each keeps its value until it is programmed again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Contouring {
     pub(in crate::exec) mode: Mode,
@@ -26,7 +26,7 @@ pub(in crate::exec) struct Contouring {
     pub(in crate::exec) post_mm: f64,
     pub(in crate::exec) path_dist_mm: f64,
     pub(in crate::exec) point_mm: [Option<f64>; 3],
-    /// What all modes share.
+    /// Common to all modes.
     pub(in crate::exec) common: ContourSettings,
 }
 

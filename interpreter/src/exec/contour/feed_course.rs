@@ -1,28 +1,29 @@
-//! Feeds that change along a motion: corner deceleration (G13) and the interpolation of the feed (G193, G293).
+//! Feed rates that change along a motion: corner deceleration (G13) and interpolation of the feed rate (G193, G293).
 //!
-//! A motion is divided where its feed has changed by a hundredth; each piece has the lower one of the feeds due at its ends,
-//! so that the path is never faster than the printed line. What is divided is the path that is driven, with the tool radius.
+//! A motion is divided where its feed rate has changed by one percent. Each piece has the lower of the feed rates at its ends,
+//! so that the path is never faster than the printed line. The path with tool radius compensation is divided.
 //!
 //! Source: TF5200 programming manual 206444555, 206449675 (G13: linear along the corrected path, slope STEP only, from the
 //! first motion after G13 on), 15556679307 (G193: linear along the path; G293: linear over the time, slope STEP).
-//! Assumptions on G13, since the pages say nothing of it: every end of a motion in feed is a corner, whatever its angle;
-//! after it the path is as fast as it may be; elements that the compensation inserts end as the motion before them.
+//! Assumptions on G13, where the pages are silent: every end of a motion at feed rate is a corner, whatever its angle; after it
+//! the path is as fast as its limits allow; elements inserted by the compensation end in the same way as the motion before
+//! them.
 
 use super::compensation::Item;
 use super::motion::{Corner, CornerFeed, FeedCourse, Motion};
 use kontur_motion::block::{Block, Feed};
 
-/// Ratio of the feeds of two pieces.
+/// Ratio of the feed rates of two consecutive pieces.
 const STEP: f64 = 1.01;
 
-/// Most pieces of one motion: a range of feeds of 1 to 20,000; beyond it they are coarser.
+/// Maximum number of pieces of one motion: a range of feed rates of 1 to 20,000; for a larger range the pieces are coarser.
 const PIECES_MAX: f64 = 1000.0;
 
-/// The part of a motion on which the feed changes.
+/// The part of a motion with a changing feed rate.
 struct Change {
     /// Path lengths in mm.
     at: [f64; 2],
-    /// Feeds there in mm/s.
+    /// Feed rates at these lengths in mm/s.
     feed: [f64; 2],
     over_time: bool,
 }
@@ -46,14 +47,14 @@ impl Change {
         Some(Self { at: [0.0, length], feed: [from, feed], over_time })
     }
 
-    /// Where the feed is `v`. At a constant acceleration its square grows with the way.
+    /// Path length at which the feed rate is `v`. At constant acceleration its square is linear in the distance.
     fn place(&self, v: f64) -> f64 {
         let power = |v: f64| if self.over_time { v * v } else { v };
         let [a, b] = self.feed.map(power);
         self.at[0] + (power(v) - a) / (b - a) * (self.at[1] - self.at[0])
     }
 
-    /// Ends and feeds of the pieces.
+    /// Ends and feed rates of the pieces.
     fn pieces(&self) -> Vec<(f64, f64)> {
         let ratio = self.feed[1] / self.feed[0];
         let count = (libm::log(ratio).abs() / libm::log(STEP)).ceil().min(PIECES_MAX) as u32;
@@ -63,7 +64,7 @@ impl Change {
     }
 }
 
-/// The pieces of a motion; it stays whole if its feed does not change.
+/// The pieces of a motion; it is not divided if its feed rate is constant.
 pub(super) fn pieces(motion: Box<Motion>) -> Vec<Item> {
     let (Some(course), Feed::PathVelocity(feed)) = (motion.course, motion.block.feed) else {
         return vec![Item::Motion(motion)];

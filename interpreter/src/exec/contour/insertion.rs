@@ -19,45 +19,45 @@ use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use std::f64::consts::PI;
 
-/// Part of an element that is nothing but rounding.
+/// Fraction of an element that counts as rounding.
 const NEAR: f64 = 1e-9;
-/// Factor between the distances that are looked at in the search for the ends of a chamfer.
+/// Factor between the distances tested in the search for the ends of a chamfer.
 const GROWTH: f64 = 1.02;
-/// Halvings of such a distance: down to rounding.
+/// Bisections of such a distance: down to rounding.
 const HALVINGS: u32 = 48;
 
-/// Which element is inserted.
+/// Kind of the inserted element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Kind {
     /// By the distance of its ends from the corner.
     Chamfer,
-    /// By its own length (`#CHF`).
+    /// By its length (`#CHF`).
     ChamferLength,
     Rounding,
 }
 
-/// What is to be inserted.
+/// Parameters of the insertion.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct Insertion {
     pub(in crate::exec) kind: Kind,
     pub(in crate::exec) size_mm: f64,
-    /// `#FRC`: the feed within it.
+    /// `#FRC`: its feed rate.
     pub(in crate::exec) feed: Option<Feed>,
     pub(in crate::exec) span: Span,
     pub(in crate::exec) source: SourceRef,
 }
 
-/// An element that is inserted.
+/// An inserted element.
 pub(in crate::exec) struct Inserted {
     pub(in crate::exec) motion: Box<Motion>,
-    /// Something is left of the motion before it, and of the one after it.
+    /// Whether a part remains of the motion before it, and of the one after it.
     pub(in crate::exec) leaves: [bool; 2],
 }
 
-/// The element between two motions, which are cut; `None` at a tangential transition.
+/// The element between two motions, which are trimmed; `None` at a tangential transition.
 ///
-/// It belongs to the contour of the motion before it: tool radius compensation that ends, begins or changes with the motion after it
-/// does so there.
+/// It belongs to the contour of the motion before it: tool radius compensation that ends, begins or changes with the motion
+/// after it does so after the element.
 pub(in crate::exec) fn between(
     before: &mut Motion,
     after: &mut Motion,
@@ -149,7 +149,7 @@ fn ends_at(a: &Side, b: &Side, distance: f64) -> Option<(Point, Point)> {
     Some((end_at(a, distance, true)?, end_at(b, distance, false)?))
 }
 
-/// The point at a distance (chord) from the end or beginning of an element; its other end where nothing is left of it.
+/// The point at a distance (chord) from the end or start of an element; its other end if nothing of it would remain.
 fn end_at(side: &Side, distance: f64, from_end: bool) -> Option<Point> {
     let (start, end) = (side.start_point(), side.end_point());
     let whole = norm(sub(end, start));
@@ -163,10 +163,10 @@ fn end_at(side: &Side, distance: f64, from_end: bool) -> Option<Point> {
     side.at_distance(distance, from_end)
 }
 
-/// Ends of a chamfer of a length, equally far from the corner: the nearest ones.
+/// Ends of a chamfer of a given length, equally far from the corner: the nearest ones.
 fn ends_apart(a: &Side, b: &Side, length: f64) -> Option<(Point, Point)> {
     let apart = |(p, q): (Point, Point)| norm(sub(p, q));
-    // the two distances and the chamfer are a triangle
+    // the two distances and the chamfer form a triangle
     let mut low = 0.5 * length;
     if apart(ends_at(a, b, low)?) >= length {
         return ends_at(a, b, low);
@@ -203,7 +203,7 @@ fn tangent_arc(a: &Side, b: &Side, turn: f64, r: f64) -> Option<([f64; 2], [f64;
         .min_by(|x, y| norm(sub(x.2, corner)).total_cmp(&norm(sub(y.2, corner))))
 }
 
-/// True if no axis outside the plane moves, but for rounding in a coordinate system that is turned in space.
+/// Whether no axis outside the plane moves, except for rounding in a coordinate system rotated in space.
 fn stays_in(path: &Path, plane: [usize; 2]) -> bool {
     const ROUNDING_MM: f64 = 1e-9;
     let (start, end) = (path.start(), path.end());

@@ -1,7 +1,7 @@
-//! Corners of `#CONTOUR MODE [POS ..]`: their curves lead through an interim point, and so leave the range between the ends
-//! of the motions. The curves of the other modes lie between the corner and its sides.
+//! Corners of `#CONTOUR MODE [POS ..]`: their curves pass through an interim point, and so leave the range between the ends of
+//! the motions. The curves of the other modes lie between the corner and its sides.
 //!
-//! A copy of what goes out goes through the stage that makes the curves, as it does again before the planner.
+//! A copy of the output passes through the stage that generates the curves; the output itself does so again before the planner.
 
 use super::motion::{Driven, Motion};
 use crate::exec::step::SourceRef;
@@ -12,17 +12,17 @@ use kontur_motion::contouring::Contouring;
 use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
-/// The curves that have been made.
+/// The generated curves.
 #[derive(Debug)]
 pub(super) struct Interim {
     stage: Contouring,
     /// Number of the next motion.
     next: u64,
-    /// Motions at whose end a curve may come, with their numbers.
+    /// Motions that may have a curve at their end, with their numbers.
     before: VecDeque<(u64, SourceRef, Span)>,
 }
 
-/// A curve through an interim point is made whatever it costs: neither cycle nor filters matter.
+/// A curve through an interim point is always generated: neither cycle nor filters matter.
 fn stage() -> Contouring {
     Contouring::new(CycleTime::DEFAULT)
 }
@@ -33,18 +33,18 @@ impl Default for Interim {
     }
 }
 
-/// At its end a curve may lead through a point.
+/// Whether a curve at its end may pass through a point.
 fn leads_on(block: &Block) -> bool {
     block.contour.is_some_and(|settings| matches!(settings.mode, ContourMode::Pos { .. }))
 }
 
 impl Interim {
-    /// Neither this motion nor one before it has a curve.
+    /// Whether neither this motion nor one before it has a curve.
     pub(super) fn lets_by(&self, motion: &Motion) -> bool {
         self.before.is_empty() && !leads_on(&motion.block)
     }
 
-    /// A motion goes out: what its curve with the one before reaches.
+    /// Called for each motion that is output: the range that its curve with the previous motion covers.
     pub(super) fn motion(&mut self, motion: &Motion) -> Option<Driven> {
         if self.lets_by(motion) {
             return None;
@@ -65,7 +65,7 @@ impl Interim {
             else {
                 continue;
             };
-            // the rest of a motion that is a curve itself has been looked at
+            // the remainder of a motion that is itself a curve was checked before
             if made.seq != *seq || made.seq + 1 == self.next {
                 continue;
             }
@@ -87,7 +87,7 @@ impl Interim {
         driven
     }
 
-    /// The path rests: no curve.
+    /// The path stops: no curve.
     pub(super) fn rest(&mut self) {
         self.stage = stage();
         self.before.clear();

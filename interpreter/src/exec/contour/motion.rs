@@ -1,4 +1,4 @@
-//! A programmed motion on its way through the stages of the contour.
+//! A programmed motion as it passes through the stages of the contour.
 
 use crate::exec::block::modal::Selection;
 use crate::exec::motion::state::areas::Watch;
@@ -17,18 +17,18 @@ pub(in crate::exec) struct Motion {
     pub(in crate::exec) events: Vec<Event>,
     /// Axes of the plane that was active; with a tilt, axes of its coordinates.
     pub(in crate::exec) plane: [usize; 2],
-    /// Coordinate system, if the plane lies askew to the axes.
+    /// Coordinate system, if the plane is oblique to the axes.
     pub(in crate::exec) tilt: Option<Box<Tilt>>,
-    /// The path is in the coordinates of the tilt.
+    /// Whether the path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
-    /// The tool is at the contour of G41 or G42, to its left if true; not on its way there or back.
+    /// The tool is at the contour of G41 or G42, on its left if true; not during approach and departure.
     pub(in crate::exec) engaged: Option<bool>,
-    /// G05: it begins or ends the compensation in an arc.
+    /// G05: it starts or ends the compensation with an arc.
     pub(in crate::exec) tangential: bool,
-    /// How its feed changes along it.
+    /// Change of its feed rate along the path.
     pub(in crate::exec) course: Option<FeedCourse>,
-    /// It leads to a point of an Akima spline.
+    /// Whether it leads to a point of an Akima spline.
     pub(in crate::exec) akima: bool,
     /// The control areas that it must not violate.
     pub(in crate::exec) watch: Option<Arc<Watch>>,
@@ -41,20 +41,19 @@ pub(in crate::exec) struct Motion {
 pub(in crate::exec) struct Compensated {
     /// Distance of the tool's centre to the left of the contour.
     pub(in crate::exec) distance_mm: f64,
-    /// Outer corners by lines (G25) that reach this number of tool radii beyond the parallels at most, instead of arcs
-    /// (G26).
+    /// Outer corners by lines (G25) that extend at most this number of tool radii beyond the parallels, instead of arcs (G26).
     pub(in crate::exec) straight_corners: Option<f64>,
-    /// The tool turns round where a contour that runs back changes its side.
+    /// Whether the tool reverses where a contour that runs back changes its side.
     pub(in crate::exec) reverse: bool,
-    /// Another radius is taken up by a line perpendicular to the contour.
+    /// Whether a different radius is applied by a line perpendicular to the contour.
     pub(in crate::exec) perpendicular_change: bool,
-    /// How it begins and ends.
+    /// Selection and deselection.
     pub(in crate::exec) selection: Selection,
-    /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.
+    /// G11: smallest radius in mm of the arcs whose feed rate applies at the point of engagement of the tool.
     pub(in crate::exec) engagement_radius_mm: Option<f64>,
 }
 
-/// How the feed of a motion changes.
+/// Change of the feed rate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) enum FeedCourse {
     /// G13.
@@ -73,17 +72,17 @@ pub(in crate::exec) struct Corner {
     pub(in crate::exec) feed: CornerFeed,
 }
 
-/// Feed at a corner.
+/// Feed rate at a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) enum CornerFeed {
-    /// Of the programmed feed, above 0.
+    /// Relative to the programmed feed rate, above 0.
     Ratio(f64),
     /// In mm/s, above 0.
     MmS(f64),
 }
 
 impl Motion {
-    /// Feed of an element that is inserted after the motion: the E word of its block, if it has one.
+    /// Feed rate of an element inserted after the motion: the E word of its block, if it has one.
     ///
     /// Source: TF5200 programming manual 206811147. Assumption: E0 ends the block at rest and is no feed.
     pub(in crate::exec) fn feed_behind(&self) -> Feed {
@@ -93,7 +92,7 @@ impl Motion {
         }
     }
 
-    /// It is a step without further work.
+    /// Whether it becomes a step without further processing.
     pub(super) fn is_complete(&self) -> bool {
         self.compensation.is_none()
             && self.tilt.is_none()
@@ -101,10 +100,10 @@ impl Motion {
             && !self.tangential
     }
 
-    /// Feed of an element that is inserted beside the motion.
+    /// Feed rate of an element inserted next to the motion.
     ///
-    /// Assumption: under G93, where F is the time of the programmed motion, its speed on the programmed way; an element with a time
-    /// assigned to it would almost stop the path at every corner.
+    /// Assumption: under G93, where F is the time of the programmed motion, its velocity on the programmed path; an element
+    /// with an assigned time would almost stop the path at every corner.
     pub(super) fn feed_beside(&self) -> Feed {
         match self.block.feed {
             Feed::Duration(time_s) => Feed::PathVelocity(self.block.path.length() / time_s),
@@ -112,7 +111,7 @@ impl Motion {
         }
     }
 
-    /// Takes the path over into the coordinates of the tilt.
+    /// Transforms the path to the coordinates of the tilt.
     pub(super) fn enter_tilt(&mut self) {
         let Some(tilt) = &self.tilt else { return };
         if std::mem::replace(&mut self.local, true) {
@@ -132,7 +131,7 @@ impl Motion {
         }
     }
 
-    /// Takes the path back into the coordinates of the machine.
+    /// Transforms the path back to machine coordinates.
     pub(super) fn leave_tilt(&mut self) {
         let Some(tilt) = self.tilt.as_deref() else { return };
         if !std::mem::take(&mut self.local) {
@@ -154,8 +153,8 @@ impl Motion {
     }
 }
 
-/// Ends of a path in the coordinates of a tilt. What differs by rounding alone is made equal, so that an axis of the
-/// system that is at rest is so exactly.
+/// Ends of a path in the coordinates of a tilt. Values that differ only by rounding are made equal, so that an axis of the
+/// system at standstill is exactly at standstill.
 pub(in crate::exec) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (AxisVec, AxisVec) {
     const ROUNDING_MM: f64 = 1e-9;
     let (start, mut end) = (tilt.local(start), tilt.local(end));
@@ -167,7 +166,7 @@ pub(in crate::exec) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (A
     (start, end)
 }
 
-/// Time in s that a motion takes at its programmed speed, without ramps.
+/// Time in s of a motion at its programmed velocity, without ramps.
 pub(in crate::exec) fn programmed_time_s(block: &Block) -> f64 {
     let path = &block.path;
     let of_axes = path.start().iter().zip(path.end().iter()).zip(&block.dynamics.axes);
@@ -181,7 +180,7 @@ pub(in crate::exec) fn programmed_time_s(block: &Block) -> f64 {
     }
 }
 
-/// A path whose ends the program does not know.
+/// A path with ends that are not programmed.
 #[derive(Debug)]
 pub(in crate::exec) struct Driven {
     /// Lowest and highest position of every axis.

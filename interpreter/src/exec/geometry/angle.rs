@@ -1,10 +1,10 @@
 //! Trigonometry in degrees with exact values where they are rational.
 //!
-//! The argument is reduced modulo 360 degrees exactly, so `COS[90]` is 0 and a division by it is found (20396).
+//! The argument is reduced modulo 360 degrees exactly, so `COS[90]` is 0 and a division by it is detected (20396).
 
 use std::f64::consts::PI;
 
-/// `x` modulo 360 in the sense of `x - 360 * floor(x / 360)`; exact for every finite `x`.
+/// `x` modulo 360, defined as `x - 360 * floor(x / 360)`; exact for every finite `x`.
 fn reduced(deg: f64) -> f64 {
     let r = deg % 360.0;
     if r < 0.0 { r + 360.0 } else { r }
@@ -16,7 +16,7 @@ pub(in crate::exec) fn sin_deg(deg: f64) -> f64 {
         x if x >= 180.0 => (-1.0, x - 180.0),
         x => (1.0, x),
     };
-    // first quadrant, so that symmetric angles give the same bits
+    // reduced to the first quadrant, so that symmetric angles give the same bits
     let x = if x > 90.0 { 180.0 - x } else { x };
     sign * first_quadrant(x)
 }
@@ -46,11 +46,11 @@ fn first_quadrant(x: f64) -> f64 {
     if let Some((_, value)) = EXACT.iter().find(|(deg, _)| deg.to_bits() == x.abs().to_bits()) {
         return *value;
     }
-    // beyond 45 degrees the cosine of the complement: sin and cos of complementary angles agree in all bits
+    // above 45 degrees the cosine of the complement: sin and cos of complementary angles agree in all bits
     if x > 45.0 { libm::cos((90.0 - x) * (PI / 180.0)) } else { libm::sin(x * (PI / 180.0)) }
 }
 
-/// Angle in degrees of a value in radian; exact at 45, 90 and 180 degrees, where the product rounds to them.
+/// Angle in degrees of a value in radians; exact at 45, 90 and 180 degrees, where the product rounds to them.
 pub(in crate::exec) fn to_deg(rad: f64) -> f64 {
     rad * (180.0 / PI)
 }

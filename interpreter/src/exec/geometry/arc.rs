@@ -1,14 +1,14 @@
-//! Arithmetic of arcs in a plane: from what is programmed to centre and swept angle.
+//! Arithmetic of arcs in a plane: from programmed values to centre and swept angle.
 //!
 //! Source: TF5200 programming manual, circular interpolation, G161 to G165; P-CHAN-00059, 00060, 00171, 00172.
 
 use crate::machine::ArcCentre;
 use std::f64::consts::TAU;
 
-/// Two points closer than this are one: half the smallest increment of the language, 0.0001 mm.
+/// Points closer than this count as equal: half the smallest increment of the language, 0.0001 mm.
 const SAME_MM: f64 = 5e-5;
 
-/// By how much half a chord may exceed a radius that was rounded to the smallest increment.
+/// Distance by which half a chord may exceed a radius that was rounded to the smallest increment.
 const RADIUS_ROUNDING_MM: f64 = 1e-4;
 
 /// A point in the plane, first and second axis in mm.
@@ -18,13 +18,13 @@ pub(in crate::exec) type Point = [f64; 2];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Arc {
     pub(in crate::exec) centre: Point,
-    /// Positive counter-clockwise, in rad; a whole turn for a full circle.
+    /// Positive counter-clockwise, in rad; a full turn for a full circle.
     pub(in crate::exec) sweep_rad: f64,
-    /// By how much G165 shifted the centre, in mm.
+    /// Distance by which G165 shifted the centre, in mm.
     pub(in crate::exec) shift: Point,
 }
 
-/// Why there is no arc.
+/// Reason why the arc does not exist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) enum ArcError {
     /// 20036.
@@ -47,7 +47,7 @@ fn norm(a: Point) -> f64 {
     libm::hypot(a[0], a[1])
 }
 
-/// Angle from `from` to `to` in the sense of rotation, in (0, 2 pi], with its sign.
+/// Angle from `from` to `to` in the sense of rotation, magnitude in (0, 2 pi], signed.
 fn sweep(from: Point, to: Point, counter_clockwise: bool) -> f64 {
     let cross = from[0] * to[1] - from[1] * to[0];
     let dot = from[0] * to[0] + from[1] * to[1];
@@ -61,7 +61,7 @@ fn sweep(from: Point, to: Point, counter_clockwise: bool) -> f64 {
     }
 }
 
-/// An arc by its radius: positive the shorter one, negative the longer one.
+/// An arc by its radius: the shorter arc for a positive radius, the longer one for a negative radius.
 pub(in crate::exec) fn by_radius(
     start: Point,
     end: Point,
@@ -80,7 +80,7 @@ pub(in crate::exec) fn by_radius(
     if half_chord - radius.abs() > RADIUS_ROUNDING_MM {
         return Err(ArcError::RadiusTooSmall { radius, half_chord });
     }
-    // rounding of a half circle, for instance of a turned one, would move its centre by the root of it
+    // rounding errors of a half circle, for instance a rotated one, would shift its centre by their square root
     let above = (radius.abs() - half_chord).max(0.0);
     let above = if above < 1e-14 * radius.abs() { 0.0 } else { above };
     // (R - d/2) (R + d/2) instead of R^2 - d^2/4: no cancellation near the half circle
@@ -93,7 +93,7 @@ pub(in crate::exec) fn by_radius(
     Ok(Arc { centre, sweep_rad, shift: [0.0; 2] })
 }
 
-/// An arc by its centre. With `correct` (G165) the centre moves to the perpendicular bisector of the chord.
+/// An arc by its centre. With `correct` (G165) the centre is shifted to the perpendicular bisector of the chord.
 pub(in crate::exec) fn by_centre(
     start: Point,
     end: Point,
@@ -136,7 +136,7 @@ fn corrected(
     let shift = [-distance * along[0], -distance * along[1]];
     let centre = [centre[0] + shift[0], centre[1] + shift[1]];
     let radius = norm(sub(start, centre));
-    // both limits must be exceeded: the larger one rules
+    // both limits must be exceeded: the larger one is decisive
     let limit = limits.shift_mm.max(limits.shift_ratio * radius);
     if distance.abs() > limit {
         return Err(ArcError::CentreTooFar { shift: distance.abs(), limit });
@@ -162,7 +162,7 @@ fn uncorrected(
     Ok(())
 }
 
-/// Swept angle of a helix with a pitch: whole turns are added so that the pitch fits best.
+/// Swept angle of a helix with a pitch: full turns are added for the best match of the pitch.
 pub(in crate::exec) fn with_turns(sweep_rad: f64, height: f64, pitch: f64) -> f64 {
     let turns = (height / pitch).abs() - sweep_rad.abs() / TAU;
     sweep_rad + TAU.copysign(sweep_rad) * turns.round().max(0.0)
@@ -197,7 +197,7 @@ mod tests {
         assert_arc(arc(-10.0, false), [5.0, h], -5.0 * FRAC_PI_3);
         assert_arc(arc(10.0, true), [5.0, h], FRAC_PI_3);
         assert_arc(arc(-10.0, true), [5.0, -h], 5.0 * FRAC_PI_3);
-        // a radius rounded down to the increment is a half circle
+        // a radius rounded down to the increment gives a half circle
         assert_arc(arc(4.99995, true), [5.0, 0.0], PI);
         assert_eq!(arc(4.0, true), Err(ArcError::RadiusTooSmall { radius: 4.0, half_chord: 5.0 }));
         let full = by_radius([1.0, 1.0], [1.0, 1.0], 10.0, true);

@@ -1,29 +1,29 @@
-//! Control areas: bodies over a polygon or a circle that the tool must not leave, or not touch.
+//! Control areas: volumes over a polygon or a circle that the tool must not leave, or must not touch.
 //!
 //! Source: TF5200 programming manual, 207565195; workspace monitoring, 291148299, 291161867.
 
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::Path;
 
-/// Least distance that counts, in mm.
+/// Smallest distance that counts, in mm.
 ///
-/// Assumption: a path along the wall of a workspace stays in it, and one within a micrometre of a protection area touches
-/// it; the documents give no resolution.
+/// Assumption: a path along the wall of a workspace is inside, and a path within a micrometre of a protection area touches it;
+/// the documents state no resolution.
 const RESOLUTION_MM: f64 = 1e-3;
 
-/// What an area is for.
+/// Purpose of an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Purpose {
-    /// The tool stays in it.
+    /// The tool must stay inside.
     Workspace,
-    /// The tool does not touch it.
+    /// The tool must not touch it.
     Protection,
 }
 
 /// The base of an area.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::exec) enum Base {
-    /// Corners in their order, without the first one at the end.
+    /// Corners in order; the first one is not repeated at the end.
     Polygon(Vec<[f64; 2]>),
     Circle {
         centre_mm: [f64; 2],
@@ -31,25 +31,25 @@ pub(in crate::exec) enum Base {
     },
 }
 
-/// A body.
+/// A volume.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::exec) struct Area {
     /// Its ID.
     pub(in crate::exec) number: u32,
     pub(in crate::exec) purpose: Purpose,
     pub(in crate::exec) base: Base,
-    /// Axes of the base, and the one along which it reaches from `low_mm` to `high_mm`.
+    /// Axes of the base, and the axis of its extent from `low_mm` to `high_mm`.
     pub(in crate::exec) axes: [usize; 3],
     pub(in crate::exec) low_mm: f64,
     pub(in crate::exec) high_mm: f64,
 }
 
-/// Where a path violates an area.
+/// Position where a path violates an area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Violation {
-    /// Coordinates in the axes of the area.
+    /// Coordinates along the axes of the area.
     pub(in crate::exec) point_mm: [f64; 3],
-    /// It is the start or the end of the path.
+    /// Whether it is the start or the end of the path.
     pub(in crate::exec) at_end: bool,
 }
 
@@ -72,13 +72,13 @@ fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
 }
 
-/// Whether the sides of a polygon cross or touch each other outside of their common corners.
+/// Whether the sides of a polygon cross or touch each other other than at their common corners.
 pub(in crate::exec) fn overlaps(corners: &[[f64; 2]]) -> bool {
     let sides: Vec<_> = sides(corners).collect();
     let count = sides.len();
     (0..count).any(|i| {
         let [a, b] = sides[i];
-        // the next side may only begin where this one ends
+        // the next side may only start at the end of this one
         let next = sides[(i + 1) % count];
         from_segment(next[1], [a, b]) == 0.0
             || from_segment(a, next) == 0.0
@@ -99,7 +99,7 @@ fn cross([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
 }
 
 impl Base {
-    /// Distance of a point from the edge, below 0 inside.
+    /// Distance of a point from the edge, negative inside.
     fn distance(&self, p: [f64; 2]) -> f64 {
         match self {
             Self::Circle { centre_mm, radius_mm } => apart(p, *centre_mm) - radius_mm,
@@ -117,14 +117,14 @@ impl Base {
 }
 
 impl Area {
-    /// Distance of a point from the surface, below 0 inside.
+    /// Distance of a point from the surface, negative inside.
     fn distance(&self, [x, y, z]: [f64; 3]) -> f64 {
         let base = self.base.distance([x, y]);
         let height = (self.low_mm - z).max(z - self.high_mm);
         if base > 0.0 && height > 0.0 { libm::hypot(base, height) } else { base.max(height) }
     }
 
-    /// By how much a point is where it must not be; at most 0 where it may be.
+    /// Distance by which a point violates the area; not above 0 for an admissible point.
     fn excess(&self, point: [f64; 3]) -> f64 {
         let distance = self.distance(point);
         match self.purpose {
@@ -133,12 +133,12 @@ impl Area {
         }
     }
 
-    /// Whether the tool may be at these positions of the axes.
+    /// Whether these axis positions are admissible for the tool.
     pub(in crate::exec) fn admits(&self, positions_mm: &[f64]) -> bool {
         self.excess(self.axes.map(|axis| positions_mm[axis])) <= 0.0
     }
 
-    /// The first place at which a path, moved by `offsets_mm`, violates the area.
+    /// The first position where a path, shifted by `offsets_mm`, violates the area.
     pub(in crate::exec) fn violation(
         &self,
         path: &Path,
@@ -154,7 +154,7 @@ impl Area {
         if self.excess(start) > 0.0 {
             return Some(Violation { point_mm: start, at_end: true });
         }
-        // along a wall of a workspace the search below would be endless steps of a micrometre
+        // along a wall of a workspace the search below would advance in steps of a micrometre
         let in_height = self.purpose == Purpose::Workspace && self.keeps_height(path, offsets_mm);
         if in_height && self.keeps_base(path, offsets_mm, [start, end]) {
             return None;
@@ -166,7 +166,7 @@ impl Area {
                 self.excess(point)
             }
         };
-        // the point moves no faster along the path than this, so that its distance changes no faster
+        // upper bound for the speed of the point along the path, hence for the change of its distance
         let mut tangent = path.start().clone();
         path.tangent(0.0, &mut tangent);
         let speed = self
@@ -194,14 +194,14 @@ impl Area {
                 open.push((from, middle));
             }
         }
-        // an end that is wrong, too, is what the program says
+        // if the end violates the area as well, the programmed position is reported
         if self.excess(end) > 0.0 {
             return Some(Violation { point_mm: end, at_end: true });
         }
         found
     }
 
-    /// Whether a path stays between the ends of a workspace.
+    /// Whether a path stays between the limits of a workspace along its extent.
     fn keeps_height(&self, path: &Path, offsets_mm: &AxisVec) -> bool {
         let axis = self.axes[2];
         path.extent(axis).is_some_and(|(low, high)| {
@@ -210,14 +210,14 @@ impl Area {
         })
     }
 
-    /// Whether the base of a workspace holds a path for certain: a line, or an arc in a circle.
+    /// Whether the base of a workspace certainly contains a path: a line, or an arc in a circle.
     fn keeps_base(&self, path: &Path, offsets_mm: &AxisVec, ends: [[f64; 3]; 2]) -> bool {
         let [from, to] = ends.map(|[x, y, _]| [x, y]);
         let is_in = |p: [f64; 2]| self.base.distance(p) <= RESOLUTION_MM;
         match (path, &self.base) {
             (Path::Line(_), Base::Circle { .. }) => is_in(from) && is_in(to),
             (Path::Line(_), Base::Polygon(corners)) => {
-                // between two sides that it meets, a line is either in or out
+                // between two intersections with the sides a line is either inside or outside
                 let mut places: Vec<f64> =
                     sides(corners).filter_map(|side| meeting([from, to], side)).collect();
                 places.extend([0.0, 1.0]);
@@ -236,7 +236,7 @@ impl Area {
                 };
                 let shifted = [0, 1].map(|i| arc.shape().centre_mm[i] + offsets_mm[plane[i]]);
                 let centre = [shifted[first], shifted[second]];
-                // the farthest point of the whole circle of the arc
+                // the farthest point of the full circle of the arc
                 apart(centre, *centre_mm) + arc.radius() <= radius_mm + RESOLUTION_MM
             }
             _ => false,
@@ -244,7 +244,7 @@ impl Area {
     }
 }
 
-/// Where a segment meets the line of a side within its ends, as a part of its length.
+/// Intersection of a segment with a side, as a share of the length of the segment.
 fn meeting([from, to]: [[f64; 2]; 2], [a, b]: [[f64; 2]; 2]) -> Option<f64> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let side = [b[0] - a[0], b[1] - a[1]];

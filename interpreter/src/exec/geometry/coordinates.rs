@@ -1,8 +1,8 @@
-//! Positions of the axes, offsets and frames: from programmed values to targets of the axes.
+//! Axis positions, offsets and frames: from programmed values to targets of the axes.
 //!
-//! `target = offsets + frame(programmed)`. The frame is made of contour rotation (first), mirroring and coordinate
-//! systems with the offsets that were programmed in them; offsets are zero offset and G92 below all systems, tool and measuring
-//! offset. A change of offsets or frames moves nothing: an axis takes the active offset over when it is next programmed absolutely.
+//! `target = offsets + frame(programmed)`. The frame consists of contour rotation (first), mirroring and coordinate systems
+//! with the offsets that were programmed in them. The offsets are zero offset and G92 below all systems, tool and measuring
+//! offset. A change of offsets or frames does not move an axis: it takes effect when the axis is next programmed absolutely.
 //!
 //! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS, offsets in the coordinate system. Assumption: axes
 //! that a rotation couples take their offsets over together.
@@ -39,11 +39,11 @@ pub(in crate::exec) struct Rotation {
 pub(in crate::exec) struct Target {
     pub(in crate::exec) axis: usize,
     pub(in crate::exec) value: f64,
-    /// G90; otherwise an increment (G91).
+    /// G90 (absolute) instead of an increment (G91).
     pub(in crate::exec) absolute: bool,
 }
 
-/// A kind of offsets.
+/// Kind of offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) enum OffsetKind {
     /// G54 to G59, G159.
@@ -70,7 +70,7 @@ pub(in crate::exec) const SYSTEMS_MAX: usize = 5;
 pub(in crate::exec) struct Coordinates {
     /// Programmed absolute coordinates, without offsets.
     program: AxisVec,
-    /// Targets of the axes after the last block.
+    /// Targets of the axes after the previous block.
     target: AxisVec,
     /// Offset contained in the target of each axis.
     applied: AxisVec,
@@ -79,12 +79,12 @@ pub(in crate::exec) struct Coordinates {
     /// First, second and third main axis.
     main: [Option<usize>; 3],
     zero_table: BTreeMap<u32, AxisVec>,
-    /// G53 has its own offsets (P-ZERO-00001).
+    /// Whether G53 has its own offsets (P-ZERO-00001).
     has_g53: bool,
-    /// Zero-offset group of the axes that are not main axes, where their offsets belong to the channel and not to a coordinate
+    /// Zero-offset group of the axes that are not main axes, if their offsets belong to the channel instead of a coordinate
     /// system (P-CHAN-00397 = 0).
     channel_group: Option<u32>,
-    /// Axes whose entry of a group is left out (G160).
+    /// Axes with entries excluded from a group (G160).
     zero_masked: BTreeSet<(u32, usize)>,
     /// Offsets below all coordinate systems.
     lowest: Layer,
@@ -96,12 +96,12 @@ pub(in crate::exec) struct Coordinates {
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
     stored: BTreeMap<u32, Frame>,
-    /// Systems with names (`#CS ADD`).
+    /// Named systems (`#CS ADD`).
     stack: Stack,
-    /// What `#MCS ON` has put aside.
+    /// State suspended by `#MCS ON`.
     suspended: Option<Box<Suspended>>,
     frame: Frame,
-    /// The frame changes nothing.
+    /// Whether the frame is the identity.
     plain: bool,
 }
 
@@ -157,7 +157,7 @@ impl Coordinates {
         self.main.iter().position(|m| *m == Some(axis))
     }
 
-    /// Gives a main axis index to another axis.
+    /// Assigns a main axis index to another axis.
     pub(in crate::exec) fn set_main_axis(&mut self, main: usize, axis: Option<usize>) {
         for slot in &mut self.main {
             if axis.is_some() && *slot == axis {
@@ -168,18 +168,18 @@ impl Coordinates {
         self.frame_changed();
     }
 
-    /// Offset that an absolute word of this axis would take over, apart from what the frame holds.
+    /// Offset that an absolute word of this axis would apply, except for the offsets in the frame.
     #[inline]
     pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
         let offset = self.layer_offset(&self.lowest, axis) + self.tool[axis] + self.measuring[axis];
-        // the frame has the main axes only
+        // the frame consists of the main axes only
         if self.systems.is_empty() || self.main_index(axis).is_some() || self.is_of_channel(axis) {
             return offset;
         }
         offset + self.systems.iter().map(|layer| self.layer_offset(layer, axis)).sum::<f64>()
     }
 
-    /// What is left of the active offset without those of these kinds.
+    /// Active offset without those of these kinds.
     pub(in crate::exec) fn offset_without(&self, kinds: &[OffsetKind], axis: usize) -> f64 {
         let tool = if kinds.contains(&OffsetKind::Tool) { 0.0 } else { self.tool[axis] };
         let measuring =
@@ -197,7 +197,7 @@ impl Coordinates {
         self.applied[axis]
     }
 
-    /// Measuring offset that G101 has taken in.
+    /// Measuring offset included by G101.
     pub(in crate::exec) fn measuring_offset(&self, axis: usize) -> f64 {
         self.measuring[axis]
     }
@@ -208,7 +208,7 @@ impl Coordinates {
 
     /// `#SUPPRESS OFFSETS`: targets of axes without offsets of these kinds. Systems, rotation and mirroring remain (207072907).
     ///
-    /// Assumption: in a turned system a coordinate that is not written stays what it is in the system without these offsets.
+    /// Assumption: in a rotated system a coordinate that is not programmed keeps its value in the system without these offsets.
     pub(in crate::exec) fn program_without(&mut self, kinds: &[OffsetKind], words: &[Target]) {
         let frame = self.frame_with(|layer, axis| self.layer_without(layer, kinds, axis));
         let rest = self.main.map(|m| m.map_or(0.0, |axis| self.offset_without(kinds, axis)));
@@ -236,14 +236,14 @@ impl Coordinates {
         self.recompute_program();
     }
 
-    /// An axis goes to a position of its own: neither offsets nor systems act on it (independent axes, 208612235).
+    /// An axis moves to a position without offsets and systems (independent axes, 208612235).
     pub(in crate::exec) fn place(&mut self, axis: usize, position_mm: f64) {
         (self.word[axis], self.target[axis]) = (position_mm, position_mm);
         self.applied[axis] = self.active_offset(axis);
         self.recompute_program();
     }
 
-    /// Programmed position of the main axes, 0 for one that is missing.
+    /// Programmed position of the main axes, 0 for a missing one.
     pub(in crate::exec) fn programmed_point(&self) -> [f64; 3] {
         std::array::from_fn(|m| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis)))
     }
@@ -253,7 +253,7 @@ impl Coordinates {
         &self.tool
     }
 
-    /// Tool offsets: all axes are replaced.
+    /// Replaces the tool offsets of all axes.
     pub(in crate::exec) fn set_tool(&mut self, offsets: AxisVec) {
         self.tool = offsets;
     }
@@ -276,7 +276,7 @@ impl Coordinates {
         self.frame_changed();
     }
 
-    /// Contour rotation about a centre; coordinates that are not given are the present ones.
+    /// Contour rotation about a centre; the current coordinates apply where none are given.
     pub(in crate::exec) fn rotate_about(
         &mut self,
         plane: [usize; 2],
@@ -312,7 +312,7 @@ impl Coordinates {
         &self.frame
     }
 
-    /// Takes over positions of the axes as they are (`#CHANNEL INIT`).
+    /// Adopts the actual axis positions (`#CHANNEL INIT`).
     pub(in crate::exec) fn set_target(&mut self, target: &AxisVec) {
         self.target.clone_from(target);
         self.recompute_program();
@@ -342,7 +342,7 @@ impl Coordinates {
         frame
     }
 
-    /// Programmed coordinates of the positions where the axes are.
+    /// Programmed coordinates of the current axis positions.
     fn recompute_program(&mut self) {
         for axis in 0..self.target.len() {
             let bare = self.target[axis] - self.applied[axis];
@@ -360,7 +360,7 @@ impl Coordinates {
         }
     }
 
-    /// Takes over the words of a block; the new targets are in [`target`](Self::target).
+    /// Applies the words of a block; the new targets are in [`target`](Self::target).
     pub(in crate::exec) fn program(&mut self, words: impl IntoIterator<Item = Target>) {
         let mut framed = [None; 3];
         for Target { axis, value, absolute } in words {
@@ -391,7 +391,7 @@ impl Coordinates {
         }
     }
 
-    /// Targets of the programmed main axes (`Some(absolute)`), and of those that the frame couples with them.
+    /// Targets of the programmed main axes (`Some(absolute)`), and of those that the frame couples to them.
     fn program_in_frame(&mut self, programmed: [Option<bool>; 3]) {
         let p = self.main.map(|m| m.map_or(0.0, |axis| self.program[axis]));
         let q = self.frame.apply(p);
@@ -411,7 +411,7 @@ impl Coordinates {
         }
     }
 
-    /// Machine coordinates of a point of the program, over the main axes, with the offsets in the targets.
+    /// Machine coordinates of a programmed point, over the main axes, with the offsets contained in the targets.
     pub(in crate::exec) fn to_machine(&self, p: [f64; 3]) -> [f64; 3] {
         let q = self.frame.apply(p);
         std::array::from_fn(|i| q[i] + self.main[i].map_or(0.0, |axis| self.applied[axis]))

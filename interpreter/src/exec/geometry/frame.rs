@@ -1,4 +1,4 @@
-//! Rigid motions and mirrorings of the three main axes.
+//! Rigid motions and reflections of the three main axes.
 
 use super::angle::{cos_deg, sin_deg};
 
@@ -17,7 +17,7 @@ impl Frame {
         *self == Self::IDENTITY
     }
 
-    /// It shifts, and neither turns nor mirrors.
+    /// Whether it is a pure translation, without rotation or mirroring.
     pub(in crate::exec) fn only_shifts(&self) -> bool {
         self.m == Self::IDENTITY.m
     }
@@ -32,14 +32,14 @@ impl Frame {
         self.m.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2])
     }
 
-    /// The point that [`apply`](Self::apply) takes to `q`.
+    /// The point that [`apply`](Self::apply) maps to `q`.
     pub(in crate::exec) fn inverse(&self, q: [f64; 3]) -> [f64; 3] {
         let d = [q[0] - self.t[0], q[1] - self.t[1], q[2] - self.t[2]];
         let column = |j: usize| self.m[0][j] * d[0] + self.m[1][j] * d[1] + self.m[2][j] * d[2];
         [column(0), column(1), column(2)]
     }
 
-    /// `inner` first, then `self`.
+    /// Composition: `inner` first, then `self`.
     pub(in crate::exec) fn after(&self, inner: &Self) -> Self {
         let column = |j: usize| self.direction([inner.m[0][j], inner.m[1][j], inner.m[2][j]]);
         let (a, b, c) = (column(0), column(1), column(2));
@@ -68,7 +68,7 @@ impl Frame {
         f
     }
 
-    /// Coordinate system: shift, then rotations about the third, the new second and the new first axis.
+    /// Coordinate system: translation, then rotations about the third, the new second and the new first axis.
     ///
     /// Source: TF5200, #CS, P-CHAN-00394 (sequence ZYX).
     pub(in crate::exec) fn coordinate_system(shift: [f64; 3], deg: [f64; 3]) -> Self {
@@ -80,8 +80,8 @@ impl Frame {
         f
     }
 
-    /// Where the plane of the main axes `a`, `b` lies afterwards, if that is again a plane of two main axes: their
-    /// indices in cyclic order and whether the sense of rotation is kept.
+    /// The plane of the main axes `a`, `b` after the transformation, if it is again a plane of two main axes: their indices in
+    /// cyclic order and whether the sense of rotation is preserved.
     pub(in crate::exec) fn image_of_plane(&self, a: usize, b: usize) -> Option<([usize; 2], bool)> {
         const FLAT: f64 = 1e-12;
         let normal = (0..3).find(|r| self.m[*r][a].abs() < FLAT && self.m[*r][b].abs() < FLAT)?;
@@ -102,13 +102,13 @@ mod tests {
         assert_eq!(f.apply([20.0, 0.0, 5.0]), [10.0, 10.0, 5.0]);
         assert_eq!(f.inverse([10.0, 10.0, 5.0]), [20.0, 0.0, 5.0]);
         assert_eq!(f.image_of_plane(0, 1), Some(([0, 1], true)));
-        // Y Z is turned into X Z with the opposite direction of X
+        // Y Z is mapped to X Z with the direction of X reversed
         assert_eq!(f.image_of_plane(1, 2), Some(([2, 0], true)));
     }
 
     #[test]
     fn coordinate_systems_turn_about_z_then_y_then_x() {
-        // ZYX: the x axis of the system is turned about Z, then about the new Y
+        // ZYX: the x axis of the system is rotated about Z, then about the new Y
         let f = Frame::coordinate_system([1.0, 2.0, 3.0], [0.0, 90.0, 90.0]);
         assert_eq!(f.apply([0.0; 3]), [1.0, 2.0, 3.0]);
         assert_eq!(f.direction([1.0, 0.0, 0.0]), [0.0, 0.0, -1.0]);

@@ -1,29 +1,29 @@
 //! Absolute positions of modulo axes: the number of turns that belongs to a programmed angle.
 //!
-//! Positions stay continuous; the axis never turns by more than one revolution. Without a sign it goes the shortest
-//! way; the first sign after the name of the axis is the direction of rotation and no part of the position, so `C-200`
-//! turns in negative direction to 200 degrees, and `C[-200]` the shortest way to 160. With G91 a sign is a sign.
+//! Positions stay continuous, and the axis never turns by more than one revolution. Without a sign it takes the shortest way.
+//! The first sign after the name of the axis is the direction of rotation and not part of the position: `C-200` turns in
+//! negative direction to 200 degrees, and `C[-200]` takes the shortest way to 160. With G91 a sign is an ordinary sign.
 //!
-//! With P-CHAN-00346 every word goes the shortest way, and its sign belongs to the position.
+//! With P-CHAN-00346 every word takes the shortest way, and its sign belongs to the position.
 //!
 //! Source: TF5200 programming manual, programming modulo axes (208540555), positioning on the shortest way (208549515).
-//! Assumptions: of two shortest ways, 180 degrees each, the positive one. A sign is the direction under G00 too: the page of
-//! modulo axes says that the first sign always is; that of G00 (206075403) says that a rotary axis moves by half a turn at
-//! most, which holds for words without a sign. Its text is older than the signs.
+//! Assumptions: of two ways of 180 degrees each the positive one is taken. A sign is the direction under G00, too: the page on
+//! modulo axes states that the first sign always is; that on G00 (206075403) states that a rotary axis moves by half a turn at
+//! most, which is true for words without a sign. Its text is older than the signs.
 
 use crate::diag::Condition;
 use crate::exec::fault::Fault;
 use crate::syntax::ast::{Sign, Span};
 
 const TURN_DEG: f64 = 360.0;
-/// Closer than this the axis is already at its target and does not turn.
+/// Below this distance the axis counts as at its target and does not turn.
 const SAME_DEG: f64 = 1e-7;
 
-/// The position in deg that the word `value` (first sign included) asks for, from the present position of the axis.
+/// The position in deg for the word `value` (first sign included), from the current position of the axis.
 pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f64 {
     let angle = if turn == Some(Sign::Minus) { -value } else { value };
     let turns = (from - angle) / TURN_DEG;
-    // a half rounds down here: the target is above `from`, the positive way
+    // a half rounds down here: the target is above `from`, in positive direction
     let nearest = angle + (turns + 0.5).floor() * TURN_DEG;
     if (nearest - from).abs() < SAME_DEG {
         return nearest;
@@ -35,7 +35,7 @@ pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f
     }
 }
 
-/// A sum after the sign of a modulo axis.
+/// A sum after the sign of a modulo axis is ambiguous.
 pub(in crate::exec) fn two_readings(span: Span) -> Box<Fault> {
     let text = "the first sign after a modulo axis is its direction, not that of a term";
     let hint = "use brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way";
@@ -47,7 +47,7 @@ pub(in crate::exec) fn two_readings(span: Span) -> Box<Fault> {
 mod tests {
     use super::{Sign, unwrapped};
 
-    /// The examples of the manual, from 0 degrees, and turns that have gathered before.
+    /// The examples of the manual, from 0 degrees, and after several turns.
     #[test]
     fn direction_and_shortest_way() {
         for (value, turn, from, to) in [
@@ -67,7 +67,7 @@ mod tests {
         ] {
             assert_eq!(unwrapped(value, turn, from), to, "{value} {turn:?} from {from}");
         }
-        // rounding does not make a revolution: an angle that the axis has already keeps it where it is
+        // rounding must not cause a revolution: at an angle already reached the axis stays where it is
         for (angle, turn) in [(350.0 + 1e-9, Sign::Plus), (-350.0 - 1e-9, Sign::Minus)] {
             for beside in [-2e-9, 2e-9] {
                 assert!((unwrapped(angle, Some(turn), 710.0 + beside) - 710.0).abs() < 1e-8);

@@ -1,4 +1,4 @@
-//! Lines and arcs in a plane of two axes: tangents, parallels, intersections, cutting.
+//! Lines and arcs in a plane of two axes: tangents, parallels, intersections, trimming.
 
 use super::arc::Point;
 use kontur_motion::axis::AxisVec;
@@ -46,7 +46,7 @@ impl Side {
                 start_rad: arc.start_angle(),
                 sweep_rad: arc.shape().sweep_rad,
             }),
-            // programs hold lines and arcs only
+            // programs contain lines and arcs only
             Path::Arc(_) | Path::Tilted(_) | Path::Curve(_) => None,
         }
     }
@@ -69,7 +69,7 @@ impl Side {
         }
     }
 
-    /// Direction at its beginning (`false`) or end.
+    /// Direction at its start (`false`) or end.
     pub(in crate::exec) fn tangent(&self, at_end: bool) -> Point {
         match self {
             Self::Line { from, to } => {
@@ -85,7 +85,7 @@ impl Side {
         }
     }
 
-    /// Share 0..1 of the way at which a point of the element lies; outside, it is not on it.
+    /// Share 0..1 of the length at which a point of the element lies; values outside this range are not on the element.
     pub(in crate::exec) fn share_of(&self, p: Point) -> f64 {
         match self {
             Self::Line { from, to } => {
@@ -101,7 +101,7 @@ impl Side {
         }
     }
 
-    /// The point at a distance (chord) from the end (`from_end`) or beginning.
+    /// The point at a distance (chord) from the end (`from_end`) or start.
     pub(in crate::exec) fn at_distance(&self, distance: f64, from_end: bool) -> Option<Point> {
         match self {
             Self::Line { from, to } => {
@@ -126,7 +126,7 @@ impl Side {
         }
     }
 
-    /// The element's curve moved by `d` to its left, as line or circle.
+    /// The curve of the element, offset by `d` to its left, as line or circle.
     pub(in crate::exec) fn parallel(&self, d: f64) -> Curve {
         match self {
             Self::Line { from, .. } => {
@@ -135,14 +135,14 @@ impl Side {
                 Curve::Line { point: [from[0] + d * left[0], from[1] + d * left[1]], along: t }
             }
             Self::Arc { centre, radius, sweep_rad, .. } => {
-                // left of a counter-clockwise arc is towards its centre
+                // the left side of a counter-clockwise arc is towards its centre
                 let r = if *sweep_rad > 0.0 { radius - d } else { radius + d };
                 Curve::Circle { centre: *centre, radius: r }
             }
         }
     }
 
-    /// Foot of a point on the element's curve.
+    /// Foot of the perpendicular from a point to the curve of the element.
     pub(in crate::exec) fn foot(&self, p: Point) -> Point {
         match self {
             Self::Line { from, .. } => {
@@ -225,7 +225,7 @@ pub(in crate::exec) fn swept(
     }
 }
 
-/// A path with another start or end on it.
+/// A path with its start or end replaced.
 pub(in crate::exec) fn cut(
     path: &Path,
     start: Option<&AxisVec>,

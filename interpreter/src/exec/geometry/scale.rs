@@ -1,4 +1,4 @@
-//! Factors by which the program's coordinates of the axes are enlarged or reduced (`#SCALE`).
+//! Factors by which programmed coordinates of the axes are scaled (`#SCALE`).
 
 /// Factors of all axes of the machine, in channel order.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub(in crate::exec) struct Scale {
 }
 
 impl Scale {
-    /// Nothing is scaled.
+    /// Without scaling.
     pub(super) fn new(axes: usize) -> Self {
         Self { factors: vec![1.0; axes], on: false }
     }
@@ -21,17 +21,17 @@ impl Scale {
         self.on = on;
     }
 
-    /// Defines the factor of an axis, which is kept while scaling is off.
+    /// Defines the factor of an axis; it is kept while scaling is off.
     pub(in crate::exec) fn set(&mut self, axis: usize, factor: f64) {
         self.factors[axis] = factor;
     }
 
-    /// Factor in force.
+    /// Active factor.
     pub(in crate::exec) fn factor(&self, axis: usize) -> f64 {
         if self.on { self.factors[axis] } else { 1.0 }
     }
 
-    /// True if a factor changes the coordinates of this axis.
+    /// Whether a factor changes the coordinates of this axis.
     pub(in crate::exec) fn changes(&self, axis: usize) -> bool {
         self.factor(axis).to_bits() != 1.0_f64.to_bits()
     }

@@ -1,11 +1,11 @@
-//! Tool data: of the tool list, or written by the program (`V.G.WZ[i]`); selected by D.
+//! Tool data: from the tool list, or written by the program (`V.G.WZ[i]`); selected by D.
 //!
 //! Assumption: without data a tool has neither length nor radius; selecting it warns once.
 
 pub(in crate::exec) use crate::machine::Tool;
 use std::collections::BTreeMap;
 
-/// Tool table and what is selected.
+/// Tool table and selection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::exec) struct Tools {
     pub(in crate::exec) table: BTreeMap<u32, Tool>,
@@ -13,8 +13,8 @@ pub(in crate::exec) struct Tools {
     pub(in crate::exec) tool: u32,
     /// D.
     pub(in crate::exec) data: u32,
-    /// Data in use: a copy, so that `V.G.WZ_AKT` can be written.
+    /// Active data: a copy, so that `V.G.WZ_AKT` can be written.
     pub(in crate::exec) active: Tool,
-    /// `#TLAX`: axis that has the length, 1 or -1; otherwise it is the third one of the plane.
+    /// `#TLAX`: axis of the tool length with its direction, 1 or -1; otherwise the third axis of the plane.
     pub(in crate::exec) length_axis: Option<(usize, f64)>,
 }

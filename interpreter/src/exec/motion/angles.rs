@@ -1,7 +1,7 @@
 //! Contour lines by angles: `#ANG`.
 //!
-//! One line by its angle and one coordinate of its end; two lines by two angles and the end of the second one, which meet
-//! where they cross. Assumption: the angle is that of its block alone.
+//! A single line is given by its angle and one coordinate of its end. Two lines are given by two angles and the end of the
+//! second line; they meet at their intersection. Assumption: an angle applies only in its own block.
 //!
 //! Source: TF5200 programming manual, contour line programming; 21892, 21895, 21904, 21910.
 
@@ -16,22 +16,22 @@ use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
 
-/// Sine of an angle between two lines below which they are parallel.
+/// Sine of the angle between two lines below which they count as parallel.
 const PARALLEL: f64 = 1e-9;
 
-/// What a block is for contour lines.
+/// Role of a block in contour line programming.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ContourLine {
     /// No contour line, or a single one.
     Single,
-    /// The first of two lines: it moves with the second one.
+    /// The first of two lines; it is executed together with the second one.
     Waits,
-    /// The second of two lines: first to this point of the plane, in mm.
+    /// The second of two lines. The first one ends at this point of the plane, in mm.
     Corner([f64; 2], SourceRef),
 }
 
 impl Decoder {
-    /// 21904 for a contour line that still waits for its second one when the program ends.
+    /// 21904 for a first line without its second one at the end of the program.
     pub(in crate::exec) fn contour_line_ends(&mut self) {
         if let Some((_, span, source)) = self.motion.contour_line.open.take() {
             let text = "no line with #ANG and the end of both follows the contour line";
@@ -39,7 +39,7 @@ impl Decoder {
         }
     }
 
-    /// What `#ANG` makes of the block in work.
+    /// Applies `#ANG` to the current block.
     pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");
         let Some((_, angle, span)) = angle else {
@@ -71,7 +71,7 @@ impl Decoder {
         };
         let word = |axis: usize| words.axes.iter().position(|(a, _, _)| *a == axis);
         let here = [first, second].map(|axis| self.geometry.coordinates.programmed(axis));
-        // the end in the coordinates of the program
+        // the end point in program coordinates
         let end = [first, second].map(|axis| {
             word(axis).map(|i| {
                 let absolute = words.is_absolute(i, self.modal.absolute);
@@ -105,7 +105,7 @@ impl Decoder {
                     (None, None) => return Ok(ContourLine::Single),
                 };
                 let way = value - here[known];
-                // the end lies ahead, and the line is not parallel to the other axis
+                // the end lies in the direction of the angle, and the line is not parallel to the other axis
                 if direction[known] * way <= 0.0 {
                     let text = format!("a line of {angle} deg does not reach the coordinate");
                     return Err(Fault::new(Condition::ContourLineMissed, text, span));
@@ -147,7 +147,7 @@ impl Decoder {
         }
     }
 
-    /// The first of two lines, with the second one still to come.
+    /// The first of two lines, while the second one is still to be read.
     pub(super) fn contour_lines(
         &mut self,
         line: &ContourLine,

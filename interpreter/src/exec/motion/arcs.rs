@@ -21,7 +21,7 @@ impl Decoder {
         let from = &self.motion.independent.on_path(from);
         let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
-        // askew to the axes the arc is one of the coordinate system
+        // in a plane oblique to the axes, the arc is given in the coordinate system
         let PlaneImage { main: image, keeps_sense, tilt } = self.image_of_plane(span)?;
         let (start, end) = match &tilt {
             Some(tilt) => local_ends(tilt, from, &target),
@@ -61,7 +61,7 @@ impl Decoder {
         } else if let Some(radius) = self.modal.radius_mm {
             arc::by_radius(s, e, radius * scale, ccw)
         } else {
-            // radius programming is expected where no centre is given: no arc that the centre's correction would find
+            // without a centre, radius programming is expected; centre correction does not apply to it
             let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
             let g = words.group(Group::Path).map_or(span, |g| g.span);
             return Err(Fault::new(Condition::ArcRadiusZero, text, g)
@@ -106,12 +106,12 @@ impl Decoder {
         })
     }
 
-    /// 120462 where the axes of the feed group are neither the arc's (with its pitch) nor others alone.
+    /// 120462 if the feed group is neither the axes of the arc (with its pitch) nor only axes outside it.
     ///
-    /// The page does not say what F means then: here along the plane, as without `#FGROUP`.
+    /// The page does not define F for this case. Here it is the feed rate in the plane, as without `#FGROUP`.
     fn feed_group_fits(&mut self, plane: [usize; 2], span: Span) -> Outcome<()> {
         let feed = &self.motion.feed_axes;
-        // the group of the lists is that of the main axes, whatever an axis exchange makes of them
+        // the group of the lists consists of the main axes, also after an axis exchange
         if *feed == self.machine.channel.feed_axes {
             return Ok(());
         }
@@ -133,7 +133,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// `#CANG`: the end of an arc by its centre and the angle that it spans, instead of an end point.
+    /// `#CANG`: the end of an arc given by the centre and the angle of the arc instead of an end point.
     ///
     /// Source: TF5200 diagnosis, 22253; no page prints more. Assumption: the angle is in degrees and positive, its direction
     /// is that of G02 or G03.
@@ -176,7 +176,7 @@ impl Decoder {
         let counter = self.modal.path == PathMode::CounterClockwise;
         let (sin, cos) = (sin_deg(angle), cos_deg(angle));
         let sin = if counter { sin } else { -sin };
-        // from the centre to the start, turned
+        // the vector from the centre to the start, rotated
         let [a, b] = to_centre;
         let end = [here[0] + a - (a * cos - b * sin), here[1] + b - (a * sin + b * cos)];
         self.motion.contour_line.targets = vec![
@@ -186,9 +186,10 @@ impl Decoder {
         Ok(())
     }
 
-    /// I, J and K of a block in the plane of its arc; with P-CHAN-00159 = 1 those that it leaves out are the last ones.
+    /// I, J and K of a block in the plane of its arc. With P-CHAN-00159 = 1 the last values apply to those that the block
+    /// omits.
     ///
-    /// Assumption: a centre and a radius that both hold take the place of each other, the later one counts.
+    /// Assumption: when both a modal centre and a modal radius exist, the later one applies.
     fn centre_words(
         &mut self,
         words: &Words<'_>,
@@ -215,7 +216,7 @@ impl Decoder {
         })
     }
 
-    /// Centre in the coordinates of the axes, or of the program if the plane lies askew to them.
+    /// Centre in axis coordinates, or in program coordinates if the plane is oblique to the axes.
     pub(super) fn centre(
         &self,
         start: &AxisVec,
@@ -251,7 +252,7 @@ impl Decoder {
     }
 }
 
-/// The diagnostic of an arc that does not exist.
+/// The condition for an arc that cannot be constructed.
 fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
     match error {
         ArcError::RadiusZero => {

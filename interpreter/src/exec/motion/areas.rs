@@ -1,11 +1,11 @@
-//! Control areas: their definition, and the motions that are watched.
+//! Control areas: their definition, and the monitoring of motions.
 //!
-//! The blocks between `#CONTROL AREA BEGIN` and `END` are the contour of an area and move nothing. A motion carries the
-//! areas that are active in its block, and is compared with them when it is complete: with what tool radius compensation
-//! and chamfers have made of it.
+//! The blocks between `#CONTROL AREA BEGIN` and `END` describe the contour of an area and cause no motion. A motion carries the
+//! areas that are active in its block. It is checked against them when it is complete, including tool radius compensation and
+//! chamfers.
 //!
-//! Assumptions: the coordinates of a definition count with the offsets that are active there, but without those of the tool,
-//! for it is the tip of the tool that is watched; a violation ends the program before its motion. The documents are silent.
+//! Assumptions (the documents are silent): the coordinates of a definition include the active offsets except those of the tool,
+//! because the tip of the tool is monitored; a violation ends the program before the motion.
 //!
 //! Source: TF5200 programming manual (207565195, 207571851); workspace monitoring (291148299, 291161867, 291170571); 21295,
 //! 21363, 21797, 50786, 120477, 120484, 120691, 120734, 120736, 120740, 120742, 120743.
@@ -23,12 +23,12 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::path::Path;
 use std::sync::Arc;
 
-/// Most blocks of a polygon. Source: TF5200 workspace monitoring 291148299.
+/// Maximum number of blocks of a polygon. Source: TF5200 workspace monitoring 291148299.
 const POLYGON_BLOCKS: usize = 20;
-/// Two points that are the same, in mm: the coordinates of a closed contour are written with four digits.
+/// Distance in mm below which two points count as equal: coordinates of a closed contour are written with four digits.
 const SAME_MM: f64 = 1e-4;
 
-/// An error of a definition or selection for which no ID is printed.
+/// An error in a definition or selection for which the documents print no ID.
 fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
     Fault::new(Condition::AreaWrong, text, span)
 }
@@ -59,7 +59,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// A block of a definition, with its path if it has a way.
+    /// A block of a definition, with its path if it moves.
     pub(super) fn area_block(
         &mut self,
         path: Option<&Path>,
@@ -154,7 +154,7 @@ impl Decoder {
 
     /// Axes of a polygon: those of the plane, or two others that its blocks name.
     ///
-    /// The pages print 21363 and 21797 for the same third axis; 21797 is the later one, of builds with areas of other axes.
+    /// The pages print both 21363 and 21797 for a third axis; 21797 is from later builds, which support areas of other axes.
     fn area_plane(&self, named: &[usize], span: Span) -> Outcome<[usize; 2]> {
         let plane = self.in_plane(span)?.plane;
         if named.len() > 2 {
@@ -178,7 +178,7 @@ impl Decoder {
         }
     }
 
-    /// `#CONTROL AREA ON`: one, or all with `None`.
+    /// `#CONTROL AREA ON`: one area, or all for `None`.
     pub(in crate::exec) fn watch_areas(&mut self, number: Option<u32>, span: Span) -> Outcome<()> {
         let chosen: Vec<Arc<Area>> = match number {
             Some(number) => match self.motion.areas.defined.get(&number) {
@@ -206,7 +206,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// `#CONTROL AREA OFF`: one, the last one with `None`.
+    /// `#CONTROL AREA OFF`: one area, or the last one for `None`.
     pub(in crate::exec) fn leave_area(&mut self, number: Option<u32>) {
         let active = &mut self.motion.areas.active;
         match number {
@@ -220,7 +220,7 @@ impl Decoder {
         self.motion.areas.active.clear();
     }
 
-    /// Whether a motion can be watched: contouring and splines make other paths of it later.
+    /// Whether a motion can be monitored: contouring and splines change its path later.
     pub(super) fn areas_fit(&self, shaped: bool, span: Span) -> Outcome<()> {
         let mut active = self.motion.areas.active.iter();
         if shaped && active.len() > 0 {
@@ -236,7 +236,7 @@ impl Decoder {
         }
     }
 
-    /// What the next motion is compared with.
+    /// The areas to check the next motion against.
     pub(super) fn watch(&mut self) -> Option<Arc<Watch>> {
         if self.motion.areas.active.is_empty() {
             return None;
@@ -244,14 +244,14 @@ impl Decoder {
         let offsets_mm = self.tip(&self.motion.independent.way);
         let areas = self.motion.areas.active.clone();
         let watch = Watch { areas, offsets_mm, names: self.axis_names() };
-        // motions of a row share it
+        // shared by consecutive motions
         if self.motion.areas.watch.as_deref() != Some(&watch) {
             self.motion.areas.watch = Some(Arc::new(watch));
         }
         self.motion.areas.watch.clone()
     }
 
-    /// 120742: an axis of an active area moves on its own.
+    /// 120742: an axis of an active area moves independently.
     pub(super) fn moves_unwatched(&self, axis: usize, span: Span) -> Outcome<()> {
         if self.motion.areas.is_defining() {
             return Err(wrong("an independent axis in the definition of a control area", span));
@@ -266,7 +266,7 @@ impl Decoder {
         Err(Fault::new(Condition::AreaAxisAlone, text, span))
     }
 
-    /// Positions of the axes, without the tool: those of its tip.
+    /// Axis positions of the tip of the tool.
     fn tip(&self, positions: &AxisVec) -> AxisVec {
         let mut tip = positions.clone();
         for (x, tool) in tip.iter_mut().zip(self.geometry.coordinates.tool_offsets().iter()) {

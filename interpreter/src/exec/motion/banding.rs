@@ -1,13 +1,13 @@
 //! Edge banding: G108 and an M function that waits for the signal of the probe (MNE_SNS).
 //!
-//! The M function is in the block of a motion. Where the probe signals on this motion, the path drives `V.G.RW` further, stops, waits
-//! until the axes are in their windows, calls the function, and continues to the target. Nothing moves beyond the block
-//! before that. G108 ends with it.
+//! The block of a motion contains the M function. Where the probe signals during this motion, the path continues for the
+//! distance `V.G.RW`, stops, waits until the axes are in their windows, executes the function, and continues to the target.
+//! Motion does not proceed beyond the block before that. G108 ends with this block.
 //!
 //! Source: TF5200 programming manual, edge banding (206213899, 206219787, 206230027), M and H functions (285989771), channel
 //! parameters (148909195, 149011467), diagnosis (250932875, 257774219, 257878667, 258470539).
-//! Assumptions, where they are silent: the way counts from the place of the path that is nearest to the measured actual
-//! position; the path stops at the end of this way, not after it.
+//! Assumptions, where they are silent: the distance is measured from the point of the path that is nearest to the measured
+//! actual position; the path stops at the end of this distance, not after it.
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{GWord, Words};
@@ -19,7 +19,7 @@ use crate::exec::motion::state::Function;
 use crate::exec::step::{BandingRun, Event};
 use crate::syntax::ast::Span;
 
-/// G108 with which nothing was done.
+/// G108 that was not used.
 fn unused(span: Span) -> Box<Fault> {
     let text = "G108 ends here without a motion that waited for the signal";
     let hint = "such a motion has an M function that is MNE_SNS in P-CHAN-00041";
@@ -47,15 +47,15 @@ impl Decoder {
         Ok(())
     }
 
-    /// The program ends.
+    /// End of the program.
     pub(in crate::exec) fn banding_ends(&mut self) {
         if std::mem::take(&mut self.motion.measuring.banding) {
             self.report.note(unused(Span::default()));
         }
     }
 
-    /// The motion of this block waits for the signal, if edge banding is on and it has the M function for it; the place of
-    /// that function comes back.
+    /// If edge banding is on and the block of the motion has an M function for it, the motion waits for the signal. Returns the
+    /// position of that function in the program text.
     pub(in crate::exec) fn banding_run(&mut self, words: &Words<'_>) -> Outcome<Option<Span>> {
         let at_signal = &self.machine.channel.m_at_signal;
         let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
@@ -76,7 +76,7 @@ impl Decoder {
         Ok(Some(m.span))
     }
 
-    /// A block of edge banding has been executed: it has to move.
+    /// After a block of edge banding: it must contain a motion.
     pub(in crate::exec) fn banding_moves(&mut self, span: Span) {
         if !self.moved && !self.report.failed() {
             let text = "edge banding in a block without travel";
@@ -84,7 +84,7 @@ impl Decoder {
         }
     }
 
-    /// What cannot be combined with it.
+    /// Functions that cannot be combined with edge banding.
     fn banding_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         let what = if self.modal.compensation != Compensation::Off {
             "edge banding with tool radius compensation"
@@ -106,7 +106,7 @@ impl Decoder {
         Err(Fault::unsupported(what, span))
     }
 
-    /// The axes of the motion are marked for it.
+    /// Marks the axes of the motion for edge banding.
     fn banding_axes(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         let coordinates = &self.geometry.coordinates;
         let main = (0..3).filter_map(|i| coordinates.main_axis(i));

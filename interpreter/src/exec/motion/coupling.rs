@@ -1,11 +1,11 @@
-//! Axis couplings in force: slaves that follow their masters.
+//! Active axis couplings: slaves that follow their masters.
 //!
-//! A slave takes no part in the path, like an independent axis: the distance it travels is its way ([`Independent::way`]), by
-//! which the coordinates of the path are shifted, and the simulation lets it follow the set positions of its master. So
-//! it follows arcs, compensated contours and masters that are independent for a while as it follows lines.
+//! A slave is not part of the path, like an independent axis. Its travel is kept as a displacement ([`Independent::way`]) by
+//! which the coordinates of the path are shifted, and the simulation makes it follow the setpoints of its master. It therefore
+//! also follows arcs, compensated contours and masters that move independently for a while.
 //!
-//! Assumptions: the path comes to rest where a group is switched on or off, because otherwise the slave would jump to the
-//! speed of its master; the path keeps the limits of the slave as well as those of the master. The pages are silent.
+//! Assumptions (the pages are silent): the path stops where a group is switched on or off, because otherwise the slave would
+//! jump to the speed of its master; the path respects the limits of the slave in addition to those of the master.
 //!
 //! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579, 207139467); 20169, 20457, 20467 to 20469,
 //! 20472, 20545, 21283 to 21285, 21312, 21481.
@@ -22,7 +22,7 @@ use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
 impl Decoder {
-    /// `#SET AX LINK`: a group, which must not be switched on.
+    /// `#SET AX LINK`: defines a group, which must not be active.
     pub(in crate::exec) fn define_couplings(
         &mut self,
         group: u32,
@@ -75,7 +75,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// `#DISABLE AX LINK`: one group, or the one that was switched on last.
+    /// `#DISABLE AX LINK`: one group, or the one that was activated last.
     pub(in crate::exec) fn switch_couplings_off(
         &mut self,
         group: Option<u32>,
@@ -120,7 +120,7 @@ impl Decoder {
         Err(Fault::new(Condition::CouplingWithCompensation, text, span))
     }
 
-    /// A pair that is to be switched on.
+    /// A pair to be activated.
     fn pair_fits(&self, group: u32, pair: &Pair, span: Span) -> Outcome<()> {
         let axes = &self.machine.axes;
         let (slave, master) = (&axes[pair.slave], &axes[pair.master]);
@@ -172,7 +172,7 @@ impl Decoder {
         Err(Fault::new(Condition::SlaveProgrammed, text, at).with(|d| d.axis(number, name)))
     }
 
-    /// 21481 for a coupled axis that is to move alone.
+    /// 21481 for a coupled axis that is commanded to move independently.
     pub(in crate::exec) fn moves_not_coupled(&self, axis: usize, span: Span) -> Outcome<()> {
         let Some(group) = self.motion.couplings.group_of(axis) else { return Ok(()) };
         let name = self.machine.axes[axis].name().to_owned();
@@ -182,8 +182,8 @@ impl Decoder {
             .with(|d| d.axis(number, name).value(ValueKind::Current, group, "-")))
     }
 
-    /// 20545 for a coupled axis that is to be released, 21312 for one whose place in the channel is to change; the first
-    /// of them.
+    /// 20545 for a coupled axis that is to be released, 21312 for one that is to change its position in the channel; only the
+    /// first error.
     pub(in crate::exec) fn moves_no_coupled(
         &self,
         mut axes: impl Iterator<Item = usize>,
@@ -208,7 +208,7 @@ impl Decoder {
         Err(Fault::new(Condition::ToolWhileCoupled, text, span))
     }
 
-    /// The slaves have gone with their masters.
+    /// Moves the slaves along with their masters.
     pub(in crate::exec) fn follow_masters(&mut self) {
         if self.motion.couplings.are_off() {
             return;

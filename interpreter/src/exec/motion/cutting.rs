@@ -1,8 +1,8 @@
 //! Turning with a constant cutting speed: G96, G97, G196.
 //!
-//! The simulation computes the speed in every cycle, from the distance of the tool to the turning centre; in rapid
-//! blocks the spindle keeps its speed. A feed per revolution (G95) follows it: a motion of the face turning axis is divided
-//! so that the speed changes by a hundredth from piece to piece.
+//! The simulation computes the speed in every cycle from the distance between tool and turning centre; in rapid blocks the
+//! spindle keeps its speed. A feed rate per revolution (G95) follows the speed: a motion of the face turning axis is divided
+//! into pieces between which the speed changes by one percent.
 //!
 //! Assumption: the turning centre is where the programmed coordinate of the face turning axis and its G92 offset are 0.
 //!
@@ -20,10 +20,10 @@ use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
 
-/// Ratio of the speeds of two pieces of a motion under G95 and G96.
+/// Ratio of the speeds of two consecutive pieces of a motion under G95 and G96.
 const STEP: f64 = 1.01;
 
-/// Most pieces of one motion: a range of speeds of 1 to 20,000.
+/// Maximum number of pieces of one motion: a speed range of 1 to 20,000.
 const PIECES_MAX: usize = 1000;
 
 impl Decoder {
@@ -55,7 +55,7 @@ impl Decoder {
             },
             Some((Act::CuttingSpeed(false), _)) => {
                 if self.motion.cutting.speed.is_some() {
-                    // the speed of the moment stays
+                    // keeps the present speed
                     self.motion.spindles[0].rpm = self.spindle_rpm();
                     self.motion.cutting.speed = None;
                     if let Some(spindle) = self.motion.spindles[0].index {
@@ -126,7 +126,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// The one axis of the plane that P-AXIS-00015 marks.
+    /// The axis of the plane that P-AXIS-00015 marks as face turning axis.
     ///
     /// # Errors
     /// `none` if there is none, 20064 if both are marked.
@@ -148,9 +148,9 @@ impl Decoder {
         }
     }
 
-    /// G51, G52: words of the face turning axis are diameters; centres and radii of arcs are not.
+    /// G51, G52: words of the face turning axis are diameters; centres and radii of arcs are not affected.
     ///
-    /// Assumptions: neither are G92, the words of independent axes and `V.A.ABS`.
+    /// Assumptions: G92, the words of independent axes and `V.A.ABS` are not affected either.
     ///
     /// Source: TF5200 turning functions, diameter programming; P-AXIS-00058, P-AXIS-00059, P-CHAN-00091; 20042.
     pub(in crate::exec) fn diameter_programming(&mut self, on: bool, span: Span) -> Outcome<()> {
@@ -175,7 +175,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What a coordinate word of an axis counts in mm: its unit, half of it for diameters, times its factor (`#SCALE`).
+    /// Factor from a coordinate word of an axis to mm: its unit, halved for diameters, times its scale factor (`#SCALE`).
     pub(in crate::exec) fn coordinate_unit(&self, axis: usize, absolute: bool) -> f64 {
         let halves =
             self.modal.diameter == Some(axis) && self.machine.axes[axis].takes_diameters(absolute);
@@ -183,7 +183,7 @@ impl Decoder {
         unit * self.geometry.scale.factor(axis)
     }
 
-    /// Informs the simulation.
+    /// Passes the state to the simulation.
     fn tell_cutting_speed(&mut self) {
         let Some(mut cutting) = self.motion.cutting.speed else { return };
         cutting.centre_mm = self.geometry.coordinates.turning_centre(cutting.axis);
@@ -193,8 +193,8 @@ impl Decoder {
         }
     }
 
-    /// Called before a motion whose target is known: offsets may have moved the turning centre, rapid blocks keep the speed
-    /// of the position where they begin.
+    /// Called before a motion with a known target. Offsets may have moved the turning centre, and rapid blocks keep the speed
+    /// of their start position.
     pub(in crate::exec) fn follow_turning_centre(&mut self, start: &AxisVec) {
         let rapid = self.modal.path == PathMode::Rapid;
         let Some(cutting) = &mut self.motion.cutting.speed else { return };
@@ -208,8 +208,8 @@ impl Decoder {
         }
     }
 
-    /// Refuses what depends on the speed of the main spindle while an override changes it: the pages are silent about
-    /// which of the two speeds counts.
+    /// Refuses functions that depend on the speed of the main spindle while an override changes it: the pages do not state
+    /// which of the two speeds applies.
     pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
         if self.motion.spindles[0].is_overridden() {
             let what = format!("{what} with an override of the main spindle (S[OVERRIDE ..])");
@@ -218,7 +218,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// Speed of the main spindle in rev/min after the present position.
+    /// Speed of the main spindle in rev/min after the current position.
     pub(in crate::exec) fn spindle_rpm(&self) -> f64 {
         match self.motion.cutting.speed {
             Some(cutting) => {
@@ -234,8 +234,8 @@ impl Decoder {
     }
 }
 
-/// The pieces of a straight motion in which G95 under G96 has the same feed, with the speed of each; one if the
-/// speed does not change.
+/// The pieces of a straight motion within which G95 under G96 has the same feed rate, with the speed of each; a single one if
+/// the speed does not change.
 pub(super) fn pieces(
     cutting: CuttingSpeed,
     path: &Path,
@@ -257,14 +257,14 @@ pub(super) fn pieces(
     let mut pieces = Vec::new();
     let (mut from, mut start) = (0.0, path.start().clone());
     for _ in 0..PIECES_MAX {
-        // the furthest share at which the speed is still within one step
+        // the largest share of the path at which the speed is still within one step
         let rpm = cutting.rpm(radius(from));
         let same = |share: f64| {
             let other = cutting.rpm(radius(share));
             other <= rpm * STEP && other * STEP >= rpm
         };
         let (mut low, mut high) = (from, 1.0);
-        // beyond the turning centre the speed falls again: the two halves separately
+        // beyond the turning centre the speed decreases again: both halves are divided separately
         let centre = -radius(0.0) / (radius(1.0) - radius(0.0));
         if centre > from && centre < 1.0 {
             high = centre;

@@ -1,4 +1,4 @@
-//! Dwells: G04 and the time it waits.
+//! Dwells: G04 and its time.
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{GWord, Words};
@@ -56,7 +56,7 @@ impl Decoder {
         self.dwell_for(seconds, Condition::DwellRange, span)
     }
 
-    /// Waits for a time at rest; `range`: the condition of a time outside its range.
+    /// Dwells at standstill for a time; `range`: the condition for a time outside its range.
     pub(in crate::exec) fn dwell_for(
         &mut self,
         seconds: f64,

@@ -1,8 +1,8 @@
 //! Dynamic limits of the axes under the weights of the program.
 //!
-//! Every weight refers to the list, never to the weight before; what exceeds the limits of the list is capped, 50130.
+//! Every weight refers to the list, never to the previous weight. Values above the limits of the list are capped, with 50130.
 //!
-//! An acceleration weighted down to 0 becomes the least one of the lists; the program continues.
+//! An acceleration weighted to 0 becomes the smallest one that the lists allow; the program continues.
 //!
 //! Source: TF5200 programming manual, G127 to G134, G230 to G233; P-AXIS-00292, 00293, 00008, 00201, 00212; 120028, 120030,
 //! 120032, 120034.
@@ -26,7 +26,7 @@ impl AxisWeights {
     const ONE: Self = Self { velocity: 1.0, acceleration: 1.0, ramp: 1.0, rapid_acceleration: 1.0 };
 }
 
-/// What a G function of a weight acts on.
+/// The quantity that the G function of a weight changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Weight {
     /// G127, G128.
@@ -64,7 +64,7 @@ impl Weights {
         }
     }
 
-    /// Sets a weight of one axis or of all.
+    /// Sets the weight of one axis or of all.
     pub(in crate::exec) fn set(&mut self, what: Weight, axis: Option<usize>, ratio: f64) {
         let chosen = match axis {
             Some(axis) => axis..axis + 1,
@@ -84,12 +84,12 @@ impl Weights {
     }
 }
 
-/// Least weighted acceleration in mm/s2 or deg/s2.
+/// Lowest weighted acceleration in mm/s2 or deg/s2.
 ///
-/// Assumption: the least value of the lists (range of P-AXIS-00001, 00002, 00004); the vendor prints no number.
+/// Assumption: the lowest value of the lists (range of P-AXIS-00001, 00002, 00004); the vendor prints no number.
 const ACCELERATION_MIN: f64 = 1.0;
 
-/// Scales values and notices when a limit cuts them.
+/// Scales values and records when a limit applies.
 #[derive(Default)]
 struct Capped {
     conditions: Vec<Condition>,
@@ -102,7 +102,7 @@ impl Capped {
         }
     }
 
-    /// `value * ratio`, at most `cap` and at least the least acceleration; `zero` where nothing of it is left.
+    /// `value * ratio`, at most `cap` and at least the lowest acceleration; sets `zero` if the result would be 0.
     fn acceleration(&mut self, value: f64, ratio: f64, cap: f64, zero: Option<Condition>) -> f64 {
         let least = ACCELERATION_MIN.min(value);
         if value * ratio < least {
@@ -117,7 +117,7 @@ impl Capped {
     /// `value * ratio`, at most `cap`.
     fn at_most(&mut self, value: f64, ratio: f64, cap: f64) -> f64 {
         let scaled = value * ratio;
-        // a list value above the cap is not the program's doing
+        // a list value above the cap is not caused by the program
         let cap = cap.max(value.min(scaled));
         if scaled > cap {
             self.cut(Condition::DynamicsLimited);
@@ -139,7 +139,7 @@ impl Capped {
 /// Lowest weighted rapid velocity in mm/s. Source: TF5200 programming manual, G129: 0 gives 1 um/s.
 const RAPID_MIN_MM_S: f64 = 0.001;
 
-/// Limits of one axis under its weights, and why they are not what the weights ask for.
+/// Limits of one axis with its weights, and why they differ from the values requested by the weights.
 fn weighted(
     axis: &Axis,
     w: AxisWeights,
@@ -149,14 +149,14 @@ fn weighted(
 ) -> (AxisDynamics, Vec<Condition>) {
     let mut d = axis.dynamics();
     let mut capped = Capped::default();
-    // the profile in use says what becomes 0
+    // the active profile decides which value becomes 0
     let stepped = modal.slope.kind == SlopeKind::Step;
     let stages =
         [Condition::FirstStageZero, Condition::SecondStageZero].map(|c| stepped.then_some(c));
     let smooth =
         [Condition::AccelerationZero, Condition::DecelerationZero].map(|c| (!stepped).then_some(c));
     let (a_cap, floor) = (axis.a_w_max_mm_s2(), axis.tr_w_min_s());
-    // P-CHAN-00001, P-CHAN-00073: selective weights belong to the older command
+    // P-CHAN-00001, P-CHAN-00073: selective weights apply to the older command
     let (accelerations, ramps) =
         if modal.old_slope { (channel.acc_selection, channel.ramp_selection) } else { (0, 0) };
     let acc =
@@ -187,7 +187,7 @@ fn weighted(
     (d, capped.conditions)
 }
 
-/// Limits of the channel, and the axes of which a weight was limited, with the conditions that say so.
+/// Limits of the channel, and the axes with a limited weight, with the corresponding conditions.
 pub(in crate::exec) fn channel_dynamics(
     machine: &Machine,
     weights: &Weights,

@@ -1,4 +1,4 @@
-//! Feed and end velocity of a block.
+//! Feed rate and end velocity of a block.
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Placed;
@@ -12,7 +12,7 @@ use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::Path;
 
 impl Decoder {
-    /// Feed of a block with this path.
+    /// Feed rate of a block with this path.
     pub(super) fn feed_of(&mut self, path: &Path, span: Span) -> Outcome<Feed> {
         if self.modal.path == PathMode::Rapid {
             return Ok(Feed::Rapid);
@@ -27,7 +27,7 @@ impl Decoder {
                 None => "the feed is 0: no F word has been programmed",
             };
             self.report.note_once(&key, Fault::new(Condition::FeedZero, text, span));
-            // the block is left out, the positions continue
+            // the block is skipped, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
         if self.feed_type() != self.modal.feed_type {
@@ -48,7 +48,7 @@ impl Decoder {
         self.feed_from(word.value, unit_mm, span)
     }
 
-    /// The feed type that counts: in a B-spline that of G94 takes the place of G93 (120847).
+    /// The effective feed type: in a B-spline G94 replaces G93 (120847).
     fn feed_type(&self) -> FeedType {
         match self.modal.feed_type {
             FeedType::Time if self.contour.hsc.spline().is_some() => FeedType::PerMinute,
@@ -56,7 +56,7 @@ impl Decoder {
         }
     }
 
-    /// Feed that a value above 0 means under the active feed type, with the unit of a way in mm.
+    /// Feed rate for a value above 0 with the active feed type; the unit of a distance in mm is given.
     pub(in crate::exec) fn feed_from(&self, value: f64, unit_mm: f64, span: Span) -> Outcome<Feed> {
         Ok(match self.feed_type() {
             FeedType::PerMinute => {
@@ -81,7 +81,7 @@ impl Decoder {
         })
     }
 
-    /// G95 at a speed of the spindle in rev/min.
+    /// G95 at a spindle speed in rev/min.
     pub(super) fn feed_per_revolution(&self, path: &Path, rpm: f64) -> Feed {
         let word = self.modal.feed();
         let inch = word.is_some_and(|word| word.inch) && self.feed_is_linear(path);
@@ -89,7 +89,7 @@ impl Decoder {
         per_revolution(word.map_or(0.0, |word| word.value) * unit_mm, rpm)
     }
 
-    /// Reports a time (G93) that the limits of the axes do not allow: the limits win.
+    /// Reports a time (G93) that the limits of the axes do not allow; the limits apply.
     pub(super) fn check_time(&mut self, block: &Block, span: Span) {
         let Feed::Duration(time_s) = block.feed else { return };
         let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));
@@ -102,7 +102,7 @@ impl Decoder {
         }
     }
 
-    /// True unless only rotary axes move.
+    /// Whether not only rotary axes move.
     fn feed_is_linear(&self, path: &Path) -> bool {
         !path.is_straight()
             || (0..path.start().len())
@@ -131,7 +131,7 @@ impl Decoder {
     }
 }
 
-/// A way in mm per revolution at a speed in rev/min.
+/// A distance in mm per revolution at a speed in rev/min.
 fn per_revolution(way_mm: f64, rpm: f64) -> Feed {
     Feed::PathVelocity(way_mm * rpm / 60.0)
 }

@@ -1,4 +1,4 @@
-//! Which feeds change along a motion (G13, G193, G293), and what cannot be combined with that.
+//! Feed rates that change along a motion (G13, G193, G293), and the functions with which they cannot be combined.
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
@@ -11,7 +11,7 @@ use crate::syntax::ast::Span;
 use kontur_motion::block::{Feed, SlopeKind};
 
 impl Decoder {
-    /// How the feed of a motion changes along it. Assumption: not in rapid traverse, which has no feed.
+    /// How the feed rate changes along a motion. Assumption: not in rapid traverse, which has no feed rate.
     pub(super) fn feed_course(
         &mut self,
         words: &Words<'_>,
@@ -65,7 +65,7 @@ impl Decoder {
         Err(Fault::unsupported(format!("{name} with {beside}"), span))
     }
 
-    /// Interpolation from the F word before to that of the block.
+    /// Interpolates from the previous F word to that of the block.
     fn interpolated_feed(
         &self,
         name: &str,

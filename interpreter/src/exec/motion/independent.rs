@@ -1,8 +1,8 @@
 //! Independent axes: `X[INDP_SYN G90 G01 FEED=1000 POS=50]`, `X[INDP_ASYN ..]`, `#WAIT INDP [X, Y]`.
 //!
-//! An independent axis leaves the path and moves on its own profile, from rest to rest. The path is planned without
-//! that motion: its coordinates of the axis are shifted by the ways that the axis has gone alone ([`Independent::way`]),
-//! so that they stay continuous; the simulation adds the way to the path.
+//! An independent axis leaves the path and moves with its own profile, from standstill to standstill. The path is planned
+//! without that motion: its coordinates of the axis are shifted by the distances that the axis has travelled independently
+//! ([`Independent::way`]), so that they stay continuous. The simulation adds the shift to the path.
 //!
 //! Source: TF5200 programming manual, independent axes; 21068.
 
@@ -28,7 +28,7 @@ struct Words {
     functions: Vec<Event>,
 }
 
-/// Words that are legal and not simulated.
+/// Words that are valid but not simulated.
 const UNSUPPORTED: &[&str] = &["G100", "DRY_RUN", "ACC_WEIGHT", "RAPID_ACC_WEIGHT", "INCL_OFFSETS"];
 
 fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
@@ -36,7 +36,7 @@ fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
     Fault::new(Condition::IndependentSyntax, text, span).hint(hint)
 }
 
-/// Sets a word that may appear once.
+/// Sets a word that may appear only once.
 fn once<T>(slot: &mut Option<T>, value: T, what: &str, span: Span) -> Outcome<()> {
     if slot.replace(value).is_some() {
         let text = format!("{what} twice in a bracket: the axis would move as the last one says");
@@ -46,7 +46,7 @@ fn once<T>(slot: &mut Option<T>, value: T, what: &str, span: Span) -> Outcome<()
 }
 
 impl Decoder {
-    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: what follows the first word.
+    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: the text after the first word.
     pub(in crate::exec) fn independent_axis(
         &mut self,
         axis: usize,
@@ -200,7 +200,7 @@ impl Decoder {
             let kind = kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?;
             return once(&mut words.slope, kind, "the slope", span);
         }
-        // F is the older name
+        // F is the older keyword
         let speed = if key.is("FEED") || key.is("F") {
             let unit = self.machine.channel.feed_unit_mm_min / 60.0 * self.axis_unit(axis);
             IndependentSpeed::Feed(value * unit)
@@ -222,13 +222,13 @@ impl Decoder {
         Ok(())
     }
 
-    /// The path stops until these axes have arrived.
+    /// Stops the path until these axes have arrived.
     pub(super) fn join(&mut self, axes: Vec<usize>) {
         self.motion.independent.open.retain(|axis| !axes.contains(axis));
         self.sync(Sync::Independent { axes });
     }
 
-    /// After a block with INDP_SYN: the next one begins when all have arrived.
+    /// After a block with INDP_SYN: the next block begins when all its axes have arrived.
     pub(in crate::exec) fn join_synchronous(&mut self) {
         if !self.motion.independent.synchronous.is_empty() {
             let axes = std::mem::take(&mut self.motion.independent.synchronous);
@@ -236,7 +236,7 @@ impl Decoder {
         }
     }
 
-    /// A path that moves an axis which may be on its way alone waits for it.
+    /// A path that moves an axis waits until an independent motion of this axis has ended.
     pub(in crate::exec) fn join_for(&mut self, path: &Path) {
         if self.motion.independent.open.is_empty() {
             return;
@@ -255,7 +255,7 @@ impl Decoder {
         }
     }
 
-    /// P-CHAN-00451 = 1: a block that names an axis which is on its way alone waits for it, whether it moves it or not.
+    /// P-CHAN-00451 = 1: a block that names an axis in independent motion waits for it, even if the block does not move it.
     pub(super) fn join_named(&mut self, words: &BlockWords<'_>) {
         if !self.machine.channel.joins_named || self.motion.independent.open.is_empty() {
             return;
@@ -269,7 +269,7 @@ impl Decoder {
 
     /// `#WAIT INDP [X, Y]`, `#WAIT INDP ALL`.
     ///
-    /// It waits for set positions; with P-CHAN-00297 = 2 for those of all axes, and for their windows.
+    /// Waits for the setpoints; with P-CHAN-00297 = 2 for those of all axes, and for their windows.
     pub(in crate::exec) fn wait_for_independent(
         &mut self,
         all: bool,

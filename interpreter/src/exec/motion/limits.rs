@@ -9,8 +9,8 @@ use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
 impl Decoder {
-    /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round; `place`
-    /// says where the word of an axis is.
+    /// Checks a path against the software limits (P-AXIS-00177, P-AXIS-00178), including the reversal points of arcs; `place`
+    /// is the position of the word of an axis.
     pub(super) fn check_limits(
         &mut self,
         path: &Path,
@@ -34,12 +34,12 @@ impl Decoder {
         }
     }
 
-    /// 21897 for the slaves of an axis whose path goes from `low` to `high`.
+    /// 21897 for the slaves of an axis that moves between `low` and `high`.
     fn slaves_outside(&self, master: usize, low: f64, high: f64, at: Span) -> Vec<Fault> {
         let way = &self.motion.independent.way;
         let range = (low + way[master], high + way[master]);
         let slaves = self.motion.couplings.slaves_of(master, range);
-        // what a slave has gone is not part of its path
+        // the travel of a slave is not part of its path
         slaves
             .filter_map(|(slave, low, high)| {
                 self.outside_limits(slave, low - way[slave], high - way[slave], None, || at)
@@ -48,7 +48,7 @@ impl Decoder {
             .collect()
     }
 
-    /// Compensated motions against the software limits, all of them against the control areas.
+    /// Checks compensated motions against the software limits, and all motions against the control areas.
     pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
         let driven = self.contour.take_driven();
         let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
@@ -64,7 +64,7 @@ impl Decoder {
         faults
     }
 
-    /// 21897 for an axis that moves between `low` and `high` and leaves its limits.
+    /// 21897 for an axis that moves between `low` and `high` and exceeds its limits.
     pub(super) fn outside_limits(
         &self,
         axis: usize,
@@ -78,10 +78,10 @@ impl Decoder {
         }
         let limits = self.geometry.limits_mm[axis]?;
         let outside = |x: f64| is_outside(x, limits);
-        // the path leaves out what the axis has gone as an independent axis
+        // the path does not contain the independent travel of the axis
         let way = self.motion.independent.way[axis];
         let (low, high) = (low + way, high + way);
-        // the end of the block is what the program says
+        // the end of the block is the programmed one
         let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
             Some(end) => ("target", end),
             None if outside(low) => ("lowest position", low),
@@ -110,7 +110,7 @@ impl Decoder {
     ) -> Box<Fault> {
         let name = self.names.name(axis).to_owned();
         let number = self.machine.axes[axis].number();
-        // an increment has four decimals, more of them are rounding
+        // increments have four decimals; digits beyond are rounding
         let shown = (x * 1e7).round() / 1e7;
         let text = format!("axis {name}: {what} {shown} is outside its limits {least} to {most}");
         let limit = if x < least { "P-AXIS-00177" } else { "P-AXIS-00178" };

@@ -1,4 +1,4 @@
-//! Manual mode, G200 to G202: nobody moves the axes by hand, so that their offsets stay 0.
+//! Manual mode, G200 to G202: there is no operator, so the manual offsets stay 0.
 //!
 //! Source: TF5200 programming manual 206639371, 206633483, tccncprogramming 15556788363.
 
@@ -10,10 +10,10 @@ use crate::exec::step::Sync;
 use crate::syntax::ast::Group;
 
 impl Decoder {
-    /// G200: the path stops and continues at once, as *continue motion* ends the mode. G201 and G202: the axes named may be
-    /// moved by hand during the path, or no longer; what the program moves is the same.
+    /// G200: the path stops and continues at once, because *continue motion* ends the mode. G201 and G202 enable or disable
+    /// manual motion of the named axes in parallel with the path; the programmed motion is the same.
     ///
-    /// 20038 for G201 without an axis. The values of axis words have no meaning.
+    /// 20038 for G201 without an axis. The values of the axis words are ignored.
     pub(in crate::exec) fn manual_mode(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         let mut axes: Vec<usize> = words.axes.iter().map(|(axis, _, _)| *axis).collect();
         for (hash, _, _) in words.hashes.iter().filter(|(hash, _, _)| &*hash.name == "ACHSE") {

@@ -1,12 +1,12 @@
-//! Measuring runs: G100 and G310 move until the probe signals; G101 and G102 take what was measured into the offsets.
+//! Measuring runs: G100 and G310 move until the probe signals; G101 and G102 include the measured values in the offsets.
 //!
-//! A run is a straight motion from rest to rest. Where the probe signals, the simulation latches the actual positions, brakes
-//! the path and drops what is left of it; the program continues from where the path came to rest.
+//! A run is a straight motion from standstill to standstill. Where the probe signals, the simulation latches the actual
+//! positions, brakes the path and discards the rest of it. The program continues from the position where the path stopped.
 //!
 //! Source: TF5200 programming manual, measuring functions (206164491, 206171147, 206177803, 206185227, 206191115,
 //! 206197003, 206208011), settings for measuring (207084683, 207092107); functional description of measuring (342045451).
-//! Assumptions, where they are silent: the path rests before a run; a run without a signal leaves the measured values as
-//! they were and takes FALSE into V.A.MERF; types 3 to 6 take a missing signal as type 1 does (P-CHAN-00176).
+//! Assumptions, where they are silent: the path stops before a run; a run without a signal keeps the measured values and sets
+//! V.A.MERF to FALSE; types 3 to 6 treat a missing signal as type 1 does (P-CHAN-00176).
 
 use super::state::measuring::{Measured, Pending};
 use crate::diag::{Condition, ValueKind};
@@ -54,7 +54,7 @@ impl Decoder {
             let text = format!("G{}: the axes are already at the target", g.row.number);
             return Err(Fault::new(Condition::MeasuringWay, text, g.span));
         }
-        // a fixed stop shows in the lag of an axis of the run
+        // a fixed stop is detected by the following error of an axis of the run
         let axes = words.axes.iter().map(|(axis, _, _)| *axis);
         let stops = if kind == 7 { axes.collect() } else { Vec::new() };
         self.sync(Sync::Measured { through, stops });
@@ -77,7 +77,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What cannot be combined with a run, or with its type.
+    /// Functions that cannot be combined with a run, or with its type.
     fn measuring_fits(&mut self, g: &GWord, words: &Words<'_>, through: bool) -> Outcome<()> {
         let kind = self.motion.measuring.kind;
         let of_kind = |condition, text| {
@@ -177,12 +177,12 @@ impl Decoder {
         Ok(())
     }
 
-    /// The run has ended: takes over what was measured and where the axes are. The label of G310 comes back
-    /// if the probe has signalled.
+    /// End of a run: reads the measured values and the positions of the axes. Returns the label of G310 if the probe has
+    /// signalled.
     pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Jump> {
         let pending = self.motion.measuring.pending.take()?;
         let Pending { axes, target, needs_signal, jump, source, span } = *pending;
-        // a check has no probe: it takes the target for the surface
+        // a check has no probe: the surface is assumed at the target
         let (signal, rest) = match self.feedback.measured.take() {
             Some(probed) => (probed.signal_mm, Some(probed.rest_mm)),
             None => (Some(self.geometry.coordinates.target().clone()), None),
@@ -216,8 +216,8 @@ impl Decoder {
         jump.filter(|_| signal.is_some())
     }
 
-    /// G101: takes measuring offsets times their factors into the offsets; G102: takes them out again, of all axes if it
-    /// names none.
+    /// G101: adds measuring offsets times their factors to the offsets; G102: removes them again, for all axes if it names
+    /// none.
     pub(in crate::exec) fn measuring_offsets(
         &mut self,
         takes_in: bool,

@@ -1,12 +1,13 @@
 //! Oscillating axes: `X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]`, `X[OSC OFF]`.
 //!
-//! An axis oscillates independently of the path. The program takes it to be at its second position, where every oscillation ends:
-//! by OSC OFF, and by whatever waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end.
+//! An axis oscillates independently of the path. For the program it is at its second position, where every oscillation ends:
+//! with OSC OFF, and with everything that waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end of
+//! the program.
 //!
 //! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.
-//! Assumptions: the axis goes to its first position first; offsets act with INCL_OFFSETS only, then those that are in force
-//! in the block; the first position lies EXCUR below ZERO_POS, the second one above; FREQ and TIME are those of an oscillation
-//! without its rests; the block after OSC OFF begins when the axis has stopped.
+//! Assumptions: the axis moves to its first position first; offsets apply only with INCL_OFFSETS, with their values in the
+//! block; the first position is EXCUR below ZERO_POS, the second one EXCUR above; FREQ and TIME refer to an oscillation without
+//! its dwells; the block after OSC OFF begins when the axis has stopped.
 
 use crate::diag::Condition;
 use crate::exec::commands::keys::arguments;
@@ -40,7 +41,7 @@ arguments! {
 }
 
 impl OscArguments {
-    /// The first key that is not simulated.
+    /// The first key that is not supported.
     fn unsupported(&self) -> Option<(&'static str, Span)> {
         let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
         [
@@ -54,7 +55,7 @@ impl OscArguments {
 }
 
 impl Decoder {
-    /// `X[OSC ..]`; `rest`: what follows the first word.
+    /// `X[OSC ..]`; `rest`: the text after the first word.
     pub(in crate::exec) fn oscillating_axis(
         &mut self,
         axis: usize,
@@ -62,7 +63,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         let title = format!("{}[OSC]", self.names.name(axis));
-        // the page scales oscillating axes, but does not say which of their words
+        // the page scales oscillating axes, but does not define which words are scaled
         if self.geometry.scale.changes(axis) {
             return Err(Fault::unsupported(format!("{title} with #SCALE"), span));
         }
@@ -139,7 +140,7 @@ impl Decoder {
         if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
-        // a path that is under way stops first
+        // a path in motion stops first
         self.sync(Sync::Stop);
         self.check_limit(axis, reversal_mm[0], at);
         self.check_limit(axis, reversal_mm[1], second_at);
@@ -161,7 +162,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// 50487: the limits of the axis do not allow the time, or the feed.
+    /// 50487: the limits of the axis do not allow the programmed time or feed rate.
     fn check_oscillation(
         &mut self,
         axis: usize,

@@ -16,7 +16,7 @@ impl Overrides {
         Self { feed: 1.0, rapid: 1.0, axis_feed: vec![1.0; axes], axis_rapid: vec![1.0; axes] }
     }
 
-    /// Sets the overrides that are given, of the path or of one axis.
+    /// Sets the given overrides, of the path or of one axis.
     pub(in crate::exec) fn set(
         &mut self,
         axis: Option<usize>,
@@ -31,7 +31,7 @@ impl Overrides {
         *r = rapid.unwrap_or(*r);
     }
 
-    /// True if no axis has its own override: the ratio is the same for all axes.
+    /// Whether no axis has an override: the ratio is then the same for all axes.
     pub(in crate::exec) fn are_alike(&self) -> bool {
         let mut axes = [&self.axis_feed, &self.axis_rapid].into_iter();
         axes.all(|axes| axes.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits()))

@@ -1,4 +1,4 @@
-//! What a motion knows of the active plane: its axes, its place in space, the compensation in it.
+//! The active plane of a motion: its axes, its orientation in space, and its tool radius compensation.
 
 use crate::diag::Condition;
 use crate::exec::block::modal::{Compensation, Corners};
@@ -8,11 +8,11 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
 use kontur_motion::path::Tilt;
 
-/// What a motion has to know of the active plane.
+/// The active plane as a motion needs it.
 pub(super) struct InPlane {
     /// Its axes.
     pub(super) plane: [usize; 2],
-    /// The coordinate system, if it lies askew to the axes.
+    /// The coordinate system, if it is oblique to the axes.
     pub(super) tilt: Option<Box<Tilt>>,
     pub(super) compensation: Option<Compensated>,
 }
@@ -23,12 +23,12 @@ pub(super) struct PlaneImage {
     /// Indices of its main axes; with a tilt, those of the coordinate system.
     pub(super) main: [usize; 2],
     pub(super) keeps_sense: bool,
-    /// The frame, if the plane lies askew to the axes.
+    /// The frame, if the plane is oblique to the axes.
     pub(super) tilt: Option<Box<Tilt>>,
 }
 
 impl Decoder {
-    /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
+    /// Axes of the active plane, its coordinate system if it is oblique to the axes, and the compensation.
     pub(super) fn in_plane(&self, span: Span) -> Outcome<InPlane> {
         let axis = |m: usize| self.geometry.coordinates.main_axis(m);
         let compensated =
@@ -62,7 +62,7 @@ impl Decoder {
         Ok(InPlane { plane: [first, second], tilt, compensation })
     }
 
-    /// Where the frame puts the active plane.
+    /// Orientation of the active plane in the frame.
     pub(super) fn image_of_plane(&self, span: Span) -> Outcome<PlaneImage> {
         let [a, b, _] = self.modal.plane.main_axes();
         let frame = self.geometry.coordinates.frame();

@@ -1,11 +1,11 @@
-//! `#SCALE`: contours enlarged or reduced by factors of the axes.
+//! `#SCALE`: contours enlarged or reduced by factors per axis.
 //!
 //! A factor acts on the coordinate words of its axis in motions, on centres, radii and pitches of arcs and on the targets
 //! of independent axes, about the zero point of the active coordinate system. Offsets, feeds, tolerances and tool data keep
 //! their values, and switching moves nothing.
 //!
 //! Source: TF5200 programming manual, enlarging and reducing contours (207656459). The page names lines, arcs and
-//! positioning axes; what it shows in pictures only, or not at all, is refused.
+//! positioning axes; what it shows only in pictures, or not at all, is refused.
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
@@ -16,7 +16,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
 
 impl Decoder {
-    /// `#SCALE ON X2 Y2`, `#SCALE X2`, `#SCALE OFF`: true if the axis words of the block belong to one of them.
+    /// `#SCALE ON X2 Y2`, `#SCALE X2`, `#SCALE OFF`: returns whether the axis words of the block belong to the command.
     pub(in crate::exec) fn scaling_words(&mut self, words: &Words<'_>) -> bool {
         let found = words.hashes.iter().find_map(|(hash, _, at)| match &*hash.name {
             "SCALE" => Some((None, *at)),
@@ -99,7 +99,7 @@ impl Decoder {
     /// Factor of centres and radii in the plane of these main axes.
     ///
     /// # Errors
-    /// The axes of the plane have different factors: the image of the arc would not be an arc.
+    /// The axes of the plane have different factors: the scaled arc would not be an arc.
     pub(super) fn scale_of_plane(&self, plane: [usize; 2], span: Span) -> Outcome<f64> {
         let [first, second] = plane.map(|main| self.scale_of_main(main));
         if first.to_bits() == second.to_bits() {

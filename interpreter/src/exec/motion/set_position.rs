@@ -1,10 +1,11 @@
-//! `X[SET_POSITION POS=100]`, `X[SET_POSITION OFFSET=-5]`: an axis at rest gets another position and does not move.
+//! `X[SET_POSITION POS=100]`, `X[SET_POSITION OFFSET=-5]`: assigns another position to an axis at standstill, without motion.
 //!
 //! As for independent axes, the coordinates of the path do not contain the jump ([`Independent::way`]), so that they stay
-//! continuous; the simulation adds it to the path. Zero offsets and coordinate systems stay as they are: the program counts
-//! on from the new position.
+//! continuous. The simulation adds it to the path. Zero offsets and coordinate systems do not change: the program continues
+//! from the new position.
 //!
-//! Assumption: the path comes to rest and every axis into its window first, so that no lag is lost with the old position.
+//! Assumption: the path stops and every axis settles in its window first, so that no following error is lost with the old
+//! position.
 //!
 //! Source: TF5200 programming manual, setting an axis position in the channel (482566155).
 //!
@@ -26,7 +27,7 @@ arguments! {
 }
 
 impl Decoder {
-    /// `X[SET_POSITION ..]`; `rest`: what follows the first word.
+    /// `X[SET_POSITION ..]`; `rest`: the text after the first word.
     pub(in crate::exec) fn set_position(
         &mut self,
         axis: usize,
@@ -59,7 +60,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// The set position of an axis at rest becomes another one; `moves`: the axis follows.
+    /// Replaces the setpoint of an axis at standstill; `moves`: the axis follows.
     pub(in crate::exec) fn shift_position(&mut self, axis: usize, offset_mm: f64, moves: bool) {
         self.sync(Sync::SetPosition { axis, offset_mm, moves });
         let mut target = self.geometry.coordinates.target().clone();

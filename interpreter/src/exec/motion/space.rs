@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 type Vector = [f64; 3];
 
-/// Sine of the angle between two chords below which the points lie on a line.
+/// Sine of the angle between two chords below which the points count as collinear.
 const STRAIGHT: f64 = 1e-9;
 
 fn sub(a: Vector, b: Vector) -> Vector {
@@ -113,7 +113,7 @@ impl Decoder {
 mod tests {
     use super::{dot, sub, through};
 
-    /// The page's points: the centre is as far from all three, and lies in their plane.
+    /// The points of the page: the centre is equidistant from all three, and in their plane.
     #[test]
     fn the_circle_of_three_points() {
         let (a, m, e) = ([0.0, 0.0, 30.0], [30.0, 75.0, 15.0], [60.0, 0.0, 0.0]);

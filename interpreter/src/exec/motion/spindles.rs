@@ -3,15 +3,15 @@
 use crate::exec::step::{Approach, Event, SpindleMotion};
 use crate::machine::{Machine, SpindleLimits};
 
-/// Limits that wait until a spindle starts.
+/// Limits that take effect when a spindle starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::exec) enum Passed {
-    /// None: it keeps those in force.
+    /// None: the spindle keeps the active ones.
     #[default]
     Nothing,
-    /// Those of a tool.
+    /// The limits of a tool.
     Tool(SpindleLimits),
-    /// Those of its list alone.
+    /// The limits of its list only.
     List,
 }
 
@@ -26,15 +26,15 @@ pub(in crate::exec) struct Spindle {
     /// Programmed override of the speed (`S[OVERRIDE ..]`), 1 without one.
     pub(in crate::exec) override_ratio: f64,
     pub(in crate::exec) turning: Turning,
-    /// Angle of M19 in deg: that of POS, which holds.
+    /// Angle of M19 in deg: the modal value of POS.
     pub(in crate::exec) angle_deg: f64,
     /// Weight of the acceleration (G130), 1 without one.
     pub(in crate::exec) acceleration_ratio: f64,
-    /// M3 or M4 was its last command.
+    /// Whether M3 or M4 was its last command.
     pub(in crate::exec) runs: bool,
-    /// Limits of its tool that are in force.
+    /// Active limits of its tool.
     pub(in crate::exec) limits: Option<SpindleLimits>,
-    /// Limits, or those of the list, that it takes when it next starts.
+    /// Limits of a tool or of the list that take effect at its next start.
     pub(in crate::exec) passed: Passed,
     pub(in crate::exec) feedforward: bool,
     /// Weight of feedforward, 0 to 1.
@@ -51,7 +51,7 @@ pub(in crate::exec) enum Turning {
 }
 
 impl Turning {
-    /// What M3, M4, M19 or M5 asks for.
+    /// The command given by M3, M4, M19 or M5.
     pub(in crate::exec) fn of(number: u32) -> Self {
         match number {
             3 => Self::Clockwise,
@@ -61,7 +61,7 @@ impl Turning {
         }
     }
 
-    /// The M function that asks for it.
+    /// The M function of the command.
     pub(in crate::exec) fn number(self) -> u32 {
         match self {
             Self::Clockwise => 3,
@@ -104,19 +104,19 @@ impl Spindle {
         self.rpm.abs() * self.override_ratio
     }
 
-    /// True if an override changes the programmed speed.
+    /// Whether an override changes the programmed speed.
     pub(in crate::exec) fn is_overridden(&self) -> bool {
         self.override_ratio.to_bits() != 1.0_f64.to_bits()
     }
 
-    /// Its state of motion as an event; `None` if the machine has no such spindle.
+    /// Its state of motion as an event; `None` if the machine does not have this spindle.
     pub(in crate::exec) fn motion_event(&self) -> Option<Event> {
         let rpm = self.overridden_rpm();
         let motion = match self.turning {
             Turning::Stopped => SpindleMotion::Stop,
             Turning::Clockwise => SpindleMotion::Clockwise { rpm },
             Turning::CounterClockwise => SpindleMotion::CounterClockwise { rpm },
-            // Assumption: the programmed speed holds for positioning too; a spindle without one turns as fast as it can
+            // Assumption: the programmed speed also applies to positioning; without one a spindle turns at its maximum speed
             Turning::Positioned(approach) => SpindleMotion::Position {
                 deg: self.angle_deg,
                 rpm: Some(rpm).filter(|r| *r > 0.0),
@@ -141,7 +141,7 @@ impl Spindle {
     }
 }
 
-/// The spindles of the lists at program start, the main spindle first; one without a list if there are none.
+/// The spindles of the lists at program start, the main spindle first; a single spindle without a list if there are none.
 pub(super) fn of_lists(machine: &Machine) -> Vec<Spindle> {
     let named = machine.spindles.iter().enumerate();
     let mut spindles: Vec<Spindle> = named.map(|(i, s)| Spindle::new(s.name(), Some(i))).collect();
@@ -153,7 +153,7 @@ pub(super) fn of_lists(machine: &Machine) -> Vec<Spindle> {
     spindles
 }
 
-/// Index of the spindle of P-CHAN-00051, or else of the first one of the lists.
+/// Index of the spindle selected by P-CHAN-00051, otherwise of the first one of the lists.
 pub(in crate::exec) fn listed_main(spindles: &[Spindle], machine: &Machine) -> usize {
     let number = machine.channel.main_spindle;
     let listed = number.and_then(|main| machine.spindles.iter().position(|s| s.number() == main));

@@ -35,17 +35,17 @@ pub(in crate::exec) struct Feedforward {
     pub(in crate::exec) weight_ratios: AxisVec,
 }
 
-/// What the room owns.
+/// State that the motions own.
 #[derive(Debug)]
 pub(in crate::exec) struct MotionState {
     pub(in crate::exec) weights: Weights,
     /// Members of the feed group (`#FGROUP`).
     pub(in crate::exec) feed_axes: Vec<bool>,
-    /// They are those of `#FGROUP [..]`.
+    /// Whether they were set by `#FGROUP [..]`.
     pub(in crate::exec) feed_axes_named: bool,
-    /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
+    /// Active `#VECTOR LIMIT` in feed and in rapid blocks.
     pub(in crate::exec) vector: [VectorLimits; 2],
-    /// Dynamics in feed and in rapid blocks; the same while the limits are.
+    /// Dynamics in feed and in rapid blocks; reused while the limits do not change.
     pub(in crate::exec) dynamics: [Option<Arc<ChannelDynamics>>; 2],
     pub(in crate::exec) overrides: Overrides,
     pub(in crate::exec) independent: Independent,
@@ -57,19 +57,19 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) contour_line: ContourLines,
     /// `#CORNER PARAM`.
     pub(in crate::exec) corner: Option<Corner>,
-    /// F word in force before the current block.
+    /// F word before the current block.
     pub(in crate::exec) feed_before: Option<FeedWord>,
-    /// G40 with G239: the tool is beside the contour, not where the program was.
+    /// G40 with G239: the tool is beside the contour, not at the programmed position.
     pub(in crate::exec) left_contour: bool,
     pub(in crate::exec) cutting: Cutting,
     /// `#OTC`.
     pub(in crate::exec) wear: OnlineCompensation,
     pub(in crate::exec) areas: Areas,
-    /// `[LIFT_START ..]` without its end.
+    /// `[LIFT_START ..]` that has not ended yet.
     pub(in crate::exec) lifts: bool,
     /// Axes in manual mode (G201).
     pub(in crate::exec) manual: Vec<bool>,
-    /// S of the last G04: revolutions of the spindle.
+    /// S of the last G04: number of revolutions of the spindle.
     pub(in crate::exec) dwell_revolutions: f64,
 }
 
@@ -106,7 +106,7 @@ impl MotionState {
         }
     }
 
-    /// Dynamics in force in feed or rapid blocks; rebuilt when something changed.
+    /// Active dynamics in feed or rapid blocks; rebuilt after a change.
     pub(super) fn dynamics(
         &mut self,
         machine: &Machine,
@@ -125,12 +125,12 @@ impl MotionState {
         dynamics
     }
 
-    /// Something the dynamics are made from has changed.
+    /// Called after a change of anything that determines the dynamics.
     pub(in crate::exec) fn dynamics_changed(&mut self) {
         self.dynamics = [None, None];
     }
 
-    /// Axes whose weights are beyond what the lists allow, and the conditions that say so.
+    /// Axes with weights beyond the limits of the lists, and the corresponding conditions.
     pub(in crate::exec) fn limited_weights(
         &self,
         machine: &Machine,
@@ -140,17 +140,17 @@ impl MotionState {
     }
 }
 
-/// What contour lines keep.
+/// State of contour line programming.
 #[derive(Clone, Debug, Default)]
 pub(in crate::exec) struct ContourLines {
-    /// First line of two: its angle in deg and its block.
+    /// First of two lines: its angle in deg and its block.
     pub(super) open: Option<(f64, Span, SourceRef)>,
-    /// The coordinates that an angle (`#ANG`, `#CANG`) gives to the block in work.
+    /// The coordinates that an angle (`#ANG`, `#CANG`) gives to the current block.
     pub(super) targets: Vec<Target>,
 }
 
 impl ContourLines {
-    /// A first line waits for its second one.
+    /// Whether a first line still lacks its second one.
     pub(in crate::exec) fn is_open(&self) -> bool {
         self.open.is_some()
     }
@@ -159,9 +159,9 @@ impl ContourLines {
 /// Independent axes of a program.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct Independent {
-    /// Sum of the ways that each axis has gone alone.
+    /// Distance that each axis has travelled independently, summed.
     pub(in crate::exec) way: AxisVec,
-    /// Axes that may still be on their way: INDP_ASYN that nothing has joined.
+    /// Axes that may still be moving: INDP_ASYN without a wait so far.
     pub(super) open: Vec<usize>,
     /// INDP_SYN of the current block.
     pub(super) synchronous: Vec<usize>,
@@ -172,7 +172,7 @@ impl Independent {
         Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
     }
 
-    /// Position of the axes without the ways that they have gone alone.
+    /// Position of the axes without their independent travel.
     pub(super) fn on_path(&self, mut position: AxisVec) -> AxisVec {
         for (x, way) in position.iter_mut().zip(self.way.iter()) {
             *x -= way;
@@ -180,18 +180,18 @@ impl Independent {
         position
     }
 
-    /// No axis has ever moved alone.
+    /// Whether no axis has moved independently so far.
     pub(in crate::exec) fn is_unused(&self) -> bool {
         self.open.is_empty() && self.way.iter().all(|way| way.to_bits() == 0)
     }
 
-    /// The path is at rest and every axis has arrived.
+    /// Called when the path has stopped and every axis has arrived.
     pub(in crate::exec) fn all_arrived(&mut self) {
         self.open.clear();
     }
 }
 
-/// What the motions of a row share.
+/// State shared by consecutive motions.
 #[derive(Debug)]
 pub(in crate::exec) struct Straight {
     pub(super) feed: Feed,
@@ -204,7 +204,7 @@ pub(in crate::exec) struct Straight {
     pub(super) plane: [usize; 2],
 }
 
-/// A function that the machine carries out during the motion.
+/// A function that the machine executes during the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::exec) enum Function {
     M(u32),
@@ -221,14 +221,14 @@ pub(in crate::exec) enum Function {
     },
 }
 
-/// What the functions of the block in work take.
+/// Durations of the functions of the current block.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Technology {
-    /// Declared durations are waited for.
+    /// Whether the path waits for declared durations.
     pub(super) counted: bool,
-    /// Functions that are still to be waited for: time in s and when.
+    /// Functions to wait for: time in s, and whether before or after the motion.
     pub(super) pending: Vec<(f64, Acknowledged)>,
-    /// Spindles that the path has still to wait for.
+    /// Spindles that the path still has to wait for.
     pub(super) spindles: Vec<(usize, SpindleMoment)>,
     pub(super) named: BTreeSet<Function>,
 }
@@ -239,29 +239,29 @@ impl Technology {
     }
 }
 
-/// What threads keep.
+/// State of thread cutting.
 #[derive(Clone, Debug, Default)]
 pub(in crate::exec) struct Threads {
-    /// Pitches in mm by main axis (I, J, K); that of G331 has a sign.
+    /// Pitches in mm by main axis (I, J, K); signed for G331.
     pub(super) pitch_mm: [Option<f64>; 3],
-    /// Speed of the last tapping in rev/min, with its sign.
+    /// Speed of the last tapping in rev/min, signed.
     pub(super) tapping_rpm: Option<f64>,
-    /// The path follows the turning spindle.
+    /// Whether the path follows the rotating spindle.
     pub(in crate::exec) cutting: bool,
-    /// Direction of the block of G33 before.
+    /// Direction of the previous block of G33.
     pub(super) direction: AxisVec,
-    /// Speed of the spindle in the block of G33 before in rev/min.
+    /// Speed of the spindle in the previous block of G33 in rev/min.
     pub(super) rpm: f64,
-    /// What `#TURN` has switched.
+    /// State of `#TURN`.
     pub(in crate::exec) turning: TurningModes,
 }
 
-/// How blocks of G33 go together and what the override does to them.
+/// How blocks of G33 are chained, and the effect of the override on them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::exec) struct TurningModes {
     /// Consecutive blocks are one thread (P-CHAN-00837).
     pub(in crate::exec) chain: bool,
-    /// The override does not act (P-CHAN-00836).
+    /// The override has no effect (P-CHAN-00836).
     pub(in crate::exec) ignore_override: bool,
 }
 
@@ -273,7 +273,7 @@ impl TurningModes {
 }
 
 impl Threads {
-    /// As the channel list has it.
+    /// The setting of the channel list.
     pub(in crate::exec) fn new(channel: &Channel) -> Self {
         let turning = TurningModes {
             chain: channel.thread_chain,
@@ -282,7 +282,7 @@ impl Threads {
         Self { turning, ..Self::default() }
     }
 
-    /// An S word: with a sign under tapping, else it ends that of tapping.
+    /// An S word: signed in tapping; otherwise it ends the speed of tapping.
     pub(in crate::exec) fn speed(&mut self, tapping_rpm: Option<f64>) {
         self.tapping_rpm = tapping_rpm;
     }

@@ -1,7 +1,8 @@
-//! The fast route for plain straight motions: `N10 G01 X1 Y2 F500` in a row, without a syntax tree and without collected words.
+//! The fast route for consecutive plain straight motions, such as `N10 G01 X1 Y2 F500`, without a syntax tree and collected
+//! words.
 //!
-//! It says and does what [`Decoder::execute_words`] does with the same words, which the tests compare. What the motions of
-//! a row have in common is worked out once and holds until another kind of block comes.
+//! It reports and does the same as [`Decoder::execute_words`] for the same words; the tests compare both. Everything that
+//! consecutive motions have in common is computed once, and reused until another kind of block follows.
 
 use super::InPlane;
 use super::state::Straight;
@@ -29,7 +30,7 @@ pub(in crate::exec) struct StraightWords {
 }
 
 impl Decoder {
-    /// The words of a plain block if it is a straight motion and nothing else.
+    /// The words of a plain block if it contains only a straight motion.
     pub(in crate::exec) fn straight_words(&self, plain: &Plain) -> Option<StraightWords> {
         if !self.is_straight() {
             return None;
@@ -39,7 +40,7 @@ impl Decoder {
         (all && self.moves_straight(&words)).then_some(words)
     }
 
-    /// One more word of a straight motion: G00 or G01, F or an axis; false if it is anything else, or a repetition.
+    /// Adds a word of a straight motion: G00 or G01, F or an axis. Returns false for any other word, and for a repetition.
     #[inline]
     pub(in crate::exec) fn straight_word(
         &self,
@@ -73,7 +74,7 @@ impl Decoder {
         }
     }
 
-    /// Whether words of a straight motion make one as they are.
+    /// Whether these words of a straight motion are complete.
     pub(in crate::exec) fn moves_straight(&self, words: &StraightWords) -> bool {
         let path_mode = words.path.unwrap_or(self.modal.path);
         let feed = words.feed.map_or(self.modal.feed().map(|word| word.value), |(f, _)| Some(f));
@@ -87,8 +88,9 @@ impl Decoder {
         moves && fits && !words.targets.is_empty()
     }
 
-    /// Executes a block of such words, with what it has in common with the block before, if that was one, too. With `passed`, the program is only looked at: a motion that has everything in common with the
-    /// one before it goes by without becoming a step, and the time in s that the one before takes is what comes back in it.
+    /// Executes a block of such words, together with what it has in common with the previous block if that was such a block,
+    /// too. With `passed`, the program is only examined: a motion that has everything in common with the previous one does not
+    /// become a step, and the time in s that the previous one takes is returned in it.
     pub(in crate::exec) fn straight_motion(
         &mut self,
         words: &StraightWords,
@@ -113,7 +115,7 @@ impl Decoder {
         };
     }
 
-    /// Whether straight motions are nothing but that in the present state.
+    /// Whether straight motions need nothing else in the present state.
     fn is_straight(&self) -> bool {
         let modal = &self.modal;
         !modal.inch
@@ -139,7 +141,7 @@ impl Decoder {
             && !self.geometry.scale.is_on()
     }
 
-    /// The motion to the targets of a block; what it shares with the next one comes back.
+    /// The motion to the targets of a block; returns what it shares with the next one.
     fn straight_path(
         &mut self,
         words: &StraightWords,
@@ -159,7 +161,7 @@ impl Decoder {
                 self.share(&path, words.targets.first().map_or(words.span, |(_, at)| *at));
             self.report.keep(outcome)?
         };
-        // a block with an error moves nothing
+        // a block with an error causes no motion
         if self.report.failed() && !self.checking {
             return Some(shared);
         }
@@ -182,7 +184,8 @@ impl Decoder {
         Some(shared)
     }
 
-    /// The motion to the targets of a block takes the place of the one before, whose time comes back if there is a motion.
+    /// Replaces the previous motion by the motion to the targets of a block; returns the time of the previous one if there is a
+    /// motion.
     fn pass_by(&mut self, words: &StraightWords) -> Option<f64> {
         let coordinates = &mut self.geometry.coordinates;
         let start = coordinates.target().clone();
@@ -195,8 +198,8 @@ impl Decoder {
         Some(time_s)
     }
 
-    /// The line from a place to the targets of a block against the software limits. No other axes move, since the frame is
-    /// identity, and none has moved alone.
+    /// Checks the line from a position to the targets of a block against the software limits. No other axes move, because the
+    /// frame is the identity and no axis has moved independently.
     fn check_line(&mut self, start: &[f64], words: &StraightWords) {
         let end = self.geometry.coordinates.target();
         let inside = |axis: usize| {
@@ -220,7 +223,7 @@ impl Decoder {
         }
     }
 
-    /// What holds for this motion and those that follow.
+    /// State valid for this motion and the following ones.
     fn share(&mut self, path: &Path, at: Span) -> Outcome<Box<Straight>> {
         let feed = self.feed_of(path, at)?;
         let rapid = feed == Feed::Rapid;

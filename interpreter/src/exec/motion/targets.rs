@@ -1,4 +1,4 @@
-//! Targets of a motion block: from its coordinate words to positions of the axes.
+//! Targets of a motion block: from coordinate words to axis positions.
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
@@ -13,11 +13,11 @@ use kontur_motion::axis::AxisVec;
 /// Targets of one block.
 type Targets = smallvec::SmallVec<[Target; 8]>;
 
-/// Part of a direction that is rounding.
+/// Largest component of a direction that counts as rounding.
 const STRAIGHT: f64 = 1e-12;
 
 impl Decoder {
-    /// Puts the coordinate words into the target; returns where the axes were.
+    /// Applies the coordinate words to the target; returns the previous positions of the axes.
     pub(super) fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
         for (axis, _, at) in &words.axes {
             self.moves_no_slave(*axis, *at)?;
@@ -68,7 +68,7 @@ impl Decoder {
                     }
                     None => self.geometry.coordinates.active_offset(target.axis),
                 };
-                // the way is one of the coordinate: a mirrored axis turns the other way
+                // the distance is measured in the coordinate: a mirrored axis turns in the opposite direction
                 let bare = start[target.axis] - offset;
                 let mirrored = self.geometry.coordinates.mirrored(target.axis);
                 let from = if mirrored { -bare } else { bare };
@@ -84,7 +84,7 @@ impl Decoder {
             None => self.geometry.coordinates.program(targets.iter().copied()),
         }
         self.follow_masters();
-        // a slave is on the path, also where the path begins
+        // the travel of a slave is on the path, also at the start of the path
         for slave in self.motion.couplings.slaves() {
             start[slave] = self.geometry.coordinates.target()[slave];
         }
@@ -94,7 +94,7 @@ impl Decoder {
 }
 
 impl Decoder {
-    /// 20958: the first sign of a relative word of a modulo axis is the direction of its way, which has no sign of its own.
+    /// 20958: the first sign of a relative word of a modulo axis is the direction of travel; the distance itself is unsigned.
     ///
     /// Source: TF5200 diagnosis 253095819; modulo programming in relative coordinates (tccncprogramming 15557270155).
     fn turns_go_forward(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
@@ -118,7 +118,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// 20200: a turned system leads along a main axis that is not in the channel.
+    /// 20200: a rotated coordinate system requires motion along a main axis that is not in the channel.
     fn turns_within_the_channel(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
         let coordinates = &self.geometry.coordinates;
         let frame = coordinates.frame();
@@ -140,7 +140,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// Diameters are neither negative nor mirrored.
+    /// Diameters must be neither negative nor mirrored.
     ///
     /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.
     fn diameters_fit(&self, words: &Words<'_>) -> Outcome<()> {
@@ -162,7 +162,7 @@ impl Decoder {
     }
 }
 
-/// One target for each axis: incremental words add up, an absolute one takes the place of those before it.
+/// One target per axis: incremental words are summed, an absolute word replaces those before it.
 ///
 /// Source: P-CHAN-00148 (149346955).
 fn joined(targets: Targets) -> Targets {
@@ -177,7 +177,7 @@ fn joined(targets: Targets) -> Targets {
     all
 }
 
-/// The kinds of `#SUPPRESS OFFSETS [ZERO ..]`. There are no clamping offsets here and no manual mode.
+/// The kinds of `#SUPPRESS OFFSETS [ZERO ..]`. Clamping offsets and manual mode do not exist here.
 fn kinds(group: &Group) -> Outcome<Vec<OffsetKind>> {
     let wrong = |span| {
         let text = "#SUPPRESS OFFSETS: a kind of offsets is expected";

@@ -1,4 +1,4 @@
-//! Durations of M, H and S functions: waited for, or reported as not contained in the run.
+//! Durations of M, H and S functions: included in the run, or reported as not included.
 //!
 //! The vendor's production time calculation takes them from the channel list (TF5200 M and H functions, production time
 //! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).
@@ -9,9 +9,10 @@ use crate::exec::step::{Event, SpindleState, Sync};
 use crate::machine::{Acknowledged, Channel, SpindleMoment};
 
 impl Decoder {
-    /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
+    /// Passes a function to the machine: the path waits for its duration ([`Self::technology_wait`]), or the function is
+    /// reported once.
     pub(in crate::exec) fn takes_time(&mut self, function: Function) {
-        // Assumption: what the list says nothing about is waited for before the motion
+        // Assumption: functions without an entry in the list are waited for before the motion
         let listed = acknowledged(&self.machine.channel, function);
         let until = listed.unwrap_or(Acknowledged::BeforeMotion);
         if until == Acknowledged::Never {
@@ -24,14 +25,14 @@ impl Decoder {
         self.technology.spindles.extend(waited_for(&self.machine.channel, function));
     }
 
-    /// M00, M01 and the end of a program: only a declared duration counts, they do without one.
+    /// M00, M01 and the end of a program: only a declared duration applies; none is required.
     pub(in crate::exec) fn takes_declared_time(&mut self, function: Function) {
         if declared(&self.machine.channel, function).is_some() {
             self.takes_time(function);
         }
     }
 
-    /// Time in s that a function takes; if it is not counted, 0, and it is named once.
+    /// Time in s of a function; 0 if it is not included, with one report.
     pub(in crate::exec) fn counted_time_s(&mut self, function: Function) -> f64 {
         let declared = declared(&self.machine.channel, function);
         if self.technology.counted
@@ -61,7 +62,7 @@ impl Decoder {
 
     /// The path waits for the functions called since the last wait, before or after the motion of the block.
     pub(in crate::exec) fn technology_wait(&mut self, now: SpindleMoment) {
-        // Assumption: the functions of a block go to the machine together, so the longest decides
+        // Assumption: the functions of a block are output to the machine together, so the longest one determines the wait
         let mut seconds = 0.0_f64;
         let pending = std::mem::take(&mut self.technology.pending);
         for (time_s, until) in pending {
@@ -71,7 +72,7 @@ impl Decoder {
                 | (Acknowledged::AfterMotion, SpindleMoment::AfterMotion) => {
                     seconds = seconds.max(time_s);
                 }
-                // Assumption: the motion takes the time of its feed
+                // Assumption: the motion takes the time given by its feed rate
                 (Acknowledged::DuringMotion, SpindleMoment::AfterMotion) => {
                     seconds = seconds.max(time_s - self.contour.time_of_s(self.report.source));
                 }
@@ -81,7 +82,7 @@ impl Decoder {
         if seconds > 0.0 {
             self.sync(Sync::Technology { seconds });
         }
-        // spindles turn in the meantime: the later of the two decides (M and H functions 286068747)
+        // spindles accelerate in the meantime: the later of the two determines the wait (M and H functions 286068747)
         let spindles = std::mem::take(&mut self.technology.spindles);
         for (spindle, moment) in spindles {
             if moment == now || now == SpindleMoment::AfterMotion {
@@ -93,7 +94,7 @@ impl Decoder {
     }
 }
 
-/// What the list says of a function; `None` where it says nothing.
+/// The list entry of a function; `None` without an entry.
 fn acknowledged(channel: &Channel, function: Function) -> Option<Acknowledged> {
     let listed = |spindle: usize| channel.spindle_waits.get(spindle).copied().unwrap_or_default();
     match function {
@@ -118,7 +119,7 @@ fn waited_for(channel: &Channel, function: Function) -> Option<(usize, SpindleMo
     Some((spindle, moment))
 }
 
-/// Duration in s above 0 and where it is declared.
+/// Duration in s, above 0, and where it is declared.
 fn declared(channel: &Channel, function: Function) -> Option<(f64, &'static str)> {
     let listed =
         |spindle: usize| channel.spindle_durations_s.get(spindle).copied().unwrap_or_default();

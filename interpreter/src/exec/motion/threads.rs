@@ -1,14 +1,14 @@
-//! Threads: G33 with a spindle that turns, tapping with a spindle that follows the path (G63, G331, G332).
+//! Threads: G33 with a rotating spindle, tapping with a spindle that follows the path (G63, G331, G332).
 //!
-//! Tapping begins and ends at rest, and the spindle turns with the way of the path: both are exact. G33 begins when the
-//! spindle turns with its speed and passes its mark, and then continues with pitch times speed; the ramp at its begin and
-//! end cuts another pitch, as on the machine. Each block of G33 is a separate thread, unless P-CHAN-00837 or `#TURN` makes
-//! a chain of them. The override acts on G33 and so changes the pitch, unless P-CHAN-00836, `#TURN` or a chain forbids it;
-//! that and a feedhold are reported when they happen (K-0132).
+//! Tapping begins and ends at standstill, and the rotation of the spindle follows the distance of the path: both are exact. G33
+//! begins when the spindle has reached its speed and passes its zero mark, and then moves at pitch times speed. The ramps at
+//! its start and end cut a different pitch, as on the machine. Each block of G33 is a separate thread, unless P-CHAN-00837 or
+//! `#TURN` chains them. The override acts on G33 and so changes the pitch, unless P-CHAN-00836, `#TURN` or a chain prevents it;
+//! an override and a feedhold are reported when they occur (K-0132).
 //!
-//! Assumptions: the pitch of a thread at 45 deg or more is that of its other axis only if it is written so; between blocks
-//! of tapping the path rests; the path rests after the last block of G33; what suppresses the override suppresses that of
-//! the program too. The manual says that the sign of S (G63) and of the pitch (G331) distinguishes right-hand from left-hand
+//! Assumptions: the pitch of a thread at 45 deg or more refers to its other axis only if it is programmed so; the path stops
+//! between blocks of tapping; the path stops after the last block of G33; what suppresses the override also suppresses that of
+//! the program. The manual states that the sign of S (G63) and of the pitch (G331) distinguishes right-hand from left-hand
 //! threads; that the positive sign is the right-hand one is inferred.
 //!
 //! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33), settings for
@@ -33,15 +33,15 @@ use kontur_motion::path::{LinePath, Path};
 use kontur_motion::queue::Queued;
 use std::sync::Arc;
 
-/// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is none.
+/// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is not a pitch.
 const PITCH_MM: (f64, f64) = (1e-4, 1e4);
 
 /// Highest speed in rev/min.
 const SPEED_MAX: f64 = 1e6;
 
-/// Part of the speed of a thread that has to be reached: but for rounding all of it.
+/// Fraction of the thread speed that must be reached: all of it, except for rounding.
 const SHORT: f64 = 1.0 - 1e-6;
-/// Cosine of the largest bend of a thread of several blocks.
+/// Cosine of the largest corner angle of a thread of several blocks.
 const STRAIGHT: f64 = 1.0 - 1e-9;
 
 /// Direction of a straight path.
@@ -51,18 +51,18 @@ fn direction_of(path: &Path) -> AxisVec {
     direction
 }
 
-/// How the spindle goes with a straight path.
+/// Coupling of the spindle to a straight path.
 struct Coupling {
-    /// Main axis, along which the way is measured: the longest.
+    /// The longest main axis, along which the distance is measured.
     axis: usize,
-    /// Degrees for a mm of its way, with the sense of rotation.
+    /// Degrees per mm along this axis, signed by the sense of rotation.
     deg_per_mm: f64,
-    /// The same for a mm of the path, without a sign.
+    /// Degrees per mm of path, unsigned.
     deg_per_path_mm: f64,
 }
 
 impl Decoder {
-    /// The end of G33: the path rests, and no longer follows the spindle after it.
+    /// End of G33: the path stops, and no longer follows the spindle.
     pub(in crate::exec) fn end_thread(&mut self) {
         if std::mem::take(&mut self.motion.threads.cutting) {
             self.sync(Sync::ThreadEnd);
@@ -111,10 +111,10 @@ impl Decoder {
         }
     }
 
-    /// G63 turns the spindle in every block until the next G function of its group.
+    /// G63 drives the spindle in every block until the next G function of its group.
     ///
     /// # Errors
-    /// 21000: M3, M4, M5 or M19 of the main spindle meanwhile.
+    /// 21000: M3, M4, M5 or M19 of the main spindle while G63 is active.
     pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
         if self.path_mode(words) != PathMode::Tapping {
             return Ok(());
@@ -136,7 +136,7 @@ impl Decoder {
         }
     }
 
-    /// K-0132 for a thread from rest to rest that is over before the path has the speed of its pitch.
+    /// K-0132 for a thread from standstill to standstill that ends before the path reaches the speed of its pitch.
     fn thread_is_long_enough(&mut self, block: &Block, feed_mm_s: f64, span: Span) {
         let queued = Queued::new(block.clone(), self.machine.cycle);
         let profile = queued.slope.plan(0.0, 0.0, feed_mm_s, queued.length);
@@ -152,7 +152,7 @@ impl Decoder {
         self.report.note(Fault::new(Condition::ThreadBroken, text, span));
     }
 
-    /// What cannot be combined with threads.
+    /// Functions that cannot be combined with threads.
     fn thread_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("a thread with tool radius compensation", span));
@@ -192,7 +192,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// The pitch of a path: that of its longest main axis that has one.
+    /// The pitch of a path: that of its longest main axis with a pitch.
     fn pitch(&self, path: &Path, span: Span) -> Outcome<(usize, f64)> {
         let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
         let mut best: Option<(usize, f64)> = None;
@@ -277,7 +277,7 @@ impl Decoder {
                 let what = "a chain of threads in which the speed of the spindle changes";
                 return Err(Fault::unsupported(what, span));
             }
-            // the planner slows down at a bend, which would give another pitch
+            // the planner slows down at a corner, which would change the pitch
             let cosine: f64 = direction
                 .iter()
                 .zip(self.motion.threads.direction.iter())
@@ -312,7 +312,7 @@ impl Decoder {
         }
         let (coupling, feed_mm_s) = self.tapping(&path, rpm, span)?;
         let Some(spindle) = self.motion.spindles[0].index else { return Ok(()) };
-        // the spindle limits the path: it has to follow
+        // the spindle must follow and so limits the path
         let limits = self.machine.spindles[spindle].dynamics();
         let mut dynamics = (*self.motion.dynamics(&self.machine, &self.modal, false)).clone();
         let ratio = self.motion.spindles[0].acceleration_ratio / coupling.deg_per_path_mm;
@@ -341,7 +341,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// What keeps an axis and its spindle from being at the same place of the thread: different filters, a different lag.
+    /// Differences that keep an axis and its spindle from being at the same point of the thread: filters, following error.
     fn apart_from_spindle(
         &self,
         path: &Path,
@@ -381,7 +381,7 @@ impl Decoder {
         })
     }
 
-    /// How the spindle goes with the path, and the velocity of the path.
+    /// The coupling of the spindle to the path, and the path velocity.
     fn tapping(&mut self, path: &Path, rpm: f64, span: Span) -> Outcome<(Coupling, f64)> {
         let way = |axis: usize| path.end()[axis] - path.start()[axis];
         let longest =

@@ -1,13 +1,14 @@
-//! Limits that a tool sets to its spindle: least and largest speed, largest acceleration (P-TOOL-00012 to 00015).
+//! Limits that a tool imposes on its spindle: minimum and maximum speed, maximum acceleration (P-TOOL-00012 to 00015).
 //!
-//! D passes them on; a spindle takes them when it starts from rest, or at once by `S[GET_DYNAMIC_DATA]`, and keeps them until
-//! it takes others. `S[DEFAULT_DYNAMIC_DATA]` brings back those of its list.
+//! D passes them on. They take effect when the spindle next starts from standstill, or at once with `S[GET_DYNAMIC_DATA]`,
+//! until they are replaced. `S[DEFAULT_DYNAMIC_DATA]` restores the limits of the list.
 //!
 //! Source: TF5200 spindle 287608459, 287679371; programming manual 208242699; axis parameters 117225611; diagnosis 60296
 //! (259750027), 60312 (259806603), 60332 (520247691).
 //!
-//! Assumptions: a spindle is at rest after M5, after M19 and after tapping, whether or not its ramp has ended; the default
-//! data reach a turning spindle when it next starts from rest; a spindle with the speed 0 is not raised to the least speed.
+//! Assumptions: a spindle is at standstill after M5, after M19 and after tapping, whether or not its ramp has ended; the
+//! default data take effect on a rotating spindle at its next start from standstill; a spindle with speed 0 is not raised to
+//! the minimum speed.
 
 use crate::diag::{Condition, rounded};
 use crate::exec::decoder::Decoder;
@@ -17,14 +18,14 @@ use crate::exec::step::Event;
 use crate::machine::SpindleLimits;
 use crate::syntax::ast::Span;
 
-/// rev/min of a speed in deg/s.
+/// rev/min for a speed in deg/s.
 fn rpm(deg_s: f64) -> f64 {
     deg_s / 6.0
 }
 
 impl Decoder {
-    /// D, `#TOOL DATA`: the limits of the tool wait for their spindle; 60296 if they are none, 60332 if the least speed is
-    /// corrected.
+    /// D, `#TOOL DATA`: records the limits of the tool for its spindle. 60296 if they are invalid, 60332 if the minimum speed
+    /// is corrected.
     pub(in crate::exec) fn pass_tool_limits(&mut self, span: Span) -> Outcome<()> {
         let tool = &self.geometry.tools.active;
         let (number, mut limits) = (tool.spindle, tool.limits);
@@ -60,7 +61,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// `S[GET_DYNAMIC_DATA]`: what D has passed on acts at once.
+    /// `S[GET_DYNAMIC_DATA]`: the limits passed on by D take effect at once.
     pub(in crate::exec) fn take_tool_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
         let state = &mut self.motion.spindles[spindle];
         let limits = match std::mem::take(&mut state.passed) {
@@ -84,7 +85,7 @@ impl Decoder {
         self.take_tool_limits(spindle, span)
     }
 
-    /// The spindle does what its state says from here on; what starts from rest takes the limits of the tool before.
+    /// The spindle changes to its commanded state; a start from standstill activates the limits of the tool first.
     pub(in crate::exec) fn move_spindle(&mut self, spindle: usize, span: Span) -> Outcome<()> {
         let state = &mut self.motion.spindles[spindle];
         let starts = !state.runs && state.turning != Turning::Stopped;
@@ -100,7 +101,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// K-0131 where the tool limits the speed of a turning spindle, 60312 with P-AXIS-00474 = 1.
+    /// K-0131 if the tool limits the speed of a rotating spindle, 60312 with P-AXIS-00474 = 1.
     fn check_tool_speed(&mut self, spindle: usize, span: Span) -> Outcome<()> {
         let state = &self.motion.spindles[spindle];
         let Some((limits, used)) =
@@ -128,8 +129,8 @@ impl Decoder {
         Ok(())
     }
 
-    /// Refuses what counts with the speed of a spindle while its tool limits it: the pages do not say which of the two
-    /// speeds counts.
+    /// Refuses functions that depend on the speed of a spindle while its tool limits it: the pages do not state which of the
+    /// two speeds applies.
     pub(in crate::exec) fn no_tool_limit(
         &self,
         what: &str,
@@ -146,7 +147,7 @@ impl Decoder {
     }
 }
 
-/// The speed in rev/min that a tool makes of another one; `None` if it is the same.
+/// The speed in rev/min after limiting by the tool; `None` if it does not change.
 fn tool_speed(wanted: f64, limits: Option<SpindleLimits>) -> Option<f64> {
     let limits = limits?;
     let used = wanted.clamp(rpm(limits.min_deg_s), rpm(limits.max_deg_s));

@@ -1,4 +1,4 @@
-//! Online tool compensation (`#OTC`): what the simulation needs of the setting.
+//! Online tool compensation (`#OTC`): the settings that the simulation needs.
 //!
 //! Source: TF5200 online tool compensation (213641867, 213655947, 213664139, 213718539, 213774347).
 
@@ -11,7 +11,7 @@ use crate::machine::ToolKind;
 use crate::syntax::ast::Span;
 
 impl Decoder {
-    /// Hands the setting over to the simulation: `#OTC ON`, or other tool data while it is on.
+    /// Passes the settings to the simulation: `#OTC ON`, or changed tool data while it is on.
     pub(in crate::exec) fn apply_wear(&mut self, span: Span) -> Outcome<()> {
         let wear = self.motion.wear;
         if !wear.on {

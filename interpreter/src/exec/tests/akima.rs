@@ -19,8 +19,8 @@ fn unit(v: [f64; 2]) -> [f64; 2] {
     [v[0] / length, v[1] / length]
 }
 
-/// The page's first program (1255466635): through its points, at the start with the slope 1, and in between with the
-/// derivatives that the chords give.
+/// The first program of the page (1255466635): the curve passes through its points, with slope 1 at the start, and with the
+/// derivatives computed from the chords in between.
 #[test]
 fn the_example_with_a_start_tangent() {
     let run = clean(&format!("{SPLINE}G151\n{POINTS}G150\nX70\nM30\n"));
@@ -53,9 +53,9 @@ fn the_example_with_a_start_tangent() {
     assert_near(&direction(blocks[2], true)[..2], &at_60_20);
     // at (60, 0): X from (0, -1) and (1, 0) between (1, 0) and (0, 1): both weights 1; Y likewise
     assert_near(&direction(blocks[3], true)[..2], &unit([0.5, -0.5]));
-    // the end: the chord after (1, 0), (0, 1) is extrapolated to (-1, 2) and (-2, 3), all of them change alike
+    // the end: the chord after (1, 0), (0, 1) is extrapolated to (-1, 2) and (-2, 3); all of them change alike
     assert_near(&direction(blocks[5], true)[..2], &unit([-0.5, 1.5]));
-    // the other words for the same
+    // the alternative commands
     for words in [("#SPLINE ON\n", "#SPLINE OFF\n"), ("#SPLINE TYPE AKIMA\nG151 ", "G150 ")] {
         let other = clean(&format!("{SPLINE}{}{POINTS}{}X70\nM30\n", words.0, words.1));
         assert_eq!(other.ends(), ends);
@@ -63,7 +63,7 @@ fn the_example_with_a_start_tangent() {
     }
 }
 
-/// Points on a line are a line, whatever their distances; a spline through two points is one too.
+/// Points on a line give a line, whatever their distances; a spline through two points is also a line.
 #[test]
 fn straight_points_stay_straight() {
     for text in ["G151\nX1 Y2\nX3 Y6\nX4 Y8\nX10 Y20\nG150", "G151\nX1 Y2\nG150"] {
@@ -78,7 +78,7 @@ fn straight_points_stay_straight() {
     }
 }
 
-/// TANGENTIAL takes the directions of the motions before and after; an arc between points always does.
+/// TANGENTIAL uses the directions of the motions before and after; an arc between points always does.
 #[test]
 fn tangential_transitions() {
     let text = |ends: &str| {

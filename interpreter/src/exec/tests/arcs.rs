@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 #[test]
 fn arcs_in_a_tilted_coordinate_system() {
-    // turned by 30 degrees about Y: X = x cos + z sin, Z = z cos - x sin
+    // rotated by 30 degrees about Y: X = x cos + z sin, Z = z cos - x sin
     let (s, c) = (0.5, 0.75_f64.sqrt());
     let at = |path: &Path, share: f64| {
         let mut q = [0.0; 3];
@@ -18,7 +18,7 @@ fn arcs_in_a_tilted_coordinate_system() {
     assert!((path.length() - 5.0 * PI).abs() < 1e-9);
     assert_near(&at(path, 0.5), &[1.0 + 5.0 * c, 7.0, 3.0 - 5.0 * s]);
     assert_near(&run.end, &[1.0 + 10.0 * c, 2.0, 3.0 - 10.0 * s]);
-    // by radius, with absolute centre, mirrored and as helices: the same point half way
+    // by radius, with absolute centre, mirrored and as helices: the same midpoint
     let middle = |text: &str| {
         let run = clean(&format!("#CS ON [0,0,0,0,30,0]\n{text}\nM30\n"));
         at(&run.blocks().last().unwrap().path, 0.5)
@@ -28,12 +28,12 @@ fn arcs_in_a_tilted_coordinate_system() {
     assert_near(&middle("G03 X10 I5 F100"), &[5.0 * c, -5.0, -5.0 * s]);
     assert_near(&middle("G02 I5 F100"), &[10.0 * c, 0.0, -10.0 * s]);
     assert_near(&middle("G02 X10 Z4 I5 F100"), &[5.0 * c + 2.0 * s, 5.0, 2.0 * c - 5.0 * s]);
-    // two turns and a half of pitch 4
+    // two and a half turns with pitch 4
     assert_near(&middle("G02 X10 Z10 I5 K4 F100"), &[5.0 * c + 5.0 * s, 5.0, 5.0 * c - 5.0 * s]);
     assert_near(&middle("G91 G02 X10 I5 F100"), &[5.0 * c, 5.0, -5.0 * s]);
     assert_near(&middle("G71 G21\nG02 X10 I5 F100"), &[-5.0 * c, 5.0, 5.0 * s]);
     assert_near(&middle("#ROTATION ON [ANGLE=90]\nG02 X10 I5 F100"), &[-5.0 * c, 5.0, 5.0 * s]);
-    // in the plane that stays flat, the arc is an arc of the axes
+    // in a plane that is not tilted, the arc is an arc of the axes
     let flat = clean("#CS ON [0,0,0,0,30,0]\nG18 G02 X10 I5 F100\nM30\n");
     assert!(matches!(flat.blocks()[0].path, Path::Arc(_)));
     // all three angles: R = Rz(20) Ry(30) Rx(40), the second column is the image of y
@@ -45,9 +45,9 @@ fn arcs_in_a_tilted_coordinate_system() {
     assert_near(&at(&run.blocks()[0].path, 0.5), &expected);
 }
 
-/// The curve of `#CONTOUR MODE [POS]` reaches its interim point, which lies beyond what the lines around it reach: in a check and
-/// in a run, for the block at whose end it is; with the limit beyond the curve, and in the other modes, nothing is said. The
-/// rest of a long line after the curve does not belong to it.
+/// The curve of `#CONTOUR MODE [POS]` reaches its interim point, which is outside the range of the adjacent lines. A check and
+/// a run both report it, for the block that ends at the curve. With the limit beyond the curve, and in the other modes, nothing
+/// is reported. The remainder of a long line after the curve is not part of it.
 #[test]
 fn a_curve_through_a_point_outside_the_limits() {
     let text = |mode: &str, behind: &str| {
@@ -63,11 +63,11 @@ fn a_curve_through_a_point_outside_the_limits() {
         machine,
         crate::exec::options::Options::default(),
     );
-    // both corners lead through the point
+    // both corners pass through the point
     assert_eq!(super::places(&found.diagnostics), ["21897 4:1", "21897 5:1"]);
 }
 
-/// 256490379: `#RND` in a motion is the corner at its end, as a separate block the corner between its neighbours.
+/// 256490379: `#RND` in a motion applies to the corner at its end, as a separate block to the corner between its neighbours.
 #[test]
 fn a_rounding_in_a_motion_lies_at_its_end() {
     let ends = |text: &str| clean(&format!("G137 G90 G01 F1000 {text}\nM30\n")).ends();
@@ -76,12 +76,12 @@ fn a_rounding_in_a_motion_lies_at_its_end() {
     assert_eq!(own[1], [50.0, 45.0, 0.0]);
     assert_eq!(ends("X50\n#CHR=4\nY50"), ends("X50 #CHR=4\nY50"));
     assert_eq!(ends("X50\n#CHF=4\nY50"), ends("X50 #CHF=4\nY50"));
-    // the page's first example: the corner is where the line of 30 degrees ends
+    // first example of the page: the corner is at the end of the line of 30 degrees
     let text = "G18 Z15 X2\n#ANG=30 #RND=3 Z25\nZ40 X30";
     let of_page = ends(text);
     assert_eq!(of_page.len(), 4);
     let corner = 2.0 + 10.0 * libm::tan(30.0_f64.to_radians());
-    // the tangents of a rounding are as long as its radius times the tangent of half the turn
+    // the tangent length of a rounding is its radius times the tangent of half the change of direction
     let turn = libm::atan((30.0 - corner) / 15.0) - 30.0_f64.to_radians();
     let before = 3.0 * libm::tan(turn / 2.0);
     let [x, _, z] = of_page[1][..] else { unreachable!() };

@@ -1,5 +1,5 @@
-//! K-0119 against brute force: the smallest distance between the way of the tool and every element of random contours of lines and
-//! arcs, sampled densely. Neighbours may come close to each other elsewhere than at their corner.
+//! K-0119 against brute force: the smallest distance between the tool path and every element of random contours of lines and
+//! arcs, sampled densely. Neighbours may also come close to each other away from their corner.
 
 use super::{Step, run};
 use kontur_kit::Random;
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 const SAMPLES: u32 = 800;
 
-/// An element as its points, in equal steps.
+/// An element as points with equal spacing.
 type Points = Vec<[f64; 2]>;
 
 fn shares() -> impl Iterator<Item = f64> {
@@ -27,12 +27,12 @@ fn arc(centre: [f64; 2], radius: f64, start_rad: f64, sweep_rad: f64) -> Points 
     shares().map(point).collect()
 }
 
-/// Smallest distance of two rows of points, and the longest step within them.
+/// Smallest distance between two point sequences, and the longest step within them.
 fn least(way: &Points, contour: &Points) -> (f64, f64) {
     let far = |a: &[f64; 2], b: &[f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let step = [way, contour].map(|points| far(&points[0], &points[1]));
     let mut best = f64::INFINITY;
-    // a coarse search, then around its place: the distance changes by no more than the way between two points
+    // a coarse search, then a fine one around its result: the distance changes by no more than the distance between two points
     let coarse = 20;
     for a in way.iter().step_by(coarse) {
         for b in contour.iter().step_by(coarse) {
@@ -55,7 +55,7 @@ fn least(way: &Points, contour: &Points) -> (f64, f64) {
     (best, step[0] + step[1])
 }
 
-/// A contour whose elements are the blocks N1 to N5, and its program.
+/// A contour with the blocks N1 to N5 as elements, and its program.
 fn contour(random: &mut Random, k: usize) -> (Vec<Points>, f64, String) {
     let radius = random.between(0.5, 3.0);
     let (side, corner) = (["G41", "G42"][k % 2], ["G25", "G26"][k / 2 % 2]);
@@ -77,7 +77,7 @@ fn contour(random: &mut Random, k: usize) -> (Vec<Points>, f64, String) {
             let bend = random.between(2.0, 20.0);
             let sweep = random.between(20.0, 300.0)
                 * if random.between(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
-            // the centre is to the left of the heading of a counter-clockwise arc
+            // the centre of a counter-clockwise arc is to the left of its direction
             let sign = sweep.signum();
             let centre = [at[0] - sign * bend * sin, at[1] + sign * bend * cos];
             let start_rad = libm::atan2(at[1] - centre[1], at[0] - centre[0]);
@@ -151,7 +151,7 @@ fn bottlenecks_of_random_contours_are_found_and_no_others() {
                     rest[..end.unwrap_or(rest.len())].trim_matches('.').parse::<f64>().unwrap()
                 };
                 let (contour, distance) = (numbers("line ") as u64 - 4, numbers("near as "));
-                // a cut less deep than the step of the brute force may be missed by it
+                // brute force may miss a cut that is less deep than its step
                 let same = found.iter().find(|f| f.0 == line && f.1 == contour);
                 if let Some((_, _, apart, by_force, step)) = same {
                     of_neighbours += usize::from(*apart == 1);

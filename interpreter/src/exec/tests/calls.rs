@@ -30,7 +30,7 @@ fn listed(settings: &[&str], files: &[(&str, &str)]) -> Run {
 fn a_program_of_the_list_runs_before_every_end() {
     let end = ["channel.final_prog_file=final.nc"];
     let last = ("final.nc", "G90 Z9 F50\n");
-    // without M30 it runs too, and the missing end is reported once
+    // without M30 it also runs, and the missing end is reported once
     let run = listed(&end, &[("main.nc", "$IF 1\nX1 F100\n$ENDIF\n"), last]);
     assert_eq!((run.ids(), run.ends().len()), (vec!["K-0003".to_owned()], 2));
     let run = listed(&end, &[("main.nc", "X1 F100\nM30\n")]);
@@ -50,7 +50,7 @@ fn conditions_of_a_block_that_changes_the_level_stand_in_its_file() {
 
 #[test]
 fn other_capital_letters_than_the_files_get_a_note() {
-    /// Finds files whatever the case of their letters, as some file systems do.
+    /// Finds files regardless of upper and lower case, as some file systems do.
     struct Lenient(MemorySources);
     impl crate::source::Sources for Lenient {
         fn open(
@@ -67,7 +67,7 @@ fn other_capital_letters_than_the_files_get_a_note() {
     assert_eq!((run.ids(), run.end[0]), (vec!["K-0109".to_owned()], 1.0));
 }
 
-/// Of several blocks with a number the first one counts, in whatever order the numbers are written.
+/// Of several blocks with the same number the first one is used, whatever the order of the numbers.
 #[test]
 fn sequences_begin_at_the_first_block_of_their_number() {
     for seed in 0..40 {
@@ -88,7 +88,7 @@ fn sequences_begin_at_the_first_block_of_their_number() {
     }
 }
 
-/// G functions without values are restored at the end of a cycle, those with values or axes stay (P-CHAN-00210, 476043659).
+/// G functions without values are restored at the end of a cycle, those with values or axes remain (P-CHAN-00210, 476043659).
 #[test]
 fn what_a_cycle_changes() {
     let table = "V.G.NP[1].V.X=100\nV.G.NP[2].V.X=10\nF1000\nG54\n";
@@ -113,10 +113,10 @@ fn what_a_cycle_changes() {
     assert_eq!(x("G71 G21", "G20"), 99.0);
     assert_eq!(x("G71", "G351 X-1"), 99.0);
     assert_eq!(x("", "#RETAIN CYCLE CHANGES\nG55"), 11.0);
-    // the inner cycle's own matter
+    // internal to the inner cycle
     assert_eq!(x("", "#RETAIN CYCLE CHANGES\nL CYCLE [NAME=d.nc]\nG55"), 11.0);
     assert_eq!(x("", "G55\nL CYCLE [NAME=d.nc]"), 101.0);
-    // a system that stays open keeps its offset
+    // a system that remains active keeps its offset
     assert_eq!(x("#CS ON [1,0,0]", "G55"), 102.0);
     assert_eq!(x("", "#CS ON [1,0,0]\nG55"), 112.0);
     assert_eq!(end(&["channel.cycle_changes_modal=1"], "", "G55 G91", "X1")[0], 1.0);

@@ -11,7 +11,8 @@ fn ends(text: &str) -> Vec<Vec<f64>> {
     clean(&format!("{TOOL}{text}\nM30\n")).ends()
 }
 
-/// entered at the distance r / sin(half of its angle), each notch at r / sin(half of the outer one) from the corner.
+/// The star of the page on inside corner selection (207798283): eight lines around the origin, with radius 10 inside it. The path
+/// passes each tip at the distance r / sin(half of its angle) from the corner, each notch at r / sin(half of the outer angle).
 #[test]
 fn inside_corner_selection() {
     const STAR: [[f64; 2]; 8] = [
@@ -30,13 +31,13 @@ fn inside_corner_selection() {
         "G17 G00 X0 Y0 Z0 G90\nF10000\nG238\nV.G.WZR = 10\nG41\nG01 X0 Y100\n{blocks}\nG01 X0 Y100\nG40\nG00 X0 Y0\nM30\n"
     );
     let run = clean(&text);
-    // from a line through (0, 100) and (20, 20) the point (0, y) is (100 - y) * 20 / |(20, 80)| away
+    // the distance of the point (0, y) from the line through (0, 100) and (20, 20) is (100 - y) * 20 / |(20, 80)|
     let tip = 100.0 - 10.0 * 6800.0_f64.sqrt() / 20.0;
     let e = run.ends();
     assert_near(&e[0][..2], &[0.0, tip]);
     assert_near(&e[e.len() - 2][..2], &[0.0, tip]);
     assert_near(&e[e.len() - 1], &[0.0, 0.0, 0.0]);
-    // nowhere nearer to the contour than the radius, and at it on every side
+    // never nearer to the contour than the radius, and at this distance on every side
     for (from, to) in STAR.iter().zip(STAR.iter().cycle().skip(1)) {
         let away = |p: &[f64]| {
             let (d, r) = ([to[0] - from[0], to[1] - from[1]], [p[0] - from[0], p[1] - from[1]]);
@@ -48,8 +49,8 @@ fn inside_corner_selection() {
     }
 }
 
-/// G11: F is the speed of the contour on arcs, at the centre of a tool of 5 mm that is 5/10 inside an arc of 10 mm; an arc
-/// below RMIN keeps F. After 207065483 of the programming manual.
+/// G11: F applies to the contour on arcs: the centre of a tool of 5 mm inside an arc of 10 mm moves at 5/10 of it. An arc below
+/// RMIN keeps F. Based on 207065483 of the programming manual.
 #[test]
 fn feed_of_the_engagement() {
     let feeds = |before: &str| {
@@ -83,7 +84,7 @@ fn feed_of_the_engagement() {
     near(of(&limited, 7.0), 10.0);
 }
 
-/// An acute outer corner of 120 deg: the parallels meet at tan(60 deg) = 1.732 radii, which a factor of 2 reaches.
+/// An acute outer corner of 120 deg: the parallels intersect at tan(60 deg) = 1.732 radii, within a factor of 2.
 #[test]
 fn lines_of_acute_corners_stretch() {
     let corner = |factor: &str| {
@@ -93,7 +94,7 @@ fn lines_of_acute_corners_stretch() {
         ends[2..ends.len() - 2].iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>()
     };
     let w = [libm::cos(-2.0 * PI / 3.0), libm::sin(-2.0 * PI / 3.0)];
-    // the beginning of the second parallel
+    // the start of the second parallel
     let after = [10.0 - 2.0 * w[1], 2.0 * w[0]];
     let stretched =
         |n: f64| [[10.0 + 2.0 * n, 2.0], [after[0] - 2.0 * n * w[0], after[1] - 2.0 * n * w[1]]];
@@ -112,7 +113,7 @@ fn lines_of_acute_corners_stretch() {
     same(corner("\n#TRC [STRETCH_FACTOR=9]\n#TRC [STRETCH_FACTOR=1]"), &stretched(1.0));
 }
 
-/// There and back on the same side of a slot: the tool turns round where it is.
+/// Back and forth on the same side of a slot: the tool reverses at its position.
 #[test]
 fn a_contour_that_runs_back_changes_its_side_in_place() {
     let there_and_back = "X-5 Y0\nG41 X0 Y0\nX20\nG42 X0\nG40 X-10 Y5";

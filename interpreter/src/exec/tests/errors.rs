@@ -1,4 +1,4 @@
-//! Error IDs with their places, the syntax check, and the example programs of the language chapter.
+//! Error IDs with their positions, the syntax check, and the example programs of the language chapter.
 
 use super::{assert_near, checked, clean, places, run};
 
@@ -11,14 +11,14 @@ fn the_check_stops_after_twenty_errors() {
     assert_eq!(found.last().map(|d| d.id.to_string()).as_deref(), Some("K-0116"));
 }
 
-/// Looking for the command that was meant took 20 us in each of half a million passes.
+/// The search for the intended command would otherwise take 20 us in each of half a million passes.
 #[test]
 fn the_check_stops_where_a_loop_repeats_an_error() {
     let found = checked("$WHILE 1\n#FOO\n$ENDWHILE\nM30\n");
     assert_eq!(places(&found)[0].split(' ').next_back(), Some("2:1"));
     assert_eq!(found.len(), 2);
     assert!(found[1].text.contains("10000 times"), "{}", found[1].text);
-    // a warning may come as often as the program wants it
+    // a warning may occur as often as the program raises it
     let warned = "P1=0\n$WHILE P1<20000\nP1=P1+1\nG301 I1\n$ENDWHILE\n#FOO\nM30\n";
     assert_eq!(checked(warned).len(), 2);
 }
@@ -26,14 +26,14 @@ fn the_check_stops_where_a_loop_repeats_an_error() {
 #[test]
 fn the_check_moves_nothing_and_ends() {
     assert!(checked("P1=0\n$WHILE P1<3\nP1=P1+1\nX P1 F100\n$ENDWHILE\n#TIME 5\nM30\n").is_empty());
-    // a condition with a fault counts as false
+    // a condition with an error counts as false
     assert_eq!(
         places(&checked("$WHILE P9\nX1\n$ENDWHILE\n$DO\n$ENDDO P9\nM30\n")),
         ["20925 1:8", "20925 5:8"]
     );
 }
 
-/// The program of the language chapter that uses most words.
+/// The program of the language chapter that uses the most words.
 #[test]
 fn squares() {
     let text = include_str!("../../../tests/data/squares.nc");
@@ -63,7 +63,7 @@ fn squares() {
 
 #[test]
 fn what_does_not_run_is_checked_for_its_syntax() {
-    // block numbers and control statements as errors, the rest as warnings; #IF and #COMMENT are left alone
+    // block numbers and control statements as errors, the rest as warnings; #IF and #COMMENT are not affected
     let text = "$IF 0\nX!\n$IF (\nX1\n$ENDIF\n$ELSE\nX1 F100\n$ENDIF\n$FOR P1=2,1,1\nG01 X[1\n$ENDFOR\n$SWITCH 1\n$CASE 2\n#VAR\nV.P.A : UNS32 = 5\n V.P.B :: 4\n#ENDVAR\n$ENDSWITCH\n$GOTO N7\nY?\nN7: X2\n#IF 0\nX!\n#ENDIF\n#COMMENT BEGIN\nX!\n#COMMENT END\nM30\nX!\n";
     let found = checked(text);
     let lines: Vec<_> = found
@@ -82,12 +82,12 @@ fn what_does_not_run_is_checked_for_its_syntax() {
     // a subroutine that is never called
     let found = checked("%L A\nX!\n%MAIN\nX1 F100\nM30\n");
     assert!(places(&found)[0].starts_with("K-0118 2:") && found.iter().all(|d| !d.is_error()));
-    // taken in one pass, left out in another: looked at once
+    // executed in one pass, skipped in another: examined once
     let text = "$FOR P1=1,2,1\n$IF P1==1\nX P1 F100\n$ELSE\nY1\n$ENDIF\n$ENDFOR\nM30\n";
     assert!(checked(text).is_empty());
 }
 
-/// A mistyped name of `--external` would otherwise take the other branch without a word.
+/// A mistyped name of `--external` would otherwise select the other branch without a message.
 #[test]
 fn external_variables_without_use_are_named() {
     use super::{machine, run_with};
@@ -128,7 +128,7 @@ fn external_variables_keep_their_rights() {
     assert_eq!(places("V.E.R=1\nM30\n"), ["20100 1:1"]);
 }
 
-/// A number written to its key at once, as the manual writes interim points.
+/// A number written directly after its key, as the manual writes interim points.
 #[test]
 fn keys_with_their_numbers() {
     let point = |text: &str| {
@@ -144,7 +144,7 @@ fn keys_with_their_numbers() {
     assert_eq!(unit("#CONTOUR MODE [DEV PATH_DEV0.5]"), unit("#CONTOUR MODE [DEV PATH_DEV=0.5]"));
 }
 
-/// What a message or its hint names, beyond its ID: the name that was meant, the limit, the place, the parameter.
+/// The details of a message or its hint beyond its ID: the intended name, the limit, the position, the parameter.
 #[test]
 fn what_messages_name() {
     let slot = "V.G.WZ[1].R=2\nG26 D1 F100\nG41 X-5 Y20\nX20\nY12\nX15\nY4\nX28\nY12\nX23\nY20\nX50\nG40 Y30";

@@ -1,10 +1,10 @@
-//! Feeds that change along a motion, against the formulas of the manual: G13 and G193 linear along the path, G293 linear over the
-//! time.
+//! Feed rates that change along a motion, against the formulas of the manual: G13 and G193 linear along the path, G293 linear
+//! over time.
 
 use super::clean;
 use kontur_motion::block::Feed;
 
-/// Length, feed and end of each piece whose way in X lies between two places.
+/// Length, feed rate and end of each piece between two positions in X.
 fn pieces(text: &str, from: f64, to: f64) -> Vec<(f64, f64, f64)> {
     let run = clean(text);
     let piece = |b: &&kontur_motion::block::Block| {
@@ -15,7 +15,7 @@ fn pieces(text: &str, from: f64, to: f64) -> Vec<(f64, f64, f64)> {
     run.blocks().iter().filter_map(piece).collect()
 }
 
-/// The pieces follow `v` of the way from `from`, never faster and never slower by more than 1 %, and end at `to`.
+/// The pieces follow `v` as a function of the distance from `from`, never faster and at most 1 % slower, and end at `to`.
 fn follow(pieces: &[(f64, f64, f64)], from: f64, to: f64, v: impl Fn(f64) -> f64) {
     assert!(pieces.len() > 10);
     assert!((pieces.last().unwrap().2 - to).abs() < 1e-9);
@@ -44,15 +44,15 @@ fn the_feed_falls_in_front_of_a_corner() {
     assert_eq!(all[0], (30.0, v, 40.0));
     follow(&all[1..], 40.0, 50.0, |s| v * (1.0 - 0.05 * s));
     assert!((all.last().unwrap().1 - 0.5 * v).abs() < 1e-9);
-    // the integral of ds / v over the fall from v to v/2 on 10 mm
+    // the integral of ds / v while v decreases to v/2 within 10 mm
     let exact = 10.0 / (0.5 * v) * std::f64::consts::LN_2;
     let whole = time(&all[1..]);
     assert!(whole >= exact && whole < 1.01 * exact, "{whole} {exact}");
-    // the motions before G13 and after G12 are whole
+    // the motions before G13 and after G12 are not divided
     let run = clean(CORNER);
     assert_eq!(run.blocks().len(), all.len() + 2);
     assert_eq!(run.end[..2], [50.0, 10.0]);
-    // the older form and FWORD say the same
+    // the older form and FWORD are equivalent
     for form in ["#SET CORNER PARAM [10, 1, 50]", "#CORNER PARAM [DIST=10 UNIT=FWORD FEED=500]"] {
         let same = CORNER.replace("#CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]", form);
         let same = pieces(&same, 10.0, 50.0);
@@ -67,11 +67,11 @@ fn the_feed_falls_in_front_of_a_corner() {
 fn a_motion_shorter_than_the_distance_begins_where_the_fall_has_come_to() {
     let v = 1000.0 / 60.0;
     let all = pieces(&CORNER.replace("X50", "X14"), 10.0, 14.0);
-    // 4 mm before the corner 70 % of the feed are due
+    // 4 mm before the corner the feed rate is 70 %
     follow(&all, 10.0, 14.0, |s| v * (0.7 - 0.05 * s));
 }
 
-/// With the tool radius it is the driven path that counts: an inside corner is 5 mm nearer.
+/// With tool radius compensation the actual path applies: an inside corner is 5 mm nearer.
 #[test]
 fn the_distance_is_that_of_the_corrected_path() {
     let text = "#SLOPE [TYPE=STEP]\nV.G.WZ_AKT.R=5\nG01 X-10 Y0 F1000\n#CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]\nG41 X0\nG13\nX50\nG12 Y50\nG40 Y60\nM30\n";
@@ -98,7 +98,7 @@ fn the_feed_is_interpolated_over_path_and_time() {
         let whole = time(&all);
         assert!(whole >= exact && whole < 1.01 * exact, "{text}: {whole} {exact}");
     }
-    // upwards, too
+    // also increasing
     let up = text.replace("F400", "F2000");
     follow(&pieces(&up, 50.0, 90.0), 50.0, 90.0, |s| v * (1.0 + s / 40.0));
 }

@@ -10,7 +10,7 @@ fn skipped_blocks() {
     assert_eq!(skipping(text, &[2, 10]).end, [1.0, 0.0, 0.0]);
 }
 
-/// A jump back parses nothing again: the second million passes cost what `$WHILE` costs, and give the same.
+/// A jump back does not parse again: the second million passes cost as much as with `$WHILE`, and have the same result.
 #[test]
 fn jumps_back_are_loops() {
     let body = "P1=P1+1\n$IF P1 MOD 3 == 0\nP2=P2+1\n$ENDIF\n";
@@ -20,7 +20,7 @@ fn jumps_back_are_loops() {
     assert_eq!(by_goto.end, by_while.end);
 }
 
-/// Stops in place and dwells below half a cycle take no time, so a loop of them is one without motion.
+/// Stops in place and dwells below half a cycle take no time, so a loop of them counts as a loop without motion.
 #[test]
 fn a_loop_of_stops_is_stopped() {
     use super::{Options, machine, run_with};
@@ -42,7 +42,7 @@ fn a_loop_of_stops_is_stopped() {
     }
 }
 
-/// Functions and messages are handed over a thousand at a time, and a loop of them is one without motion.
+/// Functions and messages are output a thousand at a time, and a loop of them counts as a loop without motion.
 #[test]
 fn events_without_motion_are_handed_over_and_the_loop_is_stopped() {
     use super::{Options, machine, run_with};

@@ -1,4 +1,4 @@
-//! Mirroring, rotation and coordinate systems carry a whole path along: arcs, helices, chamfers and compensation.
+//! Mirroring, rotation and coordinate systems transform the complete path: arcs, helices, chamfers and compensation.
 
 use super::{assert_near, clean, said};
 
@@ -29,7 +29,7 @@ fn assert_carried(frame: &str, image: impl Fn([f64; 3]) -> [f64; 3]) {
     for text in PROGRAMS {
         let plain = points(&format!("F1000 G00 X0 Y0 Z0\nG01 {text}\nM30\n"));
         let framed = points(&format!("{frame}\nF1000 G00 X0 Y0 Z0\nG01 {text}\nM30\n"));
-        // the way to the origin of the frame may be a separate motion
+        // the motion to the origin of the frame may be a separate one
         let framed = &framed[framed.len() - plain.len()..];
         for (p, q) in plain.iter().zip(framed) {
             let expected = image(*p);
@@ -39,8 +39,8 @@ fn assert_carried(frame: &str, image: impl Fn([f64; 3]) -> [f64; 3]) {
     }
 }
 
-/// `#MCS ON` (208517515): words are positions of the axes, whatever offsets, systems and mirroring there are; with `#MCS OFF` the
-/// state before is back, offsets of the machine coordinates are forgotten.
+/// `#MCS ON` (208517515): words are positions of the axes, regardless of offsets, systems and mirroring. `#MCS OFF` restores
+/// the previous state; offsets in machine coordinates are discarded.
 #[test]
 fn machine_coordinates() {
     let all = "V.G.NP[1].V.X=100\nV.G.NP[1].V.Z=7\nV.G.WZ[1].L=30\nG54 D1 G92 Y5\n#CS ON [10,0,0,0,0,90]\nX1 Y2 Z3 F1000\n";
@@ -54,19 +54,19 @@ fn machine_coordinates() {
     assert_near(&e[2], &[12.0, 12.0, 13.0]);
     assert_near(&e[3], &[201.0, 12.0, 13.0]);
     assert_near(&e[4], &before);
-    // the coordinates of the program are those of where the axes are
+    // program coordinates are those of the current axis positions
     let run = clean(&format!(
         "{all}#MCS ON\nX108 Y16 Z50\n#MCS OFF\nP1=V.A.ABS.X P2=V.A.ABS.Y P3=V.A.ABS.Z\nX0 Y0 Z0\nX P1 Y P2 Z P3\nM30\n"
     ));
     assert_near(&run.end, &[108.0, 16.0, 50.0]);
-    // a tool change acts in the machine coordinates, or after them
+    // a tool change takes effect in machine coordinates, or after them
     for (ex, inside) in [("", 19.0), ("EX TOOL", 9.0)] {
         let run =
             clean(&format!("V.G.WZ[2].L=10\n#MCS ON {ex}\nD2\nZ9 F1000\n#MCS OFF\nZ0\nM30\n"));
         let z: Vec<f64> = run.ends().iter().map(|e| e[2]).collect();
         assert_eq!(z, [inside, 10.0], "{ex}");
     }
-    // mirroring and rotation too
+    // also mirroring and rotation
     let e =
         clean("G71 G21 G68 R30\nX10 Y10 F1000\n#MCS ON\nX5 Y5\n#MCS OFF\nX10 Y10\nM30\n").ends();
     assert_near(&e[1][..2], &[5.0, 5.0]);
@@ -113,7 +113,7 @@ fn coordinate_systems_turned_in_space() {
         let inner = about_z(deg(40.0), about_x(deg(10.0), p));
         shifted(about_y(deg(-65.0), about_x(deg(25.0), inner)))
     });
-    // a zero offset lies outside the frame
+    // a zero offset is outside the frame
     assert_carried("V.G.NP[1].V.X=3\nV.G.NP[1].V.Z=2\nG54\n#CS ON [5,-6,7,25,-65,30]", |p| {
         let [x, y, z] = all(p);
         [x + 3.0, y, z + 2.0]

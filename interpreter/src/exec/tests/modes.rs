@@ -1,9 +1,9 @@
-//! Feeds, weights, stops, dwells, feedforward, spindles and commands around the motion.
+//! Feed rates, weights, stops, dwells, feedforward, spindles and other commands related to motion.
 
 use super::{Sync, clean, run_on};
 use crate::exec::Event;
 
-/// In a block that moves nothing G60 is a stop in place, wherever a dwell may be; a full circle moves without axis words.
+/// In a block without motion G60 is a stop in place, wherever a dwell is allowed; a full circle moves without axis words.
 #[test]
 fn exact_stops_without_motion() {
     let tool = "V.G.WZ_AKT.R=1\nG41 X0 Y0 F100\n";
@@ -40,14 +40,14 @@ fn weights_refer_to_the_lists() {
         (d(4)[0].rapid.acc_mm_s2, d(4)[0].rapid.ramp_s, d(4)[0].v_rapid_mm_s),
         (1000.0, 0.06, 100.0)
     );
-    // blocks without change share one set of limits
+    // blocks without a change share one set of limits
     let run = clean("G01 X1 F100\nX2\nM30\n");
     assert!(std::sync::Arc::ptr_eq(&run.blocks()[0].dynamics, &run.blocks()[1].dynamics));
 }
 
 #[test]
 fn an_acceleration_of_nothing_becomes_the_least_one() {
-    // 1 mm/s2 is the least that a list can say
+    // 1 mm/s2 is the lowest value of a list
     let run = super::run("G130 X0\nG01 X1 F100\nG231=0\nG00 X0\nM30\n");
     let axes = |i: usize| run.blocks()[i].dynamics.axes.clone();
     assert_eq!((axes(0)[0].feed.acc_mm_s2, axes(0)[0].feed.dec_mm_s2), (1.0, 1.0));
@@ -74,8 +74,8 @@ fn functions_before_and_behind_the_motion() {
     );
 }
 
-/// P-CHAN-00351: 1800000 mm/min2 are 500 mm/s2, 216000 mm/min3 are 1 mm/s3; JERK and TRANS_ACC are not among its keys. G70
-/// turns VEL into inch/min.
+/// P-CHAN-00351: 1800000 mm/min2 are 500 mm/s2, 216000 mm/min3 are 1 mm/s3; JERK and TRANS_ACC are not among its keys. With G70
+/// VEL is in inch/min.
 #[test]
 fn units_of_vector_limits() {
     let text = "F100\nG70\n#VECTOR LIMIT ON [VEL=60 ACC=1800000 DEC=3600 RADIAL_ACC=72000 RADIAL_JERK=216000 \

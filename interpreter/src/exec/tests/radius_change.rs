@@ -1,7 +1,7 @@
-//! Another radius of the tool perpendicular to the contour (`#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`), suppressed
-//! compensation (`#TRC [SUPPRESS_TRC=1]`).
+//! Change of the tool radius perpendicular to the contour (`#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`), suppressed compensation
+//! (`#TRC [SUPPRESS_TRC=1]`).
 //!
-//! Expected points by elementary geometry, and distances from the contour by brute force over random contours.
+//! Expected points from elementary geometry, and distances from the contour by brute force over random contours.
 
 use super::{Step, run};
 use kontur_kit::Random;
@@ -63,7 +63,7 @@ fn random_contours_are_nowhere_cut() {
                 [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
             });
             for p in samples {
-                // with its neighbours alone: what lies further away is the business of the warning K-0119
+                // checked against its neighbours only: elements further away are covered by the warning K-0119
                 for i in at.saturating_sub(1).max(1)..=(at + 1).min(4) {
                     let far = distance(p, points[i - 1], points[i]);
                     let least = if i > 2 && at > 2 { second } else { first.min(second) };

@@ -1,11 +1,11 @@
-//! Random programs: whatever the text, the executor ends, with a step and without a panic.
+//! Random programs: for any text the executor ends, with a step and without a panic.
 
 use super::{Options, machine, run_with};
 use crate::exec::check;
 use crate::source::MemorySources;
 use kontur_kit::Random;
 
-/// Words, commands and statements, right and wrong ones.
+/// Words, commands and statements, valid and invalid ones.
 pub(super) const PIECES: &[&str] = &[
     "X1",
     "Y-2.5",
@@ -161,7 +161,7 @@ fn random_programs_end() {
         let _ = check(shared, "main.nc", std::sync::Arc::clone(&machine), options.clone());
         let run = run_with(sources, std::sync::Arc::clone(&machine), options);
         assert!(run.end.iter().all(|x| x.is_finite()));
-        // motions join without a gap
+        // motions are continuous
         for pair in run.blocks().windows(2) {
             let (end, start) = (pair[0].path.end(), pair[1].path.start());
             let gap = end.iter().zip(start.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

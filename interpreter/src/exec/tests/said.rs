@@ -1,4 +1,4 @@
-//! Texts that name what is wrong, where a program is refused for something that looks like something else.
+//! Messages that name the actual error where a program is refused for something that looks like another error.
 
 use super::run;
 
@@ -49,7 +49,7 @@ fn a_size_needs_an_equals_sign() {
 
 #[test]
 fn levels_count_the_main_program() {
-    // L1 calls L2 and so on; the last one calls nothing
+    // L1 calls L2 and so on; the last one makes no call
     let program = |depth: usize| {
         let local = |i: usize| {
             let call = if i < depth { format!("LL S{}\n", i + 1) } else { String::new() };

@@ -1,4 +1,4 @@
-//! `#SCALE`: what a program does with it is what the same program does whose coordinates are written larger or smaller.
+//! `#SCALE` has the same effect as a program in which the coordinates are written larger or smaller.
 
 use super::clean;
 use kontur_kit::Random;
@@ -26,13 +26,13 @@ fn assert_alike(a: &str, b: &str) {
     }
 }
 
-/// A multiple of a quarter that is not 0: twice and half of it are written exactly.
+/// A non-zero multiple of a quarter: twice and half of it are written exactly.
 fn quarter(random: &mut Random) -> f64 {
     let steps = 1.0 + random.below(80) as f64;
     if random.below(2) == 0 { steps / 4.0 } else { -steps / 4.0 }
 }
 
-/// A random block; `[x, y, z]` are the factors by which coordinates are written larger.
+/// A random block; `[x, y, z]` are the factors by which its coordinates are written larger.
 fn block(random: &mut Random, arcs: bool, [x, y, z]: [f64; 3]) -> String {
     let (a, b, c) = (quarter(random), quarter(random), quarter(random));
     let (ax, by, cz) = (a * x, b * y, c * z);
@@ -87,14 +87,14 @@ fn factors_outlive_scaling() {
         "F1000 G01 X1\n#SCALE X2\nX5\n#SCALE ON\nX6\n#SCALE OFF\nX7\n#SCALE ON Y3\nX8 Y1\nM30\n",
         "F1000 G01 X1\nX5\nX12\nX7\nX16 Y3\nM30\n",
     );
-    // feeds, the radius of the tool and offsets are not scaled
+    // feed rates, the tool radius and offsets are not scaled
     assert_alike(
         "V.G.WZ_AKT.R=2\nF1000\n#SCALE ON X2 Y2\nG01 G41 X5 Y5\nX20\nY15\nG40 X0 Y20\nM30\n",
         "V.G.WZ_AKT.R=2\nF1000\nG01 G41 X10 Y10\nX40\nY30\nG40 X0 Y40\nM30\n",
     );
     let feeds = |text: &str| clean(text).blocks().iter().map(|b| b.feed).collect::<Vec<_>>();
     assert_eq!(feeds("#SCALE ON X2\nG01 F500 X1\nM30\n"), feeds("G01 F500 X2\nM30\n"));
-    // in inch, in subroutines, of variables
+    // in inch, in subroutines, from variables
     assert_alike(
         "%L SUB\nG91 X1\nM17\n%MAIN\nP1=3\n#SCALE ON XP1 Y[1+2]\nG01 F100\nLL SUB\nG90 G70 X2 Y1\nM30\n",
         "G01 F100 X3\nG70 X6 Y3\nM30\n",

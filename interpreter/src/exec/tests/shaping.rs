@@ -42,7 +42,7 @@ fn keys_persist_but_the_tolerance_does_not() {
     let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
     assert_eq!(tolerances, [Some(0.01), None, None, None]);
     let setups = setups(&run);
-    // a bare ON changes no kernel and needs no stop
+    // ON without a bracket changes no kernel and needs no stop
     assert_eq!(setups.len(), 3);
     assert_eq!((guard(setups[0]), guard(setups[2])), ((2, 40.0, 0.1), (2, 40.0, 0.1)));
     assert!(setups[1].kernel.is_none());

@@ -1,5 +1,5 @@
-//! The short way of plain motions against the long one. `X 1` is the same word as `X1`, but takes the grammar and all
-//! rooms: a program with a blank in one word of every line has to give the same steps, messages and places.
+//! The fast route of plain motions against the general one. `X 1` is the same word as `X1`, but is processed by the grammar and
+//! the general execution: a program with a blank in one word of every line must give the same steps, messages and positions.
 
 use super::random::{LINES, PIECES};
 use super::{Options, machine, places, run_with};
@@ -10,7 +10,7 @@ use kontur_kit::Random;
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// A motion block in both ways of writing.
+/// A motion block in both spellings.
 fn motion(random: &mut Random, number: usize) -> [String; 2] {
     let mut line = match random.below(6) {
         0 => format!("N{number} "),
@@ -36,7 +36,7 @@ fn motion(random: &mut Random, number: usize) -> [String; 2] {
             2 if random.below(4) == 0 => "600".to_owned(),
             _ => format!("{}.{}", random.below(30), random.below(1000)),
         };
-        // M takes no blank, and what is wrong inside a bracket would be in another column
+        // M does not accept a blank, and an error inside a bracket would be in another column
         let blank = letter != " M" && !value.starts_with('[') && (!changed || random.below(2) == 0);
         changed |= blank;
         let (before, behind) = if blank { (" ", " ") } else { ("", "") };
@@ -50,7 +50,7 @@ fn motion(random: &mut Random, number: usize) -> [String; 2] {
     lines
 }
 
-/// What changes how motions are executed, and is not wrong.
+/// Words that change the execution of motions, and are valid.
 const MODES: &[&str] = &[
     "G91",
     "G90",
@@ -123,7 +123,7 @@ fn plain_motions_do_what_the_words_say() {
         }
         let [short, long] = texts.clone().map(|text| {
             let sources = MemorySources::new().with("main.nc", text).with("c.nc", "X @P1\nG91\n");
-            // a check adds up the time of motions that it makes no steps of, too
+            // a check also adds up the time of motions that do not become steps
             let max_time_s = if seed % 3 == 0 { 0.03 * seed as f64 } else { f64::INFINITY };
             let options = Options {
                 max_blocks: 2000,
@@ -134,7 +134,7 @@ fn plain_motions_do_what_the_words_say() {
             let checked =
                 check(Arc::new(sources.clone()), "main.nc", Arc::clone(&machine), options.clone());
             let run = run_with(sources, Arc::clone(&machine), options);
-            // a message of the grammar quotes what is written
+            // a message of the grammar quotes the text
             let quoting = [Condition::Syntax, Condition::DeclarationCharacter];
             let text = |d: &Diagnostic| match d.id {
                 id if quoting.iter().any(|quoting| id == *quoting) => String::new(),

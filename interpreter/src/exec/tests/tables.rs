@@ -1,4 +1,5 @@
-//! The tables of `interpreter/tests/language`: programs, one a line, with what they must do. Their README describes the form.
+//! The tables of `interpreter/tests/language`: programs, one per line, with their expected results. Their README describes the
+//! format.
 
 use super::{Event, Options, Run, Step, Sync, machine, places, run_with, shown};
 use crate::exec::SpindleMotion;
@@ -17,7 +18,7 @@ const LISTS: [&str; 14] = [
     "spline", "steps", "does",
 ];
 
-/// What a run did, by the word that begins it in a row; messages come without a word.
+/// Results of a run, by the word that introduces them in a row; messages have no such word.
 fn found(word: &str, run: &Run) -> Vec<String> {
     let blocks = run.blocks().into_iter();
     let list = |x: &[f64]| x.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
@@ -61,7 +62,7 @@ fn arc(path: &Path) -> String {
     }
 }
 
-/// mm/s, s or a share.
+/// mm/s, s or a ratio.
 fn feed(feed: &Feed) -> String {
     match *feed {
         Feed::Rapid => "rapid".to_owned(),
@@ -86,7 +87,7 @@ fn contour(mode: Option<ContourMode>) -> String {
     }
 }
 
-/// A motion, or what the path rests for: s, or the axis whose list changes.
+/// A motion, or the reason for a stop of the path: s, or the axis with a changed list.
 fn step(step: &Step) -> Option<String> {
     match step {
         Step::Motion { .. } => Some("move".to_owned()),
@@ -121,7 +122,7 @@ fn done(event: &Event) -> Option<String> {
     }
 }
 
-/// Compares a run with the right side of its row; says what it does in its place.
+/// Compares a run with the right side of its row; returns the actual results if they differ.
 fn compare(run: &Run, expected: &str) -> Result<(), String> {
     let (words, texts) = expected.split_at(expected.find('"').unwrap_or(expected.len()));
     let mut lists = vec![("says", Vec::new())];
@@ -153,7 +154,7 @@ fn compare(run: &Run, expected: &str) -> Result<(), String> {
     Err(wrong.join("; "))
 }
 
-/// Rows of a table that do something else, with what they do, and the number of rows.
+/// Rows of a table with different results, these results, and the number of rows.
 fn faults(table: &str, machines: &mut BTreeMap<String, Arc<Machine>>) -> (String, usize) {
     let rows = rows(table);
     let mut wrong = String::new();
@@ -184,7 +185,7 @@ fn programs_do_what_their_rows_say() {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// A wrong row is found, whatever kind of thing is wrong.
+/// A wrong row is detected, whatever kind of result is wrong.
 #[test]
 fn wrong_rows_are_found() {
     let row = |row: &str| faults(row, &mut BTreeMap::new()).0.is_empty();

@@ -1,7 +1,7 @@
 //! Tangential selection and deselection of tool radius compensation (G05).
 //!
-//! Expected arcs by the circle through three conditions: it holds both ends and touches the parallel, so that its
-//! radius to the touching point is perpendicular to the contour.
+//! Expected arcs from a circle with three conditions: it passes through both ends and touches the parallel, so that its radius
+//! to the point of contact is perpendicular to the contour.
 
 use super::{assert_near, clean};
 use kontur_motion::path::{ArcPath, Path};
@@ -22,7 +22,7 @@ fn arc(path: &Path) -> &ArcPath {
 
 #[test]
 fn every_arc_touches_the_parallel() {
-    // starting points all around, contours in several directions, also an arc
+    // start points on all sides, contours in several directions, also an arc
     for (direction, contour) in [
         ([1.0, 0.0], "X20"),
         ([0.6, 0.8], "X12 Y16"),
@@ -39,7 +39,7 @@ fn every_arc_touches_the_parallel() {
             assert_near(&p[1].end()[..2], &touch);
             let centre = approach.shape().centre_mm;
             let r = [touch[0] - centre[0], touch[1] - centre[1]];
-            // turning about the centre, the tool moves along the contour
+            // rotating about the centre, the tool moves along the contour
             let sense = approach.shape().sweep_rad.signum();
             let speed = [-r[1] * sense, r[0] * sense];
             let length = libm::hypot(speed[0], speed[1]);

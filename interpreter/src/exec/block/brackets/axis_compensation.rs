@@ -1,8 +1,8 @@
 //! `X[COMP ON LEAD]`, `X[COMP OFF CROSS PLANE]`, `X[COMP OFF_ALL]`: compensations of an axis.
 //!
-//! Compensations are not simulated, so that no axis has an offset that would have to be driven out: the path only stops.
+//! Compensations are not simulated, so there is no compensation offset to be moved out of an axis: the path only stops.
 //!
-//! Assumption: it stops with NO_MOVE too, as the channel is initialised then; the page does not say it.
+//! Assumption: it also stops with NO_MOVE, because the channel is initialised then; the page does not state it.
 //!
 //! Source: TF5200 axis compensation, 308729483.
 
@@ -15,7 +15,7 @@ use crate::syntax::ast::{Item, ItemKind, Span};
 const KINDS: [&str; 7] = ["BACKLASH", "CROSS", "PLANE", "LEAD", "TEMP", "FRICT", "CROSSTALK"];
 
 impl Decoder {
-    /// The words after COMP: 21220 for those that do not belong together.
+    /// The words after COMP: 21220 for an invalid combination.
     pub(super) fn axis_compensation(
         &mut self,
         axis: usize,

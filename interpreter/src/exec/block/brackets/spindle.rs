@@ -18,7 +18,7 @@ use crate::machine::Acknowledged;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
-/// Beginnings of further words of spindle brackets that the manual knows. Source: TF5200 programming manual, programming in
+/// Prefixes of further words of spindle brackets in the manual. Source: TF5200 programming manual, programming in
 /// spindle-specific syntax.
 const OTHER_WORDS: &[&str] = &[
     "CALLAX",
@@ -45,7 +45,7 @@ arguments! {
     }
 }
 
-/// M functions of the control, which are not those of an axis or spindle (21192). M0 and M1 may be.
+/// M functions of the control, which cannot be functions of an axis or spindle (21192). M0 and M1 can.
 pub(super) fn is_internal(word: &str) -> bool {
     let number = word.get(1..).and_then(|digits| digits.parse().ok());
     is_function(word, 'M') && matches!(number, Some(2..=5 | 17 | 19 | 29 | 30))
@@ -57,7 +57,7 @@ fn is_function(word: &str, letter: char) -> bool {
     digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// What one item of a spindle bracket means.
+/// Meaning of one item of a spindle bracket.
 enum SpindleItem {
     /// M3, M4, M5, M19.
     Turn(u32),
@@ -162,7 +162,7 @@ impl Decoder {
         for (i, (item, span)) in items.iter().enumerate() {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
             let several = matches!(item, SpindleItem::Function(..));
-            // M3 and M4 are the direction of M19
+            // M3 and M4 give the direction of M19
             let directs = |(other, _): &(SpindleItem, Span)| {
                 matches!(
                     (item, other),
@@ -181,7 +181,7 @@ impl Decoder {
                 return Err(Fault::new(condition, text, *span));
             }
         }
-        // M3 beside M4 is wrong whatever else there is (20155 prints an unknown word beside them)
+        // M3 together with M4 is an error whatever else the bracket contains (20155 prints an unknown word beside them)
         if let Some(unknown) = unknown {
             return Err(unknown);
         }
@@ -195,7 +195,7 @@ impl Decoder {
         let motion = |i: &SpindleItem| matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_));
         let moves = items.iter().any(|(i, _)| motion(i));
         let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
-        // one event for the whole bracket, in whatever order its words come: M3 is the direction of M19
+        // one event for the whole bracket, regardless of the order of its words: M3 gives the direction of M19
         items.sort_by_key(|(i, _)| match i {
             SpindleItem::Turn(19) => 0,
             SpindleItem::Turn(_) => 1,
@@ -212,7 +212,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// True if a bracket before this one, or a word without a bracket, turns the spindle or gives it a speed as `item` does.
+    /// Whether a bracket before this one, or a word without a bracket, rotates the spindle or sets its speed as `item` does.
     fn is_set_twice(
         &self,
         spindle: usize,
@@ -236,9 +236,9 @@ impl Decoder {
             })
     }
 
-    /// `S[OVERRIDE SPEED_FACT=..]`: the speed of a spindle in percent of the programmed one, until it is changed.
+    /// `S[OVERRIDE SPEED_FACT=..]`: the speed of a spindle in percent of the programmed one, modal.
     ///
-    /// Assumption: it acts on the speed of M19 too, as the override from outside does.
+    /// Assumption: it also applies to the speed of M19, as the external override does.
     fn spindle_override(&mut self, spindle: usize, group: &Group) -> Outcome<()> {
         let keys = SpindleOverrideArguments::read(self, SPINDLE_OVERRIDE, Some(group))?;
         let Some((percent, span)) = keys.speed else {
@@ -256,7 +256,8 @@ impl Decoder {
         Ok(())
     }
 
-    /// True if a bracket is one of a spindle whose functions act after the motion of their block (MNS_SNS): the bracket as a whole.
+    /// Whether a bracket belongs to a spindle with functions after the motion of their block (MNS_SNS); this applies to the
+    /// whole bracket.
     pub(in crate::exec) fn acts_late(&self, bracket: &Bracket) -> bool {
         let Some(spindle) = self.spindle_of_name(bracket.name.as_str()) else { return false };
         let listed = self.motion.spindles[spindle].index;
@@ -309,7 +310,7 @@ impl Decoder {
             ("G137", None) => SpindleItem::Feedforward(false),
             ("G136", Some(x)) => SpindleItem::Weight(x),
             ("G130", Some(x)) => SpindleItem::Acceleration(x),
-            // no override from outside acts on spindles
+            // an external override has no effect on spindles
             ("G167", None) => SpindleItem::FullOverride,
             ("G74", None) => SpindleItem::Home,
             (other, _) if OTHER_WORDS.iter().any(|w| other.starts_with(w)) => {
@@ -328,7 +329,7 @@ impl Decoder {
         })
     }
 
-    /// `positions`: the bracket contains M19.
+    /// `positions`: whether the bracket contains M19.
     fn spindle_action(
         &mut self,
         spindle: usize,

@@ -1,4 +1,4 @@
-//! M functions, spindle words and what follows a block.
+//! M functions, spindle words and the actions at the end of a block.
 
 use super::{After, CallAfter, Then};
 use crate::diag::{Condition, rounded};
@@ -11,7 +11,7 @@ use crate::exec::step::{Event, Sync};
 use crate::machine::{Acknowledged, SpindleMoment, SpindleWaits};
 use crate::syntax::ast::Span;
 
-/// How M functions act that are more than a number for the log.
+/// Effect of M functions that are more than a number in the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum MKind {
     Plain,
@@ -34,13 +34,13 @@ fn m_kind(number: u32) -> MKind {
     }
 }
 
-/// M3 and M4 are the direction of M19 in the same block.
+/// M3 and M4 give the direction of M19 in the same block.
 fn is_direction(words: &Words<'_>, m: &Code) -> bool {
     matches!(m.number, 3 | 4) && words.m.iter().any(|m| m.number == 19)
 }
 
 impl Decoder {
-    /// True if the S word of a spindle acts after the motion of its block (MNS_SNS).
+    /// Whether the S word of a spindle takes effect after the motion of its block (MNS_SNS).
     pub(super) fn speeds_up_late(&self, index: usize) -> bool {
         let listed = self.motion.spindles[index].index;
         let waits = listed.and_then(|i| self.machine.channel.spindle_waits.get(i));
@@ -64,13 +64,13 @@ impl Decoder {
         self.spindle_warning(index, span);
     }
 
-    /// Takes the speed of a spindle in rev/min; K-0131 if the spindle is slower.
+    /// Sets the speed of a spindle in rev/min; K-0131 if it exceeds the maximum speed.
     pub(in crate::exec) fn set_spindle_speed(&mut self, index: usize, rpm: f64, span: Span) {
         self.motion.spindles[index].rpm = rpm;
         self.check_spindle_speed(index, span);
     }
 
-    /// Says of the speed of a spindle that it is above what the spindle can do (K-0131).
+    /// Reports a speed above the maximum of the spindle (K-0131).
     pub(in crate::exec) fn check_spindle_speed(&mut self, index: usize, span: Span) {
         let rpm = self.motion.spindles[index].overridden_rpm();
         let most = self.most_rpm(index);
@@ -85,7 +85,7 @@ impl Decoder {
         }
     }
 
-    /// Largest speed of a spindle in rev/min (P-AXIS-00212); infinite where no list configures it.
+    /// Maximum speed of a spindle in rev/min (P-AXIS-00212); infinite for a spindle without a list.
     pub(in crate::exec) fn most_rpm(&self, index: usize) -> f64 {
         let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
         listed.map_or(f64::INFINITY, |s| s.dynamics().v_max_mm_s / 6.0)
@@ -127,7 +127,7 @@ impl Decoder {
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Plain => self.m_function(m),
-                // Assumption: waited for before the motion, as every function; m_synch is not simulated
+                // Assumption: waited for before the motion, as for every function; m_synch is not simulated
                 MKind::Stop { .. } => self.takes_declared_time(Function::M(m.number)),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
                 _ => {}
@@ -141,7 +141,7 @@ impl Decoder {
 
     fn m_function(&mut self, m: &Code) {
         if self.motion.measuring.banding && self.machine.channel.m_at_signal.contains(&m.number) {
-            // the motion takes care of it
+            // processed with the motion
             return;
         }
         if let Some(text) = crate::exec::block::dialect::m_function(m.number) {
@@ -152,8 +152,8 @@ impl Decoder {
         self.takes_time(Function::M(m.number));
     }
 
-    /// Turns the main spindle as far as the block asks for it on one side of its motion: before it, but after it with MNS_SNS.
-    /// Assumption: M5 of a list that says nothing acts after it too.
+    /// Starts or stops the main spindle as programmed on one side of the motion of the block: before it, or after it with
+    /// MNS_SNS. Assumption: M5 without an entry in the list also takes effect after it.
     fn turn_main_spindle(&mut self, words: &Words<'_>, now: SpindleMoment) {
         let listed = self.motion.spindles[0].index.and_then(|i| {
             let waits: Option<&SpindleWaits> = self.machine.channel.spindle_waits.get(i);
@@ -212,7 +212,7 @@ impl Decoder {
         }
         let call = self.call_after(words);
         match words.goto {
-            // of a measuring run, the signal decides
+            // in a measuring run, the signal decides
             Some(_) if words.jumps_on_signal() => {}
             Some(label) if call.is_some() => {
                 let text = "$GOTO in a block that calls a subroutine at its end";
@@ -255,7 +255,7 @@ impl Decoder {
             .or_else(|| tool_data.map(CallAfter::ToolData))
     }
 
-    /// The D word, or the T word that selects tool data too (P-CHAN-00014).
+    /// The D word, or the T word if it also selects tool data (P-CHAN-00014).
     fn tool_data_word(&self, words: &Words<'_>) -> Option<Span> {
         let with_tool = words.tool.filter(|_| self.machine.channel.tool_data_with_tool);
         words.tool_data.or(with_tool).map(|(_, span)| span)

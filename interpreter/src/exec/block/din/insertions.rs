@@ -8,12 +8,12 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::LARGEST_MM;
 
-/// `#CHR`, `#CHF` and `#RND` in a motion belong to the corner at its end; as separate blocks they lie between two motions anyway.
+/// `#CHR`, `#CHF` and `#RND` in a motion apply to the corner at its end; as separate blocks they lie between two motions.
 ///
 /// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
 pub(super) fn inserts_behind(words: &Words<'_>) -> bool {
     let of_corner = |name: &str| matches!(name, "CHR" | "CHF" | "RND");
-    // an arc may return to where it begins, or have an angle in place of its end
+    // an arc may return to its start, or have an angle instead of its end
     let moves = !words.axes.is_empty()
         || words.centre.iter().any(Option::is_some)
         || words.hashes.iter().any(|(hash, _, _)| &*hash.name == "CANG");
@@ -21,8 +21,8 @@ pub(super) fn inserts_behind(words: &Words<'_>) -> bool {
 }
 
 impl Decoder {
-    /// P-CHAN-00273 = 1: what it leaves out is an error (256603531, 255785355). With `#SCALE` they are refused: its page shows in
-    /// pictures only whether their sizes are scaled.
+    /// P-CHAN-00273 = 1: omitted values are errors (256603531, 255785355). With `#SCALE` they are refused: its page shows only
+    /// in pictures whether their sizes are scaled.
     fn insertions_are_on(&self, words: &Words<'_>) -> Outcome<()> {
         if !self.machine.channel.no_chamfers && !self.geometry.scale.is_on() {
             return Ok(());

@@ -11,7 +11,7 @@ use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
-/// The group that G159 and G160 name.
+/// The group selected by G159 and G160.
 ///
 /// Source: TF5200 diagnosis 250915467 (20149), 251890315, 251894667 (20582, 20583), 251899019 (20584).
 fn zero_group(g: &GWord) -> Outcome<u32> {
@@ -43,7 +43,7 @@ fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
 }
 
 impl Decoder {
-    /// The G function that takes the axis words of the block as its arguments.
+    /// The G function with the axis words of the block as its arguments.
     pub(super) fn axis_functions(&mut self, words: &Words<'_>) -> Option<GWord> {
         let mut found: Option<GWord> = None;
         for g in words.g.iter().filter(|g| groups::takes_axes(g.row)) {
@@ -149,7 +149,7 @@ impl Decoder {
         }
     }
 
-    /// `#PSET X10`, `#PRESET X0`, `#PRESET`: true if the axis words of the block belong to one of them.
+    /// `#PSET X10`, `#PRESET X0`, `#PRESET`: returns whether the axis words of the block belong to the command.
     pub(super) fn position_presets(&mut self, words: &Words<'_>) -> bool {
         let named = |h: &str| words.hashes.iter().find(|(hash, _, _)| &*hash.name == h);
         let (sets, at) = match (named("PSET"), named("PRESET")) {
@@ -212,7 +212,7 @@ impl Decoder {
         true
     }
 
-    /// 20604 for a value of `#PSET` outside the data format, 20711 where the offset that it makes is (251955595, 252303755).
+    /// 20604 for a value of `#PSET` outside the data format, 20711 if the resulting offset is (251955595, 252303755).
     fn presets_fit(&self, words: &Words<'_>, sets: bool) -> Outcome<()> {
         for (axis, value, span) in words.axes.iter().filter(|_| sets) {
             let value_mm = value * self.axis_unit(*axis);
@@ -233,7 +233,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// G74 takes the position presets of its axes back, without axes of all (207101835); 20137 (250902411).
+    /// G74 cancels the position presets of its axes, without axes those of all (207101835); 20137 (250902411).
     pub(super) fn home(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         if !self.motion.couplings.are_off() {
             let text = "G74 while a coupling group is switched on";
@@ -254,7 +254,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// G98, G99: until the end of the program.
+    /// G98, G99: active until the end of the program.
     fn software_limits(&mut self, g: &GWord, words: &Words<'_>, positive: bool) -> Outcome<()> {
         needs_axes(g, words)?;
         if self.geometry.coordinates.systems() > 0 {
@@ -271,8 +271,8 @@ impl Decoder {
         Ok(())
     }
 
-    /// A limit of an axis, with G91 counted from the present one. It stays on its side of the other limit, with P-CHAN-00498 = 1
-    /// also within those of the list.
+    /// A limit of an axis, with G91 relative to the current one. It must stay on its side of the other limit, and with
+    /// P-CHAN-00498 = 1 also within the limits of the list.
     ///
     /// Source: TF5200 programming manual 206151179, 206157835; software limits 91641995, 91643531; channel parameters 1049532043.
     fn software_limit(
@@ -322,7 +322,7 @@ impl Decoder {
     fn zero_group_of_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         needs_axes(g, words)?;
         let group = zero_group(g)?;
-        // 0 takes the offset of the axis in, 1 leaves it out
+        // 0 includes the offset of the axis, 1 excludes it
         for (axis, value, _) in &words.axes {
             let masked = crate::exec::values::number::is_true(*value);
             self.geometry.coordinates.mask_zero_entry(group, *axis, masked);
@@ -330,7 +330,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// G92: absolute with G90, added with G91.
+    /// G92: absolute with G90, incremental with G91.
     fn preset(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         needs_axes(g, words)?;
         for (axis, value, _) in &words.axes {
@@ -394,7 +394,7 @@ impl Decoder {
         self.rotate_plane(plane, deg, centre, g.span)
     }
 
-    /// G68, `#ROTATION`; refused where degrees and millimetres would mix.
+    /// G68, `#ROTATION`; refused if degrees and millimetres would be mixed.
     pub(in crate::exec) fn rotate_plane(
         &mut self,
         plane: [usize; 2],

@@ -1,4 +1,4 @@
-//! Compensation in force: one element after the other, with the corner between them.
+//! Active compensation: one element after another, with the corner between them.
 
 use super::corner::{above, corner_arc, inner_corner, straight, straight_corner};
 use super::element::{Element, emit_between};
@@ -14,11 +14,11 @@ use crate::syntax::ast::Span;
 use kontur_motion::path::Tilt;
 use smallvec::SmallVec;
 
-/// Steps between two motions that a corner may wait for.
+/// Maximum number of steps between two motions while a corner is pending.
 const BETWEEN_MAX: usize = 1000;
 
-/// Change of direction up to which a corner may count as smooth: the parallels are then apart by less than a millionth of the
-/// tool radius.
+/// Change of direction up to which a corner may count as smooth: the parallels then differ by less than a millionth of the tool
+/// radius.
 const ALL_BUT_SMOOTH: f64 = 1e-6;
 
 /// An inserted line along which the tool stays at the contour.
@@ -27,7 +27,7 @@ pub(super) fn at_contour(mut line: Box<Motion>, distance: f64) -> Item {
     Item::Motion(line)
 }
 
-/// Compensation in force.
+/// Active compensation.
 #[derive(Debug)]
 pub(super) struct Active {
     /// Distance to the left of the contour, negative to the right.
@@ -51,7 +51,7 @@ impl Active {
         Ok(())
     }
 
-    /// Completes the last element at the corner to the next one; a bottleneck on the way is left in `cut`.
+    /// Completes the last element at the corner to the next one; a bottleneck is recorded in `cut`.
     pub(super) fn join(
         mut self,
         motion: Box<Motion>,
@@ -91,7 +91,7 @@ impl Active {
         if !smooth && !outside {
             let arcs = [&last.side, &side].iter().all(|side| matches!(side, Side::Arc { .. }));
             let exact = inner_corner(&last.side, &side, corner, distance);
-            // two parallels that all but touch have no intersection that rounding would not displace
+            // two nearly tangent parallels have no intersection that is robust against rounding
             let at =
                 exact.or((turn.abs() < ALL_BUT_SMOOTH).then_some(before)).ok_or_else(|| {
                     if !arcs {
@@ -121,7 +121,7 @@ impl Active {
             }
             None => SmallVec::from_slice(&[before]),
         };
-        // a line is prolonged, after an arc its tangent is inserted
+        // a line is extended, after an arc its tangent is inserted
         let first = points[0];
         let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
         let template = outside.then(|| last.motion.clone());
@@ -146,7 +146,7 @@ impl Active {
         Ok(active(start, motion))
     }
 
-    /// The contour runs back the way it came and changes its side: the tool turns round where it is.
+    /// The contour runs back along itself and changes its side: the tool reverses at its current position.
     pub(super) fn turn_back(
         self,
         motion: Box<Motion>,
@@ -162,8 +162,7 @@ impl Active {
         Ok(Self { distance: -distance, perpendicular, plane, tilt, last, between, watch })
     }
 
-    /// Completes the last element perpendicular above its end and returns that point; a bottleneck on the way is left
-    /// in `cut`.
+    /// Completes the last element perpendicular to its end and returns that point; a bottleneck is recorded in `cut`.
     pub(super) fn finish(mut self, out: &mut Vec<Item>, cut: &mut Option<Cut>) -> Fallible<Point> {
         let mut watched = Watched::new(&mut self, out);
         let Self { distance, plane, last, between, .. } = self;
@@ -180,7 +179,7 @@ impl Active {
         Ok(at)
     }
 
-    /// As [`finish`](Self::finish), and perpendicular back to the contour (G237).
+    /// As [`finish`](Self::finish), then perpendicular back to the contour (G237).
     pub(super) fn return_to_contour(
         self,
         out: &mut Vec<Item>,
@@ -196,12 +195,12 @@ impl Active {
     }
 }
 
-/// The last element while its way is made: what comes after `done` is compared with the contour.
+/// The last element while its path is determined: elements after `done` are checked against the contour.
 pub(super) struct Watched {
     pub(super) watch: Watch,
     side: Side,
     source: SourceRef,
-    /// The line that leads to the contour is free.
+    /// The line of the approach is not checked.
     approach: bool,
     plane: [usize; 2],
     radius: f64,
@@ -222,7 +221,7 @@ impl Watched {
         }
     }
 
-    /// A bottleneck is left in `cut`.
+    /// A bottleneck is recorded in `cut`.
     pub(super) fn compare(&mut self, out: &[Item], cut: &mut Option<Cut>) {
         if !self.approach {
             let way = &out[self.done..];

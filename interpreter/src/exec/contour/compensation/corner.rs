@@ -9,8 +9,8 @@ use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
-/// Points of an outer corner between prolonged tangents: their intersection, or where that is further than `reach`
-/// from the ends of the parallels, two points at this distance from them.
+/// Points of an outer corner between extended tangents: their intersection or, if that is further than `reach` from the ends of
+/// the parallels, two points at this distance from them.
 pub(super) fn straight_corner(
     u: Point,
     w: Point,
@@ -20,7 +20,7 @@ pub(super) fn straight_corner(
     reach: f64,
 ) -> SmallVec<[Point; 3]> {
     let cos = dot(u, w);
-    // radius * tan(half of the angle); infinite or no number where the contour turns back
+    // radius * tan(half of the angle); infinite or NaN where the contour reverses
     let d = radius * cross(u, w).abs() / (1.0 + cos);
     if d <= reach * (1.0 + 1e-12) {
         return SmallVec::from_slice(&[[before[0] + d * u[0], before[1] + d * u[1]]]);
@@ -31,7 +31,7 @@ pub(super) fn straight_corner(
     ])
 }
 
-/// A line that compensation inserts, with the other axes where `at` has them.
+/// A line inserted by the compensation, with the other axes at their positions in `at`.
 pub(super) fn straight(
     template: &Motion,
     at: &AxisVec,
@@ -52,7 +52,7 @@ pub(super) fn straight(
     Some(Box::new(motion))
 }
 
-/// The same before a motion, whose E word belongs to its own end.
+/// The same before a motion; the E word of that motion applies to its own end.
 pub(super) fn straight_before(
     next: &Motion,
     at: &AxisVec,
@@ -82,7 +82,7 @@ pub(super) fn corner_arc(
 ) -> Option<Item> {
     let (a, b) = (sub(from, corner), sub(to, corner));
     let angle = libm::atan2(cross(a, b), dot(a, b));
-    // to the left of the contour the tool turns clockwise about the corner
+    // on the left of the contour the tool moves clockwise about the corner
     let sweep_rad = match (distance > 0.0, angle > 0.0) {
         (true, true) => angle - TAU,
         (false, false) => angle + TAU,
@@ -124,7 +124,7 @@ pub(super) fn side_sweep(side: &Side) -> f64 {
     }
 }
 
-/// Swept angle of an arc between other ends; a trim is less than half a turn.
+/// Swept angle of an arc with trimmed ends; trimming removes less than half a turn.
 pub(super) fn trimmed(side: &Side, start: Point, end: Point) -> f64 {
     let Side::Arc { centre, start_rad, sweep_rad, .. } = side else { return 0.0 };
     let angle = |p: Point| {

@@ -1,4 +1,4 @@
-//! An element of the compensated contour and the motion it becomes.
+//! An element of the compensated contour and the resulting motion.
 
 use super::corner::{side_sweep, trimmed};
 use super::ends::{ends, line};
@@ -12,21 +12,21 @@ use crate::exec::geometry::planar::{Side, cross, dot, sub};
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, Path};
 
-/// An element whose end is not known yet.
+/// An element with an end that is not known yet.
 #[derive(Debug)]
 pub(super) struct Element {
     pub(super) motion: Box<Motion>,
     pub(super) side: Side,
-    /// Where the tool's centre begins.
+    /// Start of the tool centre path.
     pub(super) start: Point,
-    /// The line that leads to the parallel: its direction is not that of the contour.
+    /// The line that approaches the parallel: its direction differs from that of the contour.
     pub(super) approach: bool,
-    /// The approach is an arc that touches the parallel (G05).
+    /// Whether the approach is an arc that touches the parallel (G05).
     pub(super) tangential: bool,
 }
 
 impl Element {
-    /// The approach in an arc to the beginning of the parallel, whose direction is `tangent`.
+    /// The approach on an arc to the start of the parallel, with direction `tangent` there.
     pub(super) fn emit_arc(
         self,
         end: Point,
@@ -84,7 +84,7 @@ impl Element {
                     && *radius >= least
                     && let Feed::PathVelocity(v) = &mut motion.block.feed
                 {
-                    // G11: F is the speed on the contour
+                    // G11: F is the velocity on the contour
                     *v *= new_radius / radius;
                 }
                 let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
@@ -117,7 +117,7 @@ pub(super) fn moving_side(motion: &Motion, plane: [usize; 2]) -> Fallible<Option
     }
 }
 
-/// True if a contour runs back along the element that it has come by: a line, or an arc that turns the other way.
+/// Whether a contour runs back along the previous element: a line, or an arc in the opposite direction.
 pub(super) fn runs_back(last: &Side, next: &Side) -> bool {
     let (u, w) = (last.tangent(true), next.tangent(false));
     let against = cross(u, w).abs() < 1e-9 && dot(u, w) < 0.0;
@@ -129,7 +129,7 @@ pub(super) fn runs_back(last: &Side, next: &Side) -> bool {
         }
 }
 
-/// Steps between two motions, at the place of the tool.
+/// Steps between two motions, at the position of the tool.
 pub(super) fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out: &mut Vec<Item>) {
     for item in between {
         match item {

@@ -1,11 +1,11 @@
-//! Motions whose ends are moved within the plane.
+//! Motions with ends moved within the plane.
 
 use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::arc::Point;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
 
-/// Start and end of a motion with other places in the plane.
+/// Start and end of a motion, replaced within the plane.
 pub(super) fn ends(
     motion: &Motion,
     plane: [usize; 2],
@@ -20,7 +20,7 @@ pub(super) fn ends(
     (place(motion.block.path.start(), start), place(motion.block.path.end(), end))
 }
 
-/// The line of a motion between two places in the plane; `None` between equal ends.
+/// The line of a motion between two points of the plane; `None` if they are equal.
 pub(super) fn line(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> Option<Path> {
     let (from, to) = ends(motion, plane, start, end);
     LinePath::new(from, to, &motion.block.dynamics.feed_axes).map(Path::Line)

@@ -1,6 +1,6 @@
-//! G238: a closed contour that the tool enters and leaves at one of its inside corners.
+//! G238: a closed contour with approach and departure at one of its inside corners.
 //!
-//! Where the tool enters is known when the contour is: its blocks wait until G40.
+//! The approach depends on the complete contour: its blocks are held until G40.
 //!
 //! Source: TF5200 programming manual, selecting inside corner of TRC, restrictions of inside corner selection; 90123 (261891211), 90127.
 
@@ -17,16 +17,16 @@ use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, dot, norm, sub};
 use crate::syntax::ast::Span;
 
-/// Most blocks of a contour. Assumption: the vendor prints no number.
+/// Maximum number of blocks of a contour. Assumption: the vendor prints no number.
 const BLOCKS_MAX: usize = 10_000;
 
-/// How far the ends of a closed contour may lie apart in mm.
+/// Largest distance in mm between the ends of a closed contour.
 const CLOSED_MM: f64 = 1e-6;
 
-/// A closed contour that waits for its end.
+/// A closed contour that is still incomplete.
 #[derive(Debug)]
 pub(super) struct Closed {
-    /// The line that leads to the contour.
+    /// The line of the approach.
     approach: Box<Motion>,
     distance: f64,
     items: Vec<Item>,
@@ -37,14 +37,14 @@ impl Closed {
         Self { approach, distance, items: Vec::new() }
     }
 
-    /// A motion of the contour; it is returned if it is the one that leaves it.
+    /// A motion of the contour; returned if it is the departure.
     pub(super) fn gather(&mut self, motion: Box<Motion>) -> Fallible<Option<Box<Motion>>> {
         if motion.tilt != self.approach.tilt {
             let what = "a change of the coordinate system during tool radius compensation";
             return Err(Fault::unsupported(what, motion.span));
         }
         let span = motion.span;
-        // G40 acts with the next motion in the plane
+        // G40 takes effect with the next motion in the plane
         let stays = match motion.compensation {
             Some(c) if c.distance_mm.to_bits() == self.distance.to_bits() => true,
             Some(c) if c.distance_mm.abs().to_bits() != self.distance.abs().to_bits() => {
@@ -73,7 +73,7 @@ impl Closed {
         Ok(())
     }
 
-    /// The contour, complete: the corner where the tool leaves it, and the first bottleneck.
+    /// The complete contour: the corner of the departure, and the first bottleneck.
     pub(super) fn close(self, out: &mut Vec<Item>) -> Fallible<(Point, Option<Cut>)> {
         let Self { mut approach, distance, items } = self;
         let plane = approach.plane;
@@ -174,7 +174,7 @@ fn corner(approach: &Motion, distance: f64, items: &[Item]) -> Fallible<Point> {
     }
     let at = inner_corner(last, first, corner, distance)
         .ok_or_else(|| too_tight(Condition::Compensation, approach))?;
-    // 261891211: to every element of the contour the tool keeps its radius
+    // 261891211: the tool keeps the distance of its radius from every element of the contour
     let apart = |side: &Side| side.distance(at);
     match between.iter().find(|(side, _)| apart(side) < distance.abs() - CLOSED_MM) {
         Some((side, motion)) => {

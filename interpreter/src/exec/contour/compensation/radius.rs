@@ -1,9 +1,9 @@
-//! Another radius of the tool by a line perpendicular to the contour: `#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`.
+//! Change of the tool radius by a line perpendicular to the contour: `#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`.
 //!
 //! Source: TF5200 programming manual, TRC option PERPENDICULAR_RADIUS_CHANGE (483740299).
-//! Assumption: the figures are silent about the place. The corner between the two elements is taken with the larger of
-//! the two radii, so that the tool nowhere comes nearer to the contour than its smaller radius, and nowhere nearer than
-//! its new radius to what follows: a larger radius is taken up perpendicular to the element before the corner, a smaller one
+//! Assumption: the figures do not show the position. The corner between the two elements is computed with the larger of the two
+//! radii, so that the tool never comes nearer to the contour than its smaller radius, and never nearer than its new radius to
+//! the following elements. A larger radius is applied perpendicular to the element before the corner, a smaller one
 //! perpendicular to the element after it.
 
 use super::active::{Active, Watched, at_contour};
@@ -17,7 +17,7 @@ use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, sub};
 use kontur_motion::axis::AxisVec;
 
-/// Direction of an element where a point is perpendicular above it.
+/// Direction of an element where a point is on its normal.
 fn tangent_at(side: &Side, p: Point) -> Point {
     match side {
         Side::Line { .. } => side.tangent(false),
@@ -31,7 +31,7 @@ fn tangent_at(side: &Side, p: Point) -> Point {
 }
 
 impl Active {
-    /// The next element has another distance on the same side of the contour.
+    /// Continues with an element that has a different distance on the same side of the contour.
     pub(super) fn change_radius(
         self,
         motion: Box<Motion>,
@@ -47,7 +47,7 @@ impl Active {
         }
     }
 
-    /// A smaller radius: the corner with the old one, then towards the element after it.
+    /// A smaller radius: the corner with the old one, then a line towards the element after it.
     fn shrink(
         self,
         motion: Box<Motion>,
@@ -69,7 +69,7 @@ impl Active {
         Ok(next)
     }
 
-    /// A larger radius: away from the element before the corner, then the corner with the new one.
+    /// A larger radius: a line away from the element before the corner, then the corner with the new one.
     fn grow(
         mut self,
         motion: Box<Motion>,
@@ -104,7 +104,7 @@ impl Active {
             let watch = Watch::default();
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
-        // the corner begins above its own tangent, with nothing left of the element before it
+        // the corner starts perpendicular to its own tangent; nothing remains of the element before it
         let stub = sub(corner, u);
         match straight(&template, &at, plane, stub, corner).filter(|_| !inside) {
             Some(line) => {

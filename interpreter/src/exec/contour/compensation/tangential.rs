@@ -1,7 +1,8 @@
-//! Tangential selection (G05): arcs that lead to the contour and away from it.
+//! Tangential selection (G05): arcs of approach and departure.
 //!
-//! The arc begins or ends where direct selection (G138) would, on the parallel, and touches it there. Its centre is where
-//! the perpendicular bisector of its ends meets the line through the end of the contour and the point of the parallel.
+//! The arc starts or ends where direct selection (G138) would, on the parallel, and touches it there. Its centre is the
+//! intersection of the perpendicular bisector of its ends with the line through the end of the contour and the point of the
+//! parallel.
 //!
 //! Source: manual of the kernel, tangential selection and deselection of the tool radius compensation (207837451).
 
@@ -17,16 +18,16 @@ use kontur_motion::path::{ArcPath, ArcShape, Path};
 /// Sine of the angle between chord and tangent below which the arc is a line.
 const STRAIGHT: f64 = 1e-9;
 
-/// Which end of the arc touches the parallel.
+/// End of the arc that touches the parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Touch {
-    /// It leads away from the contour.
+    /// Departure from the contour.
     Start,
-    /// It leads to the contour.
+    /// Approach to the contour.
     End,
 }
 
-/// The way of a motion between two points, with the direction of the contour at one of them; `None` between equal points.
+/// The path of a motion between two points, with the direction of the contour at one of them; `None` between equal points.
 pub(super) fn way(
     motion: &Motion,
     plane: [usize; 2],
@@ -50,7 +51,7 @@ pub(super) fn way(
     }
     let (centre_mm, sweep_rad) = match touch {
         Touch::Start => arc(from, tangent, to),
-        // the same arc the other way round
+        // the same arc in the opposite direction
         Touch::End => {
             let (centre, sweep) = arc(to, [-tangent[0], -tangent[1]], from);
             (centre, -sweep)
@@ -61,7 +62,7 @@ pub(super) fn way(
     Ok(ArcPath::new(from, to, shape, &motion.block.dynamics.feed_axes).map(Path::Arc))
 }
 
-/// Centre and swept angle of the arc that begins in a direction and ends in a point beside it.
+/// Centre and swept angle of the arc with this start direction and this end point beside it.
 fn arc(from: Point, direction: Point, to: Point) -> (Point, f64) {
     let chord = sub(to, from);
     let left = [-direction[1], direction[0]];

@@ -1,13 +1,13 @@
-//! Coordinate systems one inside another, each with its own zero offsets, G92 and position presets.
+//! Nested coordinate systems, each with its own zero offsets, G92 and position presets.
 //!
-//! Offsets that are programmed while a system is active lie in its axes, add to those below it, and go with it. A new system has
-//! none. Tool and measuring offsets belong to no system.
+//! Offsets that are programmed while a system is active refer to its axes, are added to those below it, and are removed
+//! together with it. A new system has none. Tool and measuring offsets do not belong to a system.
 //!
-//! With P-CHAN-00397 = 0 this is true only of the main axes: offsets of the others belong to the channel, whichever system is
-//! active while they are programmed.
+//! With P-CHAN-00397 = 0 this applies to the main axes only: offsets of the others belong to the channel, regardless of the
+//! system that is active when they are programmed.
 //!
 //! Source: TF5200 programming manual 1086442763, offsets in the coordinate system; channel parameters 149618059; zero offsets
-//! 15285108363 (P-ZERO-00001). Assumption: an offset in a turned system points along the turned axes, as coordinates in it do.
+//! 15285108363 (P-ZERO-00001). Assumption: an offset in a rotated system points along the rotated axes, as its coordinates do.
 
 use super::super::frame::Frame;
 use super::{Coordinates, OffsetKind};
@@ -20,15 +20,15 @@ pub(super) const NO_GROUP: u32 = u32::MAX;
 /// A coordinate system and the offsets in it.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
-    /// Its place in the system below, with the offsets of that one.
+    /// Its frame in the system below, including the offsets of that system.
     pub(super) system: Frame,
-    /// The number that it is stored under; `None` without one.
+    /// The number under which it is stored; `None` without a number.
     number: Option<u32>,
     /// Active zero-offset group, 0 = G53.
     zero_group: u32,
-    /// It was selected by G159.
+    /// Whether it was selected by G159.
     zero_group_by_value: bool,
-    /// Values of `V.G.NP_AKT`, which hold until another group is selected.
+    /// Values of `V.G.NP_AKT`, valid until another group is selected.
     zero_written: BTreeMap<usize, f64>,
     /// G92.
     preset: AxisVec,
@@ -57,7 +57,7 @@ impl Coordinates {
         self.systems.last().unwrap_or(&self.lowest)
     }
 
-    /// Where the offsets of an axis are programmed: the innermost system, or the channel.
+    /// The layer in which offsets of an axis are programmed: the innermost system, or the channel.
     fn layer_of(&self, axis: usize) -> &Layer {
         if self.is_of_channel(axis) { &self.lowest } else { self.layer() }
     }
@@ -70,12 +70,12 @@ impl Coordinates {
         self.offsets_changed();
     }
 
-    /// The offsets of the axis belong to the channel, not to a coordinate system.
+    /// Whether the offsets of the axis belong to the channel instead of a coordinate system.
     pub(super) fn is_of_channel(&self, axis: usize) -> bool {
         self.channel_group.is_some() && self.main_index(axis).is_none()
     }
 
-    /// How zero offsets act, and the group at program start. `has_g53`: P-ZERO-00001; `in_systems`: P-CHAN-00397.
+    /// Scope of the zero offsets, and the group at program start. `has_g53`: P-ZERO-00001; `in_systems`: P-CHAN-00397.
     pub(in crate::exec) fn use_zero_groups(&mut self, has_g53: bool, in_systems: bool, start: u32) {
         self.has_g53 = has_g53;
         self.channel_group = (!in_systems).then_some(NO_GROUP);
@@ -95,7 +95,7 @@ impl Coordinates {
         self.layer_zero(layer, axis) + layer.preset[axis] + layer.position_preset[axis]
     }
 
-    /// Offsets of one layer without those of these kinds.
+    /// Offsets of one layer except those of these kinds.
     pub(super) fn layer_without(&self, layer: &Layer, kinds: &[OffsetKind], axis: usize) -> f64 {
         let without = |kind| kinds.contains(&kind);
         let zero = if without(OffsetKind::Zero) { 0.0 } else { self.layer_zero(layer, axis) };
@@ -120,7 +120,7 @@ impl Coordinates {
         self.zero_entry(group, axis)
     }
 
-    /// Active zero offset where the offsets of the axis are programmed.
+    /// Active zero offset in the layer where offsets of the axis are programmed.
     pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
         self.layer_zero(self.layer_of(axis), axis)
     }
@@ -156,14 +156,14 @@ impl Coordinates {
         (layer.zero_group, layer.zero_group_by_value)
     }
 
-    /// `V.G.NP_AKT`: another zero offset in use; the table keeps its own.
+    /// `V.G.NP_AKT`: replaces the active zero offset; the table keeps its value.
     pub(in crate::exec) fn set_zero_offset(&mut self, axis: usize, value_mm: f64) {
         self.change(axis, |layer| {
             layer.zero_written.insert(axis, value_mm);
         });
     }
 
-    /// G160: leaves the entry of an axis out of a group, or takes it in again.
+    /// G160: excludes the entry of an axis from a group, or includes it again.
     pub(in crate::exec) fn mask_zero_entry(&mut self, group: u32, axis: usize, masked: bool) {
         if masked {
             self.zero_masked.insert((group, axis));
@@ -173,8 +173,8 @@ impl Coordinates {
         self.offsets_changed();
     }
 
-    /// `#PSET`: where the axis is has this coordinate from now on, in a system in that; `None` (`#PRESET`) takes that back.
-    /// The axis does not move. In a system only main axes.
+    /// `#PSET`: assigns this coordinate to the current position of the axis, in the innermost system; `None` (`#PRESET`)
+    /// cancels it. The axis does not move. Within a system for main axes only.
     pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
         if !self.systems.is_empty() {
             self.recompute_program();
@@ -195,7 +195,7 @@ impl Coordinates {
         self.recompute_program();
     }
 
-    /// G92 offset where the offsets of the axis are programmed.
+    /// G92 offset in the layer where offsets of the axis are programmed.
     pub(in crate::exec) fn preset(&self, axis: usize) -> f64 {
         self.layer_of(axis).preset[axis]
     }
@@ -220,20 +220,20 @@ impl Coordinates {
         self.systems.len()
     }
 
-    /// A stored system with this number is active.
+    /// Whether a stored system with this number is active.
     pub(in crate::exec) fn is_system_active(&self, number: u32) -> bool {
         let aside = self.suspended.as_ref().map_or(&[][..], |before| before.systems());
         self.systems.iter().chain(aside).any(|layer| layer.number == Some(number))
     }
 
-    /// A system within those that are active; `number`: the one that it is stored under.
+    /// Activates a system within the active ones; `number`: the one under which it is stored.
     pub(in crate::exec) fn push_system(&mut self, frame: Frame, number: Option<u32>) {
         let axes = self.target.len();
         self.systems.push(Layer { number, ..Layer::new(frame, axes) });
         self.frame_changed();
     }
 
-    /// Its offsets go with it; nothing happens if there is none.
+    /// Removes it with its offsets; without a system there is no effect.
     pub(in crate::exec) fn pop_system(&mut self) {
         self.systems.pop();
         self.frame_changed();

@@ -1,4 +1,4 @@
-//! `#MCS ON`: frames and offsets are put aside, the words of the program are positions of the axes.
+//! `#MCS ON`: frames and offsets are suspended; programmed coordinates are axis positions.
 //!
 //! Source: TF5200 programming manual, temporary transition to the machine coordinate system.
 
@@ -17,21 +17,21 @@ pub(super) struct Suspended {
     measuring: AxisVec,
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
-    /// EX TOOL: a tool change does not act before `#MCS OFF`.
+    /// EX TOOL: a tool change takes effect only after `#MCS OFF`.
     without_tools: bool,
-    /// The offsets of the tool that was in use; those of another one act.
+    /// Offsets of the tool that was selected before; those of a newly selected tool apply.
     tool_aside: bool,
 }
 
 impl Suspended {
-    /// Coordinate systems that are restored.
+    /// Coordinate systems to restore.
     pub(super) fn systems(&self) -> &[Layer] {
         &self.systems
     }
 }
 
 impl Coordinates {
-    /// The words of the program are positions of the axes (`#MCS ON`).
+    /// Whether programmed coordinates are axis positions (`#MCS ON`).
     pub(in crate::exec) fn is_machine(&self) -> bool {
         self.suspended.is_some()
     }
@@ -59,7 +59,8 @@ impl Coordinates {
         self.frame_changed();
     }
 
-    /// `#MCS OFF`; the offsets of the tool in use come back with [`set_tool`](Self::set_tool). False if it was not on.
+    /// `#MCS OFF`; the offsets of the selected tool are restored with [`set_tool`](Self::set_tool). Returns false if it was not
+    /// on.
     pub(in crate::exec) fn leave_machine(&mut self) -> bool {
         let Some(before) = self.suspended.take() else { return false };
         let Suspended { applied, lowest, channel_group, systems, .. } = *before;
@@ -71,14 +72,14 @@ impl Coordinates {
         true
     }
 
-    /// Tool data are programmed: between `#MCS ON` and `#MCS OFF` they act, those before do not.
+    /// Called when tool data are programmed: between `#MCS ON` and `#MCS OFF` they apply, earlier ones do not.
     pub(in crate::exec) fn tool_programmed(&mut self) {
         if let Some(suspended) = &mut self.suspended {
             suspended.tool_aside = false;
         }
     }
 
-    /// Tool offsets do not act: EX TOOL, or no tool was programmed since `#MCS ON`.
+    /// Whether tool offsets are suspended: EX TOOL, or no tool was programmed since `#MCS ON`.
     pub(in crate::exec) fn is_without_tools(&self) -> bool {
         self.suspended.as_ref().is_some_and(|before| before.without_tools || before.tool_aside)
     }

@@ -1,4 +1,4 @@
-//! Systems with names, one upon another (`#CS ADD`): those from the lowest one to a selected one are active.
+//! Named systems stacked on each other (`#CS ADD`): those from the lowest one up to a selected one are active.
 //!
 //! Source: TF5200 programming manual 1037259147, 1037628043, 1048405643, 1048407819. Assumption: a system that stays active keeps
 //! the offsets that were programmed in it, as under `#CS ON`.
@@ -7,11 +7,11 @@ use super::super::frame::Frame;
 use super::layer::Layer;
 use super::{Coordinates, SYSTEMS_MAX};
 
-/// Systems with names, the lowest first.
+/// Named systems, the lowest first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stack {
     entries: Vec<(String, Frame)>,
-    /// How many of them are active, from the lowest one.
+    /// Number of active systems, counted from the lowest one.
     active: usize,
 }
 
@@ -26,7 +26,7 @@ impl Coordinates {
         self.stack.active
     }
 
-    /// A system on top of the stack, not yet active; false if [`SYSTEMS_MAX`] are there.
+    /// Adds a system on top of the stack, not yet active; false if it already has [`SYSTEMS_MAX`] systems.
     pub(in crate::exec) fn stack_add(&mut self, name: &str, frame: Frame) -> bool {
         let fits = self.stack.entries.len() < SYSTEMS_MAX;
         if fits {
@@ -35,7 +35,7 @@ impl Coordinates {
         fits
     }
 
-    /// The lowest `count` systems are active. The axes stay where they are.
+    /// Activates the lowest `count` systems. The axes do not move.
     pub(in crate::exec) fn stack_select(&mut self, count: usize) {
         let axes = self.target.len();
         self.systems.truncate(count);
@@ -46,7 +46,7 @@ impl Coordinates {
         self.frame_changed();
     }
 
-    /// Moves a system of the stack; the axes stay where they are.
+    /// Moves a system of the stack; the axes do not move.
     pub(in crate::exec) fn stack_set(&mut self, place: usize, frame: Frame) {
         if let Some((_, old)) = self.stack.entries.get_mut(place) {
             *old = frame;
@@ -59,7 +59,7 @@ impl Coordinates {
         }
     }
 
-    /// Deletes the uppermost system, or all; of those that are active the ones below stay active. False if there is none.
+    /// Deletes the uppermost system, or all; of the active ones those below stay active. Returns false if there is none.
     pub(in crate::exec) fn stack_delete(&mut self, all: bool) -> bool {
         let was = self.stack.entries.len();
         self.stack.entries.truncate(if all { 0 } else { was.saturating_sub(1) });

@@ -1,4 +1,4 @@
-//! Control areas: those defined, the definition that is not complete, and those that motions are compared with.
+//! Control areas: the defined ones, an incomplete definition, and those that motions are checked against.
 //!
 //! Source: TF5200 workspace monitoring (291148299); 120484.
 
@@ -16,19 +16,19 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Areas {
     pub(in crate::exec::motion) defined: BTreeMap<u32, Arc<Area>>,
-    /// In the order in which they were switched on.
+    /// In order of activation.
     pub(in crate::exec::motion) active: Vec<Arc<Area>>,
     pub(in crate::exec::motion) draft: Option<Box<Draft>>,
-    /// What the motions of a row have in common.
+    /// State shared by consecutive motions.
     pub(in crate::exec::motion) watch: Option<Arc<Watch>>,
 }
 
-/// What a definition begins with.
+/// Parameters at the start of a definition.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::exec) struct Heading {
     pub(in crate::exec) number: u32,
     pub(in crate::exec) purpose: Purpose,
-    /// CIRC, not POLY.
+    /// CIRC instead of POLY.
     pub(in crate::exec) circle: bool,
     pub(in crate::exec) low_mm: f64,
     pub(in crate::exec) high_mm: f64,
@@ -37,31 +37,31 @@ pub(in crate::exec) struct Heading {
     pub(in crate::exec) span: Span,
 }
 
-/// A definition that is not complete.
+/// An incomplete definition.
 #[derive(Debug)]
 pub(in crate::exec::motion) struct Draft {
     pub(in crate::exec::motion) heading: Heading,
-    /// Where the axes are meanwhile.
+    /// Programmed axis positions within the definition.
     pub(in crate::exec::motion) before: AxisVec,
-    /// Axes that its blocks name.
+    /// Axes that the blocks name.
     pub(in crate::exec::motion) named: Vec<usize>,
     pub(in crate::exec::motion) points: Vec<AxisVec>,
     /// Plane, centre and radius of the full circle.
     pub(in crate::exec::motion) circle: Option<([usize; 2], [f64; 2], f64)>,
 }
 
-/// The areas that a motion is compared with.
+/// The areas that a motion is checked against.
 #[derive(Debug, PartialEq)]
 pub(in crate::exec) struct Watch {
     pub(in crate::exec::motion) areas: Vec<Arc<Area>>,
-    /// From the path to the tip of the tool.
+    /// Offset from the path to the tip of the tool.
     pub(in crate::exec::motion) offsets_mm: AxisVec,
     /// Names of the axes.
     pub(in crate::exec::motion) names: Vec<String>,
 }
 
 impl Areas {
-    /// Neither a definition nor a watched area: motions are what they are without.
+    /// Whether there is neither a definition nor an active area, so that motions need no treatment.
     pub(in crate::exec) fn are_idle(&self) -> bool {
         self.draft.is_none() && self.active.is_empty()
     }
@@ -82,7 +82,7 @@ impl Areas {
 }
 
 impl Watch {
-    /// What a motion violates.
+    /// The areas that a motion violates.
     pub(in crate::exec) fn fault(
         &self,
         path: &Path,

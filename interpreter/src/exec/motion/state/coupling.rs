@@ -16,14 +16,14 @@ pub(in crate::exec) struct Pair {
     pub(in crate::exec) is_gantry: bool,
 }
 
-/// A pair in force.
+/// An active pair.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::exec::motion) struct Follower {
     pub(in crate::exec::motion) pair: Pair,
-    /// Where both were when the group was switched on.
+    /// Positions of both when the group was activated.
     pub(in crate::exec::motion) master_mm: f64,
     pub(in crate::exec::motion) slave_mm: f64,
-    /// Way of the slave at that time.
+    /// Displacement of the slave at that time.
     pub(in crate::exec::motion) way_mm: f64,
 }
 
@@ -31,11 +31,12 @@ pub(in crate::exec::motion) struct Follower {
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Couplings {
     pub(in crate::exec::motion) groups: BTreeMap<u32, Vec<Pair>>,
-    /// In the order in which they were switched on.
+    /// In order of activation.
     pub(in crate::exec::motion) active: Vec<(u32, Vec<Follower>)>,
-    /// The group that was switched on last, also after it was switched off; 0 before the first one (`V.G.AX_LINK.NR`).
+    /// The group that was activated last, also after its deactivation; 0 before the first one (`V.G.AX_LINK.NR`).
     ///
-    /// Assumption: the page says "current or last active group" and neither what is read before the first nor of several.
+    /// Assumption: the page says "current or last active group", and does not define the value before the first or with
+    /// several.
     pub(in crate::exec) last: u32,
 }
 
@@ -53,7 +54,7 @@ impl Couplings {
         Self { groups: group.into_iter().collect(), active: Vec::new(), last: 0 }
     }
 
-    /// No group is switched on.
+    /// Whether no group is active.
     pub(in crate::exec) fn are_off(&self) -> bool {
         self.active.is_empty()
     }
@@ -75,26 +76,26 @@ impl Couplings {
         self.slaves().any(|slave| slave == axis)
     }
 
-    /// The group that an axis takes part in, as slave or as master.
+    /// The group in which an axis is slave or master.
     pub(in crate::exec) fn group_of(&self, axis: usize) -> Option<u32> {
         let mut of_axis =
             self.followers().filter(|(_, f)| f.pair.slave == axis || f.pair.master == axis);
         of_axis.next().map(|(group, _)| group)
     }
 
-    /// Limits of the masters with those of their slaves.
+    /// Limits of the masters including those of their slaves.
     pub(in crate::exec::motion) fn limit(&self, axes: &mut [AxisDynamics]) {
         for (_, Follower { pair, .. }) in self.followers() {
             axes[pair.master] = axes[pair.master].with(&axes[pair.slave]);
         }
     }
 
-    /// Where the slave of a follower is when its master has come to `master_mm`.
+    /// Position of the slave of a pair when its master has reached `master_mm`.
     pub(in crate::exec::motion) fn slave_at(follower: &Follower, master_mm: f64) -> f64 {
         follower.slave_mm + follower.pair.ratio * (master_mm - follower.master_mm)
     }
 
-    /// The slaves of a master with the range that they go through while it goes from `low` to `high`.
+    /// The slaves of a master with the range that they cover while it moves from `low` to `high`.
     pub(in crate::exec::motion) fn slaves_of(
         &self,
         master: usize,

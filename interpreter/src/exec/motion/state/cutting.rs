@@ -1,22 +1,22 @@
-//! Constant cutting speed in force.
+//! Active constant cutting speed.
 
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::step::CuttingSpeed;
 
-/// G96, G97 and G196 in force.
+/// Active G96, G97 and G196.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Cutting {
     /// G96 with its S word.
     pub(in crate::exec::motion) speed: Option<CuttingSpeed>,
-    /// G96 is in force, whether or not an S word has come.
+    /// Whether G96 is active, with or without an S word so far.
     pub(in crate::exec::motion) waits: bool,
     /// S of G196 in rev/min.
     pub(in crate::exec::motion) rpm_max: Option<f64>,
 }
 
 impl Cutting {
-    /// G96 with a speed is in force.
+    /// Whether G96 is active with a speed.
     pub(in crate::exec) fn is_on(&self) -> bool {
         self.speed.is_some()
     }
@@ -31,7 +31,7 @@ impl Cutting {
         self.speed.map_or(0.0, |cutting| cutting.speed_mm_min / 1000.0)
     }
 
-    /// The S words of the main spindle of this block are not speeds in rev/min.
+    /// Whether the S words of the main spindle in this block are not speeds in rev/min.
     pub(in crate::exec) fn takes_s_words(&self, words: &Words<'_>) -> bool {
         self.waits
             || words.group(Group::SpindleMode).is_some_and(|g| g.row.act == Act::CuttingSpeedMax)

@@ -1,4 +1,4 @@
-//! What measuring runs keep.
+//! State of measuring runs.
 
 use crate::exec::step::SourceRef;
 use crate::machine::Channel;
@@ -6,7 +6,7 @@ use crate::syntax::ast::{Jump, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
 
-/// What was measured of an axis, in mm (deg).
+/// Measured values of an axis, in mm (deg).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::exec) struct Measured {
     /// In the coordinates of the program, with all offsets (`V.A.MESS`).
@@ -15,39 +15,39 @@ pub(in crate::exec) struct Measured {
     pub(in crate::exec) axis: f64,
     /// In the coordinates of the program (`V.A.MEAS.PCS.VALUE`).
     pub(in crate::exec) program: f64,
-    /// Way from the target to the measured position (`V.A.MOFFS`); `None` before the first signal.
+    /// Distance from the target to the measured position (`V.A.MOFFS`); `None` before the first signal.
     pub(in crate::exec) offset: Option<f64>,
-    /// The signal came in the last run (`V.A.MERF`).
+    /// Whether the signal came in the last run (`V.A.MERF`).
     pub(in crate::exec) signalled: bool,
 }
 
-/// A run that has been sent and whose end the program waits for.
+/// A run in progress; the program waits for its end.
 #[derive(Debug)]
 pub(in crate::exec::motion) struct Pending {
     pub(in crate::exec::motion) axes: Vec<usize>,
     /// Programmed coordinates of the target.
     pub(in crate::exec::motion) target: AxisVec,
-    /// A missing signal is an error.
+    /// Whether a missing signal is an error.
     pub(in crate::exec::motion) needs_signal: bool,
     pub(in crate::exec::motion) jump: Option<Jump>,
     pub(in crate::exec::motion) source: SourceRef,
     pub(in crate::exec::motion) span: Span,
 }
 
-/// What the room knows of measuring.
+/// State that measuring owns.
 #[derive(Debug)]
 pub(in crate::exec) struct Measuring {
     /// Measuring type, 1 to 7 (`#MEAS MODE`).
     pub(in crate::exec) kind: u32,
-    /// `ERR_NO_SIGNAL`; `None`: as the list and the type say.
+    /// `ERR_NO_SIGNAL`; `None`: as defined by the list and the type.
     pub(in crate::exec) missing_is_error: Option<bool>,
-    /// G108: the next motion with an M function that waits for the signal is one of edge banding.
+    /// G108: the next motion with an M function that waits for the signal belongs to edge banding.
     pub(in crate::exec) banding: bool,
     /// V.G.RW in mm.
     pub(in crate::exec) residual_path_mm: f64,
-    /// Of every axis.
+    /// Per axis.
     pub(in crate::exec) results: Vec<Measured>,
-    /// Speed of a run of type 2 while it is made.
+    /// Speed of a run of type 2 during the run.
     pub(in crate::exec::motion) feed: Option<Feed>,
     pub(in crate::exec::motion) pending: Option<Box<Pending>>,
 }
@@ -65,12 +65,12 @@ impl Measuring {
         }
     }
 
-    /// The program waits for the end of a run.
+    /// Whether the program waits for the end of a run.
     pub(in crate::exec) fn is_under_way(&self) -> bool {
         self.pending.is_some()
     }
 
-    /// What follows a signal (`G310 .. $GOTO`).
+    /// The branch after a signal (`G310 .. $GOTO`).
     pub(in crate::exec) fn jump(&mut self, label: Option<Jump>) {
         if let Some(pending) = &mut self.pending {
             pending.jump = label;

@@ -1,31 +1,31 @@
-//! What `#OTC` has set.
+//! Settings of `#OTC`.
 //!
 //! Source: TF5200 online tool compensation (213641867).
 
-/// mm of wear for a mm of way in one unit of WEAR_CONST, 0.1 um for a metre.
+/// mm of wear per mm of travel for one unit of WEAR_CONST: 0.1 um per metre.
 pub(in crate::exec) const WEAR_UNIT: f64 = 1e-7;
 
-/// Where the wear comes from.
+/// Source of the wear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum WearSource {
-    /// DISC: from outside.
+    /// DISC: external.
     Outside,
-    /// CONT: by the distance driven.
+    /// CONT: from the distance travelled.
     Way,
-    /// AUTO: the sum.
+    /// AUTO: the sum of both.
     Both,
 }
 
-/// What `#OTC` has set.
+/// Settings of `#OTC`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct OnlineCompensation {
     /// `#OTC ON`.
     pub(in crate::exec) on: bool,
-    /// RADIUS; otherwise LENGTH.
+    /// RADIUS instead of LENGTH.
     pub(in crate::exec) radius: bool,
     /// DISC, CONT, AUTO.
     pub(in crate::exec) source: WearSource,
-    /// WEAR_CONST in mm of wear for a mm of way; `None`: that of the tool.
+    /// WEAR_CONST in mm of wear per mm of travel; `None`: the value of the tool.
     pub(in crate::exec) ratio: Option<f64>,
     /// ACC_WEIGHT, above 0.
     pub(in crate::exec) acceleration_ratio: f64,
