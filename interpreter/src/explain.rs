@@ -117,7 +117,8 @@ fn printed(key: &str) -> String {
 fn drives_here(row: &Row) -> &'static str {
     match row.drives {
         _ if instead_of(row.id).is_some() => "",
-        "Profidrive" => "; here only with antr_typ 3",
+        "Profidrive" if !row.key.is_empty() => "; here only with antr_typ 3",
+        "Profidrive" => "",
         // the dead time delays every drive
         "Simulation" if row.id != "P-AXIS-00194" => {
             "; here only with the plant SIMU (kontur.axis[i].plant.model)"

@@ -321,6 +321,18 @@ impl SetPath {
         beside.fold(0.0, f64::max).sqrt()
     }
 
+    /// The shortest vector from a point to the lines between all set points.
+    pub(crate) fn shortest(&self, point: &[f64]) -> AxisVec {
+        let lines = self.first..self.end().saturating_sub(1);
+        let nearest =
+            lines.min_by(|a, b| self.to_line(*a, point).0.total_cmp(&self.to_line(*b, point).0));
+        let mut vector = AxisVec::zeros(self.axes);
+        if let Some(k) = nearest {
+            self.aside(k, point, &mut vector);
+        }
+        vector
+    }
+
     /// Square of the distance in mm2 of a point from the line between cycle `k` and cycle `k + 1`, and the position on
     /// the line.
     fn to_line(&self, k: u64, point: &[f64]) -> (f64, f64) {

@@ -213,7 +213,7 @@ impl Decoder {
             self.geometry.limits_mm[axis] = changed.software_limits_mm();
         }
         let number = changed.number();
-        let reshaped = changed.kernel_preset(cycle) != listed;
+        let overrides = self.shaping.overrides(&listed, &changed.kernel_preset(cycle));
         // consequences of the change: a filter that cannot be designed with the new value, an input that the drive does not
         // have
         let new = machine.chain_issues(axis).into_iter().filter(|issue| !known.contains(issue));
@@ -223,12 +223,8 @@ impl Decoder {
         }
         self.motion.dynamics_changed();
         // first: a kernel is replaced only after the axes have been at standstill for its whole length
-        let before = self.shaping.setup.clone();
         self.update_shaping(span);
-        if let Some(command) = self.shaping.outranks_the_list()
-            && reshaped
-            && self.shaping.setup == before
-        {
+        if let Some(command) = overrides {
             let text = format!("{key}: no effect, {command} of the program takes precedence");
             let fault = Fault::new(Condition::ListNoEffect, text, span).warning();
             self.report.note(fault.hint(format!("write the value into {command}")));

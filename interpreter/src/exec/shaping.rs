@@ -121,12 +121,26 @@ impl ShapingState {
         forced.unwrap_or_else(|| self.guard.over(listed))
     }
 
-    /// The command of the program that overrides the list of an axis.
-    pub(super) fn outranks_the_list(&self) -> Option<&'static str> {
-        if self.guard_on.is_some() {
+    /// The command of the program because of which a changed list acts neither now nor later: every value that has changed is
+    /// written in the program. A value that the next ON will use is not overridden.
+    pub(super) fn overrides(
+        &self,
+        before: &KernelPreset,
+        after: &KernelPreset,
+    ) -> Option<&'static str> {
+        let guard = |listed: &KernelPreset| {
+            let on = self.guard_on.unwrap_or(listed.vib_guard.active);
+            (on, self.guard.over(listed.vib_guard.settings))
+        };
+        let fir = |listed: &KernelPreset| {
+            listed.fir.map(|fir| (self.fir_on.unwrap_or(fir.enable), self.fir(fir.config)))
+        };
+        if before.vib_guard != after.vib_guard && guard(before) == guard(after) {
             Some(Family::VibGuard.command())
+        } else if before.fir != after.fir && fir(before) == fir(after) {
+            Some(Family::Filter.command())
         } else {
-            self.fir_on.map(|_| Family::Filter.command())
+            None
         }
     }
 

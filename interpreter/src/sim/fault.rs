@@ -482,3 +482,20 @@ impl Simulation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::distinct;
+
+    #[test]
+    fn a_value_and_its_limit_are_told_apart() {
+        let pair = |value, limit| {
+            let (value, limit) = distinct(value, limit);
+            format!("{value} {limit}")
+        };
+        assert_eq!(pair(108.0, 105.0), "108 105");
+        assert_eq!(pair(105.001, 105.0), "105.001 105.000");
+        assert_eq!(pair(105.000_000_4, 105.0), "105.0000004 105.0000000");
+        assert_eq!(pair(105.0, 105.0), "105 105");
+    }
+}

@@ -9,6 +9,7 @@ use super::violation::within;
 use super::{Demands, Kernels};
 use crate::axis::AxisVec;
 use crate::contour::Contour;
+use crate::deviation::SetPath;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
@@ -47,22 +48,14 @@ impl Evenly<'_> {
     pub(super) fn misses(&self, point: &[f64], at: f64, speed: f64) -> f64 {
         let reach = self.reach(speed);
         let axes = self.kernels.axes.len();
-        let mut places = [AxisVec::zeros(axes), AxisVec::zeros(axes)];
-        let mut best = (f64::INFINITY, 0.0);
+        let mut x = AxisVec::zeros(axes);
+        let mut path = SetPath::starting(0, axes);
         for i in -PLACES..=PLACES {
             let s = at + 0.5 * reach * f64::from(i) / f64::from(PLACES);
-            places.swap(0, 1);
-            self.set_point(s, speed, &mut places[1]);
-            if i == -PLACES {
-                continue;
-            }
-            let vector = to_the_line(point, &places[0], &places[1]);
-            let d2: f64 = vector.iter().map(|c| c * c).sum();
-            if d2 < best.0 {
-                best = (d2, vector.iter().fold(0.0, |most, c| c.abs().max(most)));
-            }
+            self.set_point(s, speed, &mut x);
+            path.push(&x);
         }
-        best.1
+        path.shortest(point).iter().fold(0.0, |most, c| c.abs().max(most))
     }
 
     /// Path length in mm within the filters.
@@ -91,17 +84,6 @@ impl Evenly<'_> {
             out[i] = sum[i];
         }
     }
-}
-
-/// Shortest vector from a point to the line segment between two others.
-fn to_the_line(point: &[f64], a: &[f64], b: &[f64]) -> AxisVec {
-    let (mut along, mut length2) = (0.0, 0.0);
-    for ((p, a), b) in point.iter().zip(a).zip(b) {
-        along += (p - a) * (b - a);
-        length2 += (b - a) * (b - a);
-    }
-    let u = if length2 > 0.0 { (along / length2).clamp(0.0, 1.0) } else { 0.0 };
-    point.iter().zip(a).zip(b).map(|((p, a), b)| a + u * (b - a) - p).collect()
 }
 
 /// The limit for a run at constant speed.

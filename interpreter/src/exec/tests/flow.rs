@@ -93,3 +93,16 @@ fn line_ends_and_bytes_of_every_kind() {
     let run = super::run_with(sources, super::machine(&[]), super::Options::default());
     assert_eq!((run.ids().len(), run.end[0]), (0, 1.0));
 }
+
+/// A value of the list that the next ON will use is not overridden by a guard that is off.
+#[test]
+fn machine_data_says_only_what_never_acts() {
+    let said = |text: &str| super::run(text).ids().contains(&"K-0075".to_owned());
+    let change = |key: &str| format!("#MACHINE DATA [AX=X AXPARAM=\"{key}\"]\nX1 F100\nM30\n");
+    let with = |guard: &str, key: &str| said(&format!("{guard}\n{}", change(key)));
+    assert!(with("#VIB GUARD ON [FREQ=33]", "vib_guard.freq 45"));
+    assert!(with("#VIB GUARD OFF", "vib_guard.active 1"));
+    assert!(!with("#VIB GUARD OFF", "vib_guard.freq 45"));
+    assert!(!with("#VIB GUARD ON [MODE=2]", "vib_guard.freq 45"));
+    assert!(!with("", "vib_guard.freq 45"));
+}
