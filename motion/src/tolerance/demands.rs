@@ -34,8 +34,8 @@ pub(crate) struct Demands {
     pub(super) repeats: Vec<u32>,
     /// How often in a row a lower speed of each block had no effect, and the last excess in mm.
     pub(super) slower: Vec<(u32, f64)>,
-    /// Speed in mm/s and excess in mm at each boundary when it was last too fast.
-    pub(super) tried: Vec<Option<(f64, f64)>>,
+    /// Excess in mm at each boundary when it was last too fast.
+    pub(super) tried: Vec<Option<f64>>,
     /// First boundary without a known even speed, see [`super::even::foresee`].
     pub(super) foreseen: usize,
 }

@@ -84,16 +84,13 @@ impl View<'_> {
             let m1 =
                 trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles) * trial.cycle.seconds();
             let now = self.speed_at(b);
-            // the closed form is the steepest possible fall of the error with the speed; the effect of the last step is
-            // a better estimate
-            let steepest = m1 * mark.jump;
-            let slope = demands.tried[b].map_or(steepest, |(v, e)| {
-                let seen = (e - excess) / (v - now);
-                if seen.is_finite() { seen } else { steepest }.clamp(0.25 * steepest, steepest)
-            });
-            let stays = demands.tried[b].is_some_and(|(_, e)| excess > WITHOUT_EFFECT * e);
+            // The steepest fall of the error with the speed. The effect of the last step would be a larger step, but
+            // the accelerations to a much lower speed leave the contour, too (`du a M2 / 2`): each of several corners
+            // within reach would then slow down the others.
+            let slope = m1 * mark.jump;
+            let stays = demands.tried[b].is_some_and(|e| excess > WITHOUT_EFFECT * e);
             demands.repeats[b] = if stays { demands.repeats[b] + 1 } else { 0 };
-            demands.tried[b] = Some((now, excess));
+            demands.tried[b] = Some(excess);
             let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
             let step = (excess + AIM * tolerance) / slope;
             let lowered = now - step * f64::from(hurry(demands.repeats[b]));
