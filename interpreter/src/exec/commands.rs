@@ -343,7 +343,7 @@ fn words_after(call: &Call<'_>) -> Option<Span> {
 impl Decoder {
     /// Executes a plain-text command.
     pub(super) fn execute_command(&mut self, command: &Command) -> Outcome<()> {
-        self.dialect.own = true;
+        self.dialect.own_statement();
         let Some((row, count)) = find(command) else { return Err(unknown(command)) };
         let call = Call { command, name: row.name, rest: &command.words[count..] };
         if let Some(span) = words_after(&call) {

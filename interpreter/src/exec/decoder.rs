@@ -3,11 +3,11 @@
 //! The decoder handles single blocks, not files: the executor determines the next block.
 
 use super::block::dialect::Seen;
-use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane, Selection};
+use super::block::modal::Modal;
 use super::contour::Contour;
 use super::fault::Fault;
 use super::geometry::Geometry;
-use super::motion::state::{MotionState, Straight, Technology};
+use super::motion::state::{MotionState, Straight};
 use super::names::AxisNames;
 use super::options::Options;
 use super::program::state::Calls;
@@ -16,7 +16,7 @@ use super::shaping::{ShapingState, Worked};
 use super::step::{Feedback, Sync};
 use super::values::Values;
 use crate::diag::{Condition, Diagnostic};
-use crate::machine::{Axis, AxisKind, Machine};
+use crate::machine::{Axis, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use std::sync::Arc;
@@ -37,7 +37,6 @@ pub(super) struct Signal {
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,
-    pub(super) technology: Technology,
     pub(super) feedback: Feedback,
     pub(super) names: AxisNames,
     pub(super) report: Report,
@@ -62,20 +61,18 @@ pub(super) struct Decoder {
 impl Decoder {
     /// The state at the start of a program.
     pub(super) fn new(machine: Arc<Machine>, options: Options, start: &AxisVec) -> Self {
-        let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let forced = options.guard.is_some();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
-            technology: Technology::new(options.techno_times),
             feedback: Feedback::default(),
-            names: AxisNames::new(axis_names),
+            names: AxisNames::new(&machine.axes),
             report: Report::default(),
             modal: Modal::start(machine.channel.slope, machine.channel.constant_ramp_time),
             dialect: Seen::default(),
             values: Values::new(options.external),
             geometry: Geometry::new(&machine, start),
             contour: Contour::default(),
-            motion: MotionState::new(&machine),
+            motion: MotionState::new(&machine, options.techno_times),
             shaping: ShapingState::new(options.guard),
             calls: Calls::new(&machine.channel),
             signals: Vec::new(),
@@ -84,7 +81,8 @@ impl Decoder {
             straight: None,
             machine,
         };
-        decoder.presets();
+        let unknown = decoder.modal.presets(&decoder.machine.channel);
+        decoder.report.unplaced.extend(unknown);
         let diagnostics = decoder.shaping.start(&decoder.machine);
         // errors of single filters in the lists are reported, with their position, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
@@ -96,53 +94,6 @@ impl Decoder {
         };
         decoder.report.unplaced.extend(diagnostics.into_iter().filter(told));
         decoder
-    }
-
-    /// Start values of the channel list (P-CHAN-00054, 00063, 00099).
-    fn presets(&mut self) {
-        let machine = Arc::clone(&self.machine);
-        let channel = &machine.channel;
-        self.modal.inch = channel.inch;
-        if let Some(v) = channel.feed_mm_s {
-            let value = v * 60.0 / channel.feed_unit_mm_min;
-            let per_minute = FeedType::PerMinute as usize;
-            self.modal.feeds[per_minute] = Some(FeedWord { value, inch: false });
-        }
-        for (group, g) in &channel.g_groups {
-            match (group, g) {
-                (0, 0) => self.modal.path = PathMode::Rapid,
-                (0, 2) => self.modal.path = PathMode::Clockwise,
-                (0, 3) => self.modal.path = PathMode::CounterClockwise,
-                (4, 18) => self.modal.plane = Plane::Zx,
-                (4, 19) => self.modal.plane = Plane::Yz,
-                (6, 25) => self.modal.corners = Corners::Straight,
-                (6, 26) => self.modal.corners = Corners::Round,
-                (12, 70) => self.modal.inch = true,
-                (12, 71) => self.modal.inch = false,
-                (14, 91) => self.modal.absolute = false,
-                (22, 138) => self.modal.selection = Selection::Direct,
-                (22, 237) => self.modal.selection = Selection::Perpendicular,
-                (22, 238) => self.modal.selection = Selection::InsideCorner,
-                (22, 239) => self.modal.selection = Selection::WithoutBlock,
-                (23, 161) => self.modal.centre_absolute = true,
-                (25, 164) => self.modal.centre_correction = false,
-                // start values of the language; feedforward has a separate warning
-                (0, 1)
-                | (4, 17)
-                | (8, 52)
-                | (14, 90)
-                | (22, 139)
-                | (23, 162)
-                | (25, 165)
-                | (32, 140)
-                | (21, _) => {}
-                (group, g) => {
-                    let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
-                    let d = Diagnostic::new(Condition::Fallback, text).parameter("P-CHAN-00063");
-                    self.report.unplaced.push(d);
-                }
-            }
-        }
     }
 
     /// A step at standstill; omitted if the block has an error, unless only the syntax is checked.
@@ -231,34 +182,13 @@ impl Decoder {
         }
         self.sync(Sync::MachineData { axis: number });
         // the list determines the effect of G135
-        self.feedforward_event();
+        self.contour.event(self.motion.feedforward.event());
         Ok(())
-    }
-
-    pub(super) fn is_linear(&self, axis: usize) -> bool {
-        self.machine.axes[axis].kind() == AxisKind::Linear
-    }
-
-    /// Factor from programmed values of an axis to mm (deg).
-    pub(super) fn axis_unit(&self, axis: usize) -> f64 {
-        if self.modal.inch && self.is_linear(axis) { 25.4 } else { 1.0 }
-    }
-
-    /// Unit of tolerance words in mm (P-CHAN-00439).
-    pub(super) fn tolerance_unit_mm(&self) -> f64 {
-        if self.machine.channel.contouring_consider_inch { self.modal.unit_mm() } else { 1.0 }
-    }
-
-    /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
-    pub(super) fn spindle_of_name(&self, name: &str) -> Option<usize> {
-        let main = name.eq_ignore_ascii_case(&self.machine.channel.main_spindle_name);
-        let listed = self.motion.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
-        if main { Some(0) } else { listed }
     }
 
     /// Names of several characters that the parser must recognise.
     pub(super) fn long_names(&self) -> Vec<String> {
-        let axes = self.names.axes.iter().flatten().cloned();
+        let axes = self.names.in_channel().map(str::to_owned);
         let main = [self.machine.channel.main_spindle_name.clone()];
         axes.chain(self.motion.spindles.iter().map(|s| s.name.clone()))
             .chain(main)

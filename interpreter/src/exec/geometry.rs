@@ -12,7 +12,10 @@ pub(super) mod planar;
 pub(super) mod scale;
 pub(super) mod tools;
 
+use crate::diag::Condition;
+use crate::exec::fault::{Fault, Outcome};
 use crate::machine::{Axis, Machine};
+use crate::syntax::ast::Span;
 use coordinates::Coordinates;
 use kontur_motion::axis::AxisVec;
 use scale::Scale;
@@ -70,5 +73,102 @@ impl Geometry {
             transformation_on: false,
             tools: Tools { table: machine.tools.clone(), ..Tools::default() },
         }
+    }
+
+    /// Applies the offsets of the active tool; its length along the third axis of the plane.
+    pub(in crate::exec) fn apply_tool(&mut self, [_, _, normal]: [usize; 3]) {
+        if self.coordinates.is_without_tools() {
+            return;
+        }
+        let mut offsets = AxisVec::zeros(self.coordinates.target().len());
+        let third = self.coordinates.main_axis(normal).map(|axis| (axis, 1.0));
+        if let Some((axis, sign)) = self.tools.length_axis.or(third) {
+            offsets[axis] = sign * self.tools.active.length_mm;
+        }
+        for (axis, value) in &self.tools.active.offsets_mm {
+            offsets[*axis] += value;
+        }
+        self.coordinates.set_tool(offsets);
+    }
+
+    /// 20136 and 21555 for a plane that lacks one of its axes, or contains a modulo axis.
+    pub(in crate::exec) fn plane_has_axes(
+        &self,
+        main_axes: [usize; 3],
+        machine: &Machine,
+        span: Span,
+    ) -> Outcome<()> {
+        let [first, second, _] = main_axes;
+        for main in [first, second] {
+            let Some(axis) = self.coordinates.main_axis(main) else {
+                let text = format!("the channel has no main axis {} of the plane", main + 1);
+                return Err(Fault::new(Condition::CompensationWithoutAxis, text, span));
+            };
+            let axis = &machine.axes[axis];
+            if axis.is_modulo() {
+                let name = axis.name().to_owned();
+                let text = format!("axis {name} of the plane counts modulo 360 degrees");
+                return Err(Fault::new(Condition::CompensationModulo, text, span)
+                    .with(|d| d.axis(axis.number(), name)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The axis of the plane that P-AXIS-00015 marks as face turning axis.
+    ///
+    /// # Errors
+    /// `none` if there is none, 20064 if both are marked.
+    pub(in crate::exec) fn face_turning_axis(
+        &self,
+        main_axes: [usize; 3],
+        machine: &Machine,
+        (function, none): (&str, Condition),
+        span: Span,
+    ) -> Outcome<usize> {
+        let [a, b, _] = main_axes;
+        let axes = [a, b].into_iter().filter_map(|m| self.coordinates.main_axis(m));
+        let mut marked = axes.filter(|i| machine.axes[*i].is_face_turning());
+        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
+        match (marked.next(), marked.next()) {
+            (Some(axis), None) => Ok(axis),
+            (Some(_), Some(_)) => {
+                let text = format!("{function} needs one face turning axis, the plane has two");
+                Err(Fault::new(Condition::TwoFaceTurningAxes, text, span).hint(hint))
+            }
+            (None, _) => {
+                let text = format!("{function} needs a face turning axis, the plane has none");
+                Err(Fault::new(none, text, span).hint(hint))
+            }
+        }
+    }
+
+    /// G68, `#ROTATION`; refused if degrees and millimetres would be mixed.
+    pub(in crate::exec) fn rotate_plane(
+        &mut self,
+        machine: &Machine,
+        plane: [usize; 2],
+        deg: f64,
+        centre: [Option<f64>; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        let axis = |main: usize| self.coordinates.main_axis(main);
+        let axes = plane.map(|main| axis(main).map(|axis| &machine.axes[axis]));
+        if let [Some(first), Some(second)] = axes
+            && (first.kind() != second.kind() || first.is_modulo() || second.is_modulo())
+        {
+            let what = format!("a rotation of the axes {} and {}", first.name(), second.name());
+            return Err(Fault::unsupported(what, span).hint("only linear axes are turned"));
+        }
+        self.coordinates.rotate_about(plane, deg, centre, span)
+    }
+
+    /// Axis positions of the tip of the tool.
+    pub(in crate::exec) fn tip(&self, positions: &AxisVec) -> AxisVec {
+        let mut tip = positions.clone();
+        for (x, tool) in tip.iter_mut().zip(self.coordinates.tool_offsets().iter()) {
+            *x -= tool;
+        }
+        tip
     }
 }

@@ -33,7 +33,7 @@ use self::angles::ContourLine;
 use self::plane::InPlane;
 use super::block::collected::{GWord, Words};
 use super::block::groups::{Act, Group};
-use super::block::modal::{Compensation, FeedType, PathMode};
+use super::block::modal::{Compensation, FeedType, Modal, PathMode};
 use super::contour::FeedCourse;
 use super::contour::Motion;
 use super::contour::insertion::{Insertion, Kind};
@@ -42,6 +42,7 @@ use super::fault::{Fault, Outcome};
 use super::step::Sync;
 use super::values::number::LARGEST_MM;
 use crate::diag::Condition;
+use crate::exec::report::Report;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed, SlopeKind};
 use kontur_motion::path::{LinePath, Path};
@@ -49,6 +50,19 @@ use kontur_motion::path::{LinePath, Path};
 /// The G60 of a block.
 fn exact_stop_once<'w>(words: &'w Words<'_>) -> Option<&'w GWord> {
     words.g.iter().find(|g| g.row.act == Act::ExactStopOnce)
+}
+
+impl Modal {
+    /// Whether braking to a lower feed rate may begin after the end of this block: G901 without G09 (source: TF5200 programming
+    /// manual, G08/G09/G900/G901).
+    fn brakes_late(&self, early_once: bool, span: Span, report: &mut Report) -> bool {
+        let late = self.late_braking && !early_once;
+        if late && self.slope.kind == SlopeKind::Hsc {
+            let text = "G901 has no effect with the slope HSC";
+            report.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
+        }
+        late
+    }
 }
 
 impl Decoder {
@@ -170,17 +184,6 @@ impl Decoder {
         }
     }
 
-    /// Whether braking to a lower feed rate may begin after the end of this block: G901 without G09 (source: TF5200 programming
-    /// manual, G08/G09/G900/G901).
-    fn late_braking(&mut self, early_once: bool, span: Span) -> bool {
-        let late = self.modal.late_braking && !early_once;
-        if late && self.modal.slope.kind == SlopeKind::Hsc {
-            let text = "G901 has no effect with the slope HSC";
-            self.report.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
-        }
-        late
-    }
-
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let left = std::mem::take(&mut self.motion.left_contour);
         if left && (is_arc || self.modal.path == PathMode::ArcInSpace) {
@@ -246,7 +249,8 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
-        let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
+        let late_braking =
+            self.modal.brakes_late(once(Act::EarlyBrakingOnce), span, &mut self.report);
         if rounds {
             self.contouring_fits(span)?;
         }

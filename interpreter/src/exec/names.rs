@@ -1,32 +1,59 @@
 //! Names of the axes in the program, which `#CALL AX`, `#PUT AX` and `#SET AX` change.
 
 use super::fault::{Fault, Outcome};
-use crate::diag::Condition;
-use crate::syntax::ast::{Group, Ident, ItemKind};
+use crate::diag::{Condition, ValueKind};
+use crate::machine::Axis;
+use crate::syntax::ast::{Group, Ident, ItemKind, Span};
 
 /// Names of the axes in the program.
 #[derive(Debug)]
 pub(super) struct AxisNames {
     /// `None` for an axis that was released.
-    pub(super) axes: Vec<Option<String>>,
+    axes: Vec<Option<String>>,
+    /// Their logical numbers.
+    numbers: Vec<u32>,
     /// Letters of one-letter axes.
     letters: [Option<u8>; 26],
     /// Whether parsed blocks are out of date.
-    pub(super) changed: bool,
+    changed: bool,
 }
 
 impl AxisNames {
     /// The names of the lists.
-    pub(super) fn new(axes: Vec<Option<String>>) -> Self {
-        let mut names = Self { axes, letters: [None; 26], changed: false };
+    pub(super) fn new(axes: &[Axis]) -> Self {
+        let (names, numbers) = axes.iter().map(|a| (Some(a.name().to_owned()), a.number())).unzip();
+        let mut names = Self { axes: names, numbers, letters: [None; 26], changed: false };
         names.find_letters();
         names
     }
 
-    /// Must be called after a change of `axes`.
-    pub(super) fn change(&mut self) {
+    /// Renames an axis; `None` releases it.
+    pub(super) fn rename(&mut self, axis: usize, name: Option<String>) {
+        self.axes[axis] = name;
         self.find_letters();
         self.changed = true;
+    }
+
+    /// Releases all axes.
+    pub(super) fn release_all(&mut self) {
+        self.axes.fill(None);
+        self.find_letters();
+        self.changed = true;
+    }
+
+    /// Names of the axes in the channel.
+    pub(super) fn in_channel(&self) -> impl Iterator<Item = &str> {
+        self.axes.iter().flatten().map(String::as_str)
+    }
+
+    /// The names by axis, `?` for a released one.
+    pub(super) fn all(&self) -> Vec<String> {
+        (0..self.axes.len()).map(|axis| self.name(axis).to_owned()).collect()
+    }
+
+    /// Whether names have changed since the last call.
+    pub(super) fn take_changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
     }
 
     fn find_letters(&mut self) {
@@ -75,7 +102,7 @@ impl AxisNames {
 
     /// Hint that lists the existing axes.
     pub(super) fn hint(&self) -> String {
-        let names: Vec<&str> = self.axes.iter().filter_map(|n| n.as_deref()).collect();
+        let names: Vec<&str> = self.in_channel().collect();
         if names.is_empty() {
             return "the channel list names no axis (gruppe[0].achse[0].bezeichnung)".to_owned();
         }
@@ -90,5 +117,19 @@ impl AxisNames {
     /// Name of an axis, `?` for a released one.
     pub(super) fn name(&self, axis: usize) -> &str {
         self.axes[axis].as_deref().unwrap_or("?")
+    }
+
+    /// An axis that is moved twice by one block.
+    pub(super) fn twice(&self, axis: usize, span: Span) -> Box<Fault> {
+        let (number, name) = (self.numbers[axis], self.name(axis).to_owned());
+        let text = format!("axis {name} twice in one block");
+        Fault::new(Condition::AxisTwice, text, span)
+            .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"))
+    }
+
+    /// An address that no axis of the channel has.
+    pub(super) fn unknown(&self, name: &str, span: Span) -> Box<Fault> {
+        let text = format!("the channel has no axis {name}");
+        Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.hint())
     }
 }

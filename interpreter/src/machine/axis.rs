@@ -52,7 +52,7 @@ impl Axis {
 
     /// Unit of its positions: `mm` or `deg`.
     pub fn unit(&self) -> &'static str {
-        if self.kind == AxisKind::Linear { "mm" } else { "deg" }
+        if self.is_linear() { "mm" } else { "deg" }
     }
 
     /// Linear, rotary or spindle.
@@ -60,9 +60,14 @@ impl Axis {
         self.kind
     }
 
+    /// Whether its positions are in mm.
+    pub fn is_linear(&self) -> bool {
+        self.kind == AxisKind::Linear
+    }
+
     /// Whether the axis counts modulo 360 degrees (P-AXIS-00015, bit 0x4).
     pub fn is_modulo(&self) -> bool {
-        self.kind != AxisKind::Linear && self.mode_bits() & mode::MODULO != 0
+        !self.is_linear() && self.mode_bits() & mode::MODULO != 0
     }
 
     /// Whether its words may be diameters (P-AXIS-00015, bit 0x40).

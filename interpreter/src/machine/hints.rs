@@ -2,7 +2,7 @@
 //!
 //! Only entries of a list are judged; the vendor's defaults are not.
 
-use super::kind::{AxisKind, mode};
+use super::kind::mode;
 use super::table::param::{Number, Param, Place};
 use super::table::{axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
 use super::{Axis, Machine, issues};
@@ -31,7 +31,7 @@ pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
 ///
 /// Source: P-AXIS-00015 (TF5200 axis parameters, 117192331): 0x4 counts modulo for rotary axes and spindles, 0x400 for linear axes.
 fn unused_mode(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
-    let modulo = if axis.kind() == AxisKind::Linear { 0 } else { mode::MODULO };
+    let modulo = if axis.is_linear() { 0 } else { mode::MODULO };
     let turning = mode::FACE_TURNING | mode::LONGITUDINAL_TURNING;
     let gantry = mode::GANTRY_MASTER | mode::GANTRY_SLAVE;
     let without = axis.mode_bits() & !(mode::LINEAR | modulo | turning | gantry);

@@ -4,7 +4,7 @@
 //! its time; the path follows its contour unchanged up to that cycle and changes from there.
 
 use crate::diag::{Condition, Diagnostic, rounded};
-use crate::machine::{Axis, AxisKind, Machine, RapidOverride};
+use crate::machine::{Axis, Machine, RapidOverride};
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::control::plant::PlantModel;
 use kontur_filters::time::CycleTime;
@@ -50,7 +50,7 @@ impl Signal {
             ("wear_mm".to_owned(), Self::Wear),
         ];
         for (i, axis) in machine.all_axes().enumerate() {
-            let unit = if axis.kind() == AxisKind::Linear { "mm" } else { "deg" };
+            let unit = if axis.is_linear() { "mm" } else { "deg" };
             let name = axis.name();
             all.push((format!("{name}_add_{unit}"), Self::Additional(i)));
             all.push((format!("{name}_force_{unit}_s2"), Self::Force(i)));

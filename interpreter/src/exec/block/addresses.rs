@@ -4,6 +4,7 @@ use super::collected::Words;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::names::AxisNames;
 use crate::exec::values::number::{as_number, whole};
 use crate::syntax::ast::{
     Assign, Expr, ExprKind, Name, ParameterIndex, Place, PlaceKind, Sign, Span,
@@ -30,7 +31,7 @@ impl Decoder {
         if let Some(axis) = axis {
             return self.axis_word(axis, sign, value, span, block);
         }
-        if let Some(spindle) = self.spindle_of_name(name.as_str()) {
+        if let Some(spindle) = self.motion.spindle_of_name(name.as_str(), &self.machine.channel) {
             let value = self.number(value)?;
             return spindle_word(block, spindle, value, span);
         }
@@ -39,9 +40,10 @@ impl Decoder {
         }
         // the index 1 (R1) is the only valid one of the radius
         let written = name.as_str().eq_ignore_ascii_case("R1");
-        let radius = (written || self.is_radius_of_parameter(name.as_str(), span)?).then_some(b'R');
+        let radius =
+            (written || is_radius_of_parameter(self, name.as_str(), span)?).then_some(b'R');
         let Some(letter) = name.letter().or(radius) else {
-            return Err(self.unknown_name(name.as_str(), span));
+            return Err(unknown_name(&self.names, name.as_str(), span));
         };
         let slot = match letter {
             b'F' => &mut block.feed,
@@ -54,7 +56,7 @@ impl Decoder {
                 None => return Ok(()),
             },
             b'O' => return Err(o_word(self.number(value)?, span)),
-            _ => return Err(self.unknown_letter(letter, span)),
+            _ => return Err(unknown_letter(&self.names, letter, span)),
         };
         let twice = slot.is_some();
         *slot = Some((self.number(value)?, span));
@@ -70,20 +72,6 @@ impl Decoder {
         Ok(())
     }
 
-    /// Whether it is `RP2` with P2 = 1, the only valid index of the radius.
-    fn is_radius_of_parameter(&self, name: &str, span: Span) -> Outcome<bool> {
-        let digits = name.strip_prefix(['R', 'r']).and_then(|rest| rest.strip_prefix(['P', 'p']));
-        let Some(index) = digits.and_then(|digits| digits.parse().ok()) else { return Ok(false) };
-        let index = ParameterIndex::Literal(index);
-        let kind = PlaceKind::Parameter { indirections: 0, index, subscripts: Vec::new() };
-        let index = as_number(&self.read(&Place { kind, span })?, span)?;
-        if whole(index, 1, 1).is_none() {
-            let text = format!("the radius has the index 1 only, not {index}");
-            return Err(Fault::new(Condition::RadiusIndex, text, span));
-        }
-        Ok(true)
-    }
-
     /// `S.POS=180`, `S.OFFSET=90`.
     fn spindle_angle(
         &self,
@@ -93,7 +81,7 @@ impl Decoder {
         span: Span,
         block: &mut Words<'_>,
     ) -> Outcome<()> {
-        let Some(spindle) = self.spindle_of_name(name) else {
+        let Some(spindle) = self.motion.spindle_of_name(name, &self.machine.channel) else {
             let text = format!("{name}.{what}: the channel has no spindle {name}");
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
@@ -133,71 +121,10 @@ impl Decoder {
         // a direction of a modulo axis applies to a single word
         let several = self.machine.channel.several_words && !self.machine.axes[axis].is_modulo();
         if !several && block.axes.iter().any(|(a, _, _)| *a == axis) {
-            return Err(self.axis_twice(axis, span));
+            return Err(self.names.twice(axis, span));
         }
         block.axes.push((axis, value, span));
         Ok(())
-    }
-
-    /// An axis that is moved twice by one block.
-    pub(in crate::exec) fn axis_twice(&self, axis: usize, span: Span) -> Box<Fault> {
-        let number = self.machine.axes[axis].number();
-        let name = self.names.name(axis).to_owned();
-        let text = format!("axis {name} twice in one block");
-        Fault::new(Condition::AxisTwice, text, span)
-            .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"))
-    }
-
-    fn unknown_letter(&self, letter: u8, span: Span) -> Box<Fault> {
-        let name = char::from(letter);
-        match letter {
-            b'S' => Fault::unsupported("S: the machine has no spindle of that name", span),
-            b'A'..=b'C' | b'U'..=b'Z' | b'Q' => self.unknown_axis(&name.to_string(), span),
-            _ => Fault::new(
-                Condition::AxisOrCommandExpected,
-                format!("{name} is not a word of this dialect"),
-                span,
-            )
-            .hint(super::dialect::letter(letter)),
-        }
-    }
-
-    fn unknown_name(&self, name: &str, span: Span) -> Box<Fault> {
-        if let Some(fault) = super::dialect::sinumerik(name, span) {
-            return fault;
-        }
-        match name.as_bytes().first() {
-            Some(b'R' | b'r') if name[1..].bytes().all(|b| b.is_ascii_digit()) => {
-                let text = format!("the radius has the index 1 only, not {}", &name[1..]);
-                Fault::new(Condition::RadiusIndex, text, span)
-            }
-            Some(b'R' | b'r') => {
-                Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
-                    .hint("write R=..")
-            }
-            // names of spindles begin with S, those of axes must not (20524)
-            Some(b'S' | b's') => {
-                let text = format!("the channel has no spindle {name}");
-                Fault::new(Condition::SpindleUnknown, text, span)
-            }
-            _ => {
-                let fault = self.unknown_axis(name, span);
-                match name.as_bytes() {
-                    [axis, b'O'] if self.names.of_letter(*axis).is_some() => {
-                        fault.hint("is the letter O written for the figure 0?")
-                    }
-                    [axis, b'L'] if self.names.of_letter(*axis).is_some() => {
-                        fault.hint("is the letter l written for the figure 1?")
-                    }
-                    _ => fault,
-                }
-            }
-        }
-    }
-
-    pub(in crate::exec) fn unknown_axis(&self, name: &str, span: Span) -> Box<Fault> {
-        let text = format!("the channel has no axis {name}");
-        Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.names.hint())
     }
 
     /// `@X=..`, `@I=..`, `@S=..`: words of cycles for the main axes, the centre and the main spindle, regardless of their names
@@ -270,4 +197,65 @@ fn o_word(value: f64, span: Span) -> Box<Fault> {
     };
     Fault::new(condition, "the O word does not exist in this dialect", span)
         .with(|d| d.value(ValueKind::Wrong, value, "-"))
+}
+
+fn unknown_letter(names: &AxisNames, letter: u8, span: Span) -> Box<Fault> {
+    let name = char::from(letter);
+    match letter {
+        b'S' => Fault::unsupported("S: the machine has no spindle of that name", span),
+        b'A'..=b'C' | b'U'..=b'Z' | b'Q' => names.unknown(&name.to_string(), span),
+        _ => Fault::new(
+            Condition::AxisOrCommandExpected,
+            format!("{name} is not a word of this dialect"),
+            span,
+        )
+        .hint(super::dialect::letter(letter)),
+    }
+}
+
+fn unknown_name(names: &AxisNames, name: &str, span: Span) -> Box<Fault> {
+    if let Some(fault) = super::dialect::sinumerik(name, span) {
+        return fault;
+    }
+    match name.as_bytes().first() {
+        Some(b'R' | b'r') if name[1..].bytes().all(|b| b.is_ascii_digit()) => {
+            let text = format!("the radius has the index 1 only, not {}", &name[1..]);
+            Fault::new(Condition::RadiusIndex, text, span)
+        }
+        Some(b'R' | b'r') => {
+            Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
+                .hint("write R=..")
+        }
+        // names of spindles begin with S, those of axes must not (20524)
+        Some(b'S' | b's') => {
+            let text = format!("the channel has no spindle {name}");
+            Fault::new(Condition::SpindleUnknown, text, span)
+        }
+        _ => {
+            let fault = names.unknown(name, span);
+            match name.as_bytes() {
+                [axis, b'O'] if names.of_letter(*axis).is_some() => {
+                    fault.hint("is the letter O written for the figure 0?")
+                }
+                [axis, b'L'] if names.of_letter(*axis).is_some() => {
+                    fault.hint("is the letter l written for the figure 1?")
+                }
+                _ => fault,
+            }
+        }
+    }
+}
+
+/// Whether it is `RP2` with P2 = 1, the only valid index of the radius.
+fn is_radius_of_parameter(decoder: &Decoder, name: &str, span: Span) -> Outcome<bool> {
+    let digits = name.strip_prefix(['R', 'r']).and_then(|rest| rest.strip_prefix(['P', 'p']));
+    let Some(index) = digits.and_then(|digits| digits.parse().ok()) else { return Ok(false) };
+    let index = ParameterIndex::Literal(index);
+    let kind = PlaceKind::Parameter { indirections: 0, index, subscripts: Vec::new() };
+    let index = as_number(&decoder.read(&Place { kind, span })?, span)?;
+    if whole(index, 1, 1).is_none() {
+        let text = format!("the radius has the index 1 only, not {index}");
+        return Err(Fault::new(Condition::RadiusIndex, text, span));
+    }
+    Ok(true)
 }

@@ -11,7 +11,8 @@ use crate::exec::commands::keys::arguments;
 use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::state::Function;
+use crate::exec::motion::state::{Function, MotionState};
+use crate::exec::names::AxisNames;
 use crate::exec::step::Event;
 use crate::syntax::ast::{Bracket, Group, Ident, Item, ItemKind, ItemValue, Span};
 
@@ -50,13 +51,26 @@ arguments! {
     }
 }
 
+impl MotionState {
+    /// `Z[LIFT_START ..]`, `Z[LIFT_END]`: 21558 and 21559 (diagnosis 255193483, 255197835) come before the refusal.
+    fn lifting(&mut self, word: &Ident, span: Span) -> Outcome<()> {
+        if word.is("LIFT_START") && std::mem::replace(&mut self.lifts, true) {
+            return Err(Fault::new(Condition::LiftTwice, "LIFT_START without LIFT_END", span));
+        }
+        if word.is("LIFT_END") && !std::mem::take(&mut self.lifts) {
+            return Err(Fault::new(Condition::LiftNotBegun, "LIFT_END without LIFT_START", span));
+        }
+        Ok(())
+    }
+}
+
 impl Decoder {
     pub(in crate::exec) fn bracket(&mut self, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
         let name = bracket.name.as_str();
         if let Some(axis) = self.names.of_name(name) {
             return self.axis_bracket(axis, bracket, words);
         }
-        if let Some(spindle) = self.spindle_of_name(name) {
+        if let Some(spindle) = self.motion.spindle_of_name(name, &self.machine.channel) {
             return self.spindle_bracket(spindle, bracket, words);
         }
         // `X100 [NAME]` looks like a bracket of an axis X100
@@ -66,18 +80,7 @@ impl Decoder {
             let text = "a label comes first in its block, not after words";
             return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
         }
-        Err(self.unknown_axis(name, bracket.group.span))
-    }
-
-    /// `Z[LIFT_START ..]`, `Z[LIFT_END]`: 21558 and 21559 (diagnosis 255193483, 255197835) come before the refusal.
-    fn lifting(&mut self, word: &Ident, span: Span) -> Outcome<()> {
-        if word.is("LIFT_START") && std::mem::replace(&mut self.motion.lifts, true) {
-            return Err(Fault::new(Condition::LiftTwice, "LIFT_START without LIFT_END", span));
-        }
-        if word.is("LIFT_END") && !std::mem::take(&mut self.motion.lifts) {
-            return Err(Fault::new(Condition::LiftNotBegun, "LIFT_END without LIFT_START", span));
-        }
-        Ok(())
+        Err(self.names.unknown(name, bracket.group.span))
     }
 
     fn axis_bracket(&mut self, axis: usize, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
@@ -88,13 +91,13 @@ impl Decoder {
         {
             once(&functions, bracket, words)?;
             for ((function, _), item) in functions.into_iter().zip(&group.items) {
-                let value = self.value_of_function(item)?;
+                let value = value_of_function(self, item)?;
                 self.call_function(function, value);
             }
             return Ok(());
         }
-        if words.brackets_before(bracket).any(|other| self.excludes(other, axis, bracket)) {
-            return Err(self.axis_twice(axis, group.span));
+        if words.brackets_before(bracket).any(|other| excludes(&self.names, other, axis, bracket)) {
+            return Err(self.names.twice(axis, group.span));
         }
         match group.items.split_first() {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
@@ -106,7 +109,7 @@ impl Decoder {
                 if word.is("INDP_SYN") || word.is("INDP_ASYN") =>
             {
                 if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
-                    return Err(self.axis_twice(axis, group.span));
+                    return Err(self.names.twice(axis, group.span));
                 }
                 let name = self.names.name(axis);
                 let outputs = &self.machine.channel.m_outputs;
@@ -128,7 +131,7 @@ impl Decoder {
                 if word.is("OSC") || word.is("OSC_ON") =>
             {
                 if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
-                    return Err(self.axis_twice(axis, group.span));
+                    return Err(self.names.twice(axis, group.span));
                 }
                 let items = if word.is("OSC") { rest } else { &group.items[..] };
                 self.oscillating_axis(axis, items, group.span)
@@ -138,7 +141,7 @@ impl Decoder {
             }
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("SET_POSITION") => {
                 if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
-                    return Err(self.axis_twice(axis, group.span));
+                    return Err(self.names.twice(axis, group.span));
                 }
                 self.set_position(axis, rest, group.span)
             }
@@ -154,7 +157,7 @@ impl Decoder {
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
                 _,
             )) => {
-                self.lifting(word, *span)?;
+                self.motion.lifting(word, *span)?;
                 if spindle::is_internal(&word.text) {
                     let text = format!("{} in the bracket of an axis", word.text);
                     return Err(Fault::new(Condition::InternalFunction, text, *span));
@@ -167,23 +170,6 @@ impl Decoder {
                 Err(Fault::new(Condition::Syntax, text, group.span))
             }
         }
-    }
-
-    /// Another bracket of the same axis that moves it, or sets the same value.
-    fn excludes(&self, other: &Bracket, axis: usize, bracket: &Bracket) -> bool {
-        const MOVES: [&str; 5] = ["INDP_SYN", "INDP_ASYN", "OSC", "OSC_ON", "SET_POSITION"];
-        fn first(bracket: &Bracket) -> Option<&Ident> {
-            match &bracket.group.items.first()?.kind {
-                ItemKind::Flag(word) => Some(word),
-                _ => None,
-            }
-        }
-        let moves = |word: &Ident| MOVES.iter().any(|name| word.is(name));
-        self.names.of_name(other.name.as_str()) == Some(axis)
-            && match (first(other), first(bracket)) {
-                (Some(a), Some(b)) => moves(a) && moves(b) || a.is(&b.text),
-                _ => false,
-            }
     }
 
     /// `FEED_FACT` and `RAPID_FACT` in percent.
@@ -205,19 +191,9 @@ impl Decoder {
         Ok(())
     }
 
-    /// The value of `M54=567`.
-    ///
-    /// Source: TF5200 programming manual, M and H functions with additional information (15556839051).
-    fn value_of_function(&self, item: &Item) -> Outcome<Option<f64>> {
-        match &item.kind {
-            ItemKind::Pair { value: ItemValue::Expr(expr), .. } => self.number(expr).map(Some),
-            _ => Ok(None),
-        }
-    }
-
     /// An M or H function of an axis or spindle: written to the log, with its duration included.
     fn call_function(&mut self, function: Function, value: Option<f64>) {
-        self.takes_time(function);
+        self.motion.takes_time(function, &self.machine.channel, &mut self.contour);
         match function {
             Function::M(number) => self.contour.event(Event::MFunction { number, value }),
             Function::H(number) => self.contour.event(Event::HFunction { number, value }),
@@ -266,4 +242,31 @@ fn once(functions: &[(Function, Span)], bracket: &Bracket, words: &Words<'_>) ->
         known.push(*function);
     }
     Ok(())
+}
+
+/// Another bracket of the same axis that moves it, or sets the same value.
+fn excludes(names: &AxisNames, other: &Bracket, axis: usize, bracket: &Bracket) -> bool {
+    const MOVES: [&str; 5] = ["INDP_SYN", "INDP_ASYN", "OSC", "OSC_ON", "SET_POSITION"];
+    fn first(bracket: &Bracket) -> Option<&Ident> {
+        match &bracket.group.items.first()?.kind {
+            ItemKind::Flag(word) => Some(word),
+            _ => None,
+        }
+    }
+    let moves = |word: &Ident| MOVES.iter().any(|name| word.is(name));
+    names.of_name(other.name.as_str()) == Some(axis)
+        && match (first(other), first(bracket)) {
+            (Some(a), Some(b)) => moves(a) && moves(b) || a.is(&b.text),
+            _ => false,
+        }
+}
+
+/// The value of `M54=567`.
+///
+/// Source: TF5200 programming manual, M and H functions with additional information (15556839051).
+fn value_of_function(decoder: &Decoder, item: &Item) -> Outcome<Option<f64>> {
+    match &item.kind {
+        ItemKind::Pair { value: ItemValue::Expr(expr), .. } => decoder.number(expr).map(Some),
+        _ => Ok(None),
+    }
 }

@@ -3,6 +3,7 @@
 use super::collected::{Code, Words};
 use crate::diag::{Condition, Id};
 use crate::exec::fault::Fault;
+use crate::exec::report::Report;
 use crate::syntax::ast::Span;
 
 /// Whether an error is one that a file of another control repeats in every line: unassigned G functions (20131) and parameters
@@ -43,16 +44,73 @@ pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::exec) struct Seen {
     /// G22, G23, G351, G70 or G71: G20 and G21 are then used in their meaning here.
-    pub(in crate::exec) unit_or_mirror: bool,
+    unit_or_mirror: bool,
     /// `#` commands, `$` statements or G numbers from 127 on.
-    pub(in crate::exec) own: bool,
+    own: bool,
     /// An M function that sets a temperature in programs of 3D printers.
-    pub(in crate::exec) temperature: bool,
+    temperature: bool,
+}
+
+impl Seen {
+    /// A statement that only this dialect has.
+    pub(in crate::exec) fn own_statement(&mut self) {
+        self.own = true;
+    }
+
+    /// Whether G28 and G29 are functions of a 3D printer: after a temperature, and nothing of this dialect.
+    pub(super) fn is_printer(self) -> bool {
+        self.temperature && !self.own
+    }
+
+    /// K-0120 for a block that only a 3D printer understands: G92 with the position of an extruder.
+    pub(super) fn is_of_a_printer(&mut self, words: &Words<'_>, report: &mut Report) -> bool {
+        self.temperature |= is_temperature(words);
+        let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
+            return false;
+        };
+        if g.row.number != 92 || self.own {
+            return false;
+        }
+        let span = Span::new(g.span.start as usize, end.end() as usize);
+        report.note(printer("G92 E", "sets the way of an extruder", span));
+        true
+    }
+
+    /// Words with another meaning in other dialects: reported once per program and word.
+    pub(super) fn guard(&mut self, words: &Words<'_>, report: &mut Report) {
+        for g in &words.g {
+            match g.row.number {
+                22 | 23 | 70 | 71 | 351 => self.unit_or_mirror = true,
+                n if n >= 127 => self.own = true,
+                _ => {}
+            }
+            let known =
+                if matches!(g.row.number, 20 | 21) { self.unit_or_mirror } else { self.own };
+            if let (false, Some(text)) = (known, g_function(g.row.number)) {
+                let key = format!("dialect G{}", g.row.number);
+                report.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
+            }
+        }
+        // a negative one is a separate error
+        let end_feed = words.end_feed.filter(|(value, _)| *value >= 0.0);
+        if let (false, Some((value, span))) = (self.own, end_feed) {
+            let joined = words.axes.iter().any(|(_, _, axis)| axis.end() == span.start);
+            let text = if joined {
+                format!(
+                    "numbers have no exponent in this dialect: E{value} is the feed at the end of the block"
+                )
+            } else {
+                "E is the feed at the end of the block in this dialect, not an extruder axis"
+                    .to_owned()
+            };
+            report.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
+        }
+    }
 }
 
 /// Whether a block sets a temperature of a 3D printer: `M104 S200`, `M109`, `M140`, `M190`. Such a block is also valid in this
 /// dialect, so it proves nothing by itself.
-pub(in crate::exec) fn is_temperature(words: &Words<'_>) -> bool {
+fn is_temperature(words: &Words<'_>) -> bool {
     let code = matches!(words.m[..], [Code { number: 104 | 109 | 140 | 190, .. }]);
     code && words.speeds.len() == 1 && words.axes.is_empty() && words.g.is_empty()
 }

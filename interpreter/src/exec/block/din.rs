@@ -9,15 +9,17 @@ mod offsets;
 
 use super::collected::{CycleCall, GWord, Placed, Words};
 use super::groups::{Act, Group};
-use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane};
+use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Modal, PathMode, Plane};
 use super::modes::weight_ratio;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::addition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::report::Report;
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_behind;
+use offsets::axis_functions;
 
 /// Actions after a block: first a call, then the point where the program continues.
 #[derive(Debug, Default)]
@@ -52,6 +54,36 @@ pub(in crate::exec) enum Then<'b> {
 /// Largest value of G115; larger ones are 20712 instead of 20151. Assumption: the data format has 16 bits.
 const LOOK_AHEAD_FORMAT: u32 = 65535;
 
+impl Modal {
+    /// Interpolation of the axes in a block: as programmed in it, otherwise the modal one.
+    pub(in crate::exec) fn path_mode(&self, words: &Words<'_>) -> PathMode {
+        match words.group(Group::Path).map(|g| g.row.act) {
+            Some(Act::Path(mode)) => mode,
+            _ => self.path,
+        }
+    }
+
+    /// F.
+    pub(in crate::exec) fn program_feed(
+        &mut self,
+        (value, span): Placed,
+        report: &mut Report,
+    ) -> Outcome<()> {
+        let most = if self.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
+        if !(0.0..=most).contains(&value) {
+            // a check continues, and blocks without F have no error themselves
+            let word = FeedWord { value: 1.0, inch: self.inch };
+            self.feeds[self.feed_type as usize].get_or_insert(word);
+            let text = format!("F{value} is outside 0 to {most}");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        report.unsay("20008");
+        let word = FeedWord { value, inch: self.inch };
+        self.feeds[self.feed_type as usize] = Some(word);
+        Ok(())
+    }
+}
+
 impl Decoder {
     /// Executes a block of words.
     pub(in crate::exec) fn execute_words<'b>(
@@ -61,12 +93,12 @@ impl Decoder {
     ) -> After<'b> {
         let mut words = Words::default();
         self.collect(written, &mut words);
-        if self.is_of_a_printer(&words) {
+        if self.dialect.is_of_a_printer(&words, &mut self.report) {
             return After::default();
         }
-        self.dialect_guard(&words);
+        self.dialect.guard(&words, &mut self.report);
         self.planes_and_units(&words);
-        let takes_axes = self.axis_functions(&words);
+        let takes_axes = axis_functions(&words, &mut self.report);
         let at_once = self.machine.channel.tool_offsets_at_once;
         let tool_before = at_once.then(|| self.geometry.coordinates.tool_offsets().clone());
         self.tools_and_offsets(&words, takes_axes);
@@ -122,18 +154,10 @@ impl Decoder {
         after
     }
 
-    /// Interpolation of the axes in a block: as programmed in it, otherwise the modal one.
-    pub(in crate::exec) fn path_mode(&self, words: &Words<'_>) -> PathMode {
-        match words.group(Group::Path).map(|g| g.row.act) {
-            Some(Act::Path(mode)) => mode,
-            _ => self.modal.path,
-        }
-    }
-
     /// S words: speeds, cutting speeds, or signed speeds of tapping. Returns a speed that takes effect after the motion.
     fn spindle_speeds(&mut self, words: &Words<'_>) -> Option<Placed> {
         let mut late = None;
-        let taps = self.path_mode(words).is_tapping();
+        let taps = self.modal.path_mode(words).is_tapping();
         let outcome = self.cutting_words(words);
         self.report.keep(outcome);
         let cuts = self.motion.cutting.takes_s_words(words);
@@ -148,7 +172,7 @@ impl Decoder {
                 let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
                 self.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
             } else if !(taps || cuts) {
-                if self.speeds_up_late(0) {
+                if self.motion.spindles[0].speeds_up_late(&self.machine.channel) {
                     late = Some((*speed, *span));
                 } else {
                     self.speed(0, *speed, *span);
@@ -185,7 +209,7 @@ impl Decoder {
         if plane != self.modal.plane {
             self.modal.plane = plane;
             // the tool length applies along the third axis of the plane
-            self.tool_offsets();
+            self.geometry.apply_tool(self.modal.plane.main_axes());
         }
     }
 
@@ -200,7 +224,7 @@ impl Decoder {
             }
         }
         if let Some(feed) = words.feed {
-            let outcome = self.feed(feed);
+            let outcome = self.modal.program_feed(feed, &mut self.report);
             self.report.keep(outcome);
         }
         for g in &words.g {
@@ -218,21 +242,6 @@ impl Decoder {
         if !inserts_behind(words) {
             self.insertions(words);
         }
-    }
-
-    pub(in crate::exec) fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
-        let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
-        if !(0.0..=most).contains(&value) {
-            // a check continues, and blocks without F have no error themselves
-            let word = FeedWord { value: 1.0, inch: self.modal.inch };
-            self.modal.feeds[self.modal.feed_type as usize].get_or_insert(word);
-            let text = format!("F{value} is outside 0 to {most}");
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        self.report.unsay("20008");
-        let word = FeedWord { value, inch: self.modal.inch };
-        self.modal.feeds[self.modal.feed_type as usize] = Some(word);
-        Ok(())
     }
 
     /// Modes without axis words.
@@ -278,7 +287,7 @@ impl Decoder {
                     self.report.note_once("G135", fault);
                 }
                 self.motion.feedforward.on = on;
-                self.feedforward_event();
+                self.contour.event(self.motion.feedforward.event());
             }
             // Assumption: without axes, every transition is a stop; the pages do not define the values of the axes
             Act::StopAtTransitions(_) if !words.axes.is_empty() => {
@@ -311,7 +320,7 @@ impl Decoder {
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
             Act::Tangential => self.select_tangentially(g, words)?,
-            Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
+            Act::Selection(selection) => self.modal.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.modal.unit_mm();
                 self.modal.radius_mm = Some(radius);
@@ -333,53 +342,5 @@ impl Decoder {
             _ => {}
         }
         Ok(())
-    }
-
-    /// K-0120 for a block that only a 3D printer understands: G92 with the position of an extruder.
-    fn is_of_a_printer(&mut self, words: &Words<'_>) -> bool {
-        self.dialect.temperature |= super::dialect::is_temperature(words);
-        let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
-            return false;
-        };
-        if g.row.number != 92 || self.dialect.own {
-            return false;
-        }
-        let span = Span::new(g.span.start as usize, end.end() as usize);
-        self.report.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
-        true
-    }
-
-    /// Words with another meaning in other dialects: reported once per program and word.
-    fn dialect_guard(&mut self, words: &Words<'_>) {
-        for g in &words.g {
-            match g.row.number {
-                22 | 23 | 70 | 71 | 351 => self.dialect.unit_or_mirror = true,
-                n if n >= 127 => self.dialect.own = true,
-                _ => {}
-            }
-            let known = if matches!(g.row.number, 20 | 21) {
-                self.dialect.unit_or_mirror
-            } else {
-                self.dialect.own
-            };
-            if let (false, Some(text)) = (known, super::dialect::g_function(g.row.number)) {
-                let key = format!("dialect G{}", g.row.number);
-                self.report.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
-            }
-        }
-        // a negative one is a separate error
-        let end_feed = words.end_feed.filter(|(value, _)| *value >= 0.0);
-        if let (false, Some((value, span))) = (self.dialect.own, end_feed) {
-            let joined = words.axes.iter().any(|(_, _, axis)| axis.end() == span.start);
-            let text = if joined {
-                format!(
-                    "numbers have no exponent in this dialect: E{value} is the feed at the end of the block"
-                )
-            } else {
-                "E is the feed at the end of the block in this dialect, not an extruder axis"
-                    .to_owned()
-            };
-            self.report.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
-        }
     }
 }

@@ -1,5 +1,9 @@
 //! Modal state: settings that stay active until another word of their group replaces them.
 
+use crate::diag::{Condition, Diagnostic};
+use crate::exec::fault::{Fault, Outcome};
+use crate::machine::{Axis, Channel};
+use crate::syntax::ast::Span;
 use kontur_motion::block::{Slope, SlopeKind};
 
 /// Group 0.
@@ -184,6 +188,30 @@ impl Modal {
         if self.inch { 25.4 } else { 1.0 }
     }
 
+    /// Factor from programmed values of an axis to mm (deg).
+    pub(in crate::exec) fn axis_unit(&self, axis: &Axis) -> f64 {
+        if self.inch && axis.is_linear() { 25.4 } else { 1.0 }
+    }
+
+    /// Unit of tolerance words in mm (P-CHAN-00439).
+    pub(in crate::exec) fn tolerance_unit_mm(&self, channel: &Channel) -> f64 {
+        if channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
+    }
+
+    /// Unit of an F word with G94 in mm/s.
+    pub(in crate::exec) fn feed_unit_mm_s(&self, channel: &Channel) -> f64 {
+        self.unit_mm() * channel.feed_unit_mm_min / 60.0
+    }
+
+    /// `R1`: the last radius programmed (R, `R1=`, G163), in the active unit (206014219).
+    pub(in crate::exec) fn last_radius(&self, span: Span) -> Outcome<f64> {
+        let radius_mm = self.radius_mm.ok_or_else(|| {
+            let text = "R1 has no value: no radius has been programmed";
+            Fault::new(Condition::Undefined, text, span).hint("write R1=5 before it")
+        })?;
+        Ok(radius_mm / self.unit_mm())
+    }
+
     pub(in crate::exec) fn feed(&self) -> Option<FeedWord> {
         self.feeds[self.feed_type as usize]
     }
@@ -222,5 +250,52 @@ impl Modal {
             insertion_mm: None,
             transition_min_mm_s: 0.0,
         }
+    }
+
+    /// Takes the start values of the channel list (P-CHAN-00054, 00063, 00099); reports those that are not simulated.
+    pub(in crate::exec) fn presets(&mut self, channel: &Channel) -> Vec<Diagnostic> {
+        let mut unknown = Vec::new();
+        self.inch = channel.inch;
+        if let Some(v) = channel.feed_mm_s {
+            let value = v * 60.0 / channel.feed_unit_mm_min;
+            let per_minute = FeedType::PerMinute as usize;
+            self.feeds[per_minute] = Some(FeedWord { value, inch: false });
+        }
+        for (group, g) in &channel.g_groups {
+            match (group, g) {
+                (0, 0) => self.path = PathMode::Rapid,
+                (0, 2) => self.path = PathMode::Clockwise,
+                (0, 3) => self.path = PathMode::CounterClockwise,
+                (4, 18) => self.plane = Plane::Zx,
+                (4, 19) => self.plane = Plane::Yz,
+                (6, 25) => self.corners = Corners::Straight,
+                (6, 26) => self.corners = Corners::Round,
+                (12, 70) => self.inch = true,
+                (12, 71) => self.inch = false,
+                (14, 91) => self.absolute = false,
+                (22, 138) => self.selection = Selection::Direct,
+                (22, 237) => self.selection = Selection::Perpendicular,
+                (22, 238) => self.selection = Selection::InsideCorner,
+                (22, 239) => self.selection = Selection::WithoutBlock,
+                (23, 161) => self.centre_absolute = true,
+                (25, 164) => self.centre_correction = false,
+                // start values of the language; feedforward has a separate warning
+                (0, 1)
+                | (4, 17)
+                | (8, 52)
+                | (14, 90)
+                | (22, 139)
+                | (23, 162)
+                | (25, 165)
+                | (32, 140)
+                | (21, _) => {}
+                (group, g) => {
+                    let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
+                    let d = Diagnostic::new(Condition::Fallback, text).parameter("P-CHAN-00063");
+                    unknown.push(d);
+                }
+            }
+        }
+        unknown
     }
 }

@@ -2,15 +2,15 @@
 
 use super::collected::{GWord, Placed, Words};
 use super::groups::{Act, Group};
-use super::modal::{Compensation, Selection};
+use super::modal::{Compensation, Modal, Selection};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::state::Function;
+use crate::exec::report::Report;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
-use kontur_motion::axis::AxisVec;
 
 /// A weight in percent as a ratio.
 pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
@@ -21,6 +21,31 @@ pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> 
     }
     let text = format!("a weight of {percent} % is not possible");
     Err(Fault::new(Condition::Range, text, span))
+}
+
+impl Modal {
+    /// G138, G139, G237 to G239; 21317, 21318 for G238 during active compensation.
+    pub(in crate::exec) fn select_compensation_by(
+        &mut self,
+        selection: Selection,
+        g: &GWord,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        let selects = words.group(Group::Compensation).is_some();
+        let active = self.compensation != Compensation::Off && !selects;
+        let (old, inside) = (self.selection, Selection::InsideCorner);
+        if active && old != selection && (old == inside || selection == inside) {
+            let (condition, text) = if selection == inside {
+                (Condition::InsideCornerActive, "G238 while tool radius compensation is active")
+            } else {
+                (Condition::SelectionActive, "the selection mode changes within that of G238")
+            };
+            return Err(Fault::new(condition, text, g.span)
+                .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));
+        }
+        self.selection = selection;
+        Ok(())
+    }
 }
 
 impl Decoder {
@@ -101,30 +126,11 @@ impl Decoder {
             return Err(Fault::new(Condition::FeedforwardNegative, text, *span));
         }
         for (axis, value, span) in &words.axes {
-            let percent = self.limited_weight(*value, *span);
+            let percent = limited_weight(*value, *span, &mut self.report);
             self.motion.feedforward.weight_ratios[*axis] = percent / 100.0;
         }
-        self.feedforward_event();
+        self.contour.event(self.motion.feedforward.event());
         Ok(())
-    }
-
-    /// A feedforward weight, above 100 % with K-0020.
-    pub(in crate::exec) fn limited_weight(&mut self, percent: f64, span: Span) -> f64 {
-        if percent > 100.0 {
-            let text = format!("feedforward weight {percent} % is above 100 %, limited");
-            self.report.note(
-                Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)),
-            );
-        }
-        percent.min(100.0)
-    }
-
-    pub(in crate::exec) fn feedforward_event(&mut self) {
-        let event = Event::Feedforward {
-            on: self.motion.feedforward.on,
-            weight_ratios: self.motion.feedforward.weight_ratios.clone(),
-        };
-        self.contour.event(event);
     }
 
     /// T.
@@ -137,7 +143,7 @@ impl Decoder {
         } else if let Some(number) = crate::exec::values::number::whole(number, 0, HIGHEST) {
             self.geometry.tools.tool = number;
             self.contour.event(Event::Tool { number });
-            self.takes_time(Function::Tool);
+            self.motion.takes_time(Function::Tool, &self.machine.channel, &mut self.contour);
         } else {
             let text = format!("T{number} is not a tool number");
             self.report.note(Fault::new(Condition::Range, text, span));
@@ -169,51 +175,16 @@ impl Decoder {
             crate::exec::geometry::tools::Tool::default()
         };
         self.geometry.coordinates.tool_programmed();
-        self.tool_offsets();
-        let passed = self.pass_tool_limits(span);
+        self.geometry.apply_tool(self.modal.plane.main_axes());
+        let passed = self.motion.pass_tool_limits(
+            &self.geometry.tools,
+            &self.machine,
+            &mut self.report,
+            span,
+        );
         self.report.keep(passed);
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
-    }
-
-    /// Offsets of the selected tool.
-    pub(in crate::exec) fn tool_offsets(&mut self) {
-        if self.geometry.coordinates.is_without_tools() {
-            return;
-        }
-        let mut offsets = AxisVec::zeros(self.machine.axes.len());
-        let normal = self.modal.plane.main_axes()[2];
-        let third = self.geometry.coordinates.main_axis(normal).map(|axis| (axis, 1.0));
-        if let Some((axis, sign)) = self.geometry.tools.length_axis.or(third) {
-            offsets[axis] = sign * self.geometry.tools.active.length_mm;
-        }
-        for (axis, value) in &self.geometry.tools.active.offsets_mm {
-            offsets[*axis] += value;
-        }
-        self.geometry.coordinates.set_tool(offsets);
-    }
-
-    /// G138, G139, G237 to G239; 21317, 21318 for G238 during active compensation.
-    pub(in crate::exec) fn select_compensation_by(
-        &mut self,
-        selection: Selection,
-        g: &GWord,
-        words: &Words<'_>,
-    ) -> Outcome<()> {
-        let selects = words.group(Group::Compensation).is_some();
-        let active = self.modal.compensation != Compensation::Off && !selects;
-        let (old, inside) = (self.modal.selection, Selection::InsideCorner);
-        if active && old != selection && (old == inside || selection == inside) {
-            let (condition, text) = if selection == inside {
-                (Condition::InsideCornerActive, "G238 while tool radius compensation is active")
-            } else {
-                (Condition::SelectionActive, "the selection mode changes within that of G238")
-            };
-            return Err(Fault::new(condition, text, g.span)
-                .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));
-        }
-        self.modal.selection = selection;
-        Ok(())
     }
 
     /// G05: the motion that starts or ends compensation becomes an arc.
@@ -261,7 +232,7 @@ impl Decoder {
     /// 20136 and 21555 for a plane that lacks one of its axes, or contains a modulo axis.
     pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
         if side != Compensation::Off {
-            self.plane_has_axes(span)?;
+            self.geometry.plane_has_axes(self.modal.plane.main_axes(), &self.machine, span)?;
         }
         if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
@@ -276,22 +247,14 @@ impl Decoder {
         self.contour.deselect(side == Compensation::Off);
         Ok(())
     }
+}
 
-    fn plane_has_axes(&self, span: Span) -> Outcome<()> {
-        let [first, second, _] = self.modal.plane.main_axes();
-        for main in [first, second] {
-            let Some(axis) = self.geometry.coordinates.main_axis(main) else {
-                let text = format!("the channel has no main axis {} of the plane", main + 1);
-                return Err(Fault::new(Condition::CompensationWithoutAxis, text, span));
-            };
-            let axis = &self.machine.axes[axis];
-            if axis.is_modulo() {
-                let name = axis.name().to_owned();
-                let text = format!("axis {name} of the plane counts modulo 360 degrees");
-                return Err(Fault::new(Condition::CompensationModulo, text, span)
-                    .with(|d| d.axis(axis.number(), name)));
-            }
-        }
-        Ok(())
+/// A feedforward weight, above 100 % with K-0020.
+pub(in crate::exec) fn limited_weight(percent: f64, span: Span, report: &mut Report) -> f64 {
+    if percent > 100.0 {
+        let text = format!("feedforward weight {percent} % is above 100 %, limited");
+        report
+            .note(Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)));
     }
+    percent.min(100.0)
 }

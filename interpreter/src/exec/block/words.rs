@@ -10,7 +10,9 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
+use crate::exec::report::Report;
 use crate::exec::values::{every_axis, system};
+use crate::machine::Channel;
 use crate::suggest;
 use crate::syntax::ast::{
     Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, GValue, PlaceKind, Span, Word, WordKind,
@@ -38,7 +40,7 @@ impl Decoder {
                 .find(|i| block.axes[..*i].iter().any(|(a, _, _)| *a == block.axes[*i].0))
         {
             let (axis, _, span) = block.axes.remove(i);
-            self.report.note(self.axis_twice(axis, span));
+            self.report.note(self.names.twice(axis, span));
         }
         if let (Some(_), Some((_, span)), true) =
             (block.tool, block.tool_data, self.machine.channel.tool_data_with_tool)
@@ -146,7 +148,7 @@ impl Decoder {
             }
             WordKind::MacroDefinition(definition) => {
                 let name = definition.name.trim_ascii();
-                self.macro_fits(name, &definition.text, span)?;
+                macro_fits(&self.machine.channel, name, &definition.text, span, &mut self.report)?;
                 let before = self.calls.macros.insert(name.into(), definition.text.clone());
                 // blocks that contain the earlier text must be parsed again
                 self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
@@ -268,30 +270,6 @@ impl Decoder {
         Ok(Code { number, value, span })
     }
 
-    /// Checks the length of the name and the text of a macro (P-CHAN-00511, 00512).
-    ///
-    /// Assumption: the pages print an ID for the name only; a text beyond its limit is used, with the warning K-RANGE.
-    fn macro_fits(&mut self, name: &str, text: &str, span: Span) -> Outcome<()> {
-        let channel = &self.machine.channel;
-        for (what, written, most, condition, parameter) in [
-            ("name", name, channel.macro_name_length, Condition::MacroNameLength, "P-CHAN-00511"),
-            ("text", text, channel.macro_text_length, Condition::Range, "P-CHAN-00512"),
-        ] {
-            let length = written.chars().count();
-            if length > most as usize {
-                let text =
-                    format!("the {what} of the macro has {length} characters, at most {most}");
-                let fault = Fault::new(condition, text, span)
-                    .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter));
-                if condition != Condition::Range {
-                    return Err(fault);
-                }
-                self.report.note(fault.warning());
-            }
-        }
-        Ok(())
-    }
-
     fn g_word(
         &mut self,
         number: u32,
@@ -312,7 +290,7 @@ impl Decoder {
             }));
         }
         let Some(row) = groups::row(number) else {
-            if matches!(number, 28 | 29) && self.dialect.temperature && !self.dialect.own {
+            if matches!(number, 28 | 29) && self.dialect.is_printer() {
                 let meaning = "homes or levels after a temperature";
                 return Err(super::dialect::printer(&format!("G{number}"), meaning, span));
             }
@@ -449,4 +427,32 @@ fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
         _ => second.group.duplicate(),
     };
     Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, second.number, "-"))
+}
+
+/// Checks the length of the name and the text of a macro (P-CHAN-00511, 00512).
+///
+/// Assumption: the pages print an ID for the name only; a text beyond its limit is used, with the warning K-RANGE.
+fn macro_fits(
+    channel: &Channel,
+    name: &str,
+    text: &str,
+    span: Span,
+    report: &mut Report,
+) -> Outcome<()> {
+    for (what, written, most, condition, parameter) in [
+        ("name", name, channel.macro_name_length, Condition::MacroNameLength, "P-CHAN-00511"),
+        ("text", text, channel.macro_text_length, Condition::Range, "P-CHAN-00512"),
+    ] {
+        let length = written.chars().count();
+        if length > most as usize {
+            let text = format!("the {what} of the macro has {length} characters, at most {most}");
+            let fault = Fault::new(condition, text, span)
+                .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter));
+            if condition != Condition::Range {
+                return Err(fault);
+            }
+            report.note(fault.warning());
+        }
+    }
+    Ok(())
 }

@@ -49,7 +49,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     full_feedforward(decoder, &named);
     if all {
-        decoder.names.axes.fill(None);
+        decoder.names.release_all();
         for main in 0..3 {
             decoder.geometry.coordinates.set_main_axis(main, None);
         }
@@ -110,7 +110,7 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(call.unexpected(word));
     }
     full_feedforward_of_all(decoder);
-    decoder.names.axes.fill(None);
+    decoder.names.release_all();
     for main in 0..3 {
         decoder.geometry.coordinates.set_main_axis(main, None);
     }
@@ -126,7 +126,8 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [word] if word.is("DEFAULT") => {
             full_feedforward_of_all(decoder);
             for axis in 0..decoder.machine.axes.len() {
-                decoder.names.axes[axis] = Some(decoder.machine.axes[axis].name().to_owned());
+                let listed = decoder.machine.axes[axis].name().to_owned();
+                decoder.names.rename(axis, Some(listed));
             }
             for main in 0..3 {
                 let axis = (main < decoder.machine.axes.len()).then_some(main);
@@ -184,7 +185,6 @@ fn default_feed_group(decoder: &mut Decoder) {
 
 /// Called after a change of names and main axes.
 fn exchanged(decoder: &mut Decoder) {
-    decoder.names.change();
     if !decoder.motion.feed_axes_named {
         default_feed_group(decoder);
     }
@@ -219,7 +219,7 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
 }
 
 fn release(decoder: &mut Decoder, axis: usize) {
-    decoder.names.axes[axis] = None;
+    decoder.names.rename(axis, None);
     if let Some(main) = decoder.geometry.coordinates.main_index(axis) {
         decoder.geometry.coordinates.set_main_axis(main, None);
     }
@@ -374,7 +374,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
         return Err(Fault::new(Condition::ExchangeIndexTaken, text, at(2))
             .with(|d| d.value(ValueKind::Wrong, index, "-")));
     }
-    decoder.names.axes[axis] = Some(letters);
+    decoder.names.rename(axis, Some(letters));
     if index < 3 {
         decoder.geometry.coordinates.set_main_axis(main, Some(axis));
     }
@@ -389,7 +389,7 @@ fn full_feedforward(decoder: &mut Decoder, axes: &[usize]) {
         for axis in axes {
             weights[*axis] = 1.0;
         }
-        decoder.feedforward_event();
+        decoder.contour.event(decoder.motion.feedforward.event());
     }
 }
 

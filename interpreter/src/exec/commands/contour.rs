@@ -136,7 +136,7 @@ fn at_least_an_increment(
 /// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: an omitted key keeps its value.
 fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    let unit = decoder.tolerance_unit_mm();
+    let unit = decoder.modal.tolerance_unit_mm(&decoder.machine.channel);
     let mut settings = decoder.contour.contouring;
     let group = points(decoder, call.command.groups.first(), &mut settings)?;
     let keys = ContourArguments::read(decoder, &call.title(), group.as_ref())?;
@@ -260,7 +260,7 @@ fn points(
             let what = "an interim point of #CONTOUR MODE in a frame";
             return Err(Fault::unsupported(what, item.span));
         }
-        let value = value * decoder.axis_unit(axis);
+        let value = value * decoder.modal.axis_unit(&decoder.machine.axes[axis]);
         settings.point_mm[axis] = Some(value + decoder.geometry.coordinates.active_offset(axis));
     }
     Ok(Some(rest))
@@ -297,7 +297,7 @@ pub(super) const HSC: Row = Row::run("HSC", hsc)
 /// `#HSC [ON|OFF] [BSPLINE ..]`, `#HSC [..] [OPMODE= CONTERROR=]`.
 fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    let unit = decoder.tolerance_unit_mm();
+    let unit = decoder.modal.tolerance_unit_mm(&decoder.machine.channel);
     let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let mut hsc = decoder.contour.hsc;
     let opmode = keys

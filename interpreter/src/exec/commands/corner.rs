@@ -85,7 +85,7 @@ fn set(decoder: &mut Decoder, dist: f64, percent: bool, feed: f64) {
     let feed = if percent {
         CornerFeed::Ratio(feed / 100.0)
     } else {
-        CornerFeed::MmS(feed * decoder.feed_unit_mm_s())
+        CornerFeed::MmS(feed * decoder.modal.feed_unit_mm_s(&decoder.machine.channel))
     };
     let dist_mm = dist * decoder.modal.unit_mm();
     decoder.motion.corner = Some(Corner { dist_mm, feed });

@@ -225,7 +225,7 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
 }
 
 fn axis(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
-    if decoder.spindle_of_name(&name.text).is_some() {
+    if decoder.motion.spindle_of_name(&name.text, &decoder.machine.channel).is_some() {
         return Err(Fault::unsupported("couplings of spindles", name.span));
     }
     decoder.names.of_name(&name.text).ok_or_else(|| {

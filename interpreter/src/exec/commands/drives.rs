@@ -102,14 +102,17 @@ fn driven(
     number: Option<(f64, Span)>,
 ) -> Outcome<Option<usize>> {
     match (name, number) {
-        (Some((name, span)), None) => match decoder.spindle_of_name(name) {
-            Some(spindle) => Ok(Some(spindle)),
-            None if decoder.names.of_name(name).is_some() => Ok(None),
-            None => {
-                let text = format!("unknown axis `{name}`");
-                Err(Fault::new(Condition::AxisNameUnknown, text, *span).hint(decoder.names.hint()))
+        (Some((name, span)), None) => {
+            match decoder.motion.spindle_of_name(name, &decoder.machine.channel) {
+                Some(spindle) => Ok(Some(spindle)),
+                None if decoder.names.of_name(name).is_some() => Ok(None),
+                None => {
+                    let text = format!("unknown axis `{name}`");
+                    Err(Fault::new(Condition::AxisNameUnknown, text, *span)
+                        .hint(decoder.names.hint()))
+                }
             }
-        },
+        }
         (None, Some((number, span))) => {
             let wanted = logical_number(number, span)?;
             let spindle = |index: usize| decoder.machine.spindles[index].number() == wanted;

@@ -41,7 +41,13 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
             let deg = value(keys.angle);
-            decoder.rotate_plane([main[0], main[1]], deg, centre, call.span())
+            decoder.geometry.rotate_plane(
+                &decoder.machine,
+                [main[0], main[1]],
+                deg,
+                centre,
+                call.span(),
+            )
         }
         Some(false) => {
             decoder.geometry.coordinates.set_rotation(None);
@@ -293,7 +299,7 @@ fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if on {
         decoder.geometry.coordinates.enter_machine(without_tools);
     } else if decoder.geometry.coordinates.leave_machine() {
-        decoder.tool_offsets();
+        decoder.geometry.apply_tool(decoder.modal.plane.main_axes());
     }
     Ok(())
 }

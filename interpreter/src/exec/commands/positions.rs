@@ -84,7 +84,7 @@ fn assign(
             return Err(wrong(call, item.span));
         };
         let axis = decoder.names.in_command(axis)?;
-        let value = position(decoder, axis) / decoder.axis_unit(axis);
+        let value = position(decoder, axis) / decoder.modal.axis_unit(&decoder.machine.axes[axis]);
         decoder.write(place, Value::Number(value), item.span)?;
     }
     Ok(())

@@ -81,7 +81,8 @@ impl Decoder {
         ax_dev: Option<(f64, Span)>,
         acc_fact: Option<(f64, Span)>,
     ) {
-        let ax_dev_mm = ax_dev.map(|(x, _)| x * self.tolerance_unit_mm());
+        let ax_dev_mm =
+            ax_dev.map(|(x, _)| x * self.modal.tolerance_unit_mm(&self.machine.channel));
         self.shaping.ax_dev_mm = match family {
             Family::VibGuard => self.shaping.guard_tolerance_mm(ax_dev_mm),
             Family::Filter => ax_dev_mm.filter(|mm| *mm > 0.0),

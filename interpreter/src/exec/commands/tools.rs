@@ -57,7 +57,7 @@ fn tool_prep(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 fn refresh(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.geometry.coordinates.tool_programmed();
-    decoder.tool_offsets();
+    decoder.geometry.apply_tool(decoder.modal.plane.main_axes());
     Ok(())
 }
 
@@ -85,7 +85,7 @@ fn length_axis(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         _ => return Err(no_length_axis(decoder, call.span())),
     };
     decoder.geometry.tools.length_axis = axis;
-    decoder.tool_offsets();
+    decoder.geometry.apply_tool(decoder.modal.plane.main_axes());
     Ok(())
 }
 

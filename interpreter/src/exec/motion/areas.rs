@@ -73,7 +73,7 @@ impl Decoder {
             let text = format!("G{} in the definition of a control area", g.row.number);
             return Err(Fault::new(Condition::AreaFunction, text, g.span));
         }
-        let end = self.tip(self.geometry.coordinates.target());
+        let end = self.geometry.tip(self.geometry.coordinates.target());
         let straight = matches!(self.modal.path, PathMode::Rapid | PathMode::Linear);
         let Some(draft) = &mut self.motion.areas.draft else { return Ok(()) };
         for (axis, _, _) in &words.axes {
@@ -187,7 +187,7 @@ impl Decoder {
             },
             None => self.motion.areas.defined.values().cloned().collect(),
         };
-        let tip = self.tip(self.geometry.coordinates.target());
+        let tip = self.geometry.tip(self.geometry.coordinates.target());
         for area in chosen {
             let missing = area.axes.iter().find(|axis| !self.names.has(**axis));
             if missing.is_some() {
@@ -197,7 +197,7 @@ impl Decoder {
             if !area.admits(&tip) {
                 let point_mm = area.axes.map(|axis| tip[axis]);
                 let violation = Violation { point_mm, at_end: true };
-                return Err(violated(&area, violation, &self.axis_names(), span));
+                return Err(violated(&area, violation, &self.names.all(), span));
             }
             if !self.motion.areas.is_active(area.number) {
                 self.motion.areas.active.push(area);
@@ -241,9 +241,9 @@ impl Decoder {
         if self.motion.areas.active.is_empty() {
             return None;
         }
-        let offsets_mm = self.tip(&self.motion.independent.way);
+        let offsets_mm = self.geometry.tip(&self.motion.independent.way);
         let areas = self.motion.areas.active.clone();
-        let watch = Watch { areas, offsets_mm, names: self.axis_names() };
+        let watch = Watch { areas, offsets_mm, names: self.names.all() };
         // shared by consecutive motions
         if self.motion.areas.watch.as_deref() != Some(&watch) {
             self.motion.areas.watch = Some(Arc::new(watch));
@@ -264,19 +264,6 @@ impl Decoder {
         let text =
             format!("{name} belongs to control area {}: it cannot move independently", area.number);
         Err(Fault::new(Condition::AreaAxisAlone, text, span))
-    }
-
-    /// Axis positions of the tip of the tool.
-    fn tip(&self, positions: &AxisVec) -> AxisVec {
-        let mut tip = positions.clone();
-        for (x, tool) in tip.iter_mut().zip(self.geometry.coordinates.tool_offsets().iter()) {
-            *x -= tool;
-        }
-        tip
-    }
-
-    fn axis_names(&self) -> Vec<String> {
-        (0..self.machine.axes.len()).map(|axis| self.names.name(axis).to_owned()).collect()
     }
 }
 

@@ -69,7 +69,11 @@ impl Decoder {
             return Ok(None);
         }
         self.banding_fits(words, m.span)?;
-        let seconds = self.counted_time_s(Function::M(m.number));
+        let seconds = self.motion.counted_time_s(
+            Function::M(m.number),
+            &self.machine.channel,
+            &mut self.contour,
+        );
         let way_mm = self.motion.measuring.residual_path_mm;
         let run = BandingRun { way_mm, number: m.number, value: m.value, seconds };
         self.contour.event(Event::Banding(run));
@@ -94,7 +98,7 @@ impl Decoder {
             "edge banding with contouring"
         } else if self.contour.inserts() || words.group(Group::Insertion).is_some() {
             "edge banding with chamfers and roundings"
-        } else if self.path_mode(words).is_thread() {
+        } else if self.modal.path_mode(words).is_thread() {
             "edge banding in a thread"
         } else if self.modal.corner_deceleration
             || words.g.iter().any(|g| matches!(g.row.act, Act::FeedOverPath | Act::FeedOverTime))

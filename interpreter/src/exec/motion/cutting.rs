@@ -15,7 +15,10 @@ use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::PathMode;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::state::MotionState;
 use crate::exec::step::{CuttingSpeed, Event};
+use crate::machine::Machine;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
@@ -25,6 +28,29 @@ const STEP: f64 = 1.01;
 
 /// Maximum number of pieces of one motion: a speed range of 1 to 20,000.
 const PIECES_MAX: usize = 1000;
+
+impl MotionState {
+    /// Refuses functions that depend on the speed of the main spindle while an override changes it: the pages do not state
+    /// which of the two speeds applies.
+    pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
+        if self.spindles[0].is_overridden() {
+            let what = format!("{what} with an override of the main spindle (S[OVERRIDE ..])");
+            return Err(Fault::unsupported(what, span).hint("S[OVERRIDE SPEED_FACT=100] ends it"));
+        }
+        Ok(())
+    }
+
+    /// Speed of the main spindle in rev/min after the current position.
+    pub(in crate::exec) fn spindle_rpm(&self, coordinates: &Coordinates, machine: &Machine) -> f64 {
+        match self.cutting.speed {
+            Some(cutting) => {
+                let held = cutting.held_mm.map(|x| x - cutting.centre_mm);
+                cutting.rpm(held.unwrap_or_else(|| coordinates.turning_distance(cutting.axis)))
+            }
+            None => self.spindles[0].rpm.abs().min(self.spindles[0].most_rpm(machine)),
+        }
+    }
+}
 
 impl Decoder {
     /// G96, G97 and G196 with the S word of their block.
@@ -40,7 +66,7 @@ impl Decoder {
         if let Some(m) = words.m.iter().find(|m| m.number == 19)
             && !matches!(g.map(|g| g.row.act), Some(Act::CuttingSpeed(false)))
         {
-            self.positions_main_spindle(m.span)?;
+            self.motion.cutting.positions_main_spindle(m.span)?;
         }
         match g.map(|g| (g.row.act, g.span)) {
             Some((Act::CuttingSpeedMax, span)) => match speed {
@@ -56,7 +82,8 @@ impl Decoder {
             Some((Act::CuttingSpeed(false), _)) => {
                 if self.motion.cutting.speed.is_some() {
                     // keeps the present speed
-                    self.motion.spindles[0].rpm = self.spindle_rpm();
+                    self.motion.spindles[0].rpm =
+                        self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine);
                     self.motion.cutting.speed = None;
                     if let Some(spindle) = self.motion.spindles[0].index {
                         self.contour.event(Event::CuttingSpeed { spindle, cutting: None });
@@ -73,15 +100,6 @@ impl Decoder {
         }
     }
 
-    /// 20642 for M19 of the main spindle under G96.
-    pub(in crate::exec) fn positions_main_spindle(&self, span: Span) -> Outcome<()> {
-        if self.motion.cutting.speed.is_none() {
-            return Ok(());
-        }
-        let text = "M19 while the cutting speed is constant (G96)";
-        Err(Fault::new(Condition::PositioningWithCuttingSpeed, text, span))
-    }
-
     fn cut_with(&mut self, speed: Option<(f64, Span)>) -> Outcome<()> {
         let (true, Some((m_min, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
         if m_min <= 0.0 || m_min > 1e6 {
@@ -93,8 +111,13 @@ impl Decoder {
             };
             return Err(Fault::new(condition, text, at));
         }
-        let axis = self.face_turning_axis("G96", Condition::CuttingWithoutFaceAxis, at)?;
-        self.no_spindle_override("G96", at)?;
+        let axis = self.geometry.face_turning_axis(
+            self.modal.plane.main_axes(),
+            &self.machine,
+            ("G96", Condition::CuttingWithoutFaceAxis),
+            at,
+        )?;
+        self.motion.no_spindle_override("G96", at)?;
         let listed = self.motion.spindles[0].index.and_then(|i| self.machine.spindles.get(i));
         let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else {
             return Err(Fault::unsupported("G96 without a spindle in the machine", at));
@@ -126,28 +149,6 @@ impl Decoder {
         Ok(())
     }
 
-    /// The axis of the plane that P-AXIS-00015 marks as face turning axis.
-    ///
-    /// # Errors
-    /// `none` if there is none, 20064 if both are marked.
-    fn face_turning_axis(&self, function: &str, none: Condition, span: Span) -> Outcome<usize> {
-        let [a, b, _] = self.modal.plane.main_axes();
-        let axes = [a, b].into_iter().filter_map(|m| self.geometry.coordinates.main_axis(m));
-        let mut marked = axes.filter(|i| self.machine.axes[*i].is_face_turning());
-        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
-        match (marked.next(), marked.next()) {
-            (Some(axis), None) => Ok(axis),
-            (Some(_), Some(_)) => {
-                let text = format!("{function} needs one face turning axis, the plane has two");
-                Err(Fault::new(Condition::TwoFaceTurningAxes, text, span).hint(hint))
-            }
-            (None, _) => {
-                let text = format!("{function} needs a face turning axis, the plane has none");
-                Err(Fault::new(none, text, span).hint(hint))
-            }
-        }
-    }
-
     /// G51, G52: words of the face turning axis are diameters; centres and radii of arcs are not affected.
     ///
     /// Assumptions: G92, the words of independent axes and `V.A.ABS` are not affected either.
@@ -158,7 +159,12 @@ impl Decoder {
             self.modal.diameter = None;
             return Ok(());
         }
-        let axis = self.face_turning_axis("G51", Condition::NoFaceTurningAxis, span)?;
+        let axis = self.geometry.face_turning_axis(
+            self.modal.plane.main_axes(),
+            &self.machine,
+            ("G51", Condition::NoFaceTurningAxis),
+            span,
+        )?;
         if self.machine.channel.offsets_in_diameters {
             let what = "diameter programming with offsets in diameters (P-CHAN-00091)";
             return Err(Fault::unsupported(what, span));
@@ -179,7 +185,7 @@ impl Decoder {
     pub(in crate::exec) fn coordinate_unit(&self, axis: usize, absolute: bool) -> f64 {
         let halves =
             self.modal.diameter == Some(axis) && self.machine.axes[axis].takes_diameters(absolute);
-        let unit = self.axis_unit(axis) * if halves { 0.5 } else { 1.0 };
+        let unit = self.modal.axis_unit(&self.machine.axes[axis]) * if halves { 0.5 } else { 1.0 };
         unit * self.geometry.scale.factor(axis)
     }
 
@@ -205,31 +211,6 @@ impl Decoder {
         }
         if changes || (self.geometry.coordinates.turning_centre(axis) - known).abs() > 1e-9 {
             self.tell_cutting_speed();
-        }
-    }
-
-    /// Refuses functions that depend on the speed of the main spindle while an override changes it: the pages do not state
-    /// which of the two speeds applies.
-    pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
-        if self.motion.spindles[0].is_overridden() {
-            let what = format!("{what} with an override of the main spindle (S[OVERRIDE ..])");
-            return Err(Fault::unsupported(what, span).hint("S[OVERRIDE SPEED_FACT=100] ends it"));
-        }
-        Ok(())
-    }
-
-    /// Speed of the main spindle in rev/min after the current position.
-    pub(in crate::exec) fn spindle_rpm(&self) -> f64 {
-        match self.motion.cutting.speed {
-            Some(cutting) => {
-                let held = cutting.held_mm.map(|x| x - cutting.centre_mm);
-                cutting.rpm(
-                    held.unwrap_or_else(|| {
-                        self.geometry.coordinates.turning_distance(cutting.axis)
-                    }),
-                )
-            }
-            None => self.motion.spindles[0].rpm.abs().min(self.most_rpm(0)),
         }
     }
 }

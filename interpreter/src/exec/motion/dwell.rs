@@ -25,12 +25,14 @@ impl Decoder {
         } else if let Some((_, value, span)) = of_axis {
             (*value, *span)
         } else if let Some((spindle, turns, span)) = revolutions {
-            let rpm = self.motion.spindles[*spindle].overridden_rpm().min(self.most_rpm(*spindle));
+            let rpm = self.motion.spindles[*spindle]
+                .overridden_rpm()
+                .min(self.motion.spindles[*spindle].most_rpm(&self.machine));
             if rpm == 0.0 {
                 let text = "G04 S: the spindle has no speed";
                 return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));
             }
-            self.no_tool_limit("G04 S", *spindle, *span)?;
+            self.motion.no_tool_limit("G04 S", *spindle, *span)?;
             self.motion.dwell_revolutions = *turns;
             (turns * 60.0 / rpm, *span)
         } else if let Some((_, _, span)) = words.axes.first() {

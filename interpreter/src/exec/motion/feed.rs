@@ -38,7 +38,7 @@ impl Decoder {
         if self.modal.feed_type == FeedType::PerRevolution
             && main.index.is_some()
             && main.turning == Turning::Stopped
-            && self.spindle_rpm() != 0.0
+            && self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine) != 0.0
         {
             let text = "feed per revolution while the main spindle is stopped: its S word counts";
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
@@ -65,9 +65,9 @@ impl Decoder {
             FeedType::Time => Feed::Duration(value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(value / 100.0),
             FeedType::PerRevolution => {
-                self.no_spindle_override("G95", span)?;
-                self.no_tool_limit("G95", 0, span)?;
-                let rpm = self.spindle_rpm();
+                self.motion.no_spindle_override("G95", span)?;
+                self.motion.no_tool_limit("G95", 0, span)?;
+                let rpm = self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine);
                 if rpm == 0.0 {
                     let (condition, what) = match self.motion.spindles[0].turning {
                         Turning::Stopped => (Condition::SpindleAtRestAtFeed, "is at rest"),
@@ -105,13 +105,10 @@ impl Decoder {
     /// Whether not only rotary axes move.
     fn feed_is_linear(&self, path: &Path) -> bool {
         !path.is_straight()
-            || (0..path.start().len())
-                .any(|i| self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits())
-    }
-
-    /// Unit of an F word with G94 in mm/s.
-    pub(in crate::exec) fn feed_unit_mm_s(&self) -> f64 {
-        self.modal.unit_mm() * self.machine.channel.feed_unit_mm_min / 60.0
+            || (0..path.start().len()).any(|i| {
+                self.machine.axes[i].is_linear()
+                    && path.start()[i].to_bits() != path.end()[i].to_bits()
+            })
     }
 
     pub(super) fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {
@@ -127,7 +124,7 @@ impl Decoder {
             return Err(Fault::new(Condition::Syntax, text, span)
                 .hint("numbers have no exponent in this dialect: 1e-05 is written 0.00001"));
         }
-        Ok(Some((value * self.feed_unit_mm_s()).min(v)))
+        Ok(Some((value * self.modal.feed_unit_mm_s(&self.machine.channel)).min(v)))
     }
 }
 

@@ -64,8 +64,16 @@ impl Decoder {
         let words = self.independent_words(axis, rest)?;
         for function in words.functions {
             match function {
-                Event::MFunction { number, .. } => self.takes_time(Function::M(number)),
-                Event::HFunction { number, .. } => self.takes_time(Function::H(number)),
+                Event::MFunction { number, .. } => self.motion.takes_time(
+                    Function::M(number),
+                    &self.machine.channel,
+                    &mut self.contour,
+                ),
+                Event::HFunction { number, .. } => self.motion.takes_time(
+                    Function::H(number),
+                    &self.machine.channel,
+                    &mut self.contour,
+                ),
                 _ => {}
             }
             self.contour.event(function);
@@ -91,7 +99,9 @@ impl Decoder {
         }
         let start = self.geometry.coordinates.target().clone();
         let relative = words.relative.unwrap_or(!self.modal.absolute);
-        let way = position * self.axis_unit(axis) * self.geometry.scale.factor(axis);
+        let way = position
+            * self.modal.axis_unit(&self.machine.axes[axis])
+            * self.geometry.scale.factor(axis);
         let target = if relative { start[axis] + way } else { way };
         self.geometry.coordinates.place(axis, target);
         self.check_limit(axis, target, at);
@@ -202,7 +212,8 @@ impl Decoder {
         }
         // F is the older keyword
         let speed = if key.is("FEED") || key.is("F") {
-            let unit = self.machine.channel.feed_unit_mm_min / 60.0 * self.axis_unit(axis);
+            let unit = self.machine.channel.feed_unit_mm_min / 60.0
+                * self.modal.axis_unit(&self.machine.axes[axis]);
             IndependentSpeed::Feed(value * unit)
         } else if key.is("TIME") {
             IndependentSpeed::Time(value)

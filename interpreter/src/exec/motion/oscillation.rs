@@ -112,7 +112,7 @@ impl Decoder {
             let text = format!("axis {name}: both reversal positions are {first}");
             return Err(of_axis(Condition::NoOscillation, text, second_at));
         }
-        let unit = self.axis_unit(axis);
+        let unit = self.modal.axis_unit(&self.machine.axes[axis]);
         let offset_mm = match keys.offsets {
             Some(at) if !self.geometry.coordinates.frame().is_identity() => {
                 let what = format!("{name}[OSC] with INCL_OFFSETS in a turned or mirrored system");

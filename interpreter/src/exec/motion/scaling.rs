@@ -50,7 +50,7 @@ impl Decoder {
             return Err(Fault::new(Condition::Syntax, text, *span).hint("#SCALE OFF comes first"));
         }
         for (axis, factor, span) in factors {
-            if !self.is_linear(*axis) {
+            if !self.machine.axes[*axis].is_linear() {
                 let what = format!("#SCALE of the rotary axis {}", self.names.name(*axis));
                 return Err(Fault::unsupported(what, *span));
             }

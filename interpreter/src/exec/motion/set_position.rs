@@ -44,7 +44,7 @@ impl Decoder {
         if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
-        let unit = self.axis_unit(axis);
+        let unit = self.modal.axis_unit(&self.machine.axes[axis]);
         let target = self.geometry.coordinates.target()[axis];
         let offset_mm = match (keys.position, keys.offset) {
             (Some((position, _)), None) => position * unit - target,

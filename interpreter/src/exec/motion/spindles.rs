@@ -1,7 +1,11 @@
 //! The latest commands of the program to the spindles.
 
+use crate::diag::{Condition, rounded};
+use crate::exec::fault::Fault;
+use crate::exec::report::Report;
 use crate::exec::step::{Approach, Event, SpindleMotion};
-use crate::machine::{Machine, SpindleLimits};
+use crate::machine::{Acknowledged, Axis, Channel, Machine, SpindleLimits, SpindleWaits};
+use crate::syntax::ast::Span;
 
 /// Limits that take effect when a spindle starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -138,6 +142,57 @@ impl Spindle {
 
     pub(in crate::exec) fn is_turning(&self) -> bool {
         matches!(self.turning, Turning::Clockwise | Turning::CounterClockwise)
+    }
+
+    /// Its list; `None` for a spindle that no list configures.
+    pub(in crate::exec) fn listed<'m>(&self, machine: &'m Machine) -> Option<&'m Axis> {
+        self.index.and_then(|i| machine.spindles.get(i))
+    }
+
+    /// What the path waits for after functions of the spindle.
+    pub(in crate::exec) fn waits(&self, channel: &Channel) -> SpindleWaits {
+        self.index.and_then(|i| channel.spindle_waits.get(i)).copied().unwrap_or_default()
+    }
+
+    /// Whether its S word takes effect after the motion of its block (MNS_SNS).
+    pub(in crate::exec) fn speeds_up_late(&self, channel: &Channel) -> bool {
+        self.waits(channel).speed == Some(Acknowledged::AfterMotion)
+    }
+
+    /// Maximum speed in rev/min (P-AXIS-00212); infinite for a spindle without a list.
+    pub(in crate::exec) fn most_rpm(&self, machine: &Machine) -> f64 {
+        self.listed(machine).map_or(f64::INFINITY, |s| s.dynamics().v_max_mm_s / 6.0)
+    }
+
+    /// Reports a speed above the maximum of the spindle (K-0131).
+    pub(in crate::exec) fn check_speed(&self, machine: &Machine, report: &mut Report, span: Span) {
+        let (rpm, most) = (self.overridden_rpm(), self.most_rpm(machine));
+        if rpm > most {
+            let text = format!(
+                "spindle speed {} rev/min of {} is above its limit (P-AXIS-00212): {} rev/min are used",
+                rounded(rpm),
+                self.name,
+                rounded(most)
+            );
+            report.note(Fault::new(Condition::SpindleLimit, text, span));
+        }
+    }
+
+    /// Reports a spindle that does not turn although it is commanded to.
+    pub(in crate::exec) fn warn(&self, report: &mut Report, span: Span) {
+        if self.index.is_none() {
+            let text = "the machine has no spindle: speeds are remembered, nothing turns";
+            report.note_once("spindle", Fault::new(Condition::Ignored, text, span));
+        } else if self.is_turning() && self.rpm == 0.0 {
+            let text = "M03 and M04 with the speed 0 turn nothing before an S word";
+            report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
+        } else if matches!(self.turning, Turning::Positioned(_)) && self.rpm == 0.0 {
+            // TF5200 programming manual, M19 (208038923, 208198923): a speed above 0 must be set
+            let text =
+                "M19 needs a spindle speed on the control, here the spindle goes as fast as it can";
+            let fault = Fault::new(Condition::Odd, text, span).hint("write S or REV before it");
+            report.note_once("M19 speed", fault.warning());
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
-use crate::exec::step::SourceRef;
+use crate::exec::step::{Event, SourceRef};
 use crate::machine::{Acknowledged, Channel, Machine, SpindleMoment};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -33,6 +33,13 @@ use std::sync::Arc;
 pub(in crate::exec) struct Feedforward {
     pub(in crate::exec) on: bool,
     pub(in crate::exec) weight_ratios: AxisVec,
+}
+
+impl Feedforward {
+    /// The state as an event.
+    pub(in crate::exec) fn event(&self) -> Event {
+        Event::Feedforward { on: self.on, weight_ratios: self.weight_ratios.clone() }
+    }
 }
 
 /// State that the motions own.
@@ -71,11 +78,12 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) manual: Vec<bool>,
     /// S of the last G04: number of revolutions of the spindle.
     pub(in crate::exec) dwell_revolutions: f64,
+    pub(super) technology: Technology,
 }
 
 impl MotionState {
-    /// At program start.
-    pub(in crate::exec) fn new(machine: &Machine) -> Self {
+    /// At program start; `counts_times`: the path waits for the declared durations of functions.
+    pub(in crate::exec) fn new(machine: &Machine, counts_times: bool) -> Self {
         let n = machine.axes.len();
         Self {
             weights: Weights::new(n),
@@ -103,6 +111,7 @@ impl MotionState {
             lifts: false,
             manual: vec![false; n],
             dwell_revolutions: 0.0,
+            technology: Technology::new(counts_times),
         }
     }
 
@@ -123,6 +132,13 @@ impl MotionState {
         let dynamics = Arc::new(dynamics);
         self.dynamics[mode] = Some(Arc::clone(&dynamics));
         dynamics
+    }
+
+    /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
+    pub(in crate::exec) fn spindle_of_name(&self, name: &str, channel: &Channel) -> Option<usize> {
+        let main = name.eq_ignore_ascii_case(&channel.main_spindle_name);
+        let listed = self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
+        if main { Some(0) } else { listed }
     }
 
     /// Called after a change of anything that determines the dynamics.

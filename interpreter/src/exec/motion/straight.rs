@@ -100,7 +100,7 @@ impl Decoder {
         let before = (self.modal.path, self.modal.feed());
         self.modal.path = words.path.unwrap_or(self.modal.path);
         if let Some(feed) = words.feed {
-            let outcome = self.feed(feed);
+            let outcome = self.modal.program_feed(feed, &mut self.report);
             self.report.keep(outcome);
         }
         if before != (self.modal.path, self.modal.feed()) {

@@ -3,38 +3,54 @@
 //! The vendor's production time calculation takes them from the channel list (TF5200 M and H functions, production time
 //! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).
 
-use super::state::Function;
+use super::state::{Function, MotionState};
+use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::step::{Event, SpindleState, Sync};
 use crate::machine::{Acknowledged, Channel, SpindleMoment};
 
-impl Decoder {
-    /// Passes a function to the machine: the path waits for its duration ([`Self::technology_wait`]), or the function is
+impl MotionState {
+    /// Passes a function to the machine: the path waits for its duration ([`Decoder::technology_wait`]), or the function is
     /// reported once.
-    pub(in crate::exec) fn takes_time(&mut self, function: Function) {
+    pub(in crate::exec) fn takes_time(
+        &mut self,
+        function: Function,
+        channel: &Channel,
+        contour: &mut Contour,
+    ) {
         // Assumption: functions without an entry in the list are waited for before the motion
-        let listed = acknowledged(&self.machine.channel, function);
+        let listed = acknowledged(channel, function);
         let until = listed.unwrap_or(Acknowledged::BeforeMotion);
         if until == Acknowledged::Never {
             return;
         }
-        let seconds = self.counted_time_s(function);
+        let seconds = self.counted_time_s(function, channel, contour);
         if seconds > 0.0 {
             self.technology.pending.push((seconds, until));
         }
-        self.technology.spindles.extend(waited_for(&self.machine.channel, function));
+        self.technology.spindles.extend(waited_for(channel, function));
     }
 
     /// M00, M01 and the end of a program: only a declared duration applies; none is required.
-    pub(in crate::exec) fn takes_declared_time(&mut self, function: Function) {
-        if declared(&self.machine.channel, function).is_some() {
-            self.takes_time(function);
+    pub(in crate::exec) fn takes_declared_time(
+        &mut self,
+        function: Function,
+        channel: &Channel,
+        contour: &mut Contour,
+    ) {
+        if declared(channel, function).is_some() {
+            self.takes_time(function, channel, contour);
         }
     }
 
     /// Time in s of a function; 0 if it is not included, with one report.
-    pub(in crate::exec) fn counted_time_s(&mut self, function: Function) -> f64 {
-        let declared = declared(&self.machine.channel, function);
+    pub(in crate::exec) fn counted_time_s(
+        &mut self,
+        function: Function,
+        channel: &Channel,
+        contour: &mut Contour,
+    ) -> f64 {
+        let declared = declared(channel, function);
         if self.technology.counted
             && let Some((seconds, _)) = declared
         {
@@ -44,7 +60,7 @@ impl Decoder {
         if (simulated && declared.is_none()) || !self.technology.named.insert(function) {
             return 0.0;
         }
-        let spindle = |i: usize| self.motion.spindles.get(i).map_or("", |s| s.name.as_str());
+        let spindle = |i: usize| self.spindles.get(i).map_or("", |s| s.name.as_str());
         let name = match function {
             Function::M(number) => format!("M{number}"),
             Function::H(number) => format!("H{number}"),
@@ -56,15 +72,17 @@ impl Decoder {
             Some((seconds, parameter)) => format!("{name} ({seconds} s each by {parameter})"),
             None => name,
         };
-        self.contour.event(Event::Uncounted { function });
+        contour.event(Event::Uncounted { function });
         0.0
     }
+}
 
+impl Decoder {
     /// The path waits for the functions called since the last wait, before or after the motion of the block.
     pub(in crate::exec) fn technology_wait(&mut self, now: SpindleMoment) {
         // Assumption: the functions of a block are output to the machine together, so the longest one determines the wait
         let mut seconds = 0.0_f64;
-        let pending = std::mem::take(&mut self.technology.pending);
+        let pending = std::mem::take(&mut self.motion.technology.pending);
         for (time_s, until) in pending {
             match (until, now) {
                 (Acknowledged::Never, _) => {}
@@ -76,19 +94,21 @@ impl Decoder {
                 (Acknowledged::DuringMotion, SpindleMoment::AfterMotion) => {
                     seconds = seconds.max(time_s - self.contour.time_of_s(self.report.source));
                 }
-                (_, SpindleMoment::BeforeMotion) => self.technology.pending.push((time_s, until)),
+                (_, SpindleMoment::BeforeMotion) => {
+                    self.motion.technology.pending.push((time_s, until));
+                }
             }
         }
         if seconds > 0.0 {
             self.sync(Sync::Technology { seconds });
         }
         // spindles accelerate in the meantime: the later of the two determines the wait (M and H functions 286068747)
-        let spindles = std::mem::take(&mut self.technology.spindles);
+        let spindles = std::mem::take(&mut self.motion.technology.spindles);
         for (spindle, moment) in spindles {
             if moment == now || now == SpindleMoment::AfterMotion {
                 self.sync(Sync::Spindle { spindle, state: SpindleState::Reached });
             } else {
-                self.technology.spindles.push((spindle, moment));
+                self.motion.technology.spindles.push((spindle, moment));
             }
         }
     }

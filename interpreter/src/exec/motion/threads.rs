@@ -116,11 +116,13 @@ impl Decoder {
     /// # Errors
     /// 21000: M3, M4, M5 or M19 of the main spindle while G63 is active.
     pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
-        if self.path_mode(words) != PathMode::Tapping {
+        if self.modal.path_mode(words) != PathMode::Tapping {
             return Ok(());
         }
         let brackets = words.brackets.iter();
-        let main = brackets.filter(|b| self.spindle_of_name(b.name.as_str()) == Some(0));
+        let main = brackets.filter(|b| {
+            self.motion.spindle_of_name(b.name.as_str(), &self.machine.channel) == Some(0)
+        });
         let bracketed = main.flat_map(|b| &b.group.items).filter_map(|item| {
             let ItemKind::Flag(word) = &item.kind else { return None };
             let digits = word.text.strip_prefix(['M', 'm'])?;
@@ -166,8 +168,8 @@ impl Decoder {
         if self.motion.spindles[0].index.is_none() {
             return Err(Fault::unsupported("a thread without a spindle in the machine", span));
         }
-        self.no_spindle_override("a thread", span)?;
-        self.no_tool_limit("a thread", 0, span)?;
+        self.motion.no_spindle_override("a thread", span)?;
+        self.motion.no_tool_limit("a thread", 0, span)?;
         if self.modal.path == PathMode::Thread {
             return Ok(());
         }
@@ -236,7 +238,7 @@ impl Decoder {
             let text = "G33 while the spindle is at rest: it has a speed, M03 or M04 is missing";
             return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
         }
-        let rev_s = spindle.rpm.abs().min(self.most_rpm(0)) / 60.0;
+        let rev_s = spindle.rpm.abs().min(self.motion.spindles[0].most_rpm(&self.machine)) / 60.0;
         let way = (path.end()[axis] - path.start()[axis]).abs();
         let feed_mm_s = pitch_mm * rev_s * path.length() / way;
         let dynamics = self.motion.dynamics(&self.machine, &self.modal, false);

@@ -13,9 +13,12 @@
 use crate::diag::{Condition, rounded};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::tools::Tools;
 use crate::exec::motion::spindles::{Passed, Spindle, Turning};
+use crate::exec::motion::state::MotionState;
+use crate::exec::report::Report;
 use crate::exec::step::Event;
-use crate::machine::SpindleLimits;
+use crate::machine::{Machine, SpindleLimits};
 use crate::syntax::ast::Span;
 
 /// rev/min for a speed in deg/s.
@@ -23,24 +26,62 @@ fn rpm(deg_s: f64) -> f64 {
     deg_s / 6.0
 }
 
-impl Decoder {
+impl Spindle {
+    /// K-0131 if the tool limits the speed of a rotating spindle, 60312 with P-AXIS-00474 = 1.
+    pub(super) fn check_tool_speed(
+        &self,
+        machine: &Machine,
+        report: &mut Report,
+        span: Span,
+    ) -> Outcome<()> {
+        let Some((limits, used)) = self.limits.zip(tool_speed(self.overridden_rpm(), self.limits))
+        else {
+            return Ok(());
+        };
+        if !self.is_turning() {
+            return Ok(());
+        }
+        let text = format!(
+            "spindle speed {} rev/min of {} is outside {} to {} rev/min of the tool",
+            rounded(self.overridden_rpm()),
+            self.name,
+            rounded(rpm(limits.min_deg_s)),
+            rounded(rpm(limits.max_deg_s)),
+        );
+        if self.listed(machine).is_some_and(crate::machine::Axis::checks_tool_speed) {
+            return Err(Fault::new(Condition::ToolSpeed, text, span));
+        }
+        let text = format!("{text}: {} rev/min are used", rounded(used));
+        let parameter = |d: crate::diag::Diagnostic| d.parameter("P-TOOL-00014");
+        report.note(Fault::new(Condition::SpindleLimit, text, span).with(parameter));
+        Ok(())
+    }
+}
+
+impl MotionState {
     /// D, `#TOOL DATA`: records the limits of the tool for its spindle. 60296 if they are invalid, 60332 if the minimum speed
     /// is corrected.
-    pub(in crate::exec) fn pass_tool_limits(&mut self, span: Span) -> Outcome<()> {
-        let tool = &self.geometry.tools.active;
+    pub(in crate::exec) fn pass_tool_limits(
+        &mut self,
+        tools: &Tools,
+        machine: &Machine,
+        report: &mut Report,
+        span: Span,
+    ) -> Outcome<()> {
+        let tool = &tools.active;
         let (number, mut limits) = (tool.spindle, tool.limits);
         if number == 0 {
             return Ok(());
         }
-        let data = self.geometry.tools.data;
+        let data = tools.data;
         let of_number =
-            |s: &Spindle| s.index.is_some_and(|i| self.machine.spindles[i].number() == number);
-        let Some(index) = self.motion.spindles.iter().position(of_number) else {
+            |s: &Spindle| s.index.is_some_and(|i| machine.spindles[i].number() == number);
+        let Some(index) = self.spindles.iter().position(of_number) else {
             let text = format!("D{data}: no spindle has the logical number {number}");
             let hint = "P-TOOL-00012 of the tool is kopf.achs_nr of a spindle";
             return Err(Fault::new(Condition::ToolSpindleUnknown, text, span).hint(hint));
         };
-        let name = self.motion.spindles[index].name.clone();
+        let name = self.spindles[index].name.clone();
         if limits.max_deg_s <= 0.0 || limits.acc_deg_s2 <= 0.0 {
             let text = format!(
                 "D{data}: {} deg/s and {} deg/s2 are no limits of {name}",
@@ -54,13 +95,32 @@ impl Decoder {
                 "D{data}: the least speed {} deg/s of {name} is outside 0 to {}: {least} deg/s",
                 limits.min_deg_s, limits.max_deg_s
             );
-            self.report.note(Fault::new(Condition::ToolLeastSpeed, text, span));
+            report.note(Fault::new(Condition::ToolLeastSpeed, text, span));
             limits.min_deg_s = least;
         }
-        self.motion.spindles[index].passed = Passed::Tool(limits);
+        self.spindles[index].passed = Passed::Tool(limits);
         Ok(())
     }
 
+    /// Refuses functions that depend on the speed of a spindle while its tool limits it: the pages do not state which of the
+    /// two speeds applies.
+    pub(in crate::exec) fn no_tool_limit(
+        &self,
+        what: &str,
+        spindle: usize,
+        span: Span,
+    ) -> Outcome<()> {
+        let state = &self.spindles[spindle];
+        let changing = spindle == 0 && self.cutting.is_on() && state.limits.is_some();
+        if changing || tool_speed(state.overridden_rpm(), state.limits).is_some() {
+            let what = format!("{what} at a speed that the tool limits (P-TOOL-00014)");
+            return Err(Fault::unsupported(what, span));
+        }
+        Ok(())
+    }
+}
+
+impl Decoder {
     /// `S[GET_DYNAMIC_DATA]`: the limits passed on by D take effect at once.
     pub(in crate::exec) fn take_tool_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
         let state = &mut self.motion.spindles[spindle];
@@ -73,7 +133,7 @@ impl Decoder {
         if let Some(index) = state.index {
             self.contour.event(Event::SpindleLimits { spindle: index, limits });
         }
-        self.check_tool_speed(spindle, span)
+        self.motion.spindles[spindle].check_tool_speed(&self.machine, &mut self.report, span)
     }
 
     /// `S[DEFAULT_DYNAMIC_DATA]`.
@@ -93,55 +153,14 @@ impl Decoder {
         if starts && state.passed != Passed::Nothing {
             self.take_tool_limits(spindle, span)?;
         } else {
-            self.check_tool_speed(spindle, span)?;
+            self.motion.spindles[spindle].check_tool_speed(
+                &self.machine,
+                &mut self.report,
+                span,
+            )?;
         }
         if let Some(event) = self.motion.spindles[spindle].motion_event() {
             self.contour.event(event);
-        }
-        Ok(())
-    }
-
-    /// K-0131 if the tool limits the speed of a rotating spindle, 60312 with P-AXIS-00474 = 1.
-    fn check_tool_speed(&mut self, spindle: usize, span: Span) -> Outcome<()> {
-        let state = &self.motion.spindles[spindle];
-        let Some((limits, used)) =
-            state.limits.zip(tool_speed(state.overridden_rpm(), state.limits))
-        else {
-            return Ok(());
-        };
-        if !state.is_turning() {
-            return Ok(());
-        }
-        let text = format!(
-            "spindle speed {} rev/min of {} is outside {} to {} rev/min of the tool",
-            rounded(state.overridden_rpm()),
-            state.name,
-            rounded(rpm(limits.min_deg_s)),
-            rounded(rpm(limits.max_deg_s)),
-        );
-        let listed = state.index.and_then(|i| self.machine.spindles.get(i));
-        if listed.is_some_and(crate::machine::Axis::checks_tool_speed) {
-            return Err(Fault::new(Condition::ToolSpeed, text, span));
-        }
-        let text = format!("{text}: {} rev/min are used", rounded(used));
-        let parameter = |d: crate::diag::Diagnostic| d.parameter("P-TOOL-00014");
-        self.report.note(Fault::new(Condition::SpindleLimit, text, span).with(parameter));
-        Ok(())
-    }
-
-    /// Refuses functions that depend on the speed of a spindle while its tool limits it: the pages do not state which of the
-    /// two speeds applies.
-    pub(in crate::exec) fn no_tool_limit(
-        &self,
-        what: &str,
-        spindle: usize,
-        span: Span,
-    ) -> Outcome<()> {
-        let state = &self.motion.spindles[spindle];
-        let changing = spindle == 0 && self.motion.cutting.is_on() && state.limits.is_some();
-        if changing || tool_speed(state.overridden_rpm(), state.limits).is_some() {
-            let what = format!("{what} at a speed that the tool limits (P-TOOL-00014)");
-            return Err(Fault::unsupported(what, span));
         }
         Ok(())
     }

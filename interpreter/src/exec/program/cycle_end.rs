@@ -34,7 +34,7 @@ impl Decoder {
         }
         if feedforward != self.motion.feedforward.on {
             self.motion.feedforward.on = feedforward;
-            self.feedforward_event();
+            self.contour.event(self.motion.feedforward.event());
         }
         if spline != self.contour.akima.selected {
             self.contour.akima.select(spline);
@@ -67,7 +67,7 @@ impl Decoder {
         };
         if self.modal != restored {
             self.modal = restored;
-            self.tool_offsets();
+            self.geometry.apply_tool(self.modal.plane.main_axes());
             self.motion.dynamics_changed();
         }
     }

@@ -23,22 +23,13 @@ impl Decoder {
             ExprKind::Number(x) => Ok(Value::Number(*x)),
             ExprKind::Bool(b) => Ok(Value::truth(*b)),
             ExprKind::Pi => Ok(Value::Number(std::f64::consts::PI)),
-            ExprKind::Radius => self.last_radius(expr.span),
+            ExprKind::Radius => self.modal.last_radius(expr.span).map(Value::Number),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
             ExprKind::Place(place) => self.read(place),
-            ExprKind::Negate(_) => self.negated(expr),
-            ExprKind::Binary(binary) => self.chain(binary),
+            ExprKind::Negate(_) => negated(self, expr),
+            ExprKind::Binary(binary) => chain(self, binary),
             ExprKind::Call(call) => functions::call(self, call, expr.span),
         }
-    }
-
-    /// `R1`: the last radius programmed (R, `R1=`, G163), in the active unit (206014219).
-    fn last_radius(&self, span: Span) -> Outcome<Value> {
-        let radius_mm = self.modal.radius_mm.ok_or_else(|| {
-            let text = "R1 has no value: no radius has been programmed";
-            Fault::new(Condition::Undefined, text, span).hint("write R1=5 before it")
-        })?;
-        Ok(Value::Number(radius_mm / self.modal.unit_mm()))
     }
 
     /// Numeric value of an expression; 21461 for a text.
@@ -68,36 +59,36 @@ impl Decoder {
             Fault::new(Condition::Range, text, expr.span)
         })
     }
+}
 
-    /// A run of minus signs, of any length.
-    fn negated(&self, expr: &Expr) -> Outcome<Value> {
-        let (mut negative, mut inner) = (false, expr);
-        while let ExprKind::Negate(next) = &inner.kind {
-            negative = !negative;
-            inner = next;
-        }
-        let x = self.number(inner)?;
-        Ok(Value::Number(if negative { -x } else { x }))
+/// A run of minus signs, of any length.
+fn negated(decoder: &Decoder, expr: &Expr) -> Outcome<Value> {
+    let (mut negative, mut inner) = (false, expr);
+    while let ExprKind::Negate(next) = &inner.kind {
+        negative = !negative;
+        inner = next;
     }
+    let x = decoder.number(inner)?;
+    Ok(Value::Number(if negative { -x } else { x }))
+}
 
-    /// A chain of left-associative operators, without recursion along the chain.
-    fn chain(&self, top: &Binary) -> Outcome<Value> {
-        let mut spine = vec![top];
-        let mut left = &top.left;
-        while let ExprKind::Binary(binary) = &left.kind {
-            spine.push(binary);
-            left = &binary.left;
-        }
-        let mut value = self.value(left)?;
-        let mut span = left.span;
-        while let Some(binary) = spine.pop() {
-            let right = self.value(&binary.right)?;
-            let whole = span.to(binary.right.span);
-            value = apply(binary.op, &value, span, &right, binary.right.span, whole)?;
-            span = whole;
-        }
-        Ok(value)
+/// A chain of left-associative operators, without recursion along the chain.
+fn chain(decoder: &Decoder, top: &Binary) -> Outcome<Value> {
+    let mut spine = vec![top];
+    let mut left = &top.left;
+    while let ExprKind::Binary(binary) = &left.kind {
+        spine.push(binary);
+        left = &binary.left;
     }
+    let mut value = decoder.value(left)?;
+    let mut span = left.span;
+    while let Some(binary) = spine.pop() {
+        let right = decoder.value(&binary.right)?;
+        let whole = span.to(binary.right.span);
+        value = apply(binary.op, &value, span, &right, binary.right.span, whole)?;
+        span = whole;
+    }
+    Ok(value)
 }
 
 fn apply(

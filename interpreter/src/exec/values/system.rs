@@ -69,7 +69,7 @@ impl Path<'_> {
         f: impl Fn(&Decoder, usize) -> f64,
     ) -> Outcome<Value> {
         let axis = self.axis(d, at)?;
-        Ok(Value::Number(f(d, axis) / d.axis_unit(axis)))
+        Ok(Value::Number(f(d, axis) / d.modal.axis_unit(&d.machine.axes[axis])))
     }
 
     /// A coordinate of the program. Refused for a scaled axis, because the documents do not specify whether it is the
@@ -113,7 +113,7 @@ impl Path<'_> {
 
     fn spindle(&self, d: &Decoder, at: usize) -> Outcome<usize> {
         let name = self.segments.get(at).map_or("", |s| &*s.name);
-        d.spindle_of_name(name).ok_or_else(|| {
+        d.motion.spindle_of_name(name, &d.machine.channel).ok_or_else(|| {
             let text = format!("unknown spindle `{name}`");
             Fault::new(Condition::AxisIdentifier, text, self.span)
         })

@@ -3,10 +3,10 @@
 //! Source: TF5200 programming manual (programming in spindle-specific syntax; programmable spindle override); TF5200
 //! feedforward control (spindles); 21422, 21738, 21867.
 
-use super::{function, once};
+use super::{function, once, value_of_function};
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
-use crate::exec::block::modes::weight_ratio;
+use crate::exec::block::modes::{limited_weight, weight_ratio};
 use crate::exec::commands::keys::{SPINDLE_OVERRIDE, arguments};
 use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
@@ -208,7 +208,7 @@ impl Decoder {
         if moves && (turns || self.motion.spindles[spindle].turning != Turning::Stopped) {
             self.move_spindle(spindle, group.span)?;
         }
-        self.spindle_warning(spindle, group.span);
+        self.motion.spindles[spindle].warn(&mut self.report, group.span);
         Ok(())
     }
 
@@ -231,7 +231,8 @@ impl Decoder {
         of_words
             || words.brackets_before(bracket).any(|other| {
                 let mut items = other.group.items.iter().filter_map(|i| self.spindle_item(i).ok());
-                self.spindle_of_name(other.name.as_str()) == Some(spindle)
+                self.motion.spindle_of_name(other.name.as_str(), &self.machine.channel)
+                    == Some(spindle)
                     && items.any(|other| same(&other))
             })
     }
@@ -247,19 +248,23 @@ impl Decoder {
         };
         self.motion.spindles[spindle].override_ratio = percent / 100.0;
         if spindle == 0 && self.motion.cutting.is_on() {
-            self.no_spindle_override("G96", span)?;
+            self.motion.no_spindle_override("G96", span)?;
         }
         if self.motion.spindles[spindle].is_turning() {
             self.move_spindle(spindle, span)?;
         }
-        self.check_spindle_speed(spindle, span);
+        self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
         Ok(())
     }
 
     /// Whether a bracket belongs to a spindle with functions after the motion of their block (MNS_SNS); this applies to the
     /// whole bracket.
     pub(in crate::exec) fn acts_late(&self, bracket: &Bracket) -> bool {
-        let Some(spindle) = self.spindle_of_name(bracket.name.as_str()) else { return false };
+        let Some(spindle) =
+            self.motion.spindle_of_name(bracket.name.as_str(), &self.machine.channel)
+        else {
+            return false;
+        };
         let listed = self.motion.spindles[spindle].index;
         let Some(waits) = listed.and_then(|i| self.machine.channel.spindle_waits.get(i)) else {
             return false;
@@ -280,7 +285,7 @@ impl Decoder {
             Fault::new(Condition::SpindleToken, text, item.span)
         };
         if let Some((function, _)) = function(item) {
-            return Ok(SpindleItem::Function(function, self.value_of_function(item)?));
+            return Ok(SpindleItem::Function(function, value_of_function(self, item)?));
         }
         let (word, value) = match &item.kind {
             ItemKind::Flag(word) => match word.split_number() {
@@ -340,7 +345,7 @@ impl Decoder {
         match *item {
             SpindleItem::Turn(number) => {
                 if number == 19 && spindle == 0 {
-                    self.positions_main_spindle(span)?;
+                    self.motion.cutting.positions_main_spindle(span)?;
                 }
                 let state = &mut self.motion.spindles[spindle];
                 let directs =
@@ -351,7 +356,11 @@ impl Decoder {
                     Turning::of(number)
                 };
                 if let Some(index) = self.motion.spindles[spindle].index {
-                    self.takes_time(Function::Spindle { spindle: index, m: number });
+                    self.motion.takes_time(
+                        Function::Spindle { spindle: index, m: number },
+                        &self.machine.channel,
+                        &mut self.contour,
+                    );
                 }
             }
             SpindleItem::Function(function, value) => self.call_function(function, value),
@@ -367,9 +376,14 @@ impl Decoder {
                 return Err(Fault::new(condition, text, span));
             }
             SpindleItem::Speed(rpm) => {
-                self.set_spindle_speed(spindle, rpm, span);
+                self.motion.spindles[spindle].rpm = rpm;
+                self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
                 if let Some(index) = self.motion.spindles[spindle].index {
-                    self.takes_time(Function::Speed { spindle: index });
+                    self.motion.takes_time(
+                        Function::Speed { spindle: index },
+                        &self.machine.channel,
+                        &mut self.contour,
+                    );
                 }
             }
             SpindleItem::Position(deg) => {
@@ -397,7 +411,7 @@ impl Decoder {
                 return Err(Fault::new(Condition::FeedforwardNegative, text, span));
             }
             SpindleItem::Weight(percent) => {
-                let percent = self.limited_weight(percent, span);
+                let percent = limited_weight(percent, span, &mut self.report);
                 self.motion.spindles[spindle].weight_ratio = percent / 100.0;
                 if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
                     self.contour.event(event);

@@ -1,14 +1,16 @@
 //! M functions, spindle words and the actions at the end of a block.
 
 use super::{After, CallAfter, Then};
-use crate::diag::{Condition, rounded};
+use crate::diag::Condition;
 use crate::exec::block::collected::{Code, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
+use crate::exec::program::state::Calls;
+use crate::exec::report::Report;
 use crate::exec::step::{Event, Sync};
-use crate::machine::{Acknowledged, SpindleMoment, SpindleWaits};
+use crate::machine::{Acknowledged, Channel, SpindleMoment, SpindleWaits};
 use crate::syntax::ast::Span;
 
 /// Effect of M functions that are more than a number in the log.
@@ -39,75 +41,62 @@ fn is_direction(words: &Words<'_>, m: &Code) -> bool {
     matches!(m.number, 3 | 4) && words.m.iter().any(|m| m.number == 19)
 }
 
-impl Decoder {
-    /// Whether the S word of a spindle takes effect after the motion of its block (MNS_SNS).
-    pub(super) fn speeds_up_late(&self, index: usize) -> bool {
-        let listed = self.motion.spindles[index].index;
-        let waits = listed.and_then(|i| self.machine.channel.spindle_waits.get(i));
-        waits.is_some_and(|waits| waits.speed == Some(Acknowledged::AfterMotion))
+impl Calls {
+    /// The one call at the end of a block.
+    fn call_after<'b>(
+        &self,
+        words: &Words<'b>,
+        channel: &Channel,
+        report: &mut Report,
+    ) -> Option<CallAfter<'b>> {
+        let tool_change = words
+            .m
+            .iter()
+            .find(|m| m_kind(m.number) == MKind::ToolChange && self.tool_change_file.is_some());
+        let tool_data = tool_data_word(channel, words).filter(|_| self.tool_data_file.is_some());
+        let called = words.call.is_some() || words.cycle.is_some();
+        if let (Some(m), true) = (tool_change, called || tool_data.is_some()) {
+            let text = "M06 calls a subroutine: a second call in its block";
+            report.note(Fault::new(Condition::SeveralCalls, text, m.span));
+        } else if let (Some(at), true) = (tool_data, called) {
+            let text = "D calls a subroutine: a second call in its block";
+            report.note(Fault::new(Condition::SeveralCalls, text, at));
+        }
+        if let (Some(cycle), Some(_)) = (&words.cycle, words.call) {
+            let text = format!("G{} calls a subroutine: a second call in its block", cycle.number);
+            report.note(Fault::new(Condition::SeveralCalls, text, cycle.span));
+        }
+        if let Some((call, span)) = words.call {
+            return Some(CallAfter::Written(call, span));
+        }
+        let cycle = words.cycle.clone().map(CallAfter::Cycle);
+        cycle
+            .or_else(|| tool_change.map(|m| CallAfter::ToolChange(m.span)))
+            .or_else(|| tool_data.map(CallAfter::ToolData))
     }
+}
 
+impl Decoder {
     pub(super) fn speed(&mut self, index: usize, value: f64, span: Span) {
         if !(0.0..=1e6).contains(&value) {
             let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
             self.report.note(Fault::new(Condition::Range, text, span));
             return;
         }
-        self.set_spindle_speed(index, value, span);
+        self.motion.spindles[index].rpm = value;
+        self.motion.spindles[index].check_speed(&self.machine, &mut self.report, span);
         if let Some(spindle) = self.motion.spindles[index].index {
-            self.takes_time(Function::Speed { spindle });
+            self.motion.takes_time(
+                Function::Speed { spindle },
+                &self.machine.channel,
+                &mut self.contour,
+            );
         }
         if self.motion.spindles[index].is_turning() {
             let outcome = self.move_spindle(index, span);
             self.report.keep(outcome);
         }
-        self.spindle_warning(index, span);
-    }
-
-    /// Sets the speed of a spindle in rev/min; K-0131 if it exceeds the maximum speed.
-    pub(in crate::exec) fn set_spindle_speed(&mut self, index: usize, rpm: f64, span: Span) {
-        self.motion.spindles[index].rpm = rpm;
-        self.check_spindle_speed(index, span);
-    }
-
-    /// Reports a speed above the maximum of the spindle (K-0131).
-    pub(in crate::exec) fn check_spindle_speed(&mut self, index: usize, span: Span) {
-        let rpm = self.motion.spindles[index].overridden_rpm();
-        let most = self.most_rpm(index);
-        if rpm > most {
-            let name = &self.motion.spindles[index].name;
-            let text = format!(
-                "spindle speed {} rev/min of {name} is above its limit (P-AXIS-00212): {} rev/min are used",
-                rounded(rpm),
-                rounded(most)
-            );
-            self.report.note(Fault::new(Condition::SpindleLimit, text, span));
-        }
-    }
-
-    /// Maximum speed of a spindle in rev/min (P-AXIS-00212); infinite for a spindle without a list.
-    pub(in crate::exec) fn most_rpm(&self, index: usize) -> f64 {
-        let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
-        listed.map_or(f64::INFINITY, |s| s.dynamics().v_max_mm_s / 6.0)
-    }
-
-    pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
-        if self.motion.spindles[index].index.is_none() {
-            let text = "the machine has no spindle: speeds are remembered, nothing turns";
-            self.report.note_once("spindle", Fault::new(Condition::Ignored, text, span));
-        } else if self.motion.spindles[index].is_turning() && self.motion.spindles[index].rpm == 0.0
-        {
-            let text = "M03 and M04 with the speed 0 turn nothing before an S word";
-            self.report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
-        } else if matches!(self.motion.spindles[index].turning, Turning::Positioned(_))
-            && self.motion.spindles[index].rpm == 0.0
-        {
-            // TF5200 programming manual, M19 (208038923, 208198923): a speed above 0 must be set
-            let text =
-                "M19 needs a spindle speed on the control, here the spindle goes as fast as it can";
-            let fault = Fault::new(Condition::Odd, text, span).hint("write S or REV before it");
-            self.report.note_once("M19 speed", fault.warning());
-        }
+        self.motion.spindles[index].warn(&mut self.report, span);
     }
 
     pub(super) fn functions_before(&mut self, words: &Words<'_>) {
@@ -128,14 +117,18 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::Plain => self.m_function(m),
                 // Assumption: waited for before the motion, as for every function; m_synch is not simulated
-                MKind::Stop { .. } => self.takes_declared_time(Function::M(m.number)),
+                MKind::Stop { .. } => self.motion.takes_declared_time(
+                    Function::M(m.number),
+                    &self.machine.channel,
+                    &mut self.contour,
+                ),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
                 _ => {}
             }
         }
         for h in &words.h {
             self.contour.event(Event::HFunction { number: h.number, value: h.value });
-            self.takes_time(Function::H(h.number));
+            self.motion.takes_time(Function::H(h.number), &self.machine.channel, &mut self.contour);
         }
     }
 
@@ -149,7 +142,7 @@ impl Decoder {
             self.report.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
         }
         self.contour.event(Event::MFunction { number: m.number, value: m.value });
-        self.takes_time(Function::M(m.number));
+        self.motion.takes_time(Function::M(m.number), &self.machine.channel, &mut self.contour);
     }
 
     /// Starts or stops the main spindle as programmed on one side of the motion of the block: before it, or after it with
@@ -186,9 +179,13 @@ impl Decoder {
         };
         let outcome = self.move_spindle(0, m.span);
         self.report.keep(outcome);
-        self.takes_time(Function::Spindle { spindle, m: m.number });
+        self.motion.takes_time(
+            Function::Spindle { spindle, m: m.number },
+            &self.machine.channel,
+            &mut self.contour,
+        );
         if m.number != 5 {
-            self.spindle_warning(0, m.span);
+            self.motion.spindles[0].warn(&mut self.report, m.span);
         }
     }
 
@@ -203,14 +200,18 @@ impl Decoder {
                     self.report.note(Fault::new(Condition::DuplicateGroup, text, m.span));
                 }
                 MKind::End => {
-                    self.takes_declared_time(Function::M(m.number));
+                    self.motion.takes_declared_time(
+                        Function::M(m.number),
+                        &self.machine.channel,
+                        &mut self.contour,
+                    );
                     then = Then::End;
                 }
                 MKind::Return => then = Then::Return(words.back),
                 _ => {}
             }
         }
-        let call = self.call_after(words);
+        let call = self.calls.call_after(words, &self.machine.channel, &mut self.report);
         match words.goto {
             // in a measuring run, the signal decides
             Some(_) if words.jumps_on_signal() => {}
@@ -227,37 +228,10 @@ impl Decoder {
         }
         After { call, then }
     }
+}
 
-    /// The one call at the end of a block.
-    fn call_after<'b>(&mut self, words: &Words<'b>) -> Option<CallAfter<'b>> {
-        let tool_change = words.m.iter().find(|m| {
-            m_kind(m.number) == MKind::ToolChange && self.calls.tool_change_file.is_some()
-        });
-        let tool_data = self.tool_data_word(words).filter(|_| self.calls.tool_data_file.is_some());
-        let called = words.call.is_some() || words.cycle.is_some();
-        if let (Some(m), true) = (tool_change, called || tool_data.is_some()) {
-            let text = "M06 calls a subroutine: a second call in its block";
-            self.report.note(Fault::new(Condition::SeveralCalls, text, m.span));
-        } else if let (Some(at), true) = (tool_data, called) {
-            let text = "D calls a subroutine: a second call in its block";
-            self.report.note(Fault::new(Condition::SeveralCalls, text, at));
-        }
-        if let (Some(cycle), Some(_)) = (&words.cycle, words.call) {
-            let text = format!("G{} calls a subroutine: a second call in its block", cycle.number);
-            self.report.note(Fault::new(Condition::SeveralCalls, text, cycle.span));
-        }
-        if let Some((call, span)) = words.call {
-            return Some(CallAfter::Written(call, span));
-        }
-        let cycle = words.cycle.clone().map(CallAfter::Cycle);
-        cycle
-            .or_else(|| tool_change.map(|m| CallAfter::ToolChange(m.span)))
-            .or_else(|| tool_data.map(CallAfter::ToolData))
-    }
-
-    /// The D word, or the T word if it also selects tool data (P-CHAN-00014).
-    fn tool_data_word(&self, words: &Words<'_>) -> Option<Span> {
-        let with_tool = words.tool.filter(|_| self.machine.channel.tool_data_with_tool);
-        words.tool_data.or(with_tool).map(|(_, span)| span)
-    }
+/// The D word, or the T word if it also selects tool data (P-CHAN-00014).
+fn tool_data_word(channel: &Channel, words: &Words<'_>) -> Option<Span> {
+    let with_tool = words.tool.filter(|_| channel.tool_data_with_tool);
+    words.tool_data.or(with_tool).map(|(_, span)| span)
 }

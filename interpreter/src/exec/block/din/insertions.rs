@@ -6,7 +6,9 @@ use crate::exec::block::groups::{Act, Group};
 use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::values::number::LARGEST_MM;
+use crate::machine::Channel;
 
 /// `#CHR`, `#CHF` and `#RND` in a motion apply to the corner at its end; as separate blocks they lie between two motions.
 ///
@@ -21,32 +23,12 @@ pub(super) fn inserts_behind(words: &Words<'_>) -> bool {
 }
 
 impl Decoder {
-    /// P-CHAN-00273 = 1: omitted values are errors (256603531, 255785355). With `#SCALE` they are refused: its page shows only
-    /// in pictures whether their sizes are scaled.
-    fn insertions_are_on(&self, words: &Words<'_>) -> Outcome<()> {
-        if !self.machine.channel.no_chamfers && !self.geometry.scale.is_on() {
-            return Ok(());
-        }
-        let names = ["ANG", "CHR", "CHF", "RND"];
-        let by_g = words.group(Group::Insertion).map(|g| (Condition::InsertionsOff, g.span));
-        let by_hash = || {
-            let found = words.hashes.iter().find(|(hash, _, _)| names.contains(&&*hash.name));
-            found.map(|(_, _, span)| (Condition::ContourLinesOff, *span))
-        };
-        match by_g.or_else(by_hash) {
-            None => Ok(()),
-            Some((condition, span)) if self.machine.channel.no_chamfers => {
-                let text = "chamfers and roundings are switched off (P-CHAN-00273)";
-                Err(Fault::new(condition, text, span))
-            }
-            Some((_, span)) => {
-                Err(Fault::unsupported("a chamfer, a rounding or #ANG with #SCALE", span))
-            }
-        }
-    }
-
     pub(super) fn insertions(&mut self, words: &Words<'_>) {
-        if self.report.keep(self.insertions_are_on(words)).is_none() {
+        if self
+            .report
+            .keep(insertions_are_on(&self.geometry, &self.machine.channel, words))
+            .is_none()
+        {
             return;
         }
         let mut request = None;
@@ -130,6 +112,30 @@ impl Decoder {
         } else if let Some((_, at)) = feed {
             let text = "#FRC without chamfer or rounding has no effect";
             self.report.note(Fault::new(Condition::Odd, text, at).warning());
+        }
+    }
+}
+
+/// P-CHAN-00273 = 1: omitted values are errors (256603531, 255785355). With `#SCALE` they are refused: its page shows only
+/// in pictures whether their sizes are scaled.
+fn insertions_are_on(geometry: &Geometry, channel: &Channel, words: &Words<'_>) -> Outcome<()> {
+    if !channel.no_chamfers && !geometry.scale.is_on() {
+        return Ok(());
+    }
+    let names = ["ANG", "CHR", "CHF", "RND"];
+    let by_g = words.group(Group::Insertion).map(|g| (Condition::InsertionsOff, g.span));
+    let by_hash = || {
+        let found = words.hashes.iter().find(|(hash, _, _)| names.contains(&&*hash.name));
+        found.map(|(_, _, span)| (Condition::ContourLinesOff, *span))
+    };
+    match by_g.or_else(by_hash) {
+        None => Ok(()),
+        Some((condition, span)) if channel.no_chamfers => {
+            let text = "chamfers and roundings are switched off (P-CHAN-00273)";
+            Err(Fault::new(condition, text, span))
+        }
+        Some((_, span)) => {
+            Err(Fault::unsupported("a chamfer, a rounding or #ANG with #SCALE", span))
         }
     }
 }

@@ -6,7 +6,9 @@ use crate::exec::block::groups::{self, Act, Group};
 use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
+use crate::exec::report::Report;
 use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -42,32 +44,37 @@ fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
     Ok(())
 }
 
-impl Decoder {
-    /// The G function with the axis words of the block as its arguments.
-    pub(super) fn axis_functions(&mut self, words: &Words<'_>) -> Option<GWord> {
-        let mut found: Option<GWord> = None;
-        for g in words.g.iter().filter(|g| groups::takes_axes(g.row)) {
-            if let Some(first) = found {
-                let text = format!(
-                    "G{} and G{} in one block: both need the axis words",
-                    first.row.number, g.row.number
-                );
-                self.report.note(Fault::new(Condition::Syntax, text, g.span));
-            } else {
-                found = Some(*g);
-            }
+impl Geometry {
+    fn zero_group_of_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        needs_axes(g, words)?;
+        let group = zero_group(g)?;
+        // 0 includes the offset of the axis, 1 excludes it
+        for (axis, value, _) in &words.axes {
+            let masked = crate::exec::values::number::is_true(*value);
+            self.coordinates.mask_zero_entry(group, *axis, masked);
         }
-        let motion = words.group(Group::Path).filter(|g| matches!(g.row.act, Act::Path(_)));
-        if let (Some(g), Some(motion), false) = (found, motion, words.axes.is_empty()) {
-            let text = format!(
-                "G{:02} with G{}: the axis words are arguments of G{}, not targets",
-                motion.row.number, g.row.number, g.row.number
-            );
-            self.report.note(Fault::new(Condition::Syntax, text, motion.span));
-        }
-        found
+        Ok(())
     }
 
+    fn mirror_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        needs_axes(g, words)?;
+        for (axis, value, span) in &words.axes {
+            let mirrored = match value {
+                v if v.total_cmp(&1.0).is_eq() => false,
+                v if v.total_cmp(&-1.0).is_eq() => true,
+                _ => {
+                    let text = format!("mirroring is switched by 1 and -1, not by {value}");
+                    return Err(Fault::new(Condition::MirrorSwitch, text, *span)
+                        .with(|d| d.value(ValueKind::Wrong, *value, "-")));
+                }
+            };
+            self.coordinates.set_mirrored(*axis, mirrored);
+        }
+        Ok(())
+    }
+}
+
+impl Decoder {
     pub(super) fn tools_and_offsets(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
         if let Some((number, span)) = words.tool {
             self.select_tool(number, span);
@@ -101,9 +108,9 @@ impl Decoder {
         }
         let Some(g) = takes_axes else { return };
         let outcome = match g.row.act {
-            Act::ZeroGroupAxes => self.zero_group_of_axes(&g, words),
+            Act::ZeroGroupAxes => self.geometry.zero_group_of_axes(&g, words),
             Act::Preset => self.preset(&g, words),
-            Act::MirrorAxes => self.mirror_axes(&g, words),
+            Act::MirrorAxes => self.geometry.mirror_axes(&g, words),
             Act::Rotate => self.rotate(&g, words),
             Act::SoftwareLimits(positive) => self.software_limits(&g, words, positive),
             Act::MeasuringOffsets(takes_in) => self.measuring_offsets(takes_in, &g, words),
@@ -132,7 +139,7 @@ impl Decoder {
         if moved.is_empty() {
             return;
         }
-        let straight = matches!(self.path_mode(words), PathMode::Rapid | PathMode::Linear);
+        let straight = matches!(self.modal.path_mode(words), PathMode::Rapid | PathMode::Linear);
         if takes_axes.is_some() || !straight {
             let what = "D whose offsets move at once (P-CHAN-00100) in another block than a straight motion";
             self.report.note(Fault::unsupported(what, span));
@@ -199,7 +206,7 @@ impl Decoder {
             return true;
         }
         for (axis, value, _) in &words.axes {
-            let value = sets.then(|| value * self.axis_unit(*axis));
+            let value = sets.then(|| value * self.modal.axis_unit(&self.machine.axes[*axis]));
             self.geometry.coordinates.preset_position(*axis, value);
         }
         if words.axes.is_empty() && !sets {
@@ -215,7 +222,7 @@ impl Decoder {
     /// 20604 for a value of `#PSET` outside the data format, 20711 if the resulting offset is (251955595, 252303755).
     fn presets_fit(&self, words: &Words<'_>, sets: bool) -> Outcome<()> {
         for (axis, value, span) in words.axes.iter().filter(|_| sets) {
-            let value_mm = value * self.axis_unit(*axis);
+            let value_mm = value * self.modal.axis_unit(&self.machine.axes[*axis]);
             let offset_mm = self.geometry.coordinates.target()[*axis] - value_mm;
             let (condition, what) = if value_mm.abs() > LARGEST_MM {
                 (Condition::PresetTooLarge, "the position")
@@ -264,7 +271,7 @@ impl Decoder {
         }
         for (i, (axis, value, span)) in words.axes.iter().enumerate() {
             let absolute = words.is_absolute(i, self.modal.absolute);
-            let value_mm = value * self.axis_unit(*axis);
+            let value_mm = value * self.modal.axis_unit(&self.machine.axes[*axis]);
             let outcome = self.software_limit(*axis, positive, value_mm, absolute, *span);
             self.report.keep(outcome);
         }
@@ -319,22 +326,11 @@ impl Decoder {
         Ok(())
     }
 
-    fn zero_group_of_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        needs_axes(g, words)?;
-        let group = zero_group(g)?;
-        // 0 includes the offset of the axis, 1 excludes it
-        for (axis, value, _) in &words.axes {
-            let masked = crate::exec::values::number::is_true(*value);
-            self.geometry.coordinates.mask_zero_entry(group, *axis, masked);
-        }
-        Ok(())
-    }
-
     /// G92: absolute with G90, incremental with G91.
     fn preset(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         needs_axes(g, words)?;
         for (axis, value, _) in &words.axes {
-            let value_mm = value * self.axis_unit(*axis);
+            let value_mm = value * self.modal.axis_unit(&self.machine.axes[*axis]);
             let before =
                 if self.modal.absolute { 0.0 } else { self.geometry.coordinates.preset(*axis) };
             self.geometry.coordinates.set_preset(*axis, before + value_mm);
@@ -356,30 +352,17 @@ impl Decoder {
         }
     }
 
-    fn mirror_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        needs_axes(g, words)?;
-        for (axis, value, span) in &words.axes {
-            let mirrored = match value {
-                v if v.total_cmp(&1.0).is_eq() => false,
-                v if v.total_cmp(&-1.0).is_eq() => true,
-                _ => {
-                    let text = format!("mirroring is switched by 1 and -1, not by {value}");
-                    return Err(Fault::new(Condition::MirrorSwitch, text, *span)
-                        .with(|d| d.value(ValueKind::Wrong, *value, "-")));
-                }
-            };
-            self.geometry.coordinates.set_mirrored(*axis, mirrored);
-        }
-        Ok(())
-    }
-
     fn rotate(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         let main = self.modal.plane.main_axes();
         let mut centre: [Option<f64>; 2] = [None; 2];
         for (axis, value, span) in &words.axes {
             match self.geometry.coordinates.main_index(*axis) {
-                Some(m) if m == main[0] => centre[0] = Some(value * self.axis_unit(*axis)),
-                Some(m) if m == main[1] => centre[1] = Some(value * self.axis_unit(*axis)),
+                Some(m) if m == main[0] => {
+                    centre[0] = Some(value * self.modal.axis_unit(&self.machine.axes[*axis]));
+                }
+                Some(m) if m == main[1] => {
+                    centre[1] = Some(value * self.modal.axis_unit(&self.machine.axes[*axis]));
+                }
                 _ => {
                     let name = self.names.name(*axis).to_owned();
                     let text = format!("axis {name} is not in the plane of the rotation");
@@ -391,25 +374,31 @@ impl Decoder {
         }
         let deg = words.radius.map_or(0.0, |(deg, _)| deg);
         let plane = [main[0], main[1]];
-        self.rotate_plane(plane, deg, centre, g.span)
+        self.geometry.rotate_plane(&self.machine, plane, deg, centre, g.span)
     }
+}
 
-    /// G68, `#ROTATION`; refused if degrees and millimetres would be mixed.
-    pub(in crate::exec) fn rotate_plane(
-        &mut self,
-        plane: [usize; 2],
-        deg: f64,
-        centre: [Option<f64>; 2],
-        span: Span,
-    ) -> Outcome<()> {
-        let axis = |main: usize| self.geometry.coordinates.main_axis(main);
-        let axes = plane.map(|main| axis(main).map(|axis| &self.machine.axes[axis]));
-        if let [Some(first), Some(second)] = axes
-            && (first.kind() != second.kind() || first.is_modulo() || second.is_modulo())
-        {
-            let what = format!("a rotation of the axes {} and {}", first.name(), second.name());
-            return Err(Fault::unsupported(what, span).hint("only linear axes are turned"));
+/// The G function with the axis words of the block as its arguments.
+pub(super) fn axis_functions(words: &Words<'_>, report: &mut Report) -> Option<GWord> {
+    let mut found: Option<GWord> = None;
+    for g in words.g.iter().filter(|g| groups::takes_axes(g.row)) {
+        if let Some(first) = found {
+            let text = format!(
+                "G{} and G{} in one block: both need the axis words",
+                first.row.number, g.row.number
+            );
+            report.note(Fault::new(Condition::Syntax, text, g.span));
+        } else {
+            found = Some(*g);
         }
-        self.geometry.coordinates.rotate_about(plane, deg, centre, span)
     }
+    let motion = words.group(Group::Path).filter(|g| matches!(g.row.act, Act::Path(_)));
+    if let (Some(g), Some(motion), false) = (found, motion, words.axes.is_empty()) {
+        let text = format!(
+            "G{:02} with G{}: the axis words are arguments of G{}, not targets",
+            motion.row.number, g.row.number, g.row.number
+        );
+        report.note(Fault::new(Condition::Syntax, text, motion.span));
+    }
+    found
 }

@@ -1,8 +1,11 @@
 //! Active constant cutting speed.
 
+use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::CuttingSpeed;
+use crate::syntax::ast::Span;
 
 /// Active G96, G97 and G196.
 #[derive(Debug, Default)]
@@ -35,5 +38,14 @@ impl Cutting {
     pub(in crate::exec) fn takes_s_words(&self, words: &Words<'_>) -> bool {
         self.waits
             || words.group(Group::SpindleMode).is_some_and(|g| g.row.act == Act::CuttingSpeedMax)
+    }
+
+    /// 20642 for M19 of the main spindle under G96.
+    pub(in crate::exec) fn positions_main_spindle(&self, span: Span) -> Outcome<()> {
+        if self.speed.is_none() {
+            return Ok(());
+        }
+        let text = "M19 while the cutting speed is constant (G96)";
+        Err(Fault::new(Condition::PositioningWithCuttingSpeed, text, span))
     }
 }

@@ -98,7 +98,7 @@ impl Executor {
     }
 
     fn names_or_macros_changed(&mut self) -> bool {
-        let names = std::mem::take(&mut self.decoder.names.changed);
+        let names = self.decoder.names.take_changed();
         if names {
             let names = self.decoder.long_names();
             self.parser = Parser::new(names.iter().map(String::as_str));
@@ -313,7 +313,7 @@ impl Executor {
                 self.modal_cycle(levels);
             }
             Body::Control(control) => {
-                self.decoder.dialect.own = true;
+                self.decoder.dialect.own_statement();
                 if let Some(entry) = entry {
                     self.control(control, entry);
                 }
@@ -442,7 +442,7 @@ impl Executor {
 
     /// Reports the conditions of the block; an error ends the program.
     pub(in crate::exec) fn settle(&mut self, faulty: bool) {
-        self.decoder.report_created();
+        self.decoder.values.variables.report_created(&mut self.decoder.report);
         let faults = self.decoder.report.take_faults();
         let mut failed = faulty;
         for fault in faults {

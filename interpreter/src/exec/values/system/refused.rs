@@ -71,7 +71,7 @@ pub(super) fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Faul
     {
         return Fault::unsupported(format!("variables V.G.{tool}.{name}"), span);
     }
-    let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
+    let axis = d.names.in_channel().next().unwrap_or("X");
     let names: Vec<String> =
         ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
     let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);

@@ -8,6 +8,8 @@ use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::geometry::tools::Tool;
 use crate::exec::motion::state::wear::WEAR_UNIT;
 use crate::exec::options::Value;
+use crate::exec::program::state::Calls;
+use crate::exec::report::Report;
 use crate::exec::values::number::{as_number, is_true, whole};
 use crate::syntax::ast::{Segment, Span};
 
@@ -45,18 +47,29 @@ pub(in crate::exec) fn write(
         ["G", "NP", "V", _] | ["G", "NP", "V"] => {
             let group = path.index(d, 1, LAST_ZERO_GROUP)?;
             let axis = path.axis(d, 3)?;
-            d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
+            d.geometry.coordinates.set_zero_entry(
+                group,
+                axis,
+                x()? * d.modal.axis_unit(&d.machine.axes[axis]),
+            );
         }
         ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
             let axis = path.axis(d, 3)?;
-            d.geometry.coordinates.set_zero_offset(axis, x()? * d.axis_unit(axis));
+            d.geometry
+                .coordinates
+                .set_zero_offset(axis, x()? * d.modal.axis_unit(&d.machine.axes[axis]));
         }
         ["G", "CYCLE_CHANGES_MODAL"] => {
             let stay = is_true(x()?);
             (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
         }
         ["G", name @ ("MAX_NC_BLOCKS_AHEAD" | "MAX_MOTION_BLOCKS_AHEAD")] => {
-            d.limit_blocks_ahead(usize::from(name == "MAX_MOTION_BLOCKS_AHEAD"), x()?, span)?;
+            d.calls.limit_blocks_ahead(
+                usize::from(name == "MAX_MOTION_BLOCKS_AHEAD"),
+                x()?,
+                span,
+                &mut d.report,
+            )?;
         }
         ["G", "WZ_AKT", "WEAR_CONST"] => {
             d.geometry.tools.active.wear_ratio = x()? * WEAR_UNIT;
@@ -89,7 +102,7 @@ pub(in crate::exec) fn write(
         ["G", "WZL"] => {
             d.geometry.tools.active.length_mm = x()?;
             d.geometry.coordinates.tool_programmed();
-            d.tool_offsets();
+            d.geometry.apply_tool(d.modal.plane.main_axes());
         }
         ["G", "WZ_AKT", ..] => {
             let mut tool = d.geometry.tools.active.clone();
@@ -98,7 +111,7 @@ pub(in crate::exec) fn write(
             if matches!(names[2], "L" | "V") {
                 d.geometry.coordinates.tool_programmed();
             }
-            d.tool_offsets();
+            d.geometry.apply_tool(d.modal.plane.main_axes());
         }
         ["G", "WZ", ..] => {
             let index = path.index(d, 1, u32::MAX)?;
@@ -119,28 +132,6 @@ pub(in crate::exec) fn write(
         _ => return Err(unknown(d, segments, span)),
     }
     Ok(())
-}
-
-impl Decoder {
-    /// `V.G.MAX_NC_BLOCKS_AHEAD`, `V.G.MAX_MOTION_BLOCKS_AHEAD`: how far the decoder may be ahead of the motion.
-    ///
-    /// Source: TF5200 limiting the decoder block ahead, 301889163; 21575.
-    fn limit_blocks_ahead(&mut self, which: usize, blocks: f64, span: Span) -> Outcome<()> {
-        let Some(blocks) = whole(blocks, 0, u32::MAX) else {
-            let text = format!("{blocks} blocks ahead, allowed are the whole numbers from 0");
-            return Err(Fault::new(Condition::Range, text, span));
-        };
-        if blocks > 0 && self.calls.blocks_ahead[1 - which] > 0.0 {
-            let text = "two limits of the blocks ahead: the other one is in force";
-            return Err(Fault::new(Condition::BlocksAheadTwice, text, span));
-        }
-        self.calls.blocks_ahead[which] = f64::from(blocks);
-        if blocks > 0 {
-            let text = "the blocks ahead are not limited: the path is planned over all of them";
-            self.report.note_once("blocks ahead", Fault::new(Condition::Fallback, text, span));
-        }
-        Ok(())
-    }
 }
 
 fn write_tool(
@@ -170,4 +161,31 @@ fn write_tool(
         _ => return Err(unknown(d, path.segments, path.span)),
     }
     Ok(())
+}
+impl Calls {
+    /// `V.G.MAX_NC_BLOCKS_AHEAD`, `V.G.MAX_MOTION_BLOCKS_AHEAD`: how far the decoder may be ahead of the motion.
+    ///
+    /// Source: TF5200 limiting the decoder block ahead, 301889163; 21575.
+    fn limit_blocks_ahead(
+        &mut self,
+        which: usize,
+        blocks: f64,
+        span: Span,
+        report: &mut Report,
+    ) -> Outcome<()> {
+        let Some(blocks) = whole(blocks, 0, u32::MAX) else {
+            let text = format!("{blocks} blocks ahead, allowed are the whole numbers from 0");
+            return Err(Fault::new(Condition::Range, text, span));
+        };
+        if blocks > 0 && self.blocks_ahead[1 - which] > 0.0 {
+            let text = "two limits of the blocks ahead: the other one is in force";
+            return Err(Fault::new(Condition::BlocksAheadTwice, text, span));
+        }
+        self.blocks_ahead[which] = f64::from(blocks);
+        if blocks > 0 {
+            let text = "the blocks ahead are not limited: the path is planned over all of them";
+            report.note_once("blocks ahead", Fault::new(Condition::Fallback, text, span));
+        }
+        Ok(())
+    }
 }
