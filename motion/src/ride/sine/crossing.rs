@@ -9,6 +9,9 @@ use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits};
 const CROSSING: f64 = 1e-3;
 /// Widths, in phases on either side, with which a connection is tried.
 const WIDTHS: [usize; 16] = [0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48, 64, 96, 128];
+/// Widths above this one are tried on both sides or on one side alone: connections of other widths are not faster in
+/// random contours, and a search without success takes all of them.
+const WIDE: usize = 8;
 /// Shares of the jerk that are tried if there is no connection with the full jerk: a sine-square ramp shorter than one
 /// of the rise is ahead of it at first.
 const GENTLER: [f64; 4] = [0.7, 0.5, 0.35, 0.25];
@@ -137,7 +140,8 @@ impl Join<'_> {
     /// The closest possible connection, symmetric widths first.
     fn closest(&self, ahead: usize, cut: usize, v0: f64, way: Way) -> Option<Connection> {
         for width in WIDTHS {
-            let other = WIDTHS.into_iter().take_while(|w| *w < width);
+            let less = WIDTHS.into_iter().take_while(|w| *w < width);
+            let other = less.filter(|w| width <= WIDE || *w == 0);
             let pairs = [(width, width)].into_iter();
             for (back, ahead_by) in pairs.chain(other.flat_map(|w| [(w, width), (width, w)])) {
                 if back > self.out.len() && back > 1 && self.out.len() < back / 2 {
