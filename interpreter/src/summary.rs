@@ -146,7 +146,7 @@ pub struct Summary {
     pub stops: Vec<StopSummary>,
     /// Parts that the duration does not include.
     pub not_counted: Vec<String>,
-    /// Blocks decoded.
+    /// Blocks executed; in a stopped run those up to the motion in which it stopped, with the next one.
     pub blocks: u64,
     /// Length of the path in mm.
     pub path_length_mm: f64,

@@ -81,10 +81,12 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Begins a motion at a path length; earlier ones are complete.
+    /// Begins a motion after the cycle with a path length; earlier ones are complete. A motion that continues another
+    /// one begins at its end, within the next cycle.
     pub(super) fn begin(&mut self, motion: Programmed, s_mm: f64) {
+        self.from_mm = s_mm.max(self.from_mm + self.current.length_mm);
         self.complete(self.current.blocks);
-        (self.current, self.from_mm) = (motion, s_mm);
+        self.current = motion;
     }
 
     /// Marks this number of blocks of the program as executed.
@@ -111,7 +113,8 @@ pub struct Totals {
     pub input_failed: bool,
     /// Exact stops.
     pub stops: Stops,
-    /// Number of blocks executed; in a stopped run those up to the motion in which it stopped.
+    /// Number of blocks executed; in a stopped run those up to the motion in which it stopped, with the next one, which
+    /// its end depends on.
     pub blocks: u64,
     /// Path length / programmed feed rate for feed blocks, and the way of the slowest axis at its rapid velocity for
     /// rapid blocks, in s: without ramps, corners and limits. Dwells and technology times are not included. A motion in
