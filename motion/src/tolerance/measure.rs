@@ -47,6 +47,9 @@ struct Foot {
     deviation_mm: f64,
     /// The set point.
     point: AxisVec,
+    /// Whether it was searched for only near the one of a neighbouring point; another part of the set path may be
+    /// closer.
+    is_local: bool,
 }
 
 impl Foot {
@@ -140,6 +143,7 @@ impl View<'_> {
                 let all = all(moment);
                 let mut out = Excursion::none(n);
                 let mut nearest = set.misses(point, near, wary_mm, &mut out);
+                let is_local = out.length <= wary_mm && near != all;
                 if out.length > wary_mm && near != all {
                     out = Excursion::none(n);
                     nearest = set.misses(point, all, wary_mm, &mut out);
@@ -157,7 +161,7 @@ impl View<'_> {
                 }
                 let of = AxisVec::from_slice(point);
                 let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
-                Some(Foot { s, of, cycle, length: out.length, deviation_mm, point })
+                Some(Foot { s, of, cycle, length: out.length, deviation_mm, point, is_local })
             };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
@@ -208,7 +212,17 @@ impl View<'_> {
                 let (Some(low), Some(high)) = (before, last.clone()) else { continue };
                 let bend = self.bend_between(low.s, high.s);
                 let mut open: SmallVec<[(Foot, Foot, u32); 4]> = smallvec![(low, high, HALVINGS)];
-                while let Some((low, high, halvings)) = open.pop() {
+                while let Some((mut low, mut high, halvings)) = open.pop() {
+                    // next to a point that may be missed, the nearest part of the set path may be another one
+                    if low.length.max(high.length) > certain(tolerance) {
+                        for foot in [&mut low, &mut high].into_iter().filter(|foot| foot.is_local) {
+                            let held = record.leaves(foot.s).min(passed);
+                            let moment = held as f64;
+                            if let Some(other) = look(&foot.of, all(moment), moment, foot.s) {
+                                *foot = other;
+                            }
+                        }
+                    }
                     if halvings == 0 || !low.may_hide_more(&high, &set, bend, tolerance) {
                         continue;
                     }
