@@ -190,16 +190,6 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
                 .into_iter()
                 .fold(f64::INFINITY, f64::min);
             if new > misses.0 {
-                if new > case.tolerance_mm {
-                    println!(
-                        "block {i} u {u} comes {comes} goes {goes} reach {reach} new {new} p {p:?} chord {}",
-                        square.sqrt()
-                    );
-                    for k in from..(goes + reach + 4).min(set.len() - 1) {
-                        let (d, e) = to_segment(p, set[k], set[k + 1]);
-                        println!("   seg {k}: {:.6} {e:?} set {:?}", d.sqrt(), set[k]);
-                    }
-                }
                 misses = (new, i);
             }
         }
