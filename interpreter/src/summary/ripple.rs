@@ -24,8 +24,9 @@ const NO_STEP_MM: f64 = 1e-9;
 
 /// The deepest dip of the path speed without a corner.
 ///
-/// A dip is between two local maxima of the speed; smaller dips inside a larger one count separately. Excluded are
-/// rests, dips during which the path turns by more than 30 degrees, and dips down to the programmed feed rate.
+/// A dip is between two local maxima of the speed: those next to it, and those around it and the smaller dips beside
+/// it. Excluded are rests, dips during which the path turns by more than 30 degrees, and dips down to the programmed
+/// feed rate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpeedRipple {
     /// `(v_max - v_min) / v_max`, 0 to 1.
@@ -68,6 +69,8 @@ pub(super) struct Collector {
     turned: f64,
     /// Extremes since the last rest that are not part of a complete dip yet, minima and maxima alternating.
     open: Vec<Extreme>,
+    /// The last two extremes.
+    last: [Extreme; 2],
     /// The extreme that the speed is at or approaches, and whether it rises.
     at: Extreme,
     rising: bool,
@@ -85,6 +88,7 @@ impl Collector {
             direction: Vec::new(),
             turned: 0.0,
             open: vec![Extreme::default()],
+            last: [Extreme::default(); 2],
             at: Extreme::default(),
             rising: true,
             worst: None,
@@ -121,8 +125,7 @@ impl Collector {
             self.at.turned[1] = self.turned;
             self.at.fed |= now.fed;
         } else {
-            self.open.push(self.at);
-            self.close(cycle_us);
+            self.pass(cycle_us);
             self.at = now;
             self.rising = !self.rising;
         }
@@ -169,6 +172,19 @@ impl Collector {
         self.turned += 2.0 * libm::asin((0.5 * f64::sqrt(chord)).min(1.0));
     }
 
+    /// Adds the extreme that the speed leaves. A dip is measured from the maxima next to it, and again from the ones
+    /// around it each time smaller dips beside it are removed: those maxima may be higher, but a corner further away.
+    fn pass(&mut self, cycle_us: u32) {
+        let [a, b] = self.last;
+        self.last = [b, self.at];
+        if self.rising {
+            let maximum = self.at;
+            self.judge(&b, [&a, &maximum], cycle_us);
+        }
+        self.open.push(self.at);
+        self.close(cycle_us);
+    }
+
     /// Removes every dip between two extremes that are at least as far apart as the dip is deep; a larger dip around it
     /// stays.
     fn close(&mut self, cycle_us: u32) {
@@ -180,31 +196,36 @@ impl Collector {
             self.open.truncate(self.open.len() - 3);
             self.open.push(d);
             let (dip, sides) = if b.v > c.v { (c, [b, d]) } else { (b, [a, c]) };
-            let turn = sides[1].turned[0] - sides[0].turned[1];
-            let v_max_mm_s = b.v.max(c.v);
-            let ratio = inner / v_max_mm_s;
-            let deeper = self.worst.as_ref().is_none_or(|worst| ratio > worst.ratio);
-            if !dip.fed && turn.to_degrees() <= CORNER_DEG && deeper {
-                self.worst = Some(SpeedRipple {
-                    ratio,
-                    v_max_mm_s,
-                    v_min_mm_s: dip.v,
-                    time_s: dip.k as f64 * f64::from(cycle_us) / 1e6,
-                    file: self.files.name(dip.file),
-                    line: dip.line,
-                });
-            }
+            self.judge(&dip, [&sides[0], &sides[1]], cycle_us);
+        }
+    }
+
+    /// Keeps a dip between two maxima if it is the deepest one.
+    fn judge(&mut self, dip: &Extreme, sides: [&Extreme; 2], cycle_us: u32) {
+        let turn = sides[1].turned[0] - sides[0].turned[1];
+        let v_max_mm_s = sides[0].v.min(sides[1].v);
+        let ratio = (v_max_mm_s - dip.v) / v_max_mm_s;
+        let deeper = self.worst.as_ref().is_none_or(|worst| ratio > worst.ratio);
+        if dip.v > 0.0 && !dip.fed && turn.to_degrees() <= CORNER_DEG && ratio > 0.0 && deeper {
+            self.worst = Some(SpeedRipple {
+                ratio,
+                v_max_mm_s,
+                v_min_mm_s: dip.v,
+                time_s: dip.k as f64 * f64::from(cycle_us) / 1e6,
+                file: self.files.name(dip.file),
+                line: dip.line,
+            });
         }
     }
 
     fn rest(&mut self, cycle_us: u32) {
-        self.open.push(self.at);
-        self.close(cycle_us);
+        self.pass(cycle_us);
         if self.rising {
             self.open.push(Extreme::default());
             self.close(cycle_us);
         }
         self.open.truncate(1);
+        self.last = [Extreme::default(); 2];
         self.at = Extreme::default();
         self.rising = true;
     }
@@ -302,6 +323,14 @@ mod tests {
         // around a corner in small steps
         let speeds = [0.0, 10.0, 8.0, 6.0, 6.0, 8.0, 10.0, 0.0];
         assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 25.0)], &[]), None);
+    }
+
+    /// Beside smaller dips, the larger one is between maxima with a corner between them; its own neighbours are not.
+    #[test]
+    fn the_maxima_next_to_a_dip_count_as_well() {
+        let speeds = [0.0, 20.0, 11.0, 15.0, 4.0, 16.0, 12.0, 20.0, 0.0];
+        let kinks = [(2, 14.0), (4, 14.0), (6, 14.0)];
+        assert_eq!(ratio(&speeds, &kinks, &[]), Some(11.0 / 15.0));
     }
 
     /// Turning back is a corner, starting a new turn is not.
