@@ -132,7 +132,7 @@ impl Change {
         } else if switch {
             Err(format!("{value}, 0 or 1 is expected"))
         } else {
-            Err(format!("{value}, allowed are {low} to {high}"))
+            Err(format!("{value}, allowed: {low} to {high}"))
         }
     }
 

@@ -25,7 +25,7 @@ impl Found {
             "MSG" => "#MSG [\"text\"] is a message here",
             "ROT" | "AROT" => "#ROTATION and #CS turn the coordinates here",
             "TRANS" | "ATRANS" => "G54 to G59, G92 and #CS shift the coordinates here",
-            "SUPA" => "G53 takes the zero offsets back here",
+            "SUPA" => "G53 cancels the zero offsets here",
             "TRAORI" => "#TRAFO ON is the transformation here",
             "GOTOF" | "GOTOB" => "$GOTO N20 and $GOTO [NAME] jump here",
             "CYCLE800" => "#CS ON [x,y,z,a,b,c] turns the plane here",

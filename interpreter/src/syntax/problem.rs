@@ -465,7 +465,7 @@ fn negative_radius(problem: &Problem, before: &str) -> Problem {
     let word = last_word(before);
     let start =
         problem.span.start as usize - (before.len() - before.trim_ascii_end().len()) - word.len();
-    let text = format!("the radius has the index 1 only, not {}", &word[1..]);
+    let text = format!("the radius only has the index 1, not {}", &word[1..]);
     Problem::new(Condition::RadiusIndexFormat, Span::new(start, start + word.len()), text)
 }
 

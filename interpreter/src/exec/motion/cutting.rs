@@ -49,7 +49,7 @@ impl Decoder {
                     Ok(())
                 }
                 _ => {
-                    let text = "G196 needs a speed above 0 (S)";
+                    let text = "G196 requires a speed greater than 0 (S)";
                     Err(Fault::new(Condition::CuttingSpeedMax, text, span))
                 }
             },
@@ -111,7 +111,7 @@ impl Decoder {
             > cutting.max_rpm * (1.0 + 1e-9)
         {
             let text = format!(
-                "{} mm from the turning centre the cutting speed needs more than {} rev/min: limited",
+                "{} mm from the turning centre the cutting speed requires more than {} rev/min: limited",
                 rounded(radius.abs()),
                 rounded(cutting.max_rpm)
             );
@@ -134,15 +134,15 @@ impl Decoder {
         let [a, b, _] = self.modal.plane.main_axes();
         let axes = [a, b].into_iter().filter_map(|m| self.geometry.coordinates.main_axis(m));
         let mut marked = axes.filter(|i| self.machine.axes[*i].is_face_turning());
-        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
+        let hint = "set the bit 0x40 of P-AXIS-00015 (kenngr.achs_mode) to mark it";
         match (marked.next(), marked.next()) {
             (Some(axis), None) => Ok(axis),
             (Some(_), Some(_)) => {
-                let text = format!("{function} needs one face turning axis, the plane has two");
+                let text = format!("{function} requires one face turning axis, the plane has two");
                 Err(Fault::new(Condition::TwoFaceTurningAxes, text, span).hint(hint))
             }
             (None, _) => {
-                let text = format!("{function} needs a face turning axis, the plane has none");
+                let text = format!("{function} requires a face turning axis, the plane has none");
                 Err(Fault::new(none, text, span).hint(hint))
             }
         }
@@ -166,8 +166,8 @@ impl Decoder {
         let listed = &self.machine.axes[axis];
         if !listed.takes_diameters(true) && !listed.takes_diameters(false) {
             let name = self.names.name(axis).to_owned();
-            let text = format!("G51 without effect: axis {name} takes no diameters");
-            let hint = "kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059) make them diameters";
+            let text = format!("G51 has no effect: axis {name} does not accept diameters");
+            let hint = "enable diameters with kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059)";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
             self.report.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
         }
@@ -213,7 +213,8 @@ impl Decoder {
     pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
         if self.motion.spindles[0].is_overridden() {
             let what = format!("{what} with an override of the main spindle (S[OVERRIDE ..])");
-            return Err(Fault::unsupported(what, span).hint("S[OVERRIDE SPEED_FACT=100] ends it"));
+            return Err(Fault::unsupported(what, span)
+                .hint("write S[OVERRIDE SPEED_FACT=100] to cancel it"));
         }
         Ok(())
     }

@@ -9,10 +9,7 @@ fn said(text: &str) -> Vec<String> {
 
 #[test]
 fn a_feed_of_0_is_a_word_that_was_programmed() {
-    assert_eq!(
-        said("F1000\nF0 X1\nM30\n"),
-        ["20008: the feed is 0: that is the value of the last F word"]
-    );
+    assert_eq!(said("F1000\nF0 X1\nM30\n"), ["20008: the feed is 0: value of the last F word"]);
     let never = said("G01 X1\nM30\n");
     assert_eq!(never, ["20008: the feed is 0: no F word has been programmed"]);
 }

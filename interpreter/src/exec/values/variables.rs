@@ -117,7 +117,9 @@ impl Decoder {
     /// Reports each `@P` created by reading, once.
     pub(in crate::exec) fn report_created(&mut self) {
         for (name, span) in self.values.variables.take_created() {
-            let text = format!("@{name} was not passed to the cycle: reading it creates it with 0");
+            let text = format!(
+                "@{name} was not passed to the cycle: reading it creates it with the value 0"
+            );
             let fault = Fault::new(Condition::Odd, text, span)
                 .warning()
                 .hint(pass_it(&name))
@@ -177,7 +179,7 @@ impl Decoder {
             for expr in &segment.subscripts {
                 let x = self.number(expr)?;
                 let index = whole(x, 0, u32::MAX).ok_or_else(|| {
-                    let text = format!("subscript {x} is not a whole number from 0");
+                    let text = format!("index {x} is not a whole number from 0");
                     Fault::new(Condition::VariableIndex, text, expr.span)
                 })?;
                 // writing to a String cannot fail
@@ -195,7 +197,7 @@ impl Decoder {
     ) -> Outcome<u32> {
         let checked = |x: f64| {
             whole(x, 1, INDEX_MAX).ok_or_else(|| {
-                let text = format!("P{x} does not exist, indices are 1 to {INDEX_MAX}");
+                let text = format!("P{x} does not exist, allowed: indices 1 to {INDEX_MAX}");
                 Fault::new(Condition::ParameterNumber, text, span).with(|d| {
                     d.value(ValueKind::Wrong, x, "-").value(ValueKind::UpperLimit, INDEX_MAX, "-")
                 })
@@ -224,8 +226,7 @@ impl Decoder {
                     Some(variable) => variable.get(&subscripts, Owner::Parameter, span),
                     None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
                     None if self.machine.channel.keep_p_parameters => {
-                        let hint =
-                            "P-CHAN-00067 keeps parameters of earlier programs; here none ran";
+                        let hint = "P-CHAN-00067 keeps parameters of earlier programs; here no earlier program has run";
                         Err(undefined_parameter(index, span).hint(hint))
                     }
                     None => Err(undefined_parameter(index, span)),
@@ -250,7 +251,7 @@ impl Decoder {
                     let fault = undefined(&format!("V.E.{name}"), span);
                     Err(match hint {
                         Some(hint) => fault.hint(hint),
-                        None => fault.hint("external variables get their values from --external"),
+                        None => fault.hint("set the values of external variables with --external"),
                     })
                 }
             },
@@ -334,7 +335,7 @@ impl Decoder {
                 Ok(())
             }
             None => {
-                let text = format!("V.E.{name} is not configured, the program created it");
+                let text = format!("V.E.{name} is not configured and was created by the program");
                 self.report.note(Fault::new(Condition::ExternalCreated, text, span));
                 let access = Access::ReadWrite;
                 self.values.variables.external.insert(name, External { value, access });
@@ -389,9 +390,9 @@ impl Decoder {
                 if gone.is_none() && class == Class::Shared {
                     // on the control they outlive programs, so a program may delete those of another one
                     let text = format!(
-                        "V.S.{name} does not exist: a run begins without what earlier programs left"
+                        "V.S.{name} does not exist: a run starts without variables of earlier programs"
                     );
-                    let hint = "on the control a missing variable is 20932";
+                    let hint = "on the control, a missing variable is error 20932";
                     let fault = Fault::new(Condition::Ignored, text, span).hint(hint);
                     self.report.note_once("deleted shared variable", fault);
                     return Ok(());
@@ -406,7 +407,7 @@ impl Decoder {
                 gone
             }
             Target::External(_) | Target::Cycle(_) | Target::System(_) => {
-                let text = "only self-defined variables can be deleted";
+                let text = "only variables defined by the program can be deleted";
                 return Err(Fault::new(Condition::DeletedNotOwn, text, span));
             }
         };
@@ -424,7 +425,7 @@ impl Decoder {
         if self.values.variables.find(Class::Cycle, name).is_none() {
             return Ok(());
         }
-        let text = format!("V.CYC.{name} was created on a level above");
+        let text = format!("V.CYC.{name} was created on a higher level");
         Err(Fault::new(Condition::DeletedAbove, text, span))
     }
 }

@@ -77,7 +77,7 @@ impl Decoder {
         if rpm > most {
             let name = &self.motion.spindles[index].name;
             let text = format!(
-                "spindle speed {} rev/min of {name} is above its limit (P-AXIS-00212): {} rev/min are used",
+                "spindle speed {} rev/min of {name} is above its limit (P-AXIS-00212): {} rev/min is used",
                 rounded(rpm),
                 rounded(most)
             );
@@ -93,18 +93,17 @@ impl Decoder {
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
         if self.motion.spindles[index].index.is_none() {
-            let text = "the machine has no spindle: speeds are remembered, nothing turns";
+            let text = "the machine has no spindle: speeds are stored without effect";
             self.report.note_once("spindle", Fault::new(Condition::Ignored, text, span));
         } else if self.motion.spindles[index].is_turning() && self.motion.spindles[index].rpm == 0.0
         {
-            let text = "M03 and M04 with the speed 0 turn nothing before an S word";
+            let text = "M03 and M04 have no effect at speed 0 before an S word";
             self.report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
         } else if matches!(self.motion.spindles[index].turning, Turning::Positioned(_))
             && self.motion.spindles[index].rpm == 0.0
         {
             // TF5200 programming manual, M19 (208038923, 208198923): a speed above 0 must be set
-            let text =
-                "M19 needs a spindle speed on the control, here the spindle goes as fast as it can";
+            let text = "M19 requires a spindle speed on the control; here the spindle positions at its maximum speed";
             let fault = Fault::new(Condition::Odd, text, span).hint("write S or REV before it");
             self.report.note_once("M19 speed", fault.warning());
         }
@@ -199,7 +198,10 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End | MKind::Return if !matches!(then, Then::Next) => {
-                    let text = format!("M{:02} beside another end of the level", m.number);
+                    let text = format!(
+                        "M{:02} with another end of the program level in one block",
+                        m.number
+                    );
                     self.report.note(Fault::new(Condition::DuplicateGroup, text, m.span));
                 }
                 MKind::End => {

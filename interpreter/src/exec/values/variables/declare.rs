@@ -25,7 +25,7 @@ impl Decoder {
                 let Some((class, _)) = class(first) else {
                     let text = format!("variables of class V.{first} cannot be declared");
                     let fault = Fault::new(Condition::VariableType, text, span);
-                    return Err(fault.hint("V.P, V.L, V.S and V.CYC can be declared"));
+                    return Err(fault.hint("declare V.P, V.L, V.S or V.CYC variables"));
                 };
                 let names: Vec<&str> = segments[1..].iter().map(|s| &*s.name).collect();
                 (names.join("."), Some(class))
@@ -64,7 +64,7 @@ impl Decoder {
             Some(class) => self.values.variables.insert(class, &target, variable, span)?,
         };
         if exists {
-            let text = format!("{} exists already", declaration.place);
+            let text = format!("{} already exists", declaration.place);
             let condition = match class_of {
                 None => Condition::ParameterExists,
                 Some(_) => Condition::VariableExists,
@@ -84,7 +84,7 @@ impl Decoder {
         };
         let kind = Type::from_name(&name.text.to_ascii_uppercase()).ok_or_else(|| {
             Fault::new(Condition::VariableType, format!("unknown type {}", name.text), name.span)
-                .hint("types are BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64, STRING[n]")
+                .hint("use BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64 or STRING[n]")
         })?;
         match (&declaration.length, kind) {
             (Some(length), Type::Text(_)) => {
@@ -99,9 +99,8 @@ impl Decoder {
         let size = |e: &Expr| {
             let x = self.number(e)?;
             whole(x, 1, high).map(|n| n as usize).ok_or_else(|| {
-                let text = format!(
-                    "the size of a dimension is {x}, allowed are the whole numbers 1 to {high}"
-                );
+                let text =
+                    format!("the size of a dimension is {x}, allowed: whole numbers 1 to {high}");
                 let condition = if x < 1.0 {
                     Condition::DimensionTooSmall
                 } else if x > f64::from(high) {
@@ -148,9 +147,9 @@ impl Decoder {
     ///
     /// Assumption: it is rounded; the documents do not specify whether the control rounds or truncates.
     pub(super) fn note_rounded(&mut self, name: &str, x: f64, span: Span) {
-        let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
+        let text = format!("{name} only holds whole numbers: {x} is rounded to {}", x.round());
         let fault = Fault::new(Condition::Odd, text, span).warning();
-        let hint = "ROUND, INT, FLOOR or CEIL say which whole number is meant";
+        let hint = "use ROUND, INT, FLOOR or CEIL to select the whole number";
         self.report.note_once(&format!("rounded {name}"), fault.hint(hint));
     }
 
