@@ -4,7 +4,7 @@
 macro_rules! own {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
-    InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
+    InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are only allowed in comments and strings";
     Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "syntax error in a block", hint "write words as an address and a value (G01 X10.5 F1000), remarks with ;";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
     TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, M02 or M17, then more blocks", hint "move the end-of-program word to the end of the file, or delete the text after it";

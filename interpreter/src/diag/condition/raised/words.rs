@@ -163,7 +163,7 @@ macro_rules! words {
     MaskedGroup = Vendor 20584: Error ProgramAbort 3 1, "group of G160 is not in the table of zero offsets", cause "G160=500 X1", hint "use a group from 0 to 96";
     ZeroOffsetDefault = Vendor 20585: Error ProgramAbort 6 2, "default zero offset outside the groups", cause "default_index 200", hint "use a group from 0 to 96", parameter "P-ZERO-00002";
     ConditionalNesting = Vendor 20590: Error ProgramAbort 3 1, "#IF nested too deeply", hint "move an inner part into a subroutine";
-    ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
+    ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip character may precede it";
     PresetTooLarge = Vendor 20604: Error ProgramAbort 3 1, "position of #PSET outside the data format", cause "#PSET X94967296", hint "the limit of coordinates is 214748.3647 mm or deg";
     PresetWithPath = Vendor 20607: Error ProgramAbort 3 1, "#PSET or #PRESET in the block of a function of the path", cause "G01 F1000 #PSET X200", hint "write the G function in a separate block";
     PresetWithCompensation = Vendor 20608: Error ProgramAbort 3 1, "#PSET or #PRESET with active tool radius compensation", hint "switch the compensation off with G40 first";
