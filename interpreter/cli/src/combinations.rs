@@ -17,7 +17,7 @@ use std::collections::hash_map::Entry;
 pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     for (i, v) in vary.iter().enumerate() {
         if vary[..i].iter().any(|other| other.key.eq_ignore_ascii_case(&v.key)) {
-            return Err(Error::Usage(format!("--vary: {} twice", v.key)));
+            return Err(Error::Usage(format!("--vary: {} given twice", v.key)));
         }
     }
     let used = |v: &Vary| -> Vec<String> {
@@ -26,7 +26,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     let all_used: Vec<String> = vary.iter().flat_map(used).collect();
     for name in &all_used {
         if !vary.iter().any(|v| v.is_name() && v.key == *name) {
-            return Err(Error::Usage(format!("--vary: {{{name}}} needs --vary {name}=VALUES")));
+            return Err(Error::Usage(format!("--vary: {{{name}}} requires --vary {name}=VALUES")));
         }
     }
     for v in vary.iter().filter(|v| v.is_name()) {
