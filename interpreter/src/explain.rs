@@ -263,7 +263,7 @@ fn reaction(row: &Row) -> Option<String> {
             Correction::Limit => "limited".to_owned(),
             Correction::Value(x) => format!("{x} is used"),
             Correction::Keep => "the function is off".to_owned(),
-            Correction::Refuse => "the machine is rejected".to_owned(),
+            Correction::Refuse => "the machine is refused".to_owned(),
         };
         Some(format!("{name}: {}, {what}", reaction.condition.id()))
     };

@@ -157,7 +157,7 @@ fn refused_lists_do_not_continue() {
     for words in [&["--set", "kontur.cycle_time_us=7"][..], &plant] {
         let done = command([&["run", program], words].concat());
         assert_eq!(done.exit, Exit::Usage, "{}", done.err);
-        assert!(done.err.contains("the machine lists were rejected"), "{}", done.err);
+        assert!(done.err.contains("the machine lists were refused"), "{}", done.err);
         for promise in ["the run continues", "is used"] {
             assert!(!done.err.contains(promise), "{}", done.err);
         }

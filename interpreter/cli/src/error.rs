@@ -23,10 +23,10 @@ pub enum Error {
     #[error("{0}")]
     Usage(String),
     /// The machine lists were refused; their diagnostics have been printed.
-    #[error("the machine lists were rejected")]
+    #[error("the machine lists were refused")]
     Lists,
     /// A file of real-time inputs is wrong; its diagnostics have been printed.
-    #[error("the file of real-time inputs was rejected")]
+    #[error("the file of real-time inputs was refused")]
     Inputs,
     /// Ctrl-C stopped the run; everything computed so far is written.
     #[error("interrupted at t = {time_s:.6} s")]

@@ -269,9 +269,9 @@ pub(crate) fn state_of(text: &str) -> Option<(&'static str, &'static str)> {
         Act::Run(_) => "kontur check reports which parts are executed",
         Act::Ignored(why) => why,
         Act::OffOnly => {
-            "OFF is accepted; ON is rejected, because it would change the path and is not simulated"
+            "OFF is accepted; ON is refused, because it would change the path and is not simulated"
         }
-        Act::Unsupported => "rejected, because it would change the path and is not simulated",
+        Act::Unsupported => "refused, because it would change the path and is not simulated",
     };
     Some((row.name, state))
 }

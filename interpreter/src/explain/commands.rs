@@ -60,7 +60,7 @@ const COMMANDS: &[Command] = &[
     row(&["G230", "G231"], "G230 X..   G231=..", "percent of the rapid acceleration, per axis or for all", "", "", "G231=80", &["50130", "P-AXIS-00004"]),
     row(&["G233"], "G233=..", "percent of the rapid ramp time", "", "", "G233=150", &["120630", "P-AXIS-00200"]),
     row(&["G135", "G137"], "G135   G137", "feedforward of all axes of the channel on, off; modal, off at program start", "", "weights of G136 are kept. vorsteuer.default_active in a list switches it on permanently", "G135", &["G136", "P-AXIS-00223", "P-AXIS-00255", "P-AXIS-00256", "K-0022"]),
-    row(&["G136"], "G136 X.. Y..", "weights of the feedforward in percent, axis by axis; modal", "0..100 %, 100 at program start; higher values are limited (K-0020), negative values rejected (K-0021)", "axes not named keep their weight; the axis words of the block are weights, not positions. Spindles: S[G135 G136=80]", "G135 G136 X80 Y95", &["G135", "K-0020", "K-0021", "21738", "P-AXIS-00228"]),
+    row(&["G136"], "G136 X.. Y..", "weights of the feedforward in percent, axis by axis; modal", "0..100 %, 100 at program start; higher values are limited (K-0020), negative values refused (K-0021)", "axes not named keep their weight; the axis words of the block are weights, not positions. Spindles: S[G135 G136=80]", "G135 G136 X80 Y95", &["G135", "K-0020", "K-0021", "21738", "P-AXIS-00228"]),
     row(&["G161", "G162"], "G161   G162", "I, J, K absolute, relative to the start point", "", "", "G162", &["G02"]),
     row(&["G164", "G165"], "G164   G165", "centre correction of arcs off, on", "", "", "G165", &["21758", "P-CHAN-00059", "P-CHAN-00060", "P-CHAN-00171", "P-CHAN-00172"]),
     row(&["G166"], "G166", "override 100 % for this block, for the programmed override and the real-time inputs", "", "", "G01 G166 X10", &["#OVERRIDE"]),
@@ -113,7 +113,7 @@ fn state(wanted: &str) -> Option<Explanation> {
     } else {
         let number: u32 = wanted.strip_prefix('G')?.parse().ok()?;
         let what = unsupported_function(number)?;
-        (format!("G{number}"), format!("{what}; rejected: not simulated"))
+        (format!("G{number}"), format!("{what}; refused: not simulated"))
     };
     Some(Explanation {
         kind: Kind::Command,

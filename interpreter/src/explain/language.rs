@@ -29,7 +29,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["G163"], "G163=..", "radius of the following arcs, instead of R", "", "", "G163=10", &["G02"]),
     row(&["G66"], "G66", "block ends within a cycle", "", "accepted without effect (K-0111)", "G66", &["K-0111"]),
     row(&["G333", "G334", "G338", "G339"], "G333   G334=..", "weights of the acceleration and the ramp times of a feedhold", "", "accepted without effect (K-0111)", "G334=50", &["K-0111", "P-CHAN-00097"]),
-    row(&["G140"], "G140", "contour masking off", "", "G141 is rejected", "G140", &["K-0019"]),
+    row(&["G140"], "G140", "contour masking off", "", "G141 is refused", "G140", &["K-0019"]),
     row(&["G200", "G201", "G202"], "G200 X1   G201 X1 Y1   G202   G201 #ACHSE [X]", "manual mode: the program waits (G200), manual mode of the named axes alongside the program (G201), end of manual mode (G202)", "the values of the axes have no meaning", "the axes are not moved by hand: G200 stops and continues immediately, offsets are 0 (K-0111)", "G201 X1", &["K-0111", "#JOG", "#GET MANUAL OFFSETS"]),
     row(&["G301", "G302", "#CHR", "#CHF", "#RND", "#FRC"], "G301 I..   G302 I..   #CHR=..   #CHF=..   #RND=..   #FRC=..", "chamfer or rounding between this motion and the next one in the plane", "I, #CHR: distance of the end points from the corner; #CHF: length of the chamfer; #RND: radius; #FRC: feed within it, in the unit of F", "", "G302 I5 #FRC=300", &["F"]),
     row(&["G900", "G901"], "G900   G901", "deceleration to a lower feed ends at the end of the faster block, or starts there", "", "no effect with HSC (K-0100)", "G901", &["G09"]),

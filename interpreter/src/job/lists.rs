@@ -68,7 +68,7 @@ impl MachineLists<'_> {
         };
         let unknown = |d: &Diagnostic| d.id == Condition::ListKeyUnknown;
         if self.strict && messages.iter().any(unknown) {
-            let hint = "--strict rejects keys that are not modelled";
+            let hint = "--strict refuses keys that are not modelled";
             let strict = messages.into_iter().map(|d| {
                 let wrong = unknown(&d);
                 refused(d, wrong, hint)
@@ -79,7 +79,7 @@ impl MachineLists<'_> {
         let chains = machine.chains().1;
         let left_out = |d: &Diagnostic| self.strict && leaves_out(d);
         if chains.iter().any(|d| d.is_error() || left_out(d)) {
-            let hint = "--strict rejects parts that cannot be built";
+            let hint = "--strict refuses parts that cannot be built";
             let chains = chains.into_iter().map(|d| {
                 let wrong = left_out(&d);
                 refused(d, wrong, hint)

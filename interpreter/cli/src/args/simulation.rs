@@ -61,7 +61,7 @@ pub struct SimulationArgs {
     #[arg(long, value_name = "N", default_value_t = 100_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub max_blocks: u64,
 
-    /// Reject list keys that are not modelled
+    /// Refuse list keys that are not modelled
     #[arg(long)]
     pub strict: bool,
 

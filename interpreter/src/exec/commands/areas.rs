@@ -63,7 +63,7 @@ pub(super) const CONTROL_AREA: Row = Row::run("CONTROL AREA", switch)
     .form("#CONTROL AREA ON|OFF [ID=..], #CONTROL AREA ON|OFF ALL")
     .meaning("monitors workspaces and protection areas: a motion that violates one aborts the program")
     .keys(AreaChoice::KEYS)
-    .note("OFF alone switches off the area switched on last; contouring, #HSC and splines are rejected while an area is active")
+    .note("OFF alone switches off the area switched on last; contouring, #HSC and splines are refused while an area is active")
     .example("#CONTROL AREA ON ALL")
     .related(&["120484", "120742", "K-0147"]);
 

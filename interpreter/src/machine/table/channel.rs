@@ -155,7 +155,7 @@ parameters! {
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
     chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one replaces those before it")
         .default(0.0).source("TF5200 channel parameters"), as SEVERAL_WORDS: Switch;
-    chan("P-CHAN-00149", "kasto_reject_rest_block", Raw::Boolean, "1: edge banding (G108) skips the rest of the block after its M function; rejected")
+    chan("P-CHAN-00149", "kasto_reject_rest_block", Raw::Boolean, "1: edge banding (G108) skips the rest of the block after its M function; refused")
         .default(0.0).source("TF5200 channel parameters 149014539"), as BANDING_REJECTS_REST: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
@@ -226,7 +226,7 @@ parameters! {
     chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored");
     chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored");
     chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored");
-    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs as a path axis; no effect here, S[CALLAX] is rejected");
+    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs as a path axis; no effect here, S[CALLAX] is refused");
     chan("P-CHAN-00026", "h_prozess_zeit[i]", Raw::Uns32, "duration of H function i, counted with --techno-times")
         .default(0.0).unit("us", "us"), as H_DURATION: Optional;
     chan("P-CHAN-00040", "m_prozess_zeit[i]", Raw::Uns32, "duration of M function i, counted with --techno-times")

@@ -30,6 +30,6 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(1e9)).default(0.0), as WEAR: Number;
     tool("P-TOOL-00031", "wz[i].grinding_max_infeed", Raw::Real64, "maximum external wear accepted by #OTC, positive or negative")
         .default(0.0).unit("0.1um", "0.1um"), as INFEED: Number;
-    tool("P-TOOL-00138", "wz[i].grinding_disc_tilt_angle", Raw::Real64, "angle between the axis of a grinding wheel and the third main axis; values other than 0 are rejected with #OTC")
+    tool("P-TOOL-00138", "wz[i].grinding_disc_tilt_angle", Raw::Real64, "angle between the axis of a grinding wheel and the third main axis; values other than 0 are refused with #OTC")
         .range(Bound::At(-450_000.0), Bound::At(450_000.0)).default(0.0).unit("0.0001deg", "0.0001deg"), as TILT: Number;
 }

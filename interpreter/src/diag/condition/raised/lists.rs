@@ -76,7 +76,7 @@ macro_rules! lists {
     AreaAxisAlone = Vendor 120742: Error ProgramAbort 6 1, "axis of a control area moved independently", cause "X[INDP_ASYN ..] while a control area of X is active", hint "write #CONTROL AREA OFF [ID=..] before it";
     AreaCircleAxis = Vendor 120743: Error ProgramAbort 6 1, "axis not allowed in the circle of a control area", cause "G02 with an axis that is not a main axis", hint "write the base of CIRC in main axes";
     TimeInSpline = Vendor 120847: Warning None 1 1, "G93 in a B-spline, F counts as under G94", cause "#HSC ON [BSPLINE], then G93", hint "write G94 with F in mm/min before #HSC";
-    ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict rejects unknown ones";
+    ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "invalid number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading continues", hint "write numbers as 10, -10, 1.5 or 0x101";
         }
     };

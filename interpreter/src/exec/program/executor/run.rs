@@ -141,7 +141,7 @@ impl Executor {
             Keyword::Remark => {
                 let at = entry.position;
                 if let Some(location) = self.place(at, entry.span) {
-                    let text = "a % block inside a program: treated as a remark here, rejected by the control";
+                    let text = "a % block inside a program: treated as a remark here, refused by the control";
                     let condition = match self.levels.len() {
                         1 => Condition::PercentInProgram,
                         _ => Condition::PercentInSubroutine,

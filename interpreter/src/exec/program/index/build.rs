@@ -159,7 +159,7 @@ impl Builder<'_> {
             self.close(raw.position.offset);
             let name = name_of(text);
             if self.has_main {
-                let text = "a local subroutine after the main program: the control may reject it";
+                let text = "a local subroutine after the main program: the control may refuse it";
                 let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
                 self.report(raw, raw.text.len() - rest.len(), 2, d);
             }
