@@ -149,8 +149,8 @@ fn remarks_on_feedforward() {
     says("P-AXIS-00513", &["block diagram of the additive variant", "meaning unknown"]);
     says("P-AXIS-00223", &["XERR (signal 25)", "NSOLL_B (signal 7)", "0x100"]);
     says("getriebe[0].kv", &["S-0-0104"]);
-    says("S-0-0296", &["SERCOS", "feed forward themselves"]);
-    says("S-0-0348", &["SERCOS", "feed forward themselves"]);
+    says("S-0-0296", &["SERCOS", "have their own feedforward"]);
+    says("S-0-0348", &["SERCOS", "have their own feedforward"]);
     says("P-AXIS-00223", &["S-0-0296, S-0-0348"]);
     says("V_SATZ_ANZ", &["number of blocks buffered", "5 cycles"]);
     says("P-AXIS-00086", &["raise it for measuring moves"]);

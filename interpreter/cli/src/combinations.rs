@@ -163,7 +163,7 @@ mod tests {
         assert_eq!(request.settings, ["X.a=30"]);
         let word = Word { line: None, name: "FREQ".to_owned(), value: "30".to_owned() };
         assert_eq!(request.words, [word]);
-        assert!(error(["X.a={F}", "Y.b=1"]).contains("needs --vary F="));
+        assert!(error(["X.a={F}", "Y.b=1"]).contains("requires --vary F="));
         assert!(error(["kv=1,2", "Y.b=1"]).contains("AXIS.kv"));
         assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
         // a single parameter may have as many values as there may be combinations

@@ -106,7 +106,8 @@ impl<'a> Project<'a> {
             } else {
                 "channel list (SdaMds)"
             };
-            let mut message = format!("{start_up} and its parts do not contain {missing} of a CNC");
+            let mut message =
+                format!("{start_up} and its parts do not contain the {missing} of a CNC");
             let named = content.missing();
             if !named.is_empty() {
                 let _ = write!(message, "; named but not found: {}", named.join(", "));

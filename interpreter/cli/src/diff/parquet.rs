@@ -186,7 +186,7 @@ mod tests {
                 let mut bytes = whole.clone();
                 bytes[at] ^= flip;
                 let said = read(&bytes, folder.path()).map_err(|e| e.to_string());
-                caught += usize::from(said.is_err_and(|e| e.contains("what they name")));
+                caught += usize::from(said.is_err_and(|e| e.contains("what they declare")));
             }
         }
         assert!(caught > 0, "none of them would have been a panic");

@@ -223,7 +223,7 @@ mod tests {
         assert!(read_with(&text, &["--column", "a", "--rate", "500"]).is_ok());
         let message = |r: Result<Recording, Error>| r.unwrap_err().to_string();
         let other = message(read_with(&text, &["--column", "a", "--rate", "1000"]));
-        assert!(other.contains("disagrees") && other.contains("500.000 Hz"), "{other}");
+        assert!(other.contains("contradicts") && other.contains("500.000 Hz"), "{other}");
         assert!(message(read_with(&text, &["--column", "x"])).contains("a, b"));
         assert!(message(read_with(&text.replace("t_s", "x"), &[])).contains("--rate"));
         assert!(message(read_with("a\n1\n2\n", &["--rate", "100"])).contains("64 to"));
