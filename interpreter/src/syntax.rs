@@ -305,7 +305,7 @@ fn too_long(raw: &RawBlock<'_>) -> Problem {
     Problem::new(
         Condition::LineTooLong,
         Span::new(at, at),
-        format!("block of {} characters, allowed: {limit}", raw.characters),
+        format!("block of {} characters, maximum: {limit}", raw.characters),
     )
     .severity(severity)
 }

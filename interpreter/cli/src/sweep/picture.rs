@@ -48,7 +48,7 @@ pub(super) fn draw(
         }
     }
     if series.len() > MOST_CURVES {
-        let text = format!("--vary: {} curves in a picture, allowed: {MOST_CURVES}", series.len());
+        let text = format!("--vary: {} curves in a picture, maximum: {MOST_CURVES}", series.len());
         return Err(Error::Usage(text));
     }
     for s in &mut series {

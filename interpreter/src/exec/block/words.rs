@@ -281,7 +281,7 @@ impl Decoder {
             let length = written.chars().count();
             if length > most as usize {
                 let text =
-                    format!("the {what} of the macro has {length} characters, allowed: {most}");
+                    format!("the {what} of the macro has {length} characters, maximum: {most}");
                 let fault = Fault::new(condition, text, span)
                     .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter));
                 if condition != Condition::Range {

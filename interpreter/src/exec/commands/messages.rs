@@ -306,7 +306,7 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             && text.chars().count() > TEXT_MAX
         {
             let text =
-                format!("a text of {} characters, allowed: {TEXT_MAX}", text.chars().count());
+                format!("a text of {} characters, maximum: {TEXT_MAX}", text.chars().count());
             return Err(Fault::new(Condition::Range, text, span));
         }
         diagnostic = match (kind_of(meaning), value) {

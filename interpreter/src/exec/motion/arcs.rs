@@ -272,7 +272,7 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
         }
         ArcError::CentreTooFar { shift, limit } => {
             let text = format!(
-                "start point, end point and centre do not match: the centre would have to move by {shift:.6} mm, allowed: {limit:.6} mm"
+                "start point, end point and centre do not match: the centre would have to move by {shift:.6} mm, maximum: {limit:.6} mm"
             );
             Fault::new(Condition::ArcCentre, text, span)
                 .with(|d| d.parameter("P-CHAN-00059"))
@@ -280,7 +280,7 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
         }
         ArcError::RadiiDiffer { start, end, limit } => {
             let text = format!(
-                "the radii at start and end differ by {:.6} mm, allowed: {limit:.6} mm",
+                "the radii at start and end differ by {:.6} mm, maximum: {limit:.6} mm",
                 (start - end).abs()
             );
             Fault::new(Condition::ArcRadiiDiffer, text, span).with(|d| {

@@ -288,7 +288,7 @@ fn polygon(points: &[AxisVec], plane: [usize; 2], span: Span) -> Outcome<Base> {
         points.iter().map(|point| plane.map(|axis| point[axis])).collect();
     if corners.len() > POLYGON_BLOCKS {
         let text =
-            format!("{} blocks in a control area POLY, allowed: {POLYGON_BLOCKS}", corners.len());
+            format!("{} blocks in a control area POLY, maximum: {POLYGON_BLOCKS}", corners.len());
         return Err(Fault::new(Condition::AreaPoints, text, span));
     }
     let last = corners.pop();

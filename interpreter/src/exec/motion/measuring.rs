@@ -135,7 +135,7 @@ impl Decoder {
                         self.names.name(*axis)
                     )
                 }
-                _ => format!("{count} axes with measuring type {kind}, allowed: {most}"),
+                _ => format!("{count} axes with measuring type {kind}, maximum: {most}"),
             };
             return Err(Fault::new(Condition::MeasuringAxes, text, at).with(|d| {
                 d.value(ValueKind::Current, count as f64, "-").value(

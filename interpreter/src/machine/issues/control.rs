@@ -119,7 +119,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             let max = PlantConfig::MAX_DEAD_TIME as f64;
             about(
                 axis_drive::SIMU_DEAD_TIME.place(),
-                &format!("dead time {cycles} cycles of the simulated drive, allowed: {max}"),
+                &format!("dead time {cycles} cycles of the simulated drive, maximum: {max}"),
                 &format!("{max} is used"),
             )
             .value(ValueKind::Wrong, cycles, "cycles")
@@ -159,7 +159,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             let max = IpcStageConfig::MAX_WEIGHT;
             about(
                 axis_guard::IPC_WEIGHT_NUM.at(stage as u32).place(),
-                &format!("weight {weight}, allowed: {max}"),
+                &format!("weight {weight}, maximum: {max}"),
                 &format!("{max} is used"),
             )
             .value(ValueKind::Wrong, weight, "-")
