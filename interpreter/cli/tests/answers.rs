@@ -183,7 +183,7 @@ fn tune_judges_the_choices_on_a_program() {
     program(&square.replace("N10", "N10 #VIB GUARD OFF\nN20"));
     let (_, out, _) = tune("@corner.nc", "1");
     assert!(out.contains("line 1 switches the guard off"), "{out}");
-    assert!(out.contains("up to line 1: after it nothing was damped"), "{out}");
+    assert!(out.contains("up to line 1: after it, vibration was not damped"), "{out}");
     // options for recordings have no effect on given frequencies
     for option in ["--column=a", "--rate=1000", "--range=1..2", "--window=0..1"] {
         assert_eq!(f.call(&["tune", "--freq", "6.9,6.0", option]).0, Exit::Usage, "{option}");
