@@ -33,13 +33,13 @@ pub enum Effect {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FilterIssue {
     /// 110239: the number is not a filter type (7 and 9 are reserved). Source: P-AXIS-00204.
-    #[error("filter type {number}, 1 to 12 without 7 and 9 exist")]
+    #[error("filter type {number}, allowed: 1 to 12 except 7 and 9")]
     TypeNotPermitted {
         /// The number.
         number: u32,
     },
     /// 110500: an axis has one HSC filter at most.
-    #[error("second HSC filter, an axis has one at most")]
+    #[error("second HSC filter, an axis can have only one")]
     SecondHsc,
     /// 110501: the HSC filter must be the first filter of the axis.
     #[error("HSC filter that is not the first filter")]
@@ -54,7 +54,7 @@ pub enum FilterIssue {
     #[error("HSC filter of the additional interface")]
     HscOnInterface,
     /// 50663: time constant outside its range. Source: P-AXIS-00357.
-    #[error("filter time constant {time_constant_us} us, {min_us} to {max_us} us are allowed")]
+    #[error("filter time constant {time_constant_us} us, allowed: {min_us} to {max_us} us")]
     TimeConstant {
         /// The time constant in us.
         time_constant_us: u32,
@@ -64,9 +64,7 @@ pub enum FilterIssue {
         max_us: u32,
     },
     /// 50910: the time that gives the order is shorter than a cycle. Source: P-AXIS-00591, 00357.
-    #[error(
-        "time that gives the filter order {order_time_us} us, at least the cycle of {cycle_us} us"
-    )]
+    #[error("time for the filter order {order_time_us} us, minimum: the cycle of {cycle_us} us")]
     OrderTimeBelowCycle {
         /// The time in us.
         order_time_us: u32,
@@ -74,7 +72,7 @@ pub enum FilterIssue {
         cycle_us: u32,
     },
     /// 50911: the order is above its range; the highest one is used.
-    #[error("filter order {order}, at most {used}")]
+    #[error("filter order {order}, maximum {used}")]
     OrderTooHigh {
         /// The configured order.
         order: u32,
@@ -82,7 +80,7 @@ pub enum FilterIssue {
         used: u32,
     },
     /// A PT2 has the order 2. Source: P-AXIS-00140.
-    #[error("filter order {order}, the type has {used}")]
+    #[error("filter order {order}, fixed for this type: {used}")]
     OrderCorrected {
         /// The configured order.
         order: u32,
@@ -90,10 +88,10 @@ pub enum FilterIssue {
         used: u32,
     },
     /// 50989: the filter is on and has a type, but neither an order nor a time that gives one.
-    #[error("filter order 0 and no time that gives one")]
+    #[error("filter order 0 without a time for the order")]
     NoOrder,
     /// 110361: the characteristic frequency is below the lowest one, which is used. Source: P-AXIS-00067.
-    #[error("filter frequency {f_hz} Hz, at least {used_hz} Hz")]
+    #[error("filter frequency {f_hz} Hz, minimum {used_hz} Hz")]
     FrequencyTooLow {
         /// The configured frequency in Hz.
         f_hz: f64,
@@ -101,7 +99,7 @@ pub enum FilterIssue {
         used_hz: f64,
     },
     /// A frequency outside its range. Source: P-AXIS-00067, 00585.
-    #[error("filter frequency {f_hz} Hz, {min_hz} to below {max_hz} Hz are allowed")]
+    #[error("filter frequency {f_hz} Hz, allowed: from {min_hz} to below {max_hz} Hz")]
     Frequency {
         /// The frequency in Hz.
         f_hz: f64,
@@ -111,7 +109,7 @@ pub enum FilterIssue {
         max_hz: f64,
     },
     /// A quality outside its range: 1 to 10 (P-AXIS-00080), or above 0 to 1 (P-AXIS-00593).
-    #[error("filter quality {quality}, {range} is allowed")]
+    #[error("filter quality {quality}, allowed: {range}")]
     Quality {
         /// The quality.
         quality: f64,
@@ -119,16 +117,16 @@ pub enum FilterIssue {
         range: &'static str,
     },
     /// A share outside 0 to 1. Source: P-AXIS-00164, 00590.
-    #[error("filter share {} %, 0 to 100 % are allowed", 100.0 * share_ratio)]
+    #[error("filter share {} %, allowed: 0 to 100 %", 100.0 * share_ratio)]
     Share {
         /// The share.
         share_ratio: f64,
     },
     /// A share of a FIR filter that only delays: the rest has the same delay.
-    #[error("share of a delay, which is the whole signal with the same delay")]
+    #[error("share given for a delay, which always delays the whole signal")]
     ShareOfDelay,
     /// The vendor recommends BESSEL for the all-pass.
-    #[error("all-pass that is not BESSEL")]
+    #[error("all-pass without the prototype BESSEL")]
     AllPassNotBessel,
     /// The filter's gain is zero for an axis at rest, so it acts on the deviation from the switch-on position.
     #[error("high-pass or band-pass on a position")]

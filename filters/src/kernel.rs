@@ -173,7 +173,7 @@ fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
 /// A change of the kernel was requested while it would have made the output jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the kernel cannot be changed before the axis has been at rest for {needed_cycles} cycles; so far it has for {rest_cycles}"
+    "the kernel cannot be changed until the axis has been at rest for {needed_cycles} cycles; so far {rest_cycles}"
 )]
 pub struct SwitchWhileMoving {
     /// Equal inputs in a row so far.

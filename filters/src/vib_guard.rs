@@ -50,30 +50,26 @@ impl Default for VibGuardSettings {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum VibGuardError {
     /// Vendor error 22062: there is no such mode.
-    #[error("Vibration Guard mode {mode}, 1 to 4 are allowed")]
+    #[error("Vibration Guard mode {mode}, allowed: 1 to 4")]
     Mode {
         /// The configured mode.
         mode: u8,
     },
     /// K-VIB-RANGE: the frequency is below [`VibGuardSettings::MIN_FREQ_HZ`] or not a number.
-    #[error(
-        "Vibration Guard frequency {freq_hz} Hz, at least {} Hz",
-        VibGuardSettings::MIN_FREQ_HZ
-    )]
+    #[error("Vibration Guard frequency {freq_hz} Hz, minimum {} Hz", VibGuardSettings::MIN_FREQ_HZ)]
     Frequency {
         /// The configured frequency in Hz.
         freq_hz: f64,
     },
     /// K-VIB-RANGE: the damping is outside 0 to 1 or not a number.
-    #[error("Vibration Guard damping {damping}, 0 to 1 are allowed")]
+    #[error("Vibration Guard damping {damping}, allowed: 0 to 1")]
     Damping {
         /// The configured damping.
         damping: f64,
     },
     /// Vendor error 50820: half a damped period is shorter than a cycle, or the kernel would be too long.
     #[error(
-        "Vibration Guard frequency {freq_hz} Hz with damping {damping}, half a damped period is at least one cycle \
-         and the damping at most {}",
+        "Vibration Guard frequency {freq_hz} Hz with damping {damping}; half a damped period must be at least one cycle and the damping at most {}",
         VibGuardSettings::MAX_DAMPING
     )]
     NotRealisable {

@@ -123,7 +123,7 @@ fn drives_here(row: &Row) -> &'static str {
         "Simulation" if row.id != "P-AXIS-00194" => {
             "; here only with the plant SIMU (kontur.axis[i].plant.model)"
         }
-        _ => "; every simulated drive here",
+        _ => "; here for every simulated drive",
     }
 }
 
@@ -143,7 +143,7 @@ fn parameter(row: &'static Row) -> Explanation {
     let mut facts = Vec::new();
     facts.push(("list", list_name(row.list).to_owned()));
     if row.key.is_empty() {
-        facts.push(("key", "none is read here: a list cannot set it".to_owned()));
+        facts.push(("key", "not read here: cannot be set in a list".to_owned()));
     } else {
         // the tables print STRING where a number is accepted too
         let printed = ["P-AXIS-00153", "P-AXIS-00737", "P-AXIS-00738"].contains(&row.id);
@@ -191,7 +191,7 @@ fn list_name(list: ListKind) -> &'static str {
         ListKind::Channel => "channel list",
         ListKind::Axis => "axis list",
         ListKind::Tool => "tool list",
-        ListKind::Zero => "list of zero offsets",
+        ListKind::Zero => "zero offset list",
         ListKind::Kontur => "kontur.lis",
     }
 }
@@ -212,8 +212,8 @@ fn range(row: &Row) -> String {
         }
         _ => format!(
             "{} .. {}",
-            end(row.low, "least of the type"),
-            end(row.high, "greatest of the type")
+            end(row.low, "minimum of the type"),
+            end(row.high, "maximum of the type")
         ),
     };
     match row.special {
@@ -247,7 +247,7 @@ fn unit(row: &Row) -> String {
 fn reaction(row: &Row) -> Option<String> {
     if row.at_setup {
         return Some(
-            "checked where the function is set up, together with its other words".to_owned(),
+            "checked when the function is set up, together with its other parameters".to_owned(),
         );
     }
     let side = |bound: Bound, name: &str, reaction: table::Reaction| {

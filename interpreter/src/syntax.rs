@@ -270,7 +270,7 @@ impl Parser {
                     if matches!(first, Some(b'R' | b'r')) {
                         found.condition = Condition::RadiusArray;
                     } else if !matches!(first, Some(b'V' | b'v' | b'P' | b'p' | b'@')) {
-                        found = found.hint("is #ENDVAR missing before it?");
+                        found = found.hint("check whether #ENDVAR is missing before it");
                     }
                 }
                 // the text after a function without its bracket is not a word
@@ -305,7 +305,7 @@ fn too_long(raw: &RawBlock<'_>) -> Problem {
     Problem::new(
         Condition::LineTooLong,
         Span::new(at, at),
-        format!("block of {} characters, at most {limit} are allowed", raw.characters),
+        format!("block of {} characters, maximum: {limit}", raw.characters),
     )
     .severity(severity)
 }

@@ -23,7 +23,7 @@ fn is(id: &str, key: &str, kind: &str, range: &str, default: &str, unit: &str) {
     assert_eq!(is, [kind, range, default, unit], "{id}");
 }
 
-const MAX: &str = "greatest of the type";
+const MAX: &str = "maximum of the type";
 
 /// Axis filters, 2.3 and 3.1: prototypes, and which keys matter for which type.
 /// Conformance: A002, A010, A085, A093.
@@ -83,7 +83,10 @@ fn table_of_axis_filters() {
     let own = "lr_param.add_interface";
     says(&format!("{own}.enable"), &["switches the additional interface"]);
     is("P-AXIS-00735", &format!("{own}.filter[i].enable"), "BOOLEAN", "0 or 1", "0", "-");
-    says("P-AXIS-00736", &["default    2", "PT1, PT2, TIME_DELAY: any above 0 switches on"]);
+    says(
+        "P-AXIS-00736",
+        &["default    2", "PT1, PT2, TIME_DELAY: any order above 0 switches the filter on"],
+    );
     is("P-AXIS-00740", &format!("{own}.filter[i].guete"), "REAL64", "1 .. 10", "1", "-");
     says("P-AXIS-00737", &["default    CRIT_DAMPING", "axes       T ("]);
     says(
@@ -133,7 +136,7 @@ fn table_of_improved_position_control() {
     for n in 750..=758 {
         says(
             &format!("P-AXIS-00{n}"),
-            &["SERCOS, Profidrive, CANopen; every simulated drive here"],
+            &["SERCOS, Profidrive, CANopen; here for every simulated drive"],
         );
     }
 }
@@ -146,8 +149,8 @@ fn remarks_on_feedforward() {
     says("P-AXIS-00513", &["block diagram of the additive variant", "meaning unknown"]);
     says("P-AXIS-00223", &["XERR (signal 25)", "NSOLL_B (signal 7)", "0x100"]);
     says("getriebe[0].kv", &["S-0-0104"]);
-    says("S-0-0296", &["SERCOS", "feed forward themselves"]);
-    says("S-0-0348", &["SERCOS", "feed forward themselves"]);
+    says("S-0-0296", &["SERCOS", "have their own feedforward"]);
+    says("S-0-0348", &["SERCOS", "have their own feedforward"]);
     says("P-AXIS-00223", &["S-0-0296, S-0-0348"]);
     says("V_SATZ_ANZ", &["number of blocks buffered", "5 cycles"]);
     says("P-AXIS-00086", &["raise it for measuring moves"]);
@@ -173,7 +176,7 @@ fn table_of_feedforward() {
     is("P-AXIS-00225", "vorsteuer.vs_a_faktor", "SGN32", &from_0, "1", "us");
     says("P-AXIS-00226", &["vorsteuer.vs_a_nenner", "SGN32", "default    1", "110381"]);
     is("P-AXIS-00228", "vorsteuer.vs_v_faktor", "SGN32", &from_0, "1", "-");
-    says("P-AXIS-00228", &["0 is a legal weight", "0.7..1"]);
+    says("P-AXIS-00228", &["0 is a valid weight", "0.7..1"]);
     says("P-AXIS-00229", &["vorsteuer.vs_v_nenner", "SGN32", "default    1", "110123"]);
     is("P-AXIS-00325", "antr.torque_scale_num", "UNS32", &from_1, "1", "-");
     says("P-AXIS-00325", &["SERCOS, Lightbus, CANopen"]);
@@ -207,7 +210,7 @@ fn table_of_position_monitoring() {
     // the document prints a range from 0; the control replaces 0 by the default (110087)
     is("P-AXIS-00236", "getriebe[i].window", "SGN32", &format!("1 .. {MAX}"), "500", unit);
     says("P-AXIS-00236", &["500 is 0.05 mm", "three times the lag at standstill"]);
-    let range = format!("least of the type .. {MAX}");
+    let range = format!("minimum of the type .. {MAX}");
     is("P-AXIS-00532", "getriebe[i].position_settling_time", "SGN32", &range, "-1", "us");
     says("P-AXIS-00532", &["10000..200000 us", "below 0 P-AXIS-00151"]);
 }

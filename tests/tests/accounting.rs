@@ -99,7 +99,7 @@ fn dwells_and_rapids() {
     near(&summary["ideal_duration_s"], 0.1 + 10.0 / 1000.0, 1e-9);
     let text = folder.text();
     assert!(text.contains("  dwells         0.75"), "{text}");
-    let shares = text.lines().find(|l| l.contains("speed held by")).unwrap();
+    let shares = text.lines().find(|l| l.contains("speed limited by")).unwrap();
     let share = |name: &str| -> f64 {
         let behind = shares.split(&format!(" {name} ")).nth(1).unwrap_or("0 %");
         behind.split(" %").next().unwrap().parse().unwrap()

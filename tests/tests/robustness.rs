@@ -139,7 +139,11 @@ fn amplitudes_that_cannot_be() {
     assert!(above.err.contains("shows up to 500 Hz"), "{}", above.err);
     let late = sweep("X_lag_mm@1..2@5..6");
     assert_eq!(late.exit, Exit::Finished);
-    assert!(late.err.contains("no run lasts until the end of this window"), "{}", late.err);
+    assert!(
+        late.err.contains("none of the runs lasts until the end of this window"),
+        "{}",
+        late.err
+    );
     assert!(!late.out.contains("without_effect"), "{}", late.out);
     let there = sweep("X_lag_mm@10..20@0..0.2");
     assert!(there.err.is_empty() && !there.out.contains("without_effect"), "{}", there.err);

@@ -176,7 +176,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
         ("@twice.csv", Exit::Usage, "`X_set_mm` occurs twice"),
         ("@ragged.csv", Exit::Io, "line 4: 2 columns where the header has 3"),
         ("@latin.csv", Exit::Io, "the header is not UTF-8"),
-        ("@empty.parquet", Exit::Usage, "no Parquet file"),
+        ("@empty.parquet", Exit::Usage, "not a Parquet file"),
         ("@endless.csv", Exit::Io, "longer than 65536 bytes"),
         ("@zeros.csv", Exit::Io, "code 0"),
     ] {

@@ -148,7 +148,7 @@ fn the_most_expensive_lines_are_quoted() {
     std::fs::write(path("slow.nc"), "(slow)\nG01 X20 F60 (this one)\nM17\n").unwrap();
     let done = command(["run", &path("part.nc"), "--times"]);
     assert_eq!(done.exit, Exit::Finished, "{}", done.err);
-    let behind = done.out.split("most expensive lines\n").nth(1).unwrap();
+    let behind = done.out.split("lines that take the most time\n").nth(1).unwrap();
     let mut lines = behind.lines();
     assert!(lines.next().unwrap().contains(&format!("{}:2 ", path("slow.nc"))), "{behind}");
     assert_eq!(lines.next().unwrap().trim(), "G01 X20 F60 (this one)");

@@ -19,52 +19,49 @@ const PAGES: &[Page] = &[
     Page {
         name: "parameters-axis.md",
         title: "Parameters of axes",
-        text: "Keys of axis lists and of spindles. Units are those of the lists; `--set X.KEY=VALUE` puts a value over the list.",
+        text: "Keys of axis lists and of spindles. Units are those of the lists; `--set X.KEY=VALUE` overrides the list.",
         kind: Kind::Parameter,
         takes: |e| fact(e, "list") == "axis list",
     },
     Page {
         name: "parameters-channel.md",
         title: "Parameters of the channel",
-        text: "Keys of the channel list, of the start-up list, of tools and zero offsets; `--set channel.KEY=VALUE` puts a value over the \
-               channel list.",
+        text: "Keys of the channel list, of the start-up list, of tools and zero offsets; `--set channel.KEY=VALUE` overrides the channel list.",
         kind: Kind::Parameter,
         takes: |e| !["axis list", "kontur.lis"].contains(&fact(e, "list")),
     },
     Page {
         name: "parameters-kontur.md",
         title: "Settings of kontur",
-        text: "Keys of `kontur.lis`: what the vendor's lists do not hold. `--set kontur.KEY=VALUE` puts a value over the list.",
+        text: "Keys of `kontur.lis`: settings that the vendor's lists do not contain. `--set kontur.KEY=VALUE` overrides the list.",
         kind: Kind::Parameter,
         takes: |e| fact(e, "list") == "kontur.lis",
     },
     Page {
         name: "messages-vendor.md",
         title: "Messages with the vendor's numbers",
-        text: "A message carries the vendor's number where a document prints one. Reaction and remedy are the vendor's classes.",
+        text: "A message has the vendor's number where a document gives one. Reaction and remedy are the vendor's classes.",
         kind: Kind::Message,
         takes: |e| !e.title.starts_with("K-"),
     },
     Page {
         name: "messages-kontur.md",
         title: "Messages of kontur",
-        text: "Conditions without a number of the vendor's, and those of kontur itself. Numbers are never used again.",
+        text: "Conditions without a number of the vendor's, and those of kontur itself. Numbers are never reused.",
         kind: Kind::Message,
         takes: |e| e.title.starts_with("K-"),
     },
     Page {
         name: "commands.md",
         title: "Commands and functions",
-        text: "`#` commands and G and M functions with their keys. What else the language has, and what is refused, says \
-               [the table of the language](language.md).",
+        text: "`#` commands and G and M functions with their keys. For the rest of the language, and for what is rejected, see [the table of the language](language.md).",
         kind: Kind::Command,
         takes: |_| true,
     },
     Page {
         name: "variables.md",
         title: "System variables",
-        text: "Variables that programs read, with X for the name of an axis, S for a spindle and i for an index. Others are declared by programs \
-               (`#VAR`) or come from outside (`V.E.`).",
+        text: "Variables that programs can read, with X for the name of an axis, S for a spindle and i for an index. Others are declared by programs (`#VAR`) or are external (`V.E.`).",
         kind: Kind::Variable,
         takes: |_| true,
     },
@@ -135,7 +132,7 @@ fn link(thing: &str) -> String {
 
 /// The output of `--help` for every command.
 fn command_line() -> String {
-    let mut out = "# Command line\n\nWhat `kontur COMMAND --help` says. Results go to stdout, messages to stderr. Exit codes: 0 \
+    let mut out = "# Command line\n\nOutput of `kontur COMMAND --help`. Results go to stdout, messages to stderr. Exit codes: 0 \
          finished, 1 refused or aborted by an NC or axis error, 2 wrong usage or machine lists, 3 input or output failed.\n"
         .to_owned();
     let mut command = kontur::args::Args::command().bin_name("kontur");

@@ -96,7 +96,7 @@ export class Client {
         this.listener.failed(message.reason);
         break;
       case "trap":
-        this.listener.failed(`the module stopped and was loaded anew: ${message.reason}`);
+        this.listener.failed(`the module stopped and was reloaded: ${message.reason}`);
         break;
     }
   }

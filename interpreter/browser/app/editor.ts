@@ -112,7 +112,7 @@ export function explanation(explained: Explained): HTMLElement {
       make("code", explained.example, box);
     }
   } else {
-    make("p", "Nothing is known about this.", box);
+    make("p", "No explanation available.", box);
   }
   return box;
 }

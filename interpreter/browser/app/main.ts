@@ -115,7 +115,7 @@ function finished(result: RunResult): void {
   contour.show(trace);
   plots.forEach((plot) => trace && plot.show(trace));
   $("results-title").closest(".results")?.classList.remove("stale");
-  notice(trace.cut ? `Stopped after ${(trace.rows * trace.cycle_s).toFixed(0)} s of the program: the page shows no more. The command line has no such limit.` : remark);
+  notice(trace.cut ? `Stopped after ${(trace.rows * trace.cycle_s).toFixed(0)} s of the program: the limit of this page. The command line has no such limit.` : remark);
   goal();
   void hash();
   const drawn = performance.now() - asked;
@@ -379,7 +379,7 @@ async function main(): Promise<void> {
     checked: (checked) => {
       messages(checked.messages);
       if (checked.refused) {
-        failed("The program does not move: see its messages.");
+        failed("The program was refused: see its messages.");
       }
     },
     progress: (rows) => ($("status").textContent = `running, ${rows} cycles`),

@@ -25,7 +25,7 @@ async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream
     // small data may inflate to any size
     if (length > most) {
       await reader.cancel();
-      throw new Error("the link holds more than a program");
+      throw new Error("the link contains more than a program");
     }
     parts.push(value);
   }

@@ -309,7 +309,7 @@ impl Session {
     /// Summary and messages of the run, to its end or to where it was left.
     pub fn finish(&mut self) -> String {
         let Some(UnderWay { run, shown, messages: said, .. }) = &mut self.under_way else {
-            return wrong(&"no run is under way");
+            return wrong(&"no run is active");
         };
         let cut = !run.is_over();
         let summary = shown.collector.take().map(|collector| collector.finish(&run.totals()));

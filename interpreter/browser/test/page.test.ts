@@ -106,7 +106,7 @@ describe.skipIf(executablePath === "")("the page", () => {
     const first = page.locator("#messages li").first();
     await expect.poll(() => first.textContent()).toContain("20008");
     expect(await page.locator(".cm-lintRange-error").count()).toBe(2);
-    expect(await page.locator("#notice").textContent()).toContain("does not move");
+    expect(await page.locator("#notice").textContent()).toContain("was refused");
     await first.locator("button").click();
     await expect.poll(() => page.locator("#detail").textContent()).toContain("first G01/G02/G03 without F");
     await drawn(page, () => write(page, "N10 #VIB GUARD ON [MODE=1 FREQ=20]\nN20 G01 X10 F1000\nM30\n"));

@@ -46,17 +46,17 @@ pub struct Args {
 /// The subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Execute a program: setpoints per axis and cycle, and a summary.
+    /// Run a program: setpoints per axis and cycle, and a summary.
     Run(RunArgs),
-    /// Parse and decode programs without moving anything; shows every diagnostic.
+    /// Parse and decode programs without motion; shows all diagnostics.
     Check(CheckArgs),
     /// Compare two traces, or a trace and a fresh run; exit code 1 if they differ.
     Diff(DiffArgs),
     /// Run programs and write one self-contained page (.html) or picture (.svg).
     Report(ReportArgs),
-    /// Frequency response, step response, residual vibration or corner of filters, shapers and axes.
+    /// Show the frequency response, step response, residual vibration or corner of filters, shapers and axes.
     Response(ResponseArgs),
-    /// Run a program under every combination of parameters, on all cores; one row per run.
+    /// Run a program with every combination of parameters, on all cores; one row per run.
     Sweep(SweepArgs),
     /// Propose Vibration Guard settings from measured frequencies or recordings, or the order of a filter.
     Tune(TuneArgs),
@@ -122,11 +122,11 @@ pub struct RunArgs {
     pub output: Vec<PathBuf>,
 
     /// Columns of the trace: groups or names, separated by commas; `default` is `time,path,ipo,set,err,axis` without columns
-    /// that only repeat others
+    /// that only repeat other columns
     #[arg(long, value_name = "GROUPS|NAMES", default_value = DEFAULT_SIGNALS, requires = "output")]
     pub signals: String,
 
-    /// Write every N-th cycle only
+    /// Write only every N-th cycle
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), requires = "output")]
     pub decimate: u64,
 
@@ -134,8 +134,8 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
-    /// Account for the time by line and by what limited the speed: in the summary, or every line in a table. Also
-    /// tries out what would help, with one run for each proposal
+    /// Break down the time by line and by what limited the speed: in the summary, or for every line in a table. Also
+    /// evaluates possible savings, with one run for each proposal
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
     pub times: Option<Option<PathBuf>>,
 
@@ -147,7 +147,7 @@ pub struct RunArgs {
 /// `kontur check`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckArgs {
-    /// The NC programs; a folder means every `.nc` file below it that no other one calls; `-` reads one from standard input
+    /// The NC programs; a folder means every `.nc` file in it that is not called by another one; `-` reads one from standard input
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
 
@@ -155,7 +155,7 @@ pub struct CheckArgs {
     #[arg(long, value_enum, default_value_t = CheckForm::Text)]
     pub format: CheckForm,
 
-    /// Exit code 1 not only for errors but also for these
+    /// Exit with code 1 not only for errors but also for these
     #[arg(long, value_enum)]
     pub deny: Option<Deny>,
 
@@ -167,7 +167,7 @@ pub struct CheckArgs {
 /// `kontur report`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ReportArgs {
-    /// The NC programs; several overlay
+    /// The NC programs; several programs are overlaid
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
 
@@ -185,11 +185,11 @@ pub struct ReportArgs {
     #[arg(long, value_name = "GROUPS|NAMES")]
     pub signals: Option<String>,
 
-    /// Also draw the amplitude of each of them over these frequencies in Hz, e.g. `2..80`
+    /// Also draw the amplitude of each column over these frequencies in Hz, e.g. `2..80`
     #[arg(long, value_name = "HZ..HZ", requires = "signals", value_parser = span)]
     pub spectrum: Option<(f64, f64)>,
 
-    /// Part of the run in s that is drawn, e.g. `0.7..1.9`, without the cycle at its end; every cycle of it is drawn, even in a long run
+    /// Draw only this part of the run, in s, e.g. `0.7..1.9` (end exclusive); every cycle of it is drawn, even in a long run
     #[arg(long, value_name = "S..S", value_parser = span)]
     pub window: Option<(f64, f64)>,
 

@@ -17,7 +17,7 @@ use std::collections::hash_map::Entry;
 pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     for (i, v) in vary.iter().enumerate() {
         if vary[..i].iter().any(|other| other.key.eq_ignore_ascii_case(&v.key)) {
-            return Err(Error::Usage(format!("--vary: {} twice", v.key)));
+            return Err(Error::Usage(format!("--vary: {} given twice", v.key)));
         }
     }
     let used = |v: &Vary| -> Vec<String> {
@@ -26,7 +26,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     let all_used: Vec<String> = vary.iter().flat_map(used).collect();
     for name in &all_used {
         if !vary.iter().any(|v| v.is_name() && v.key == *name) {
-            return Err(Error::Usage(format!("--vary: {{{name}}} needs --vary {name}=VALUES")));
+            return Err(Error::Usage(format!("--vary: {{{name}}} requires --vary {name}=VALUES")));
         }
     }
     for v in vary.iter().filter(|v| v.is_name()) {
@@ -163,7 +163,7 @@ mod tests {
         assert_eq!(request.settings, ["X.a=30"]);
         let word = Word { line: None, name: "FREQ".to_owned(), value: "30".to_owned() };
         assert_eq!(request.words, [word]);
-        assert!(error(["X.a={F}", "Y.b=1"]).contains("needs --vary F="));
+        assert!(error(["X.a={F}", "Y.b=1"]).contains("requires --vary F="));
         assert!(error(["kv=1,2", "Y.b=1"]).contains("AXIS.kv"));
         assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
         // a single parameter may have as many values as there may be combinations

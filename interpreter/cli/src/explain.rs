@@ -36,7 +36,7 @@ pub fn text(thing: &str) -> Result<String, Error> {
             } else {
                 format!("did you mean {}?", similar.join(", "))
             };
-            Err(Error::Usage(format!("nothing is known about `{thing}`; {hint}")))
+            Err(Error::Usage(format!("`{thing}` is not known; {hint}")))
         }
     }
 }

@@ -129,7 +129,7 @@ fn piped(path: &Path) -> io::Result<Arc<Mutex<File>>> {
         if is_standard(path) { &mut io::stdin().lock() } else { &mut File::open(path)? };
     let length = io::copy(&mut source.take(MOST_PIPED_BYTES + 1), &mut copy)?;
     if length > MOST_PIPED_BYTES {
-        return Err(io::Error::other("more than 256 MiB; only a file may be of any length"));
+        return Err(io::Error::other("more than 256 MiB; only files may be longer"));
     }
     copy.flush()?;
     let copy = Arc::new(Mutex::new(copy));
@@ -314,7 +314,7 @@ impl Sources for ProgramFiles {
                     Err(e) => reason = e.to_string(),
                 }
             } else {
-                "outside the program's folder and --path; --allow-outside permits it"
+                "outside the program's folder and --path; use --allow-outside to permit it"
                     .clone_into(&mut reason);
             }
             searched.push(place.display().to_string());

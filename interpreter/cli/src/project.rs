@@ -59,7 +59,7 @@ impl Place {
             let names: Vec<String> =
                 projects.iter().map(|path| path.display().to_string()).collect();
             let text = format!(
-                "{} has several projects, name one of them: {}",
+                "{} contains several projects, name one of them: {}",
                 named.display(),
                 names.join(", ")
             );
@@ -133,7 +133,7 @@ pub(crate) fn parts(paths: Vec<PathBuf>, lists: &Lists) -> Result<Vec<Part>, Ope
 
 /// K-0141 for another encoding.
 fn no_utf8(path: &Path) -> Diagnostic {
-    let message = format!("{}: the text is no UTF-8", path.display());
+    let message = format!("{}: the text is not UTF-8", path.display());
     Diagnostic::new(Condition::ProjectWrong, message)
         .hint("the engineering tool writes UTF-8; save the file in this encoding")
 }

@@ -128,7 +128,7 @@ fn parse(text: &str) -> Result<Vec<Channel>, String> {
     // the header may contain single numbers
     let widest = rows.iter().map(Vec::len).max().unwrap_or(0);
     let table = |row: &Vec<&str>| numeric(row, separator) && (row.len() > 1 || widest == 1);
-    let start = rows.iter().position(table).ok_or_else(|| "no table of numbers".to_owned())?;
+    let start = rows.iter().position(table).ok_or_else(|| "not a table of numbers".to_owned())?;
     let (header, data) = rows.split_at(start);
     let columns = data.iter().map(Vec::len).max().unwrap_or(0);
     let names = NAME_KEYS.iter().find_map(|key| {
@@ -170,7 +170,7 @@ fn column(
             if times.last().is_some_and(|last: &f64| (t - last).abs() <= 0.0) {
                 if values.last().is_some_and(|last: &f64| (x - last).abs() > 0.0) {
                     return Err(format!(
-                        "row {}, column {name}: another value at the same time {t}, the times have too few decimals",
+                        "row {}, column {name}: a second value at the same time {t}; the times have too few decimals",
                         first_line + i
                     ));
                 }
@@ -258,7 +258,7 @@ fn scope_channel(
         return Ok((unit_s, of(thin(&times), thin(&values))));
     }
     Err(format!(
-        "column {name}: its header says {SAMPLE_TIME} {}, its times rise by {} ms",
+        "column {name}: its header states {SAMPLE_TIME} {}, its times increase by {} ms",
         1e3 * step_s,
         1e3 * step * unit_s
     ))
@@ -296,7 +296,7 @@ fn plain(
         let Some(unit) = unit else { return Some(Ok((i, *seconds))) };
         let known = TIME_UNITS.iter().find(|(u, _)| *u == unit).map(|(_, seconds)| (i, *seconds));
         Some(known.ok_or_else(|| {
-            format!("column {name}: `{unit}` is not a unit of time; s, ms, us, ns, min and h are")
+            format!("column {name}: `{unit}` is not a unit of time; use s, ms, us, ns, min or h")
         }))
     });
     let time = time.transpose()?;
@@ -323,7 +323,7 @@ fn plain(
         channel.times_s.iter_mut().for_each(|t| *t = (*t - zero) * time.map_or(1.0, |t| t.1));
     }
     if channels.is_empty() {
-        Err("no column of numbers beside the times".to_owned())
+        Err("no numeric column besides the times".to_owned())
     } else {
         Ok(channels)
     }

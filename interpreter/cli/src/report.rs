@@ -46,7 +46,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     let output = match (&args.output, args.programs.first()) {
         (Some(output), _) => output.clone(),
         (None, Some(program)) if program.as_os_str() == STANDARD => {
-            return Err(Error::Usage("a program from standard input needs -o FILE".to_owned()));
+            return Err(Error::Usage("a program from standard input requires -o FILE".to_owned()));
         }
         (None, Some(program)) => program.with_extension("html"),
         (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
@@ -130,7 +130,7 @@ fn form(output: &Path) -> Result<Form, Error> {
     } else {
         let name = PathBuf::from(output).display().to_string();
         Err(Error::Usage(format!(
-            "{name}: a report is a page (.html) or a picture (.svg); with --signals it may be a table (.csv)"
+            "{name}: a report must be a page (.html) or a picture (.svg); with --signals also a table (.csv)"
         )))
     }
 }

@@ -225,7 +225,7 @@ impl Request {
 
 /// The name of a list.
 fn utf8(path: &Path) -> Result<&str, OpenError> {
-    let reason = "lists refer to each other by name: it has to be UTF-8";
+    let reason = "lists refer to each other by name: the name must be UTF-8";
     path.to_str().ok_or_else(|| OpenError::Io(path.to_owned(), std::io::Error::other(reason)))
 }
 

@@ -89,6 +89,8 @@ fn kind(output: &Path) -> Result<Kind, Error> {
         Ok(Kind::Picture)
     } else {
         let name = output.display();
-        Err(Error::Usage(format!("-o {name}: a response is a table (.csv) or a picture (.svg)")))
+        Err(Error::Usage(format!(
+            "-o {name}: a response must be a table (.csv) or a picture (.svg)"
+        )))
     }
 }

@@ -52,7 +52,7 @@ use std::sync::mpsc;
 /// The column with the parameters without effect, if there are any; a shard always has it.
 pub const WITHOUT_EFFECT: &str = "without_effect";
 /// The message about such a parameter.
-pub const NO_DIFFERENCE: &str = "every value gives the same in these columns; the program sets its own, nothing uses it, or it acts on other results";
+pub const NO_DIFFERENCE: &str = "all values give the same results in these columns; the program sets its own value, the value is not used, or it affects other results";
 
 /// Reasons for a missing row.
 enum Failure {
@@ -102,7 +102,8 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     // a shard does not have the rows of the others
     let part = if args.shard.is_some() { "in this part " } else { "" };
     for name in unmeasured(args, &rows) {
-        let text = format!("--amplitude {name}: no run lasts until the end of this window");
+        let text =
+            format!("--amplitude {name}: none of the runs lasts until the end of this window");
         console.say(Severity::Warning, &text);
     }
     for key in &without {
@@ -251,7 +252,7 @@ fn run_all(
     let before = done.len() - open.len();
     if before > 0 {
         let text =
-            format!("continues where it was stopped: {before} of {} runs are done", done.len());
+            format!("continues where it was stopped: {before} of {} runs are complete", done.len());
         console.say(Severity::Note, &text);
     }
     let mut progress = console.progress();

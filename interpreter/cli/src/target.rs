@@ -172,7 +172,7 @@ pub(crate) fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Er
         let wrong = if read.contains(&this) {
             "the command reads this file"
         } else if taken.contains(&this) && this != Identity::Device {
-            "two outputs into one file"
+            "two outputs to the same file"
         } else {
             taken.push(this);
             continue;

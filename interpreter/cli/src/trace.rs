@@ -96,7 +96,7 @@ impl Trace {
         let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
         if is("html") || is("svg") {
             let message = format!(
-                "{}: a trace is CSV or Parquet; `kontur report` writes pages and pictures",
+                "{}: a trace must be CSV or Parquet; use `kontur report` to write pages and pictures",
                 path.display()
             );
             return Err(Error::Usage(message));

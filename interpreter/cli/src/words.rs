@@ -44,7 +44,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
                 let place =
                     word.line.map_or("in the program".to_owned(), |l| format!("in line {l}"));
                 return Err(format!(
-                    "there is no {name}= {place}: a number that varies is written with `=`, as {name}={value}"
+                    "{name}= not found {place}: write a number to be varied with `=`, as in {name}={value}"
                 ));
             }
             [Place { number: Some((from, to)), .. }] => {
@@ -59,7 +59,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
             [first, .., last] => {
                 let (first, last) = (first.line, last.line);
                 return Err(format!(
-                    "{name}= occurs in several lines, from {first} to {last}; program[{first}].{name} is the first"
+                    "{name}= occurs in several lines, from {first} to {last}; use program[{first}].{name} for the first"
                 ));
             }
         }
@@ -158,14 +158,14 @@ mod tests {
         assert_eq!(with(guard, None, "AX_DEV"), Ok(guard.replace(".01", "7.5")));
         assert_eq!(with(guard, Some(1), "FREQ"), Ok(guard.replace("40", "7.5")));
         for (text, line, name, why) in [
-            (guard, None, "FREQ", "from 1 to 2; program[1].FREQ"),
-            (guard, None, "P1", "there is no P1= in the program"),
-            (guard, Some(2), "MODE", "there is no MODE= in line 2"),
+            (guard, None, "FREQ", "from 1 to 2; use program[1].FREQ"),
+            (guard, None, "P1", "P1= not found in the program"),
+            (guard, Some(2), "MODE", "MODE= not found in line 2"),
             ("P1=10+5", None, "P1", "not a plain number"),
             ("P1=P2", None, "P1", "not a plain number"),
             ("P1=", None, "P1", "not a plain number"),
             ("P1=1 P1=2", None, "P1", "several times in line 1"),
-            ("$IF P1==1", None, "P1", "no P1="),
+            ("$IF P1==1", None, "P1", "P1= not found"),
         ] {
             let said = with(text, line, name).unwrap_err();
             assert!(said.contains(why), "{text} {name}: {said}");

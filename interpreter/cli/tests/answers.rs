@@ -171,19 +171,19 @@ fn tune_judges_the_choices_on_a_program() {
     program(&square.replace("N10", &format!("P1=2\n{computed}\nN20")));
     let (exit, out, _) = tune("@corner.nc", "1");
     assert_eq!(exit, Exit::Finished);
-    assert!(out.contains("(line 2) give way"), "{out}");
+    assert!(out.contains("(line 2) are replaced"), "{out}");
     assert_eq!(rows(&out), plain);
     let sub = format!("%L SUB\nP1=2\n{computed}\nM17\n%MAIN\nLL SUB\n{square}");
     program(&sub);
     let (_, out, _) = tune("@corner.nc", "1");
-    assert!(out.contains("(line 3) give way"), "{out}");
+    assert!(out.contains("(line 3) are replaced"), "{out}");
     assert_eq!(rows(&out), plain);
     assert_eq!(f.read("corner.nc"), sub);
     // a program that switches the guard off at once: none of the choices is active for long enough to compare
     program(&square.replace("N10", "N10 #VIB GUARD OFF\nN20"));
     let (_, out, _) = tune("@corner.nc", "1");
     assert!(out.contains("line 1 switches the guard off"), "{out}");
-    assert!(out.contains("up to line 1: after it nothing was damped"), "{out}");
+    assert!(out.contains("up to line 1: after it, vibration was not damped"), "{out}");
     // options for recordings have no effect on given frequencies
     for option in ["--column=a", "--rate=1000", "--range=1..2", "--window=0..1"] {
         assert_eq!(f.call(&["tune", "--freq", "6.9,6.0", option]).0, Exit::Usage, "{option}");
@@ -288,7 +288,7 @@ fn refused_words_are_named() {
         (&["run", "@corner.nc", "--cycle-us", "20001"], "--cycle-us"),
         (&["run", "@corner.nc", "--cycle-us", "99"], "100..=20000"),
         (&["report", "@corner.nc", "-o", "@a.csv"], "with --signals"),
-        (&["sweep", "@corner.nc", "--vary", "program.Q=1000,2000"], "written with `=`, as Q=1000"),
+        (&["sweep", "@corner.nc", "--vary", "program.Q=1000,2000"], "with `=`, as in Q=1000"),
     ] {
         let (exit, _, err) = f.call(words);
         assert_eq!((exit, err.contains(said)), (Exit::Usage, true), "{words:?}: {err}");
@@ -369,7 +369,7 @@ fn signals_of_long_runs_have_a_bound() {
         let words = ["report", "@long.nc", "--signals", names, "-o", "@a.csv", "--window"];
         let all = [&words[..], more].concat();
         let (exit, _, err) = f.call(&all);
-        assert!(exit == Exit::Finished || err.contains("--window shows a part"), "{err}");
+        assert!(exit == Exit::Finished || err.contains("use --window to show a part"), "{err}");
         exit == Exit::Finished
     };
     assert!(words("X_set_mm", &["0..300"]));

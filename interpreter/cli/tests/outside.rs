@@ -49,7 +49,7 @@ fn a_trace_on_stdout_leaves_the_summary_to_stderr() {
     assert_eq!((exit, out), (Exit::Finished, f.read("a.csv")));
     assert!(err.contains("corner.nc  finished"), "{err}");
     let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "-", "-o", "-"]);
-    assert_eq!((exit, err.contains("two outputs into one file")), (Exit::Usage, true));
+    assert_eq!((exit, err.contains("two outputs to the same file")), (Exit::Usage, true));
     let vary = ["sweep", "@corner.nc", "--vary", "X.getriebe[0].kv=1000,2000"];
     let words = [&vary[..], &["-o", "-"]].concat();
     assert_eq!(f.call(&words).1, f.call(&vary).1);
@@ -106,7 +106,7 @@ fn parquet_and_csv_side_by_side() {
     assert_eq!(f.call(&["diff", "@cut.parquet", "@a.csv"]).0, Exit::Io);
     std::fs::write(f.path("no.parquet"), "t_s,line\n0,1\n").unwrap();
     let (exit, _, err) = f.call(&["diff", "@no.parquet", "@a.csv"]);
-    assert_eq!((exit, err.contains("no Parquet file")), (Exit::Usage, true));
+    assert_eq!((exit, err.contains("not a Parquet file")), (Exit::Usage, true));
 }
 
 #[test]

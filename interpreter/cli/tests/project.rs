@@ -213,7 +213,10 @@ fn mistakes_are_named_at_their_line_of_the_project() {
     fs::write(&place, project(TASK)).unwrap();
     let (exit, _, said) = run(&folder, "machine.tsproj");
     assert_eq!(exit, Exit::Usage);
-    assert!(said.contains("K-0141") && said.contains("no axis list (AchsMds)"), "{said}");
+    assert!(
+        said.contains("K-0141") && said.contains("not contain the axis list (AchsMds)"),
+        "{said}"
+    );
 
     fs::write(folder.path("other.tsproj"), project(&whole)).unwrap();
     let (exit, _, said) = run(&folder, ".");

@@ -175,7 +175,7 @@ impl Simulation {
         match interruptible(py, &stop, || run.to_end(&mut gather))? {
             Ok(()) | Err(Ended::Reached) => Ok(()),
             Err(Ended::Full) => Err(PyMemoryError::new_err(
-                "more than 2 GiB of columns: choose signals, decimate, or continue in parts with run_until",
+                "more than 2 GiB of columns: select signals, decimate, or continue in parts with run_until",
             )),
         }
     }

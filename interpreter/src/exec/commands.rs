@@ -266,12 +266,12 @@ pub(crate) fn state_of(text: &str) -> Option<(&'static str, &'static str)> {
     });
     let row = named.max_by_key(|row| row.name.len())?;
     let state = match row.act {
-        Act::Run(_) => "kontur check says what of it is carried out",
+        Act::Run(_) => "kontur check reports which parts are executed",
         Act::Ignored(why) => why,
         Act::OffOnly => {
-            "OFF is accepted; ON is refused: it would change the path and is not simulated"
+            "OFF is accepted; ON is refused, because it would change the path and is not simulated"
         }
-        Act::Unsupported => "refused: it would change the path and is not simulated",
+        Act::Unsupported => "refused, because it would change the path and is not simulated",
     };
     Some((row.name, state))
 }
@@ -347,7 +347,7 @@ impl Decoder {
         let Some((row, count)) = find(command) else { return Err(unknown(command)) };
         let call = Call { command, name: row.name, rest: &command.words[count..] };
         if let Some(span) = words_after(&call) {
-            let text = format!("{}: a word of the program after it in its block", call.title());
+            let text = format!("{}: another word after it in its block", call.title());
             return Err(Fault::new(Condition::WordsBehindCommand, text, span));
         }
         match row.act {

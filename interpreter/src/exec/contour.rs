@@ -30,10 +30,10 @@ pub(super) use motion::{
 /// K-0119.
 fn bottleneck(cut: &Cut) -> Fault {
     let text = format!(
-        "the tool cuts the contour of line {}: its centre comes as near as {:.4} mm",
+        "the tool cuts the contour of line {}: its centre comes within {:.4} mm",
         cut.contour.line, cut.distance_mm
     );
-    let hint = "the control drives such bottlenecks unnoticed; a smaller tool fits";
+    let hint = "use a smaller tool; the control does not detect such bottlenecks";
     *Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)
 }
 
@@ -163,7 +163,7 @@ impl Contour {
         }
         let before = self.insertion.replace(Box::new(insertion));
         before.map(|_| {
-            let text = "two insertions without a motion between them, the last one acts";
+            let text = "two insertions without a motion between them, the last one is used";
             Fault::new(Condition::InsertionsWithoutMotion, text, span).warning()
         })
     }
@@ -357,7 +357,7 @@ impl Contour {
             faults.extend(self.compensate(motion).map(|f| *f));
         }
         if let Some(insertion) = self.insertion.take() {
-            let text = "the path stops here: no chamfer or rounding is inserted";
+            let text = "the path stops here: the chamfer or rounding is not inserted";
             let fault = Fault::new(Condition::InsertionFlushed, text, insertion.span);
             faults.push(*fault.in_block(insertion.source));
         }

@@ -140,7 +140,8 @@ impl Decoder {
     ) -> Result<(), Box<Fault>> {
         let machine = Arc::make_mut(&mut self.machine);
         if Axis::is_read_at_start(key) {
-            let text = format!("{key} is read when the control starts: no effect in a program");
+            let text =
+                format!("{key} is only read at start-up of the control: no effect in a program");
             let fault = Fault::new(Condition::ListNoEffect, text, span).warning();
             self.report.note(fault.hint("write it into the axis list"));
             return Ok(());

@@ -107,7 +107,7 @@ impl Geometry {
             let axis = &machine.axes[axis];
             if axis.is_modulo() {
                 let name = axis.name().to_owned();
-                let text = format!("axis {name} of the plane counts modulo 360 degrees");
+                let text = format!("axis {name} of the plane is a modulo axis");
                 return Err(Fault::new(Condition::CompensationModulo, text, span)
                     .with(|d| d.axis(axis.number(), name)));
             }
@@ -129,15 +129,15 @@ impl Geometry {
         let [a, b, _] = main_axes;
         let axes = [a, b].into_iter().filter_map(|m| self.coordinates.main_axis(m));
         let mut marked = axes.filter(|i| machine.axes[*i].is_face_turning());
-        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
+        let hint = "set the bit 0x40 of P-AXIS-00015 (kenngr.achs_mode) to mark it";
         match (marked.next(), marked.next()) {
             (Some(axis), None) => Ok(axis),
             (Some(_), Some(_)) => {
-                let text = format!("{function} needs one face turning axis, the plane has two");
+                let text = format!("{function} requires one face turning axis, the plane has two");
                 Err(Fault::new(Condition::TwoFaceTurningAxes, text, span).hint(hint))
             }
             (None, _) => {
-                let text = format!("{function} needs a face turning axis, the plane has none");
+                let text = format!("{function} requires a face turning axis, the plane has none");
                 Err(Fault::new(none, text, span).hint(hint))
             }
         }
@@ -158,7 +158,7 @@ impl Geometry {
             && (first.kind() != second.kind() || first.is_modulo() || second.is_modulo())
         {
             let what = format!("a rotation of the axes {} and {}", first.name(), second.name());
-            return Err(Fault::unsupported(what, span).hint("only linear axes are turned"));
+            return Err(Fault::unsupported(what, span).hint("only linear axes can be rotated"));
         }
         self.coordinates.rotate_about(plane, deg, centre, span)
     }

@@ -87,7 +87,7 @@ impl Decoder {
         }
         let measures = words.group(Group::Measuring).is_some_and(|g| g.row.act == Act::Measure);
         if self.motion.areas.is_defining() && (measures || self.modal.path.is_thread()) {
-            let text = "the contour of a control area consists of G00, G01, G02 and G03";
+            let text = "the contour of a control area must consist of G00, G01, G02 and G03";
             self.report.note(Fault::new(Condition::AreaOfArcs, text, span));
             return;
         }
@@ -152,8 +152,8 @@ impl Decoder {
     /// channel waits for the axes of the block, and this block has none.
     fn stop_without_motion(&mut self, words: &Words<'_>) {
         if let Some(g) = exact_stop_once(words) {
-            let text = "G60 without motion: the path stops here and waits for no axis";
-            let hint = "write G60 in the block at whose end the axes have to arrive";
+            let text = "G60 without motion: the path stops here without waiting for an axis";
+            let hint = "write G60 in the block at the end of which the axes must have arrived";
             self.report.note(Fault::new(Condition::AxisMissing, text, g.span).hint(hint));
             self.sync(Sync::Dwell { seconds: 0.0 });
         }
@@ -174,7 +174,7 @@ impl Decoder {
             // R alone applies to the arcs that follow; in a block with G02 or G03 it would be taken for a radius
             self.modal.radius_mm = Some(radius * self.modal.unit_mm());
             if words.group(Group::Path).is_some() {
-                let text = "R without an end point moves nothing: it is kept for the next arc";
+                let text = "R without an end point has no effect here: it is kept for the next arc";
                 self.report.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
@@ -224,7 +224,7 @@ impl Decoder {
         let Some(path) = path else { return Ok(()) };
         let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
         if begins && self.motion.wear.on && !path.is_straight() {
-            let text = "the compensation begins with an arc while #OTC is on";
+            let text = "tool radius compensation starts with an arc while #OTC is on";
             return Err(Fault::new(Condition::WearSelectedInArc, text, span));
         }
         // the path with tool radius compensation is known only later
@@ -303,7 +303,7 @@ impl Decoder {
             return Err(Fault::new(Condition::SplineInSurface, text, span));
         }
         if rounds || self.contour.hsc.contour().is_some() {
-            let text = "a spline (G151) together with contouring or #HSC";
+            let text = "a spline (G151) combined with contouring or #HSC";
             return Err(Fault::new(Condition::SplineWithContouring, text, span));
         }
         let what = if rapid {
@@ -311,7 +311,7 @@ impl Decoder {
         } else if self.modal.compensation != Compensation::Off {
             "a spline with tool radius compensation"
         } else if !self.geometry.coordinates.frame().only_shifts() {
-            "a spline in a turned or mirrored system"
+            "a spline in a rotated or mirrored system"
         } else if self.modal.feed_type == FeedType::PerRevolution
             && self.motion.cutting.speed.is_some()
         {
@@ -344,7 +344,7 @@ impl Decoder {
         if main.any(moves) {
             return Ok(());
         }
-        let text = "a point of a spline that moves no main axis";
+        let text = "spline point without motion of a main axis";
         Err(Fault::new(Condition::SplineWithoutMainAxis, text, span))
     }
 

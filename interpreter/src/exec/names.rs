@@ -104,7 +104,8 @@ impl AxisNames {
     pub(super) fn hint(&self) -> String {
         let names: Vec<&str> = self.in_channel().collect();
         if names.is_empty() {
-            return "the channel list names no axis (gruppe[0].achse[0].bezeichnung)".to_owned();
+            return "the channel list does not name an axis (gruppe[0].achse[0].bezeichnung)"
+                .to_owned();
         }
         format!("axes of the channel: {}", names.join(", "))
     }

@@ -111,7 +111,7 @@ impl<R: Read> InputFile<R> {
         let text = Arc::clone(&self.text);
         if text.starts_with("t_s;") {
             let problem = self.wrong(0, &text, "the columns are separated by semicolons");
-            let hint = "separate them by commas, with a point in numbers: 0.5,100";
+            let hint = "separate them with commas, and write a decimal point in numbers: 0.5,100";
             return Err(problem.hint(hint.to_owned()));
         }
         for (i, (at, name)) in fields(&text).enumerate() {
@@ -126,7 +126,7 @@ impl<R: Read> InputFile<R> {
                     return Err(self.wrong(at, name, &text).hint(hint));
                 }
                 Some((_, s)) if taken.contains(s) || self.columns.contains(s) => {
-                    return Err(self.wrong(at, name, &format!("{name} is in two columns")));
+                    return Err(self.wrong(at, name, &format!("{name} occurs in two columns")));
                 }
                 Some((_, signal)) => self.columns.push(*signal),
             }
@@ -175,7 +175,11 @@ impl<R: Read> InputFile<R> {
                 let time_s = self.number(at, field)?;
                 let rises = self.time_s.is_none_or(|before| time_s > before);
                 if time_s < 0.0 || !rises {
-                    return Err(self.wrong(at, field, "the time does not rise, or is below 0"));
+                    return Err(self.wrong(
+                        at,
+                        field,
+                        "the time does not increase, or is negative",
+                    ));
                 }
                 self.time_s = Some(time_s);
                 continue;
@@ -190,7 +194,8 @@ impl<R: Read> InputFile<R> {
             self.changes.push_back(change);
         }
         if count != self.columns.len() {
-            let text = format!("{} columns, the header has {}", count + 1, self.columns.len() + 1);
+            let text =
+                format!("{} columns where the header has {}", count + 1, self.columns.len() + 1);
             return Err(self.wrong(0, &self.text, &text));
         }
         Ok(true)

@@ -98,7 +98,7 @@ fn given_twice(settings: &[String]) -> impl Iterator<Item = Diagnostic> {
     let keys: Vec<String> = settings.iter().map(key).collect();
     (1..keys.len()).filter_map(move |i| {
         let twice = keys[..i].iter().any(|other| other.eq_ignore_ascii_case(&keys[i]));
-        let text = format!("--set {}: given twice, the last one wins", keys[i]);
+        let text = format!("--set {}: given twice, the last value is used", keys[i]);
         twice.then(|| Diagnostic::new(Condition::ListDuplicate, text))
     })
 }

@@ -306,7 +306,7 @@ impl Run {
             self.messages.extend(self.raised.take());
             // the reader may already have noticed it
             if self.messages.iter().all(|d| d.text != text) {
-                let hint = "the trace does not belong to the program as it is now: run it again";
+                let hint = "the program has changed since the trace was recorded: run it again";
                 self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
             }
             self.changed = true;

@@ -16,7 +16,7 @@ use kontur_filters::time::CycleTime;
 /// Separators of the folders in a path, on either system.
 pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
 /// Hint for a list that exists but cannot be read.
-const UNREADABLE: &str = "a list is a text file in UTF-8 or Latin-1 that you may read";
+const UNREADABLE: &str = "a list must be a readable text file in UTF-8 or Latin-1";
 /// Name of kontur's list, next to the start-up list.
 pub(super) const OWN_LIST: &str = "kontur.lis";
 
@@ -113,11 +113,11 @@ impl Chain<'_> {
         let (reason, hint) = match lists::find(self.files, path) {
             Ok(Some(found)) => return Some(self.list(kind, path, &found, at)),
             Ok(None) if at.is_some() => (
-                "there is no such file".to_owned(),
-                "a name counts from the folder of the start-up list",
+                "file not found".to_owned(),
+                "names are relative to the folder of the start-up list",
             ),
             Ok(None) => (
-                "there is no such file".to_owned(),
+                "file not found".to_owned(),
                 "-m takes a folder with a start-up list, the list itself or a TwinCAT project",
             ),
             Err(reason) => (reason, UNREADABLE),
@@ -135,13 +135,13 @@ impl Chain<'_> {
         };
         let last = |path: &str| path.rsplit(SEPARATORS).next().unwrap_or_default().to_owned();
         let text = format!(
-            "{} is {}: upper and lower case differ from the file's",
+            "{} is {}: upper and lower case differ from the file name",
             last(path),
             last(other)
         );
         let mut note = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
         note.source = at;
-        self.diagnostics.push(note.hint("not every file system finds it under this name"));
+        self.diagnostics.push(note.hint("write the name as it is on disk: case-sensitive file systems do not find it under this name"));
         lists::read(kind, other, &found.bytes, &mut self.diagnostics)
     }
 
@@ -182,8 +182,10 @@ impl Chain<'_> {
             }
         }
         if start_up.set_by(stup::CHANNEL_LIST).is_none() {
-            let message =
-                format!("{}: the start-up list names no channel list (sda_mds[0])", self.start_up);
+            let message = format!(
+                "{}: the start-up list does not name a channel list (sda_mds[0])",
+                self.start_up
+            );
             self.diagnostics
                 .push(Diagnostic::new(Condition::ListLink, message).parameter("P-STUP-00009"));
         }

@@ -37,7 +37,7 @@ fn unused_mode(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let without = axis.mode_bits() & !(mode::LINEAR | modulo | turning | gantry);
     if listed(axis, axis_general::MODE) && without != 0 {
         let what = format!("axis mode with the bits {without:#x}");
-        let effect = "they are not simulated";
+        let effect = "these bits are not simulated";
         let place = axis_general::MODE;
         let about = issues::about(axis, Condition::ListNoEffect, place, &what, effect);
         diagnostics.push(about.hint("the trace may differ from that of the control"));
@@ -61,11 +61,11 @@ fn low_passes(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
             continue;
         }
         let (name, how) = match axis.get(prototype) {
-            2 => ("BUTTERWORTH", "considerably, the more the higher its order"),
+            2 => ("BUTTERWORTH", "considerably, and more with a higher order"),
             3 => ("BESSEL", "slightly"),
             _ => continue,
         };
-        let what = format!("{name} low-pass on the position overshoots {how}");
+        let what = format!("the {name} low-pass on the position overshoots {how}");
         let advice = "CRIT_DAMPING is recommended";
         diagnostics.push(issues::about(axis, Condition::ListAdvice, prototype, &what, advice));
     }
@@ -138,7 +138,7 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
         let (Some(own), Some(other)) = (quotient(axis), quotient(master)) else { continue };
         if (own - other).abs() > 1e-12 * other.abs() {
             let what = format!("scaling {own} of the gantry slave, {other} of {}", master.name());
-            let advice = "the scaling of both is normally the same";
+            let advice = "both normally have the same scaling";
             diagnostics.push(issues::about(axis, Condition::ListAdvice, numerator, &what, advice));
         }
     }
@@ -155,8 +155,9 @@ fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     };
     if lags(true) && !lags(false) {
         let place = axis_drive::FEEDFORWARD;
-        let what = format!("feedforward of the gantry slave is not that of {}", master.name());
-        let advice = "the bridge racks by the difference of the lags under G135";
+        let what =
+            format!("the feedforward of the gantry slave differs from that of {}", master.name());
+        let advice = "under G135 the gantry racks by the difference of the lags";
         diagnostics.push(issues::about(slave, Condition::ListAdvice, place, &what, advice));
     }
     for param in [axis_dynamics::ACC_MAX, axis_dynamics::EMERGENCY_DEC] {
@@ -164,14 +165,14 @@ fn racks(slave: &Axis, master: &Axis, diagnostics: &mut Vec<Diagnostic>) {
         if (own - other).abs() > 0.0 {
             let what =
                 format!("{own} mm/s2 of the gantry slave, {other} mm/s2 of {}", master.name());
-            let advice = "the control takes the value of the master, kontur that of each axis";
+            let advice = "the control uses the value of the master, kontur the value of each axis";
             diagnostics.push(issues::about(slave, Condition::ListAdvice, param, &what, advice));
         }
     }
     for limit in [axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT] {
         if listed(slave, limit) && (slave.get(limit) - master.get(limit)).abs() > 0.0 {
             let what = format!("software limit {} of the gantry slave", slave.listed(limit));
-            let advice = format!("not monitored, those of {} apply", master.name());
+            let advice = format!("not monitored, the limits of {} apply", master.name());
             diagnostics.push(issues::about(slave, Condition::ListAdvice, limit, &what, &advice));
         }
     }

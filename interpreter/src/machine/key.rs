@@ -81,7 +81,7 @@ impl Key {
         let row = table::by_key(list, &self.shape)?;
         let (array, index, size) = beyond(row.key, self.two_indices())?;
         Some(match size {
-            1 => format!("index {index} of {array}, only 0 exists"),
+            1 => format!("index {index} of {array} does not exist, only index 0"),
             _ => format!("index {index} of {array} is outside 0 to {}", size - 1),
         })
     }

@@ -126,7 +126,7 @@ fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnost
     };
     if given > wanted {
         let message =
-            format!("{array}[{}]: {count} is {wanted}, what is beyond is ignored", given - 1);
+            format!("{array}[{}]: {count} is {wanted}, further entries are ignored", given - 1);
         diagnostics.push(error(
             Condition::ListCount,
             message,
@@ -176,7 +176,7 @@ fn usable_name(
     }
     let what = if spindle { "a spindle" } else { "an axis" };
     let message = format!(
-        "`{name}` cannot be the name of {what}: it begins with one of {letters}, then at most {} letters, digits and _",
+        "`{name}` cannot be the name of {what}: a name must begin with one of {letters}, followed by at most {} letters, digits and _",
         NAME_MAX - 1
     );
     let replaced = match (begins, is_long) {
@@ -246,8 +246,8 @@ pub(super) fn machine(
     // an error in the names may be the reason why a list has none
     if !left.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
         let message =
-            format!("axis lists that no channel names, not simulated: {}", left.join(", "));
-        let hint = "name them in the channel list (gruppe[0].achse[i]); a gantry slave needs its master \
+            format!("axis lists not named by a channel, not simulated: {}", left.join(", "));
+        let hint = "name them in the channel list (gruppe[0].achse[i]); a gantry slave requires its master \
                     (kenngr.gantry_ax_nr)";
         let note = Diagnostic::new(Condition::ListNoEffect, message).severity(Severity::Note);
         diagnostics.push(note.hint(hint));
@@ -312,7 +312,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         let earlier = &settled.axes[..i];
         if let Some(first) = earlier.iter().find(|l| logical_number(&l.parameters) == number) {
             let message =
-                format!("{}: axis number {number} is that of {} already", list.file, first.file);
+                format!("{}: axis number {number} is already used by {}", list.file, first.file);
             let at = number_at(&list.parameters);
             diagnostics.push(error(Condition::ListLink, message, at).parameter("P-AXIS-00016"));
         }
@@ -329,16 +329,16 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
                 (true, true) => Condition::SpindleNumberTwice,
                 _ => Condition::SpindleIsPathAxis,
             };
-            Some(format!("{name}: logical axis number {number} is that of {} already", first.name))
+            Some(format!("{name}: logical axis number {number} is already used by {}", first.name))
         } else if earlier.iter().any(|n| n.name.eq_ignore_ascii_case(name)) {
             condition = if named.spindle {
                 Condition::SpindleNameTwice
             } else {
                 Condition::PathAxisNameTwice
             };
-            Some(format!("the name {name} is in the channel list twice"))
+            Some(format!("the name {name} occurs twice in the channel list"))
         } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {
-            Some(format!("{name}: no axis list has kopf.achs_nr {number}"))
+            Some(format!("{name}: axis list with kopf.achs_nr {number} not found"))
         } else {
             None
         };
@@ -385,7 +385,7 @@ fn check_main_spindle(settled: &Settled, names: &Names, diagnostics: &mut Vec<Di
         let message = format!(
             "main_spindle_ax_nr: no spindle of the channel has the logical number {unknown}"
         );
-        let hint = "write the number of one under spindel[i].log_achs_nr";
+        let hint = "write a number given in spindel[i].log_achs_nr";
         diagnostics.push(error(Condition::ListLink, message, at(number.place())).hint(hint));
         return;
     }

@@ -183,7 +183,7 @@ impl Reader<'_> {
         let key_at = line.location(file, word);
         let Some(key) = Key::parse(word) else {
             let message = format!("`{word}` is not a key, the line is ignored");
-            let hint = "an entry is a key, at least one blank and a value; comments start with #";
+            let hint = "write a key, at least one blank and a value; start comments with #";
             self.say(Diagnostic::new(Condition::ListEntry, message).at(key_at).hint(hint));
             return;
         };
@@ -221,7 +221,7 @@ impl Reader<'_> {
             let hint = if matches!(row.raw, Raw::Flags(_)) {
                 "join flags with |: VEL | ACC"
             } else {
-                "put a text with blanks in double quotes, start a comment with ("
+                "put text with blanks in double quotes, start a comment with ("
             };
             self.say(
                 Diagnostic::new(Condition::ListString, message)
@@ -325,7 +325,7 @@ pub(super) fn bad_value(
 ) -> Diagnostic {
     let instead = match &bad.instead {
         Some(value) => format!("{} is used", value::write(row.raw, value)),
-        None => "the earlier value stays".to_owned(),
+        None => "the earlier value is kept".to_owned(),
     };
     let mut diagnostic =
         Diagnostic::new(Condition::ListNumber, format!("{entry}: {}, {instead}", bad.reason))
@@ -335,7 +335,7 @@ pub(super) fn bad_value(
         diagnostic = diagnostic.value(ValueKind::Corrected, x, row.unit).corrected(x);
     }
     if written == "=" {
-        diagnostic = diagnostic.hint("lists have no equals sign: key, blank, value");
+        diagnostic = diagnostic.hint("write key, blank and value, without an equals sign");
     }
     parameter(diagnostic, row)
 }

@@ -120,7 +120,7 @@ impl Override {
     pub(super) fn unknown_target(&self, target: &str, names: &[&str]) -> Diagnostic {
         let message = format!("`{target}` is not an axis of the machine");
         let hint = format!(
-            "targets are {} (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
+            "use {} (several separated by commas), * for every path axis, channel, start_up, tool, zero or kontur",
             names.join(", ")
         );
         Diagnostic::new(Condition::Setting, message).at(self.location(target)).hint(hint)

@@ -227,7 +227,7 @@ fn check_together(
     let (low, high) = (number(parameters, lower), number(parameters, upper));
     if low >= high {
         let text = format!(
-            "kenngr.swe_neg: software limits {low} and {high} leave no range, the defaults are used"
+            "kenngr.swe_neg: software limits {low} and {high} leave no travel, the defaults are used"
         );
         put(parameters, Condition::SoftwareLimitRange, lower.place(), text.clone(), -1e8);
         put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
@@ -239,7 +239,7 @@ fn check_together(
     let wrong = if parameters.set_by(axis_general::MODE).is_none() {
         None
     } else if kind_of(parameters) == AxisKind::Spindle && mode & bits::MODULO == 0 {
-        Some((Condition::SpindleMode, "is not that of a spindle", mode & !0x3 | bits::MODULO))
+        Some((Condition::SpindleMode, "is not valid for a spindle", mode & !0x3 | bits::MODULO))
     } else if mode < 0x40 && [0x1, 0x2, 0x4].iter().all(|bit| mode & bit == 0) {
         Some((Condition::AxisMode, "is unknown", if is_linear { 0x1 } else { 0x4 }))
     } else {
@@ -254,7 +254,7 @@ fn check_together(
     let flags = parameters.get(axis_drive::FEEDFORWARD);
     if parameters.get(axis_drive::FF_WITHOUT_DELAY) && flags & 0x6 != 0 {
         let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
-                    the acceleration and jerk parts are off"
+                    acceleration and jerk feedforward are off"
             .to_owned();
         put(
             parameters,
@@ -294,8 +294,7 @@ pub(super) fn check_sampling(
         return;
     }
     let text = format!(
-        "antr.simu.zeitkonstante_z: sampling time {z}/{n} s of the simulated drive is not the cycle of {} s, the \
-         cycle is used",
+        "antr.simu.zeitkonstante_z: sampling time {z}/{n} s of the simulated drive differs from the cycle time of {} s, the cycle time is used",
         cycle.seconds()
     );
     let diagnostic = Diagnostic::new(Condition::SimulationSampling, text)

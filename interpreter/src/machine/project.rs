@@ -106,13 +106,14 @@ impl<'a> Project<'a> {
             } else {
                 "channel list (SdaMds)"
             };
-            let mut message = format!("{start_up} and its parts hold no {missing} of a CNC");
+            let mut message =
+                format!("{start_up} and its parts do not contain the {missing} of a CNC");
             let named = content.missing();
             if !named.is_empty() {
-                let _ = write!(message, "; named and not there: {}", named.join(", "));
+                let _ = write!(message, "; named but not found: {}", named.join(", "));
             }
             if !left_out.is_empty() {
-                let _ = write!(message, "; left out: {}", left_out.join(", "));
+                let _ = write!(message, "; omitted: {}", left_out.join(", "));
             }
             return Err(vec![Diagnostic::new(Condition::ProjectWrong, message)]);
         }
@@ -120,7 +121,7 @@ impl<'a> Project<'a> {
         let missing = content.missing();
         if !missing.is_empty() {
             let message = format!(
-                "named by {} and not there: {}; the machine lacks what is in it",
+                "named by {} but not found: {}; its content is missing in the machine",
                 project.start_up,
                 missing.join(", ")
             );
@@ -206,9 +207,10 @@ impl<'a> Project<'a> {
         let channel = parameters(ListKind::Channel, &channel.collect::<Vec<_>>());
         if channel.set_by(of::AXIS_NAME.and(0).place()).is_none() {
             let name = &content.channels[0].list.name;
-            let message =
-                format!("neither a dialog nor the list of the channel `{name}` names an axis");
-            let hint = "give the axes their names in programs (DefaultProgName), or list them in the channel";
+            let message = format!(
+                "the channel `{name}` does not name an axis, neither in a dialog nor in its list"
+            );
+            let hint = "set the names of the axes in programs (DefaultProgName), or list them in the channel";
             return Err(vec![Diagnostic::new(Condition::ProjectWrong, message).hint(hint)]);
         }
 
@@ -245,7 +247,7 @@ impl<'a> Project<'a> {
 
         note.push_str(&self.cycle(content.cycle_100ns, cycle_given));
         if !left_out.is_empty() {
-            let _ = write!(note, "; left out: {}", left_out.join(", "));
+            let _ = write!(note, "; omitted: {}", left_out.join(", "));
         }
         if !first.unread.is_empty() {
             let _ = write!(note, "; not read: {}", first.unread.join(", "));

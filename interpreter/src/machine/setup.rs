@@ -67,7 +67,7 @@ impl Machine {
         let param = axis_drive::FF_WITHOUT_DELAY;
         for (axis, _) in axes().filter(|(a, chain)| a.get(param) && own(chain) < delay) {
             let effect = format!(
-                "no effect, {} needs a buffer of {delay} cycles and all axes of a channel have the longest one",
+                "no effect: {} requires a buffer of {delay} cycles, and all axes of a channel use the longest buffer",
                 longest.name()
             );
             let what = "feedforward without delay";

@@ -253,7 +253,7 @@ fn overrides_that_name_nothing_are_errors() {
     for (text, hint) in [
         (
             "Q.getriebe[0].kv=1",
-            "targets are X, Y, S (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
+            "use X, Y, S (several separated by commas), * for every path axis, channel, start_up, tool, zero or kontur",
         ),
         // one mistake is reported once, for any number of axes
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
@@ -268,7 +268,7 @@ fn overrides_that_name_nothing_are_errors() {
         ("X.filter[7].order=1", "`filter[7].order`: index 7 of filter is outside 0 to 2"),
         (
             "channel.gruppe[1].achs_anzahl=1",
-            "`gruppe[1].achs_anzahl`: index 1 of gruppe, only 0 exists",
+            "`gruppe[1].achs_anzahl`: index 1 of gruppe does not exist, only index 0",
         ),
     ] {
         let errors = files.load(&[text]).unwrap_err();

@@ -119,7 +119,7 @@ fn unused(setting: &Setting, [i, j]: Indices, axes: usize) -> Option<Diagnostic>
     }
     let key = with_indices(setting.row.key, [i, j]);
     let text = format!("{key}: the channel has only {axes} axes, no effect");
-    let hint = "the second index counts the axes of the channel list from 0";
+    let hint = "the second index is the index of the axis in the channel list, from 0";
     let mut about = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     about.source.clone_from(&setting.at);
     Some(about)

@@ -95,7 +95,7 @@ impl Simulation {
     pub(super) fn take_wear(&mut self, k: u64) {
         let wear_mm = self.inputs.wear_mm;
         if self.wear.take_outside(wear_mm) && self.inputs.tells_wear_limit() {
-            let text = format!("wear_mm {wear_mm} is beyond what the tool allows, limited");
+            let text = format!("wear_mm {wear_mm} exceeds the limit of the tool, limited");
             let mut d = Diagnostic::new(Condition::WearLimited, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
             self.messages.own.push(d);

@@ -36,7 +36,7 @@ impl Simulation {
         let before_mm = self.actual_mm();
         self.banding = Some(Banding { run, seq, source, before_mm, signalled: false });
         if self.inputs.probe {
-            let text = "the probe signals before the motion of edge banding begins";
+            let text = "the probe is actuated before the edge banding motion begins";
             self.banding_fails(Condition::ProbeActuated, text);
         }
     }
@@ -60,7 +60,7 @@ impl Simulation {
         }
         if !self.planner.halt_in(seq, &place, way_mm) {
             let text =
-                "the block is too short, or the path too fast, for the distance after the signal";
+                "the block is too short or the path too fast for the distance after the signal";
             self.banding_fails(Condition::BandingPath, text);
         }
     }
@@ -75,7 +75,7 @@ impl Simulation {
     pub(super) fn call_at_halt(&mut self) {
         let Some(Banding { run, signalled, source, .. }) = self.banding else { return };
         if !signalled {
-            let text = "the probe has not signalled on the motion of edge banding";
+            let text = "the probe has not signalled during the edge banding motion";
             self.banding_fails(Condition::NoProbeSignal, text);
             return;
         }

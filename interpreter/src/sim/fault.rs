@@ -146,11 +146,11 @@ impl Simulation {
             (
                 "the exact-stop window",
                 "P-AXIS-00236",
-                "raise window or the gain kv, or take the force away",
+                "raise the window or the gain kv, or remove the force",
             )
         };
         let text = format!(
-            "axis {name} is {} {unit} from its target, {window} is {} {unit}, and nothing moves it any more",
+            "axis {name} is {} {unit} from its target, {window} is {} {unit}, and no remaining input moves it",
             rounded(distance_mm),
             rounded(window_mm)
         );
@@ -316,9 +316,8 @@ pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diag
 
 /// A condition that the look-ahead excludes.
 pub(super) fn internal(text: &str) -> Diagnostic {
-    Diagnostic::new(Condition::Internal, text).hint(
-        "this is a fault in kontur itself: please report it with the program and the machine lists",
-    )
+    Diagnostic::new(Condition::Internal, text)
+        .hint("please report this bug in kontur, with the program and the machine lists")
 }
 
 /// A kernel was to be replaced while the axis still moves.
@@ -340,8 +339,9 @@ pub(super) fn out_of_time(last: u64, cycle: CycleTime) -> Diagnostic {
 pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
     let (what, release) =
         if feedhold { ("feedhold", "feedhold 0") } else { ("override 0", "an override") };
-    let text =
-        format!("the path is held by {what} and no later input releases it: the run was stopped");
+    let text = format!(
+        "the path is held by {what} and not released by any later input: the run was stopped"
+    );
     let mut d =
         Diagnostic::new(Condition::Held, text).hint(format!("give {release} a later time stamp"));
     d.cycle = Some(k);
@@ -353,10 +353,10 @@ pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
 pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagnostic {
     let text = match why {
         SpeedChange::Feedhold => {
-            "a feedhold stops the path in a thread while the spindle turns on: the thread is cut through".to_owned()
+            "a feedhold stops the path in a thread while the spindle keeps turning: the thread is damaged".to_owned()
         }
         SpeedChange::Override(ratio) => format!(
-            "the override of {} % acts on G33: the thread gets that share of its pitch",
+            "the override of {} % acts on G33 and scales the pitch of the thread",
             rounded(ratio * 100.0)
         ),
     };
@@ -370,13 +370,13 @@ pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagn
 pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
     let Unkept { deviation_mm, tolerance_mm, .. } = *exceeded;
     let text = format!(
-        "deviation {deviation_mm:.6} mm exceeds AX_DEV {tolerance_mm:.6} mm, which the plan had kept"
+        "deviation {deviation_mm:.6} mm exceeds AX_DEV {tolerance_mm:.6} mm, although the planned path keeps it"
     );
     Diagnostic::new(Condition::AxDevNotKept, text)
         .severity(Severity::Warning)
         .value(ValueKind::Current, deviation_mm, "mm")
         .value(ValueKind::Limit, tolerance_mm, "mm")
-        .hint("the first place of the run; |dev| of the summary is the largest")
+        .hint("this is the first place in the run; see |dev| in the summary for the largest deviation")
 }
 
 impl Simulation {
@@ -406,8 +406,9 @@ impl Simulation {
         let at = self.waits_at;
         if self.smoothing.is_new(Condition::OscillationEnded, at) {
             let name = self.machine.axes[axis].name();
-            let text =
-                format!("this block waits for all axes at rest: {name} no longer oscillates");
+            let text = format!(
+                "this block waits until all axes are at rest: the oscillation of {name} is ended"
+            );
             let mut d = Diagnostic::new(Condition::OscillationEnded, text)
                 .axis(self.machine.axes[axis].number(), name);
             d.source = self.executor.locate(at);

@@ -79,7 +79,8 @@ impl Signal {
         let warning = |text: String| Diagnostic::new(Condition::InputNoEffect, text);
         match self {
             Self::RapidOverride if machine.channel.rapid_override == RapidOverride::NotUsed => {
-                let text = "rapid override without effect: one override acts on feed and rapid";
+                let text =
+                    "rapid override without effect: one override applies to both feed and rapid";
                 let hint = "set channel.g00_override_mode to ACTIVE or MINIMUM_OF_G0_G1";
                 Some(warning(text.to_owned()).parameter("P-CHAN-00181").hint(hint))
             }
@@ -130,9 +131,9 @@ impl Change {
         if whole && (low..=high).contains(&value) {
             Ok(Self { time_s, signal, value })
         } else if switch {
-            Err(format!("{value}, 0 or 1 is expected"))
+            Err(format!("{value}, expected 0 or 1"))
         } else {
-            Err(format!("{value}, allowed are {low} to {high}"))
+            Err(format!("{value}, allowed: {low} to {high}"))
         }
     }
 
@@ -283,7 +284,9 @@ impl Inputs {
         let text = match listed {
             Some(_) => format!("override of {asked} % limited to {most} %"),
             None => {
-                format!("override of {asked} %: a control without max_vb_override allows {most} %")
+                format!(
+                    "override of {asked} %: without max_vb_override the control allows {most} %"
+                )
             }
         };
         Some(Diagnostic::new(Condition::OverrideLimited, text))

@@ -260,7 +260,8 @@ impl Messages {
     pub(crate) fn take(&mut self) -> Vec<Diagnostic> {
         let Self { mut own, unshown, program } = std::mem::take(self);
         if unshown > 0 {
-            let text = format!("{unshown} more messages of the program at once, not shown");
+            let text =
+                format!("{unshown} more messages of the program at the same time, not shown");
             own.push(Diagnostic::new(Condition::Message, text).severity(Severity::Note));
         }
         own.extend(program);

@@ -70,7 +70,7 @@ impl Simulation {
         let probes = stops.is_empty();
         self.probing = Some(Probing { through, stops, before_mm, signal_mm: None });
         if probes && self.inputs.probe {
-            let text = "the probe signals before the measuring run begins";
+            let text = "the probe is actuated before the measuring run begins";
             let k = self.planner.setpoint().k;
             let mut d = Diagnostic::new(Condition::ProbeActuated, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));

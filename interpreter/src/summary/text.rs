@@ -53,7 +53,7 @@ impl Summary {
             let percent = 100.0 * ripple.ratio;
             writeln!(
                 out,
-                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {CORNER_DEG} deg left out)"
+                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {CORNER_DEG} deg excluded)"
             )?;
         }
         if let Some(worst) = &self.max_contour_error {
@@ -75,7 +75,7 @@ impl Summary {
             self.write_axes(out)?;
         }
         if self.duration_s > 0.0 {
-            write!(out, "  speed held by ")?;
+            write!(out, "  speed limited by ")?;
             let mut shares: Vec<(&str, f64)> =
                 self.time_by_v_limit_s.iter().map(|(name, s)| (*name, *s)).collect();
             if let Some((_, stop)) =

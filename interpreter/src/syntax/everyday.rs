@@ -72,8 +72,8 @@ fn label(code: &str) -> Option<Found> {
     let is_name = word.starts_with(|c: char| c.is_ascii_alphabetic())
         && word[1..].contains(|c: char| !c.is_ascii_digit());
     let is_label = is_name && (behind.is_empty() || behind.starts_with([' ', '\t']));
-    let problem = Problem::syntax(Span::new(at, end + 1), format!("`{word}:` is no label"))
-        .hint(format!("write [{word}], $GOTO [{word}] leads there; numbers are N10:"));
+    let problem = Problem::syntax(Span::new(at, end + 1), format!("`{word}:` is not a label"))
+        .hint(format!("write [{word}] and jump with $GOTO [{word}]; numbered labels are N10:"));
     is_label.then_some(Found { problem, rest: Rest::Without(at..end + 1) })
 }
 
@@ -97,9 +97,9 @@ fn remark(code: &str, brace: Option<Span>) -> Option<Found> {
         b'\'' => (1, "'"),
         _ => (1, "{"),
     };
-    let text = format!("`{shown}` begins no remark");
+    let text = format!("`{shown}` does not begin a remark");
     let problem = Problem::syntax(Span::new(at, at + length), text)
-        .hint("remarks begin with ; or are written in ( )");
+        .hint("begin remarks with ; or write them in ( )");
     Some(Found { problem, rest: Rest::UpTo(at) })
 }
 
@@ -160,7 +160,7 @@ fn figure(code: &str, at: usize) -> Found {
     };
     let text = format!("the letter {letter} in a number");
     let problem = Problem::new(condition, Span::new(at, at + 1), text)
-        .hint(format!("write the figure {figure}"));
+        .hint(format!("write the digit {figure}"));
     Found { problem, rest: Rest::ReadAs(at, figure) }
 }
 

@@ -109,7 +109,7 @@ impl Builder<'_> {
                         }
                         if top.is_comparison() && op.is_comparison() {
                             let span = self.span(&part);
-                            let text = "comparisons do not chain";
+                            let text = "comparisons cannot be chained";
                             self.report(Problem::syntax(span, text).hint("join them with `&&`"));
                         }
                         operators.pop();
@@ -151,7 +151,7 @@ impl Builder<'_> {
                 ExprKind::Number(number::decimal(pair.as_str()).unwrap_or_else(|| {
                     self.report(Problem::syntax(
                         span,
-                        "number beyond the range of 64 bit floating point",
+                        "number outside the range of 64-bit floating point",
                     ));
                     f64::MAX
                 }))

@@ -21,14 +21,14 @@ impl Found {
     fn hint(&self, word: &str) -> Option<&'static str> {
         let upper = word.to_ascii_uppercase();
         Some(match upper.as_str() {
-            "STOPRE" => "#FLUSH WAIT stops the decoding here",
+            "STOPRE" => "#FLUSH WAIT stops decoding here",
             "MSG" => "#MSG [\"text\"] is a message here",
-            "ROT" | "AROT" => "#ROTATION and #CS turn the coordinates here",
+            "ROT" | "AROT" => "#ROTATION and #CS rotate the coordinates here",
             "TRANS" | "ATRANS" => "G54 to G59, G92 and #CS shift the coordinates here",
-            "SUPA" => "G53 takes the zero offsets back here",
-            "TRAORI" => "#TRAFO ON is the transformation here",
+            "SUPA" => "G53 cancels the zero offsets here",
+            "TRAORI" => "transformations are #TRAFO ON here",
             "GOTOF" | "GOTOB" => "$GOTO N20 and $GOTO [NAME] jump here",
-            "CYCLE800" => "#CS ON [x,y,z,a,b,c] turns the plane here",
+            "CYCLE800" => "#CS ON [x,y,z,a,b,c] rotates the plane here",
             "=IC" | "=AC" => "coordinates are X10: incremental after G91, absolute after G90",
             "=DC" | "=ACP" | "=ACN" => "modulo axes are C+90 and C-90 here",
             _ if self.meaning == CALL => "L file and LL NAME call subroutines here",
@@ -42,9 +42,8 @@ impl Found {
 pub(super) fn recognise(masked: &str) -> Option<Problem> {
     if masked.starts_with("t_s,") {
         let span = Span::new(0, masked.trim_ascii_end().len());
-        let text = "this is a table over time, a trace or a file of inputs, not a program";
-        let hint =
-            "kontur diff compares traces, run --input reads inputs, report and check take programs";
+        let text = "this is a table of values over time (a trace or an input file), not a program";
+        let hint = "use kontur diff to compare traces, run --input to read inputs; report and check take programs";
         return Some(Problem::new(Condition::ForeignProgram, span, text).hint(hint));
     }
     let found = klartext(masked)

@@ -81,13 +81,12 @@ pub(crate) fn expand<'m>(
                 }
                 Wrong::HalfBracket(text) => {
                     let shown: String = text.chars().take(40).collect();
-                    let text =
-                        format!("the macro text `{shown}` holds one half of a pair of brackets");
+                    let text = format!("the macro text `{shown}` has an unmatched bracket");
                     Diagnostic::new(Condition::MacroBracket, text)
                 }
                 Wrong::Control(text) => {
                     let shown: String = text.chars().take(40).collect();
-                    let text = format!("the macro text `{shown}` holds a control statement ($)");
+                    let text = format!("the macro text `{shown}` contains a control statement ($)");
                     Diagnostic::new(Condition::MacroControl, text)
                 }
             };
@@ -135,8 +134,7 @@ fn misfit(block: &str, used: &Range<usize>, text: &str) -> Option<Diagnostic> {
     let is_first = number.bytes().all(|b| b.is_ascii_digit());
     (name > 0 && !among_words && (!is_first || is_word(behind))).then(|| {
         let shown: String = text.chars().take(40).collect();
-        let text =
-            format!("the macro text `{shown}` is a command that has to be alone in its block");
+        let text = format!("the macro text `{shown}` is a command that must be alone in its block");
         Diagnostic::new(Condition::MacroCommand, text)
     })
 }

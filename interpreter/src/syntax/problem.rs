@@ -62,7 +62,7 @@ pub(super) fn invalid(text: &str, span: Span) -> Problem {
     let shown = text.get(span.start as usize..span.end() as usize).unwrap_or("?");
     let shown: String = shown.chars().take(10).flat_map(char::escape_debug).collect();
     Problem::new(Condition::InvalidCharacter, span, format!("invalid character `{shown}`"))
-        .hint("characters outside the dialect are allowed only in comments and strings")
+        .hint("characters outside the dialect are only allowed in comments and strings")
 }
 
 /// 20386 for the bracket at `at`, 20927 if it is that of a parameter.
@@ -81,7 +81,7 @@ pub(super) fn too_deep(text: &str, at: usize) -> Problem {
 
 /// A list in place of a value in the brackets of a command, such as `[1,2] + 3`.
 pub(super) fn list_among_values(masked: &str, span: Span) -> Problem {
-    let text = "a list in brackets has no value to calculate with";
+    let text = "a list in brackets does not have a value";
     let before = masked.get(..span.start as usize).unwrap_or_default();
     if Context::of(masked) == Context::Command || in_cycle_call(before) {
         Problem::new(Condition::TokenUnknown, span, text)
@@ -262,11 +262,11 @@ fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
         [] => return None,
         [b'G' | b'M' | b'H'] => format!("`{word}` not followed by a number"),
         [b'G' | b'M' | b'H', b'0'..=b'9', ..] => {
-            format!("`{word}` is followed by something that is not a word")
+            format!("`{word}` is followed by an invalid word")
         }
         [b'L'] | [b'L', b'L'] => format!("`{word}` without the name of a program"),
         [b'N'] | [b'N', b'0'..=b'9', ..] => {
-            format!("`{word}`: a block number comes first in its block")
+            format!("`{word}`: a block number must be first in its block")
         }
         _ => format!("`{word}` is not a word of an NC program"),
     };
@@ -311,7 +311,7 @@ fn refine(
         Context::Words if rest.starts_with('#') => raised(problem, Condition::CommandNotAlone)
             .hint("a # command must be alone in its block"),
         Context::Words if rest.starts_with('$') => raised(problem, Condition::ControlNotAlone)
-            .hint("a control statement comes first in its block"),
+            .hint("a control statement must be first in its block"),
         Context::Words if rest.starts_with('\\') => {
             problem.hint("`\\` continues a block only as the last character of its line")
         }
@@ -465,7 +465,7 @@ fn negative_radius(problem: &Problem, before: &str) -> Problem {
     let word = last_word(before);
     let start =
         problem.span.start as usize - (before.len() - before.trim_ascii_end().len()) - word.len();
-    let text = format!("the radius has the index 1 only, not {}", &word[1..]);
+    let text = format!("the radius only has the index 1, not {}", &word[1..]);
     Problem::new(Condition::RadiusIndexFormat, Span::new(start, start + word.len()), text)
 }
 

@@ -5,7 +5,7 @@ pub(super) const LENGTH_SLACK: f64 = 1e-9;
 
 /// The boundary velocities of a span do not fit its length; the look-ahead has to lower one of them.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("speed change needs {needed_mm} mm, the span has {length_mm} mm")]
+#[error("speed change requires {needed_mm} mm, the span has {length_mm} mm")]
 pub struct Infeasible {
     /// Length of the span in mm.
     pub length_mm: f64,

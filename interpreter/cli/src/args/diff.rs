@@ -17,7 +17,7 @@ pub struct DiffArgs {
 
     /// B is a recording of a machine (CSV with comma, semicolon or tab, any header, or an export of TwinCAT Scope): the column
     /// of A that a channel recorded, with a factor for unit and sign, e.g. `X_act_mm=MAIN.fActX` or `X_act_mm=-1000*Axis1.Pos`.
-    /// The shift in time is found; positions count as equal up to 0.1 um at least
+    /// The shift in time is determined automatically; positions within 0.1 um are always treated as equal
     #[arg(long, value_name = "COLUMN=CHANNEL")]
     pub map: Vec<Pairing>,
 
@@ -33,7 +33,7 @@ pub struct DiffArgs {
     #[arg(long, value_enum, default_value_t = OutputForm::Text)]
     pub format: OutputForm,
 
-    /// Options for running a program among the two
+    /// Options for running an NC program given as A or B
     #[command(flatten)]
     pub simulation: SimulationArgs,
 }

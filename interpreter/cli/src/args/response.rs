@@ -7,20 +7,20 @@ use kontur_filters::iir::prototype::Prototype;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Every list of values spans curves, and every repetition adds one; all of them share one picture.
+Each list of values produces one curve per value, and each repetition of an option adds curves; all of them share one picture.
 
 Examples:
   three prototypes of a low-pass, frequency response on stdout
     kontur response --filter LOWPASS --prototype CRIT_DAMPING,BESSEL,BUTTERWORTH --order 4 --f0 15
   their step responses as a picture
     kontur response --filter LOWPASS --prototype CRIT_DAMPING,BESSEL,BUTTERWORTH --order 4 --f0 15 --step -o step.svg
-  what is left of a vibration when the frequency is wrong, for two dampings of the machine
+  residual vibration when the frequency is wrong, for two dampings of the machine
     kontur response --guard MODE=2,FREQ=40 --residual --damping 0.05,0.1 -o residual.svg
   the Vibration Guard modes at a corner
     kontur response --guard MODE=1,FREQ=10 --guard MODE=2,FREQ=10 --corner F4000 -o corner.svg
   contour error over the order of the mean filter
     kontur response --hsc-mean 2..200:2 --corner F1000
-  all that the lists of a machine do to an axis, table and picture
+  all filters that the lists of a machine set for an axis, table and picture
     kontur response --axis X -m machines/mill -o x.csv -o x.svg";
 
 /// Names of P-AXIS-00204.
@@ -74,7 +74,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "US", default_value = "10000", requires = "filter")]
     pub time: Numbers,
 
-    /// Shares of the signal that pass --filter in percent (P-AXIS-00164)
+    /// Shares of the signal that pass through --filter, in percent (P-AXIS-00164)
     #[arg(long, value_name = "PERCENT", default_value = "100", requires = "filter")]
     pub share: Numbers,
 
@@ -94,7 +94,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "HZ")]
     pub hsc_novib: Option<Numbers>,
 
-    /// Axes of the machine: their filters, and the FIR filter or Vibration Guard that their lists switch on
+    /// Axes of the machine: their filters, and the FIR filter or Vibration Guard switched on in their lists
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub axis: Vec<String>,
 
@@ -114,7 +114,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "RATIO", requires = "residual")]
     pub damping: Option<Numbers>,
 
-    /// Frequencies in Hz, `1..200` [default: 0.5 Hz to half the sampling frequency; --residual: around the set one]
+    /// Frequencies in Hz, `1..200` [default: 0.5 Hz to half the sampling frequency; --residual: around the set frequency]
     #[arg(long, value_name = "HZ..HZ", value_parser = range, conflicts_with_all = ["step", "corner"])]
     pub range: Option<(f64, f64)>,
 
@@ -130,7 +130,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting, requires = "axis")]
     pub set: Vec<String>,
 
-    /// Cycle time in microseconds [default: the machine's, without --axis 1000]
+    /// Cycle time in microseconds [default: that of the machine, 1000 without --axis]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
     pub cycle_us: Option<u32>,
 }
@@ -141,7 +141,7 @@ fn range(text: &str) -> Result<(f64, f64), String> {
     });
     match parsed {
         Some((low, high)) if low > 0.0 && high > low && high.is_finite() => Ok((low, high)),
-        _ => Err("two frequencies above 0 in rising order are expected, e.g. 1..200".to_owned()),
+        _ => Err("two frequencies above 0 in ascending order are expected, e.g. 1..200".to_owned()),
     }
 }
 

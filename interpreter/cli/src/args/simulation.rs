@@ -31,17 +31,17 @@ pub struct SimulationArgs {
     #[arg(long, value_name = "DIR")]
     pub path: Vec<PathBuf>,
 
-    /// Let subroutines lie outside the program's folder and --path
+    /// Allow subroutines outside the program's folder and --path
     #[arg(long)]
     pub allow_outside: bool,
 
     /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
-    /// `feedhold`, `probe`, `wear_mm`, `X_probe_mm`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next
+    /// `feedhold`, `probe`, `wear_mm`, `X_probe_mm`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value applies until the next
     /// time stamp. May be given several times
     #[arg(long, value_name = "FILE")]
     pub input: Vec<PathBuf>,
 
-    /// Cycle time in microseconds instead of the machine's
+    /// Cycle time in microseconds [default: that of the machine]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
     pub cycle_us: Option<u32>,
 
@@ -65,12 +65,12 @@ pub struct SimulationArgs {
     #[arg(long)]
     pub strict: bool,
 
-    /// Take kinematic transformations (#TRAFO, #RTCP, #KIN ID) as identity, with a warning
+    /// Treat kinematic transformations (#TRAFO, #RTCP, #KIN ID) as the identity, with a warning
     #[arg(long)]
     pub identity_trafo: bool,
 
-    /// Wait for M, H and S functions as long as the channel list declares (P-CHAN-00026, 00040, 00042 to 00048, 00080); without
-    /// it they take no time and the summary names them
+    /// Wait for M, H and S functions for the times declared in the channel list (P-CHAN-00026, 00040, 00042 to 00048, 00080);
+    /// without this option they take no time and are named in the summary
     #[arg(long)]
     pub techno_times: bool,
 

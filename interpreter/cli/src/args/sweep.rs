@@ -9,17 +9,17 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 const EXAMPLES: &str = "\
-Every --vary takes a list or a range of values; all combinations are run, over all cores.
+Every --vary takes a list or a range of values; all combinations are run, on all cores.
 
 Examples:
   a table on stdout: machining time and contour error over mode and frequency of the Vibration Guard
     kontur sweep part.nc --vary '*.vib_guard.mode=1..4' --vary '*.vib_guard.freq=20..60:10' --columns duration_s,contour_err_mm
-  the same for a guard that the program itself sets, with the list of X going along
+  the same for a guard set by the program itself, with the same value in the list of X
     kontur sweep part.nc --vary F=20..60:10 --vary 'program.FREQ={F}' --vary 'X.vib_guard.freq={F}'
-  the largest gain at which the axis is stable, with and without Improved Position Control, table and picture
+  the maximum gain at which the axis is stable, with and without Improved Position Control, table and picture
     kontur sweep part.nc -m mill --vary X.getriebe[0].kv=1000..60000:1000 \\
       --vary X.lr_param.improved_position_control.enable=0,1 -o kv.csv -o kv.svg
-  what a weight leaves of the vibration at 53 Hz between 1 s and 2 s
+  residual vibration at 53 Hz between 1 s and 2 s for each weight
     kontur sweep part.nc -m mill --vary X.lr_param.improved_position_control.stage[0].weight_fact_num=1..7 \\
       --amplitude X_tcp_acc_mm_s2@50..56@1..2
   the third of twenty jobs of a batch system; started again it continues after its finished rows
@@ -32,10 +32,10 @@ pub struct SweepArgs {
     /// The NC program
     pub program: PathBuf,
 
-    /// What varies, and its values: `KEY=A..B:STEP`, `KEY=A,B,C`. A list parameter `AXIS.key=..`, of several axes `X,Y.key=..`, of
+    /// What to vary, and its values: `KEY=A..B:STEP`, `KEY=A,B,C`. A list parameter `AXIS.key=..`, of several axes `X,Y.key=..`, of
     /// all path axes `*.key=..`; a number in the program after a word (P1=, V.P.R=, FREQ=) `program.P1=..`, in
     /// line 12 `program[12].FREQ=..`; an external variable that the program reads `V.E.NAME=..`; a name `NAME=..` whose
-    /// values others take with `KEY={NAME}`. May be given several times
+    /// values other keys use with `KEY={NAME}`. May be given several times
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     pub vary: Vec<Vary>,
 
@@ -48,13 +48,13 @@ pub struct SweepArgs {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub columns: Vec<String>,
 
-    /// One more result: the largest amplitude of a column of the trace between two frequencies in Hz, over the whole run
+    /// Additional result: the maximum amplitude of a column of the trace between two frequencies in Hz, over the whole run
     /// or between two times in s: `X_tcp_acc_mm_s2@50..56@1..2`
     #[arg(long, value_name = "COLUMN@HZ..HZ[@S..S]")]
     pub amplitude: Vec<Amplitude>,
 
-    /// Run only the I-th of N equal parts of all combinations, e.g. `3/20`: a job of a batch system. The parts, concatenated in
-    /// order, are the whole table, with `without_effect` of each part; the exit code is 0 even if every run has ended with
+    /// Run only the I-th of N equal parts of all combinations, e.g. `3/20` as a job of a batch system. The parts, concatenated
+    /// in order, form the whole table, with `without_effect` per part; the exit code is 0 even if every run has ended with
     /// an error
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -149,7 +149,7 @@ impl Amplitude {
             let names: Vec<&str> =
                 columns.iter().filter(|c| is_number(c)).map(|c| c.name.as_str()).collect();
             format!(
-                "--amplitude: `{}` is not a column of numbers; those are {}",
+                "--amplitude: `{}` is not a numeric column; numeric columns are {}",
                 self.signal,
                 names.join(", ")
             )

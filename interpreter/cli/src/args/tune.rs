@@ -11,9 +11,9 @@ Examples:
     kontur tune --freq 6.9,6.0,5.4 --damping 0.1
   the same from acceleration recordings at three positions
     kontur tune --recording low.csv --recording middle.csv --recording high.csv --column a --rate 2000
-  what each choice costs in the user's own program
+  the cost of each choice in your own program
     kontur tune --freq 6.9,6.0,5.4 --program part.nc --max-dev 0.01 -m machines/mill
-  the largest order of an HSC or FIR filter for 0.1 mm at F2000
+  the maximum order of an HSC or FIR filter for 0.1 mm at F2000
     kontur tune --order-for 0.1 --feed F2000";
 
 /// `kontur tune`.
@@ -40,15 +40,15 @@ pub struct TuneArgs {
     #[arg(long, value_name = "HZ", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = above_zero)]
     pub rate: Option<f64>,
 
-    /// Look at these frequencies of the recordings only
+    /// Evaluate only these frequencies of the recordings
     #[arg(long, value_name = "HZ..HZ", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = span)]
     pub range: Option<(f64, f64)>,
 
-    /// Look at this part of the recordings only, in seconds from their first sample
+    /// Evaluate only this part of the recordings, in seconds from their first sample
     #[arg(long, value_name = "S..S", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = span)]
     pub window: Option<(f64, f64)>,
 
-    /// Draw the recordings, their spectra and what was found in them (.svg)
+    /// Draw the recordings, their spectra and the vibrations found (.svg)
     #[arg(short, long, value_name = "FILE", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = picture)]
     pub output: Option<PathBuf>,
 
@@ -60,7 +60,7 @@ pub struct TuneArgs {
     #[arg(long, value_name = "HZ", value_parser = above_zero)]
     pub at: Option<f64>,
 
-    /// Largest acceptable residual vibration in percent
+    /// Maximum acceptable residual vibration in percent
     #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = above_zero)]
     pub max_residual: f64,
 
@@ -68,7 +68,7 @@ pub struct TuneArgs {
     #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = feed)]
     pub feed: f64,
 
-    /// The largest order of a mean or Gauss filter whose contour error at a corner stays within this, in mm
+    /// Find the maximum order of a mean or Gauss filter whose contour error at a corner stays within this, in mm
     #[arg(long, value_name = "MM", value_parser = above_zero, conflicts_with_all = ["program", "damping", "at", "max_residual"])]
     pub order_for: Option<f64>,
 
@@ -76,7 +76,7 @@ pub struct TuneArgs {
     #[arg(long, value_name = "FILE", requires = "max_dev")]
     pub program: Option<PathBuf>,
 
-    /// Largest deviation of an axis from the contour, in mm (deg): AX_DEV of the command to paste, bound in --program
+    /// Maximum deviation of an axis from the contour, in mm (deg): AX_DEV of the proposed command, limit in --program
     #[arg(long, value_name = "MM", conflicts_with = "order_for", value_parser = above_zero)]
     pub max_dev: Option<f64>,
 

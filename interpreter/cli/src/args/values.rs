@@ -81,7 +81,7 @@ pub(crate) fn span(text: &str) -> Result<(f64, f64), String> {
     });
     match parsed {
         Some((low, high)) if low >= 0.0 && high > low && high.is_finite() => Ok((low, high)),
-        _ => Err(format!("`{text}`: two numbers in rising order are expected, e.g. 50..56")),
+        _ => Err(format!("`{text}`: two numbers in ascending order are expected, e.g. 50..56")),
     }
 }
 

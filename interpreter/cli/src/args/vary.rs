@@ -46,7 +46,7 @@ impl FromStr for Vary {
                 let number = used_name(value).is_some() || value.parse::<f64>().is_ok();
                 number
                     .then_some(())
-                    .ok_or(format!("`{value}`: a word of a program takes numbers"))?;
+                    .ok_or(format!("`{value}`: a number is expected for a word of the program"))?;
             } else if !vary.is_name() {
                 setting(&format!("{}={value}", vary.key))?;
             }

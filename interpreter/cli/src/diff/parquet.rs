@@ -54,7 +54,7 @@ fn guarded<T>(name: &str, code: impl FnOnce() -> Result<T, Error>) -> Result<T, 
     // the data being read are dropped with the error
     let done = panic::catch_unwind(AssertUnwindSafe(code));
     TAKING_FOR_GRANTED.set(false);
-    done.unwrap_or_else(|_| Err(damaged(name, "its pages do not hold what they name")))
+    done.unwrap_or_else(|_| Err(damaged(name, "its pages do not contain what they declare")))
 }
 
 impl Rows {
@@ -88,10 +88,10 @@ impl Rows {
             header.push(column.name().to_owned());
         }
         if !header.iter().any(|name| name == "t_s") {
-            return Err(Error::Usage(format!("{name}: no trace, it has no column `t_s`")));
+            return Err(Error::Usage(format!("{name}: not a trace, column `t_s` is missing")));
         }
         if !is_whole(reader.metadata(), length) {
-            return Err(damaged(&name, "its footer names data that lie outside the file"));
+            return Err(damaged(&name, "its footer refers to data outside the file"));
         }
         Ok((header, Self { name, rows: reader.into_iter() }))
     }
@@ -186,7 +186,7 @@ mod tests {
                 let mut bytes = whole.clone();
                 bytes[at] ^= flip;
                 let said = read(&bytes, folder.path()).map_err(|e| e.to_string());
-                caught += usize::from(said.is_err_and(|e| e.contains("what they name")));
+                caught += usize::from(said.is_err_and(|e| e.contains("what they declare")));
             }
         }
         assert!(caught > 0, "none of them would have been a panic");

@@ -95,7 +95,7 @@ pub(super) fn compare(
     let trace = signals::read(trace, pairings)?;
     let wrong = |text: String| Err(Error::Usage(text));
     let Some(cycle_s) = shift::cycle_of(&trace.times_s) else {
-        return wrong("the trace has fewer than three rows with rising times".to_owned());
+        return wrong("the trace has fewer than three rows with increasing times".to_owned());
     };
     let longest = recorded.iter().map(|r| r.end_s() / cycle_s).fold(0.0, f64::max);
     if trace.times_s.len() > MOST_CYCLES || longest > MOST_CYCLES as f64 {

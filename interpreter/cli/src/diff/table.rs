@@ -51,24 +51,23 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     if !std::fs::metadata(path).map_err(io)?.is_file() {
         // a file that can be read only once is a program, unless its name says otherwise
-        return if is("csv") { refused("no regular file") } else { Ok(false) };
+        return if is("csv") { refused("not a regular file") } else { Ok(false) };
     }
     let start = first_bytes(path)?;
     let text = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&start);
     match text {
         [b'P', b'A', b'R', b'1', ..] if cfg!(feature = "parquet") => Ok(true),
         [b'P', b'A', b'R', b'1', ..] => refused("this kontur was built without Parquet"),
-        _ if is("parquet") => refused("no Parquet file"),
+        _ if is("parquet") => refused("not a Parquet file"),
         [b't', b'_', b's', b',' | b'\r' | b'\n', ..] | b"t_s" => Ok(true),
         [b't', b'_', b's', b';' | b'\t', ..] => refused(
-            "its columns are not separated by commas; a trace has commas and decimal points, and a recording is the second file \
-             with --map COLUMN=CHANNEL",
+            "its columns are not separated by commas; a trace has commas and decimal points; pass a recording as the second file with --map COLUMN=CHANNEL",
         ),
         [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => refused("the text is UTF-16; save it as UTF-8"),
         // an empty or foreign table must not be taken for a program without motion
         [b'#', ..] if is("csv") => refused("it starts with a `#` line; a trace starts with `t_s`"),
         _ if is("csv") => refused(
-            "no trace, it starts without `t_s`; a recording is the second file with --map COLUMN=CHANNEL",
+            "not a trace, it does not start with `t_s`; pass a recording as the second file with --map COLUMN=CHANNEL",
         ),
         _ => Ok(false),
     }

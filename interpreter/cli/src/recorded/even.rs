@@ -55,15 +55,15 @@ impl Channel {
     /// equal steps (beyond rounding), or gaps with more than [`MOST_SAMPLES`].
     pub(crate) fn even(&self, rate_hz: Option<f64>) -> Result<Even, String> {
         if self.times_s.is_empty() {
-            let rate_hz =
-                rate_hz.ok_or("no column t_s, time or t; --rate names the samples per second")?;
+            let rate_hz = rate_hz
+                .ok_or("no column t_s, time or t; give the samples per second with --rate")?;
             let (values, drop_outs) = (self.values.clone(), Vec::new());
             return Ok(Even { values, begin_s: 0.0, step_s: 1.0 / rate_hz, drop_outs });
         }
         let even = self.by_times()?;
         match rate_hz.filter(|given| (given * even.step_s - 1.0).abs() > RATE_RATIO) {
             Some(given) => Err(format!(
-                "--rate {given} Hz disagrees with its time column, which says {} Hz; leave one of the two out",
+                "--rate {given} Hz contradicts its time column ({} Hz); remove one of the two",
                 number(1.0 / even.step_s, 3)
             )),
             None => Ok(even),
@@ -72,7 +72,7 @@ impl Channel {
 
     /// From the straight line through the times, which is more accurate than a printed step.
     fn by_times(&self) -> Result<Even, String> {
-        let unequal = || "its times do not rise in equal steps".to_owned();
+        let unequal = || "its times do not increase in equal steps".to_owned();
         let steps: Vec<f64> = self.times_s.windows(2).map(|w| w[1] - w[0]).collect();
         let rough = median(&steps).filter(|s| *s > 0.0).ok_or_else(unequal)?;
         let singles = || steps.iter().filter(|s| **s <= SINGLE * rough * (1.0 + 1e-9));
@@ -86,7 +86,7 @@ impl Channel {
             gaps += usize::from(count > 1.0);
             number += count;
             if number >= MOST_SAMPLES {
-                return Err("its times leave gaps of hours".to_owned());
+                return Err("its times contain gaps of hours".to_owned());
             }
             numbers.push(number);
         }

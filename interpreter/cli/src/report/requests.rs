@@ -24,7 +24,7 @@ pub(super) fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request
     }
     if all.len() > MOST_RUNS {
         let text = format!(
-            "{} runs, at most {MOST_RUNS} are drawn; `kontur sweep` compares more",
+            "{} runs, at most {MOST_RUNS} can be drawn; use `kontur sweep` to compare more",
             all.len()
         );
         return Err(Error::Usage(text));

@@ -53,7 +53,7 @@ pub(super) fn report(
     let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     if !is("svg") && !is("csv") {
         let name = output.display();
-        let text = format!("{name}: --signals give a picture (.svg) or a table (.csv)");
+        let text = format!("{name}: --signals writes a picture (.svg) or a table (.csv)");
         return Err(Error::Usage(text));
     }
     let (mut runs, mut aborted) = (Vec::<Recorded>::new(), false);
@@ -84,7 +84,7 @@ pub(super) fn report(
             let shown = rows.during(is_shown);
             if recorded.times.len() + shown.len() > most {
                 let text = format!(
-                    "--signals: more than {most_samples} cycles, or {most_values} values in all; --window shows a part"
+                    "--signals: more than {most_samples} cycles, or {most_values} values in total; use --window to show a part"
                 );
                 return Err(Error::Usage(text));
             }
@@ -107,7 +107,7 @@ pub(super) fn report(
         let highest_hz = 0.5 / recorded.cycle_s;
         if args.spectrum.is_some_and(|(low_hz, _)| low_hz >= highest_hz) {
             let text = format!(
-                "--spectrum: a cycle of {} s shows up to {highest_hz} Hz",
+                "--spectrum: a cycle of {} s allows frequencies up to {highest_hz} Hz",
                 recorded.cycle_s
             );
             return Err(Error::Usage(text));
@@ -140,7 +140,7 @@ impl Recorded {
         columns.sort_by_key(|c| words.iter().position(|w| *w == c.name || *w == c.group));
         if columns.is_empty() || columns.len() > MOST_SIGNALS {
             let text = format!(
-                "--signals: {} columns of measured values, 1 to {MOST_SIGNALS} are drawn",
+                "--signals: {} columns of measured values, allowed: 1 to {MOST_SIGNALS}",
                 columns.len()
             );
             return Err(Error::Usage(text));

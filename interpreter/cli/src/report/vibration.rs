@@ -185,6 +185,6 @@ fn part(runs: &[Drawn]) -> String {
     let kept = runs.iter().map(|r| (r.recording.most_samples, r.recording.cycles()));
     let cut = kept.filter(|(most, cycles)| *cycles > *most as u64).map(|(most, _)| most);
     cut.min().map_or_else(String::new, |most| {
-        format!("The first {most} cycles; --window takes another part of the run.")
+        format!("The first {most} cycles; use --window for another part of the run.")
     })
 }

@@ -67,11 +67,14 @@ pub(super) fn curves(
             parts.push(format!("{count} standard filter{}", if count > 1 { "s" } else { "" }));
         }
         if parts.is_empty() {
-            console.say(Severity::Note, &format!("axis {name}: its lists switch no filter on"));
+            console.say(
+                Severity::Note,
+                &format!("axis {name}: no filter is switched on in its lists"),
+            );
             parts.push("no filter".to_owned());
         }
         if preset.hsc.is_some() {
-            let text = "its HSC filter waits for #FILTER ON [HSC] and is not shown; see --hsc-mean";
+            let text = "its HSC filter is only switched on by #FILTER ON [HSC] and not shown; use --hsc-mean";
             console.say(Severity::Note, &format!("axis {name}: {text}"));
         }
         let mut shaping = Shaping::new(chain.filters.clone(), 0.0);

@@ -266,5 +266,5 @@ fn pairs<'a>(text: &'a str, option: &str) -> Result<Vec<(&'a str, f64)>, Error> 
 }
 
 fn unknown(option: &str, word: &str, known: &str) -> Error {
-    Error::Usage(format!("{option}: `{word}` is unknown; one of {known} is expected"))
+    Error::Usage(format!("{option}: `{word}` is unknown; use one of {known}"))
 }

@@ -44,7 +44,7 @@ impl Journal {
             let mut start = Vec::new();
             io::Read::take(&file, HEAD.len() as u64).read_to_end(&mut start)?;
             if !HEAD.starts_with(&start) {
-                return Err(io::Error::other("not the journal of a sweep: it stays as it is"));
+                return Err(io::Error::other("not the journal of a sweep: left unchanged"));
             }
             io::Seek::rewind(&mut file)?;
             let mut lines = BufReader::new(file);

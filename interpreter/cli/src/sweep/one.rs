@@ -42,7 +42,7 @@ impl Sink for Collected<'_> {
             let part = rows.during(|k| amplitude.holds(k as f64 * self.cycle_s));
             if samples.len() + part.len() > MOST_SAMPLES {
                 return Err(Failure::usage(format!(
-                    "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
+                    "--amplitude {}: more than {MOST_SAMPLES} cycles; use {}@0..10 for a part",
                     amplitude.text, amplitude.text
                 )));
             }
@@ -83,7 +83,7 @@ fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
         if amplitude.band_hz.0 >= highest_hz {
             let text = &amplitude.text;
             return Err(Failure::usage(format!(
-                "--amplitude {text}: a cycle of {cycle_s} s shows up to {highest_hz} Hz"
+                "--amplitude {text}: a cycle of {cycle_s} s allows frequencies up to {highest_hz} Hz"
             )));
         }
         wanted.push(Wanted { amplitude, column, samples: Vec::new() });

@@ -30,10 +30,9 @@ pub(super) fn draw(
     combinations: &[Vec<usize>],
     rows: &Rows,
 ) -> Result<String, Error> {
-    let (first, others) = args
-        .vary
-        .split_first()
-        .ok_or_else(|| Error::Usage("--vary names what the picture goes over".to_owned()))?;
+    let (first, others) = args.vary.split_first().ok_or_else(|| {
+        Error::Usage("use --vary to select the horizontal axis of the picture".to_owned())
+    })?;
     // a mode is not a quantity, even if it has a number
     let numbers = first.numbers().filter(|_| !first.is_choice());
     let is_choice = numbers.is_none();
@@ -49,7 +48,7 @@ pub(super) fn draw(
         }
     }
     if series.len() > MOST_CURVES {
-        let text = format!("--vary: {} curves in a picture, at most {MOST_CURVES}", series.len());
+        let text = format!("--vary: {} curves in a picture, maximum: {MOST_CURVES}", series.len());
         return Err(Error::Usage(text));
     }
     for s in &mut series {

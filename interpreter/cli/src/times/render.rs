@@ -47,7 +47,7 @@ impl Times {
             )?;
         }
         let sources = self.sources();
-        writeln!(out, "most expensive lines")?;
+        writeln!(out, "lines that take the most time")?;
         for line in self.lines.iter().take(MOST_EXPENSIVE) {
             let place = format!("{}:{}", line.file, line.line);
             let source = sources.get(&(line.file.as_str(), line.line)).map_or("", String::as_str);
@@ -67,14 +67,14 @@ impl Times {
             }
         }
         if !self.proposals.is_empty() {
-            writeln!(out, "what would help, one run each")?;
+            writeln!(out, "possible savings, one run each")?;
         }
         for p in &self.proposals {
             let (verb, s) =
                 if p.saves_s < 0.0 { ("costs", -p.saves_s) } else { ("saves", p.saves_s) };
             writeln!(out, "  {:<40} {verb} {s:>8.3} s  ({})", p.what, p.parameters)?;
         }
-        writeln!(out, "axes, least and greatest")?;
+        writeln!(out, "axes, minimum and maximum")?;
         for a in &self.axes {
             let pair = |(least, greatest): Range, digits: usize| {
                 format!("{least:.digits$} .. {greatest:.digits$}")

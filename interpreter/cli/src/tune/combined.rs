@@ -103,7 +103,7 @@ pub(super) fn answer(task: &Task) -> Option<String> {
         number(set, 2),
         percent(best.left[0]),
         percent(best.left[1]),
-        if keeps { "" } else { " (more than asked for, but the least)" },
+        if keeps { "" } else { " (more than requested, but the minimum)" },
         number(best.delay_cycles * cycle_ms, 1),
     ))
 }

@@ -56,7 +56,7 @@ pub(super) fn answer(
             }
         }
         if most.order == 0 {
-            let none = ["0", "", "", "none: the first order exceeds it"].map(str::to_owned);
+            let none = ["0", "", "", "none: even the first order exceeds it"].map(str::to_owned);
             table.push(std::iter::once(name.to_owned()).chain(none));
         }
     }

@@ -30,7 +30,7 @@ pub(super) fn draw(recordings: &[Recording]) -> String {
         })
         .collect();
     let plot = Plot {
-        title: "Recorded vibration and what was seen in it".to_owned(),
+        title: "Recorded vibration and result of the evaluation".to_owned(),
         subtitle: list.join("; "),
         legend: vec!["recording".to_owned(), "fit: decays, drift, hum".to_owned()],
         columns: 1,
@@ -76,7 +76,7 @@ fn spectrum(recording: &Recording) -> View<Points> {
         AmplitudeSpectrum::of(x, step_s).lines((0.0, top)).collect()
     };
     let is_bridged = missing.iter().any(|m| m.start < range.end && m.end > range.start);
-    let bridged = if is_bridged { ", missing samples on straight lines" } else { "" };
+    let bridged = if is_bridged { ", missing samples interpolated linearly" } else { "" };
     let mut lines = vec![Line::series(0, of(&samples[range], 1.0 / rate_hz))];
     if let Some(decay) = found.decays.first() {
         let points = of(&decay.curve, decay.stride as f64 / rate_hz);

@@ -129,8 +129,7 @@ fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
         let rests: Vec<f64> = finished.filter_map(rest).collect();
         if rests.windows(2).any(|pair| (pair[0] - pair[1]).abs() > SAME_DELAY) {
             return Err(Error::Usage(format!(
-                "axis {}: another Vibration Guard ran than the one asked for, or none: the program filters by other \
-                 means or switches the guard off",
+                "axis {}: the Vibration Guard that ran is not the requested one, or none ran: the program filters by other means or switches the guard off",
                 axis.name()
             )));
         }
@@ -163,21 +162,21 @@ fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64)
     lines.push(match &own.ax_dev {
         Some((place, value)) => {
             let line = line(place);
-            format!("          the program's own AX_DEV={value} ({line}) with each of them")
+            format!("          the program's own AX_DEV={value} ({line}) with each choice")
         }
         None => format!(
-            "          no AX_DEV in the program: what leaves {max_dev_mm} mm runs again with \
+            "          no AX_DEV in the program: choices that exceed {max_dev_mm} mm are run again with \
              #VIB GUARD ON [AX_DEV={max_dev_mm}]"
         ),
     });
     if let Some(line) = own.settings.as_ref().map(line) {
         lines.push(format!(
-            "          MODE, FREQ and DAMPING of the program's own commands ({line}) give way to each of them"
+            "          MODE, FREQ and DAMPING of the program's own commands ({line}) are replaced by each choice"
         ));
     }
     if let Some(line) = own.off.as_ref().map(line) {
         lines.push(format!(
-            "          {line} switches the guard off: nothing is damped from there on"
+            "          {line} switches the guard off: vibration is not damped from there on"
         ));
     }
     lines.join("\n") + "\n\n"
@@ -206,7 +205,7 @@ fn table(task: &Task, outcomes: &[Outcome], max_dev_mm: f64) -> String {
         "f_set Hz",
         "AX_DEV",
         "worst residual",
-        "largest dev",
+        "max dev",
         "contour error",
         "machining time",
         "keeps both",
@@ -275,7 +274,7 @@ fn verdict(
             let seconds = number(*duration_s, 3);
             let only = off.map(|line| {
                 format!(
-                    "          up to {line}: after it nothing was damped, and these figures do not apply\n"
+                    "          up to {line}: after it, vibration was not damped and these figures do not apply\n"
                 )
             });
             format!(

@@ -40,12 +40,12 @@ impl Task {
     fn proposal(&self, rows: &[Row]) -> String {
         match self.proposed(rows) {
             Some(choice) => format!(
-                "\nproposal  {}\n          the least contour error among the modes that keep {} %; {}\n{}",
+                "\nproposal  {}\n          the smallest contour error among the modes that keep {} %; {}\n{}",
                 command(&choice.settings, &self.tolerance()),
                 100.0 * self.limit_ratio,
                 match self.max_dev_mm {
                     Some(mm) => format!("AX_DEV keeps the axes within {mm} mm of the contour"),
-                    None => "AX_DEV=.. in the same brackets bounds it".to_owned(),
+                    None => "add AX_DEV=.. in the same brackets to limit it".to_owned(),
                 },
                 self.beside(&choice)
             ),
@@ -57,8 +57,7 @@ impl Task {
             ),
             None => combined::answer(self).unwrap_or_else(|| {
                 format!(
-                    "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \
-                     --max-residual are what is left\n",
+                    "\nproposal  none: no mode keeps {} % over {} to {} Hz; use settings per position or a larger --max-residual\n",
                     100.0 * self.limit_ratio,
                     number(self.band.low_hz, 2),
                     number(self.band.high_hz, 2)

@@ -72,7 +72,7 @@ pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measure
             ]);
         }
         for lasting in &found.lasting {
-            let what = if lasting.hum { "mains hum, left out" } else { "does not decay, left out" };
+            let what = if lasting.hum { "mains hum, ignored" } else { "does not decay, ignored" };
             table.push(vec![
                 recording.name.clone(),
                 String::new(),
@@ -107,13 +107,13 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
     let mut notes = Vec::new();
     if let Some(lost_s) = lost_s {
         notes.push(format!(
-            "{} samples missing in {} places, the first after {lost_s:.3} s; left out",
+            "{} samples missing in {} places, the first after {lost_s:.3} s; ignored",
             missing.iter().map(ExactSizeIterator::len).sum::<usize>(),
             missing.len()
         ));
     }
     if found.clipped > 0 {
-        notes.push(format!("{} samples at the limit of the recorder, left out", found.clipped));
+        notes.push(format!("{} samples at the limit of the recorder, ignored", found.clipped));
     }
     if found.decays.len() > 1 {
         let times: Vec<String> = found
@@ -124,7 +124,7 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
         notes.push(format!("{} decays, from {}", times.len(), times.join(", ")));
     }
     if let Some((low, high)) = found.disagree {
-        notes.push(format!("its decays disagree: {} to {} Hz", number(low, 2), number(high, 2)));
+        notes.push(format!("its decays differ: {} to {} Hz", number(low, 2), number(high, 2)));
     }
     notes.iter().map(|text| format!("note      {name}: {text}\n")).collect::<Vec<_>>().concat()
 }
@@ -174,7 +174,7 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error>
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
     let count = samples.len() - missing.iter().map(ExactSizeIterator::len).sum::<usize>();
     if count < LEAST_SAMPLES || samples.len() > MOST_SAMPLES {
-        let text = format!("{count} samples, {LEAST_SAMPLES} to {MOST_SAMPLES} are expected");
+        let text = format!("{count} samples, allowed: {LEAST_SAMPLES} to {MOST_SAMPLES}");
         return Err(wrong(text));
     }
     let whole = Focus::default();
@@ -223,7 +223,7 @@ mod tests {
         assert!(read_with(&text, &["--column", "a", "--rate", "500"]).is_ok());
         let message = |r: Result<Recording, Error>| r.unwrap_err().to_string();
         let other = message(read_with(&text, &["--column", "a", "--rate", "1000"]));
-        assert!(other.contains("disagrees") && other.contains("500.000 Hz"), "{other}");
+        assert!(other.contains("contradicts") && other.contains("500.000 Hz"), "{other}");
         assert!(message(read_with(&text, &["--column", "x"])).contains("a, b"));
         assert!(message(read_with(&text.replace("t_s", "x"), &[])).contains("--rate"));
         assert!(message(read_with("a\n1\n2\n", &["--rate", "100"])).contains("64 to"));

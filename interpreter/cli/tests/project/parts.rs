@@ -82,16 +82,16 @@ fn a_missing_part_is_named() {
     fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
     let (exit, trace, said) = run(&folder, "machine.tsproj");
     assert_eq!((exit, trace), (Exit::Finished, expected()), "{said}");
-    assert!(!said.contains("not there"), "{said}");
+    assert!(!said.contains("not found"), "{said}");
     fs::remove_file(parts.join("Axis_2.xti")).unwrap();
     let (_, _, said) = folder.call(&["check", "@part.nc", "-m", "@machine.tsproj"]);
     assert!(said.contains("warning[K-0140]"), "{said}");
-    assert!(said.contains("not there: CNC\\AXIS_2.xti;"), "{said}");
+    assert!(said.contains("not found: CNC\\AXIS_2.xti;"), "{said}");
     fs::remove_file(parts.join("Axis_1.xti")).unwrap();
     fs::remove_file(parts.join("Axis_3.xti")).unwrap();
     let (_, _, said) = folder.call(&["check", "@part.nc", "-m", "@machine.tsproj"]);
     assert!(
-        said.contains("not there: CNC\\AXIS_1.xti, CNC\\AXIS_2.xti, CNC\\AXIS_3.xti"),
+        said.contains("not found: CNC\\AXIS_1.xti, CNC\\AXIS_2.xti, CNC\\AXIS_3.xti"),
         "{said}"
     );
 }
@@ -138,7 +138,7 @@ fn names_and_places_of_the_axes() {
     fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
     let (exit, _, said) = run(&folder, "machine.tsproj");
     assert_eq!(exit, Exit::Usage, "{said}");
-    assert!(said.contains("K-0141") && said.contains("names an axis"), "{said}");
+    assert!(said.contains("K-0141") && said.contains("does not name an axis"), "{said}");
     let gap =
         all_axes().replace("<DefaultIndex>2</DefaultIndex>", "<DefaultIndex>4</DefaultIndex>");
     let inside = format!("{TASK}{gap}{}", channel(&list("channel.lis")));

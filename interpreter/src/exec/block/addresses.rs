@@ -146,7 +146,7 @@ impl Decoder {
             "S" => Condition::CycleSpindleOutside,
             _ => {
                 let text = format!("@{name} is not a word of a cycle");
-                let hint = "cycles have @P1 to @P200, @X, @Y, @Z, @I, @J, @K and @S";
+                let hint = "use @P1 to @P200, @X, @Y, @Z, @I, @J, @K or @S";
                 return Err(Fault::new(Condition::Syntax, text, assign.target.span).hint(hint));
             }
         };
@@ -181,7 +181,7 @@ impl Decoder {
 /// The speed of a spindle, only once in a block.
 fn spindle_word(block: &mut Words<'_>, spindle: usize, rpm: f64, span: Span) -> Outcome<()> {
     if block.speeds.iter().any(|(other, _, _)| *other == spindle) {
-        let text = "the speed of a spindle twice in one block";
+        let text = "spindle speed twice in one block";
         return Err(Fault::new(Condition::SpindleTwice, text, span));
     }
     block.speeds.push((spindle, rpm, span));
@@ -219,7 +219,7 @@ fn unknown_name(names: &AxisNames, name: &str, span: Span) -> Box<Fault> {
     }
     match name.as_bytes().first() {
         Some(b'R' | b'r') if name[1..].bytes().all(|b| b.is_ascii_digit()) => {
-            let text = format!("the radius has the index 1 only, not {}", &name[1..]);
+            let text = format!("the radius only has the index 1, not {}", &name[1..]);
             Fault::new(Condition::RadiusIndex, text, span)
         }
         Some(b'R' | b'r') => {
@@ -235,10 +235,10 @@ fn unknown_name(names: &AxisNames, name: &str, span: Span) -> Box<Fault> {
             let fault = names.unknown(name, span);
             match name.as_bytes() {
                 [axis, b'O'] if names.of_letter(*axis).is_some() => {
-                    fault.hint("is the letter O written for the figure 0?")
+                    fault.hint("check whether the letter O was written for the digit 0")
                 }
                 [axis, b'L'] if names.of_letter(*axis).is_some() => {
-                    fault.hint("is the letter l written for the figure 1?")
+                    fault.hint("check whether the letter l was written for the digit 1")
                 }
                 _ => fault,
             }
@@ -254,7 +254,7 @@ fn is_radius_of_parameter(decoder: &Decoder, name: &str, span: Span) -> Outcome<
     let kind = PlaceKind::Parameter { indirections: 0, index, subscripts: Vec::new() };
     let index = as_number(&decoder.read(&Place { kind, span })?, span)?;
     if whole(index, 1, 1).is_none() {
-        let text = format!("the radius has the index 1 only, not {index}");
+        let text = format!("the radius only has the index 1, not {index}");
         return Err(Fault::new(Condition::RadiusIndex, text, span));
     }
     Ok(true)

@@ -77,7 +77,7 @@ impl Decoder {
         if let ([Item { kind: ItemKind::Flag(_), .. }], true) =
             (&bracket.group.items[..], name.ends_with(|c: char| c.is_ascii_digit()))
         {
-            let text = "a label comes first in its block, not after words";
+            let text = "a label must be first in its block, not after other words";
             return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
         }
         Err(self.names.unknown(name, bracket.group.span))
@@ -118,7 +118,7 @@ impl Decoder {
                 });
                 if let Some(m) = of_axis {
                     let text = format!(
-                        "M{} of the list goes to {name}, which moves independently",
+                        "M{} is assigned to {name} by the list, and {name} moves independently",
                         m.number
                     );
                     return Err(Fault::new(Condition::FunctionOfIndependent, text, m.span)
@@ -150,7 +150,7 @@ impl Decoder {
                 _,
             )) if OF_FUNCTIONS.iter().any(|other| word.is(other)) => {
                 let name = self.names.name(axis);
-                let text = format!("{name}[{} ..]: its function comes first", word.text);
+                let text = format!("{name}[{} ..]: its function must come first", word.text);
                 Err(Fault::new(Condition::AxisFunctionMissing, text, *span))
             }
             Some((

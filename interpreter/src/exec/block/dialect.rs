@@ -23,17 +23,17 @@ pub(in crate::exec) fn is_foreign_word(id: Id) -> bool {
 pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
     Some(match number {
         28 | 30 => {
-            "reference points of other controls do not exist here; G74 homes, G53 cancels offsets"
+            "reference points of other controls do not exist here; use G74 for homing, G53 to cancel offsets"
         }
-        43 | 44 | 49 => "tool length is selected by D here (D0 cancels)",
+        43 | 44 | 49 => "tool length is selected with D here (D0 cancels it)",
         7 => {
             "G07 of other controls is diameter programming (G51 here) or cylindrical interpolation (#CYL here); neither is simulated"
         }
-        64 => "contouring is G261 with #CONTOUR MODE here",
+        64 => "contouring is programmed with G261 and #CONTOUR MODE here",
         15 | 16 => "polar coordinates of other controls do not exist here",
         50 => "#SCALE scales here",
-        _ if is_call(number) => "subroutines are called by L, LL and L CYCLE here",
-        500 => "G53 takes the zero offsets back here",
+        _ if is_call(number) => "subroutines are called with L, LL and L CYCLE here",
+        500 => "G53 cancels the zero offsets here",
         505..=599 => "zero offsets are G54 to G59 and G159=number here",
         73 | 76 => "drilling cycles are L CYCLE calls here",
         _ => return None,
@@ -72,7 +72,7 @@ impl Seen {
             return false;
         }
         let span = Span::new(g.span.start as usize, end.end() as usize);
-        report.note(printer("G92 E", "sets the way of an extruder", span));
+        report.note(printer("G92 E", "sets the position of an extruder", span));
         true
     }
 
@@ -97,7 +97,7 @@ impl Seen {
             let joined = words.axes.iter().any(|(_, _, axis)| axis.end() == span.start);
             let text = if joined {
                 format!(
-                    "numbers have no exponent in this dialect: E{value} is the feed at the end of the block"
+                    "numbers cannot have an exponent in this dialect: E{value} is the feed at the end of the block"
                 )
             } else {
                 "E is the feed at the end of the block in this dialect, not an extruder axis"
@@ -130,7 +130,7 @@ pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
             ("a cycle", "cycles are files here: L CYCLE [NAME=\"file\" @P1=..]")
         }
         "CR" => ("the radius of an arc", "write R: G02 X10 R5"),
-        "RPL" => ("an angle of rotation", "#ROTATION [ANGLE=..] turns the plane here"),
+        "RPL" => ("an angle of rotation", "#ROTATION [ANGLE=..] rotates the plane here"),
         _ => return None,
     };
     let text = format!(
@@ -148,7 +148,7 @@ pub(in crate::exec) fn is_call(number: u32) -> bool {
 pub(in crate::exec) fn g_function(number: u32) -> Option<&'static str> {
     Some(match number {
         20 => "G20 switches mirroring off in this dialect; inch is G70",
-        21 => "G21 mirrors about Y in this dialect (X changes its sign); metric is G71",
+        21 => "G21 mirrors about Y in this dialect (X changes sign); metric is G71",
         61 => {
             "G61 rounds the corner at the end of the block in this dialect; an exact stop is G60 or G360"
         }
@@ -163,16 +163,16 @@ pub(in crate::exec) fn g_function(number: u32) -> Option<&'static str> {
 pub(in crate::exec) fn letter(letter: u8) -> &'static str {
     match letter {
         b'M' => "M needs a number",
-        b'P' => "a parameter is assigned: P1=5",
-        _ => "words are G M H T D F E S I J K R L N, the axes, P.. = and V... =",
+        b'P' => "assign a parameter with =: P1=5",
+        _ => "valid words are G M H T D F E S I J K R L N, the axes, P.. = and V... =",
     }
 }
 
 /// M functions of other controls.
 pub(in crate::exec) fn m_function(number: u32) -> Option<&'static str> {
     match number {
-        98 => Some("M98 calls no subroutine here: L file or LL NAME does"),
-        99 => Some("M99 ends no subroutine here: M17 or M29 does"),
+        98 => Some("M98 does not call a subroutine here: use L file or LL NAME"),
+        99 => Some("M99 does not end a subroutine here: use M17 or M29"),
         _ => None,
     }
 }

@@ -168,7 +168,8 @@ impl Decoder {
             }
             if *i != 0 {
                 let name = self.motion.spindles[*i].name.clone();
-                let text = format!("{name} is not the main spindle: its speed goes into a bracket");
+                let text =
+                    format!("{name} is not the main spindle: its speed must be in a bracket");
                 let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
                 self.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
             } else if !(taps || cuts) {
@@ -202,7 +203,7 @@ impl Decoder {
             return;
         }
         if plane != self.modal.plane && self.geometry.coordinates.rotation().is_some() {
-            let text = "the change of plane switches the contour rotation off";
+            let text = "changing the plane switches the contour rotation off";
             self.report.note(Fault::new(Condition::Odd, text, span).warning());
             self.geometry.coordinates.set_rotation(None);
         }
@@ -267,7 +268,7 @@ impl Decoder {
             Act::EngagementFeed(on) => {
                 self.modal.engagement_feed = on;
                 if on {
-                    let text = "G11: arcs that the compensation inserts at corners keep the programmed feed";
+                    let text = "G11: arcs inserted at corners by the compensation keep the programmed feed";
                     self.report.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
                 }
             }
@@ -281,9 +282,9 @@ impl Decoder {
             }
             Act::Feedforward(on) if self.motion.feedforward.on != on => {
                 if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
-                    let text = "G135 without effect: no axis of the channel has feedforward (P-AXIS-00223)";
+                    let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
                     let fault = Fault::new(Condition::ListNoEffect, text, g.span)
-                        .hint("vorsteuer.vorsteuerung VEL in the axis list allows it");
+                        .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
                     self.report.note_once("G135", fault);
                 }
                 self.motion.feedforward.on = on;
@@ -309,11 +310,11 @@ impl Decoder {
                         Some(_) => Condition::LookAheadRange,
                         None => Condition::LookAheadFormat,
                     };
-                    let text = format!("G115={value}, allowed are 0 to 14");
+                    let text = format!("G115={value}, allowed: 0 to 14");
                     return Err(Fault::new(condition, text, g.span)
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));
                 }
-                let text = "G115: single functions of the look-ahead are not switched off";
+                let text = "G115: single functions of the look-ahead cannot be switched off";
                 self.report.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span)?,

@@ -120,7 +120,7 @@ impl Group {
             Self::Feedforward => "feedforward",
             Self::FullOverride => "override of the block",
             Self::RampWeight => "weights of ramp times",
-            Self::VelocityWeight => "weights of the highest speed",
+            Self::VelocityWeight => "weights of the maximum speed",
             Self::RapidVelocityWeight => "the weight of the rapid speed",
             Self::AccelerationWeight => "weights of accelerations",
             Self::RapidAccelerationWeight => "weights of rapid accelerations",
@@ -254,7 +254,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
     Row { number, group, act, value: ValueRule::Required }
 }
 
-const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
+const FEED_CHANGE: &str = "a higher feed is approached from the start of its block";
 const FEED_HOLD: &str = "feedhold brakes without these weights";
 
 /// All rows, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in the table.
@@ -302,7 +302,7 @@ const ROWS: &[Row] = &[
     g(69, Group::Rotation, Act::RotateOff),
     g(70, Group::Unit, Act::Inch(true)),
     g(71, Group::Unit, Act::Inch(false)),
-    g(74, Group::Path, Act::Simplified("the axes count as homed where they are, nothing moves")),
+    g(74, Group::Path, Act::Simplified("the axes are treated as homed at their positions, without motion")),
     g(90, Group::Dimension, Act::Absolute(true)),
     g(91, Group::Dimension, Act::Absolute(false)),
     g(92, Group::None, Act::Preset),
@@ -401,7 +401,7 @@ pub(in crate::exec) fn exclude(one: &Row, other: &Row) -> Option<&'static str> {
     let over = |row: &Row| matches!(row.act, Act::FeedOverPath | Act::FeedOverTime);
     let brakes = |row: &Row| row.act == Act::EarlyBrakingOnce;
     ((over(one) && brakes(other)) || (over(other) && brakes(one)))
-        .then_some("both set how the feed is reached")
+        .then_some("both set how the feed is approached")
 }
 
 /// Whether it is an implicit subroutine call.

@@ -206,7 +206,7 @@ impl Modal {
     /// `R1`: the last radius programmed (R, `R1=`, G163), in the active unit (206014219).
     pub(in crate::exec) fn last_radius(&self, span: Span) -> Outcome<f64> {
         let radius_mm = self.radius_mm.ok_or_else(|| {
-            let text = "R1 has no value: no radius has been programmed";
+            let text = "R1 has no value: a radius has not been programmed";
             Fault::new(Condition::Undefined, text, span).hint("write R1=5 before it")
         })?;
         Ok(radius_mm / self.unit_mm())

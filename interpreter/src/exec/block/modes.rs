@@ -19,7 +19,7 @@ pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> 
     if ok && percent <= 1e6 {
         return Ok(percent / 100.0);
     }
-    let text = format!("a weight of {percent} % is not possible");
+    let text = format!("a weight of {percent} % is not allowed");
     Err(Fault::new(Condition::Range, text, span))
 }
 
@@ -38,7 +38,7 @@ impl Modal {
             let (condition, text) = if selection == inside {
                 (Condition::InsideCornerActive, "G238 while tool radius compensation is active")
             } else {
-                (Condition::SelectionActive, "the selection mode changes within that of G238")
+                (Condition::SelectionActive, "the selection mode changes while G238 is in effect")
             };
             return Err(Fault::new(condition, text, g.span)
                 .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));
@@ -76,7 +76,7 @@ impl Decoder {
             let percent = ratio * 100.0;
             let text = if zero {
                 format!(
-                    "axis {name}: the acceleration is 0 at {percent} %, it is limited to the minimum"
+                    "axis {name}: the acceleration is 0 at {percent} % and limited to the minimum"
                 )
             } else {
                 format!(
@@ -85,7 +85,7 @@ impl Decoder {
             };
             let fault = Fault::new(condition, text, span)
                 .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"));
-            let hint = "raise the weight, or lower the least ramp time of the axis list (P-AXIS-00293, P-AXIS-00201 for rapid)";
+            let hint = "raise the weight, or lower the minimum ramp time in the axis list (P-AXIS-00293, P-AXIS-00201 for rapid)";
             self.report.note(match (ramp, low) {
                 (true, _) => fault.hint(hint),
                 (false, true) if !zero => fault.hint("raise the weight"),
@@ -169,7 +169,7 @@ impl Decoder {
                 let what =
                     if listed.is_some() { "are not valid (P-TOOL-00005)" } else { "do not exist" };
                 let text = format!("tool data D{number} {what}: length and radius are 0");
-                let hint = "a tool list (werkz_data[0] of the start-up list) or V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
+                let hint = "set length and radius in a tool list (werkz_data[0] of the start-up list) or with V.G.WZ[n].L and V.G.WZ[n].R";
                 self.report.note_once("D", Fault::new(Condition::NoTool, text, span).hint(hint));
             }
             crate::exec::geometry::tools::Tool::default()
@@ -236,7 +236,8 @@ impl Decoder {
         }
         if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
-            let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
+            let hint =
+                "select tool data with D, or set the radius with V.G.WZ[n].R or V.G.WZ_AKT.R";
             self.report.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
         }
         let leaves = side == Compensation::Off && self.modal.compensation != Compensation::Off;

@@ -45,7 +45,7 @@ impl Decoder {
         if let (Some(_), Some((_, span)), true) =
             (block.tool, block.tool_data, self.machine.channel.tool_data_with_tool)
         {
-            let text = "D beside T, which selects the tool data too (P-CHAN-00014)";
+            let text = "D beside T, which also selects the tool data (P-CHAN-00014)";
             self.report.note(Fault::new(Condition::ToolDataTwice, text, span));
         }
         if let (Some(_), Some((condition, span))) = (block.tool_data, block.tool_written) {
@@ -61,15 +61,15 @@ impl Decoder {
             return Err(Fault::new(Condition::BehindCall, text, span));
         }
         if block.addition.is_some() {
-            let text = "a word after #ADD, which is the last one of its block";
+            let text = "a word after #ADD, which must be last in its block";
             return Err(Fault::new(Condition::BehindAddition, text, span));
         }
         match &word.kind {
             WordKind::Address { name, sign, value } => {
                 if block.assigned_to == Some(span.start) && name.letter() == Some(b'E') {
-                    let text = "numbers have no exponent in this dialect";
+                    let text = "numbers cannot have an exponent in this dialect";
                     return Err(Fault::new(Condition::Syntax, text, span)
-                        .hint("1e3 is written 1000, 1e-05 0.00001"));
+                        .hint("write 1000 for 1e3, 0.00001 for 1e-05"));
                 }
                 self.address(name, *sign, value, span, block)
             }
@@ -160,7 +160,7 @@ impl Decoder {
                 let fault = Fault::new(Condition::Undefined, text, span);
                 Err(match suggest::hint(name, known) {
                     _ if self.calls.macros.contains_key(name.trim_ascii()) => {
-                        fault.hint("it is defined in this block: it counts from the next one on")
+                        fault.hint("it is defined in this block and valid from the next block on")
                     }
                     Some(hint) => fault.hint(hint),
                     None => fault.hint(
@@ -250,7 +250,7 @@ impl Decoder {
             }
         };
         if number > highest {
-            let text = format!("the number of the {letter} function is above {highest}");
+            let text = format!("the number of the {letter} function exceeds {highest}");
             return Err(Fault::new(condition, text, span).with(|d| {
                 d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, highest, "-")
             }));
@@ -260,7 +260,8 @@ impl Decoder {
             None => None,
         };
         if let (Some(fraction), "M") = (value.filter(|x| x.fract() != 0.0), letter) {
-            let text = format!("M{number:02}={fraction}: the value of an M function is an integer");
+            let text =
+                format!("M{number:02}={fraction}: the value of an M function must be an integer");
             return Err(Fault::new(Condition::Range, text, span));
         }
         if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
@@ -281,7 +282,7 @@ impl Decoder {
             return self.cycle_word(number, value, span, block);
         }
         if number > groups::NUMBER_MAX {
-            let text = format!("the number of the G function is above {}", groups::NUMBER_MAX);
+            let text = format!("the number of the G function exceeds {}", groups::NUMBER_MAX);
             return Err(Fault::new(Condition::GNumberTooLarge, text, span).with(|d| {
                 // more digits than a number in the syntax tree can have
                 let known = number < u32::MAX;
@@ -322,7 +323,7 @@ impl Decoder {
             }
         }
         if number == 5 && self.modal.selection == Selection::InsideCorner {
-            let text = "G05 cannot be used with the inside corner selection G238: it is ignored";
+            let text = "G05 cannot be used with the inside corner selection G238 and is ignored";
             self.report.note(Fault::new(Condition::TangentialInsideCorner, text, span));
             return Ok(());
         }
@@ -340,7 +341,7 @@ impl Decoder {
                 let value = self.number(expr);
                 Some(value.map_err(|fault| match row.act {
                     Act::Dwell if fault.diagnostic.id == Condition::ParameterUnknown.id() => {
-                        fault.hint("the time is in seconds and has no address here: G04 0.5")
+                        fault.hint("write the time in seconds without an address: G04 0.5")
                     }
                     _ => fault,
                 })?)
@@ -368,7 +369,7 @@ impl Decoder {
     ) -> Outcome<()> {
         if !self.calls.cycle_files.contains_key(&number) {
             let text = format!("G{number}: no subroutine is configured");
-            let hint = "P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"] configure one";
+            let hint = "configure one with P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"]";
             let fault = Fault::new(Condition::GUnknown, text, span)
                 .with(|d| d.value(ValueKind::Current, number, "-"));
             return Err(fault.hint(hint));
@@ -388,7 +389,7 @@ impl Decoder {
             }
         }
         if values.len() > 50 {
-            let text = format!("{} values, a call takes up to 50", values.len());
+            let text = format!("{} values, a call takes at most 50", values.len());
             return Err(Fault::new(Condition::Range, text, span));
         }
         let values = written.then_some(values);
@@ -445,7 +446,7 @@ fn macro_fits(
     ] {
         let length = written.chars().count();
         if length > most as usize {
-            let text = format!("the {what} of the macro has {length} characters, at most {most}");
+            let text = format!("the {what} of the macro has {length} characters, maximum: {most}");
             let fault = Fault::new(condition, text, span)
                 .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter));
             if condition != Condition::Range {

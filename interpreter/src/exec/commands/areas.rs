@@ -39,16 +39,16 @@ arguments! {
     /// Keys of `#CONTROL AREA ON` and `OFF`.
     struct AreaChoice {
         id: Number "ID" in between(1.0, ID_MAX).whole().or(Condition::AreaId), "", "";
-        all: Flag "ALL", "", "also without the bracket";
+        all: Flag "ALL", "", "the bracket may be omitted";
     }
 }
 
 /// Row of `#CONTROL AREA BEGIN`.
 pub(super) const CONTROL_AREA_BEGIN: Row = Row::run("CONTROL AREA BEGIN", begin)
     .form("#CONTROL AREA BEGIN [ID=.. WORK|PROT POLY|CIRC MIN_EXCUR=.. MAX_EXCUR=..]")
-    .meaning("the blocks up to #CONTROL AREA END are the contour of a workspace or a protection area, and move nothing")
+    .meaning("the blocks up to #CONTROL AREA END define the contour of a workspace or protection area, without motion")
     .keys(AreaArguments::KEYS)
-    .note("lines in G90 with the last point at the first one (POLY), or a point and a full circle (CIRC)")
+    .note("lines in G90 ending at the first point (POLY), or a point and a full circle (CIRC)")
     .example("#CONTROL AREA BEGIN [ID=1 WORK POLY MIN_EXCUR=-50 MAX_EXCUR=50]")
     .related(&["120484", "120477", "K-0147"]);
 
@@ -61,9 +61,9 @@ pub(super) const CONTROL_AREA_END: Row = Row::run("CONTROL AREA END", end).bare(
 /// Row of `#CONTROL AREA`.
 pub(super) const CONTROL_AREA: Row = Row::run("CONTROL AREA", switch)
     .form("#CONTROL AREA ON|OFF [ID=..], #CONTROL AREA ON|OFF ALL")
-    .meaning("watches workspaces and protection areas: a motion that violates one ends the program")
+    .meaning("monitors workspaces and protection areas: a motion that violates one aborts the program")
     .keys(AreaChoice::KEYS)
-    .note("OFF alone ends the one that was switched on last; contouring, #HSC and splines are refused meanwhile")
+    .note("OFF alone switches off the area switched on last; contouring, #HSC and splines are refused while an area is active")
     .example("#CONTROL AREA ON ALL")
     .related(&["120484", "120742", "K-0147"]);
 
@@ -78,7 +78,7 @@ fn begin(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     let Some((number, at)) = keys.id else { return Err(missing("ID")) };
     if number == 0.0 {
-        let text = format!("{title}: ID=0 is no area");
+        let text = format!("{title}: ID=0 is not a valid area");
         return Err(Fault::new(Condition::AreaIdZero, text, at));
     }
     let purpose = match (keys.work, keys.prot) {

@@ -23,7 +23,7 @@ const PLACES: u32 = 32;
 pub(super) const PUT_AX: Row = Row::run("PUT AX", put).several()
     .form("#PUT AX [name]")
     .example("#PUT AX [X]")
-    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .meaning("axis exchange: adds axes to the channel or releases them")
     .note(
         "switches off a Vibration Guard that the program has switched on, and resets the G136 weights of these axes to 100 %",
     )
@@ -76,7 +76,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 pub(super) const CALL_AX: Row = Row::run("CALL AX", call).several()
     .form("#CALL AX [name,number,index]")
     .example("#CALL AX [X,1,0]")
-    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .meaning("axis exchange: adds axes to the channel or releases them")
     .note(
         "switches off a Vibration Guard that the program has switched on, and resets the G136 weights of these axes to 100 %",
     )
@@ -95,7 +95,7 @@ pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
     .form("#SET AX [name,number,index]")
     .example("#SET AX [X,1,0]")
-    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .meaning("axis exchange: adds axes to the channel or releases them")
     .note(
         "switches off a Vibration Guard that the program has switched on, and resets the G136 weights of these axes to 100 %",
     )
@@ -155,7 +155,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
         decoder.motion.feed_axes_named = false;
         default_feed_group(decoder);
         if !decoder.machine.channel.lists_feed_axes {
-            let text = "#FGROUP without axes: the list names none either, the main axes count";
+            let text = "#FGROUP without axes, and none in the list: the main axes are used";
             decoder.report.note(Fault::new(Condition::FeedGroupDefault, text, call.span()));
         }
         return Ok(());
@@ -352,7 +352,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     }
     let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
         let text = format!("no axis of the channel has the logical number {logical}");
-        let hint = "axes are those that the channel list names at start-up; other lists are not simulated (K-0075)";
+        let hint = "only axes named in the channel list at start-up exist; other lists are not simulated (K-0075)";
         return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)).hint(hint));
     };
     taken.add(index, logical, [at(1), at(2)])?;
@@ -370,7 +370,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
     let main = index as usize;
     if index < 3 && decoder.geometry.coordinates.main_axis(main).is_some_and(|other| other != axis)
     {
-        let text = format!("the axis index {index} is another axis of the channel");
+        let text = format!("the axis index {index} belongs to another axis of the channel");
         return Err(Fault::new(Condition::ExchangeIndexTaken, text, at(2))
             .with(|d| d.value(ValueKind::Wrong, index, "-")));
     }
@@ -403,7 +403,7 @@ fn full_feedforward_of_all(decoder: &mut Decoder) {
 pub(super) fn logical_number(number: f64, span: Span) -> Outcome<u32> {
     const LAST: u32 = 65_534;
     whole(number, 1, LAST).ok_or_else(|| {
-        let text = format!("logical axis number {number}, allowed are 1 to {LAST}");
+        let text = format!("logical axis number {number}, allowed: 1 to {LAST}");
         Fault::new(Condition::LogicalNumber, text, span).with(|d| {
             d.value(ValueKind::Wrong, number, "-").value(ValueKind::LowerLimit, 1, "-").value(
                 ValueKind::UpperLimit,

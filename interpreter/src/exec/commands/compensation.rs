@@ -23,20 +23,20 @@ arguments! {
     struct TrcArguments {
         conv_cir_to_lin: Number "CONV_CIR_TO_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         kerf_masking: Number "KERF_MASKING" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
-        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "1: where a contour runs back, G41 and G42 change without a transverse move; default 0";
+        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "1: where a contour reverses, G41 and G42 change without a transverse move; default 0";
         ignore_cont_damage: Number "IGNORE_CONT_DAMAGE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         remove_masked_blocks: Number "REMOVE_MASKED_BLOCKS", "", "0; others are not supported";
         ext_angle: Number "EXT_ANGLE_BLOCK_INTERSECTION", "", "0; others are not supported";
         g236_lin: Number "G236_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         tangential_limit: Number "TANGENTIAL_LIMIT" in between(0.1, 3.0), "deg", "3; others are not supported";
-        perpendicular: Number "PERPENDICULAR_RADIUS_CHANGE" in between(0.0, 1.0).whole(), "", "1: another radius is taken up perpendicular to the contour; default 0";
-        suppress: Number "SUPPRESS_TRC" in between(0.0, 1.0).whole(), "", "1: G41 and G42 calculate no parallel, the tool follows the contour; between G40 and G41 only; default 0";
+        perpendicular: Number "PERPENDICULAR_RADIUS_CHANGE" in between(0.0, 1.0).whole(), "", "1: a new radius is applied perpendicular to the contour; default 0";
+        suppress: Number "SUPPRESS_TRC" in between(0.0, 1.0).whole(), "", "1: G41 and G42 do not calculate a parallel path, the tool follows the contour; only between G40 and G41; default 0";
         online: Number "ONLINE", "", "0; others are not supported";
         inverse: Number "INVERSE", "", "0; 1 is not supported";
         split: Flag "SPLIT", "", "not supported";
         split_path: Flag "SPLIT_PATH", "", "not supported";
         gen_circle: Number "GEN_CIR_BLOCK_IN_CORNER" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
-        stretch: Number "STRETCH_FACTOR", "tool radii", "1 to 9, default 1: how far the lines of G25 reach at acute outer corners";
+        stretch: Number "STRETCH_FACTOR", "tool radii", "1 to 9, default 1: extension of the lines of G25 at acute outside corners";
         _split_off: Flag "SPLIT_OFF", "", "as without it";
         ax: Word "AX", "", "of SPLIT";
         axnr: Number "AXNR", "", "of SPLIT";
@@ -95,7 +95,7 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let group = call.command.groups.first();
     if group.is_none_or(|g| g.items.is_empty()) {
-        let text = "#TRC needs its options in brackets";
+        let text = "#TRC requires its options in brackets";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
     let keys = TrcArguments::read(decoder, &call.title(), group)?;
@@ -118,7 +118,7 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some((factor, span)) = keys.stretch {
         decoder.modal.corner_stretch = factor;
         if !(1.0..=STRETCH_MAX).contains(&factor) {
-            let text = format!("#TRC [STRETCH_FACTOR={factor}], allowed are 1 to 9: 1 holds");
+            let text = format!("#TRC [STRETCH_FACTOR={factor}], allowed: 1 to 9; 1 is used");
             let fault = Fault::new(Condition::StretchFactor, text, span);
             decoder.report.note(fault.with(|d| d.value(ValueKind::Wrong, factor, "-")));
             decoder.modal.corner_stretch = 1.0;
@@ -167,7 +167,7 @@ fn set_least_radius(
             return Ok(());
         }
     };
-    let text = format!("{}: the least radius {radius} {what}", call.title());
+    let text = format!("{}: the minimum radius {radius} {what}", call.title());
     Err(Fault::new(condition, text, span))
 }
 

@@ -21,7 +21,7 @@ arguments! {
 /// Row of `#SAVE CONFIG`.
 pub(super) const SAVE_CONFIG: Row = Row::run("SAVE CONFIG", save)
     .form("#SAVE CONFIG [AX AXLINK]")
-    .meaning("remembers that there is something for #LOAD CONFIG")
+    .meaning("records that a configuration exists for #LOAD CONFIG")
     .keys(ConfigurationArguments::KEYS)
     .example("#SAVE CONFIG [AX]")
     .related(&["#LOAD CONFIG"]);
@@ -30,17 +30,17 @@ pub(super) const SAVE_CONFIG: Row = Row::run("SAVE CONFIG", save)
 pub(super) const LOAD_CONFIG: Row = Row::run("LOAD CONFIG", load)
     .form("#LOAD CONFIG [AX AXLINK]")
     .meaning(
-        "restores axes and couplings: not supported; what the manual calls a mistake is said first",
+        "restores axes and couplings: not supported; errors defined by the manual are reported first",
     )
     .keys(ConfigurationArguments::KEYS)
-    .note("a run begins without what earlier programs saved")
+    .note("a run starts without data saved by earlier programs")
     .related(&["#SAVE CONFIG", "21274", "21275", "21277"]);
 
 /// Row of `#CLEAR CONFIG`.
 pub(super) const CLEAR_CONFIG: Row = Row::run("CLEAR CONFIG", clear)
     .bare()
     .form("#CLEAR CONFIG")
-    .meaning("forgets what #SAVE CONFIG has saved")
+    .meaning("discards what #SAVE CONFIG has saved")
     .example("#CLEAR CONFIG")
     .related(&["#SAVE CONFIG"]);
 

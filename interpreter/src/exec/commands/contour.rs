@@ -32,7 +32,7 @@ arguments! {
         relevant_path: Number "RELEVANT_PATH" in at_least(0.0), "mm", "default 0; shorter blocks are skipped";
         track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default 0";
         relevant_track: Number "RELEVANT_TRACK" in between(0.0, 1e6), "deg", "default 0";
-        remain_part: Number "REMAIN_PART" in between(0.0, 100.0), "%", "default 0; part of a block that stays";
+        remain_part: Number "REMAIN_PART" in between(0.0, 100.0), "%", "default 0; part of a block that remains";
         max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "";
         const_vel: MaybeNumber "CONST_VEL", "", "constant velocity in the corner";
         check_jerk: MaybeNumber "CHECK_JERK" in between(0.0, 3.0).whole(), "", "as P-CHAN-00110";
@@ -102,7 +102,7 @@ impl ContourArguments {
 /// Row of `#CONTOUR MODE`.
 pub(super) const CONTOUR_MODE: Row = Row::run("CONTOUR MODE", contour_mode)
     .form("#CONTOUR MODE [ON|OFF] [DEV|DIST|DIST_SOFT|DIST_MASTER|POS|PTP keys]")
-    .meaning("how corners are rounded by polynomials; ON also switches contouring on (G261), OFF off (G260)")
+    .meaning("how corners are rounded by polynomials; ON also switches contouring on (G261), OFF switches it off (G260)")
     .keys(ContourArguments::KEYS)
     .note("program start: DEV with PATH_DEV 1; a key that is omitted keeps its value")
     .example("#CONTOUR MODE [DEV PATH_DEV=0.05]")
@@ -149,7 +149,7 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [] => {}
         [(_, mode, _)] => settings.mode = mode,
         [(first, _, _), (second, _, at), ..] => {
-            let text = format!("#CONTOUR MODE: {first} and {second} are two modes");
+            let text = format!("#CONTOUR MODE: {first} and {second} are different modes");
             return Err(Fault::new(Condition::DuplicateKey, text, at));
         }
     }
@@ -277,8 +277,8 @@ arguments! {
         auto_off_track: MaybeNumber "AUTO_OFF_TRACK", "", "ends the spline";
         auto_off_g00: MaybeNumber "AUTO_OFF_G00", "", "ends the spline";
         _auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "always so here";
-        max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks stay";
-        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners stay";
+        max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks are kept";
+        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners are kept";
         surface: Flag "SURFACE", "", "not supported";
         opmode: Number "OPMODE", "", "1: corners within CONTERROR";
         conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
@@ -290,7 +290,7 @@ pub(super) const HSC: Row = Row::run("HSC", hsc)
     .form("#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]")
     .meaning("fits a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR")
     .keys(HscArguments::KEYS)
-    .note("BSPLINE first removes the rounding noise of the coordinates, by a tenth of the tolerances and 3 um at most")
+    .note("BSPLINE first removes the rounding noise of the coordinates, within a tenth of the tolerances and at most 3 um")
     .example("#HSC ON [BSPLINE PATH_DEV=0.05]")
     .related(&["120393", "120396"]);
 
@@ -321,7 +321,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         Some((Some(1), _, _)) => hsc.rounds_corners = true,
         Some((Some(_), _, span)) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
         Some((None, mode, span)) => {
-            let text = format!("OPMODE={mode}, allowed are 1 and 2");
+            let text = format!("OPMODE={mode}, allowed: 1 and 2");
             return Err(Fault::new(Condition::Range, text, span));
         }
         None => {}

@@ -15,7 +15,7 @@ use crate::syntax::ast::{ItemKind, ItemValue};
 arguments! {
     /// Keys of `#CORNER PARAM`.
     struct CornerArguments {
-        dist: Number "DIST" in above_zero(), "mm (G70: inch)", "distance before the end of the motion over which the feed falls";
+        dist: Number "DIST" in above_zero(), "mm (G70: inch)", "distance before the end of the motion over which the feed decreases";
         unit: Word "UNIT", "", "of FEED: FWORD as the F word, PERCENT of it";
         feed: Number "FEED" in above_zero(), "", "feed at the corner";
     }
@@ -24,7 +24,7 @@ arguments! {
 /// Row of `#CORNER PARAM`.
 pub(super) const CORNER_PARAM: Row = Row::run("CORNER PARAM", corner)
     .form("#CORNER PARAM [DIST=.. UNIT=FWORD|PERCENT FEED=..]")
-    .meaning("G13: on the last DIST of every motion the feed falls linearly along the path, to FEED at its end")
+    .meaning("G13: over the last DIST of every motion the feed decreases linearly along the path, to FEED at its end")
     .note("only with the slope STEP; with the others G13 has no effect")
     .keys(CornerArguments::KEYS)
     .example("#CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]")
@@ -44,7 +44,7 @@ fn corner(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         "FWORD" => false,
         _ => {
             let text = format!("#CORNER PARAM: unknown unit `{unit}`");
-            let hint = "UNIT is FWORD or PERCENT";
+            let hint = "write FWORD or PERCENT for UNIT";
             return Err(Fault::new(Condition::TokenUnknown, text, at).hint(hint));
         }
     };
@@ -74,7 +74,7 @@ fn set_corner(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     let Some(unit) = whole(unit, 0, 1).filter(|_| dist > 0.0 && feed > 0.0) else {
         let text = format!("#SET CORNER PARAM [{dist}, {unit}, {feed}]");
-        let hint = "the distance and the feed are above 0, the unit is 0 or 1";
+        let hint = "write a distance and a feed greater than 0, and the unit 0 or 1";
         return Err(Fault::new(Condition::Range, text, call.span()).hint(hint));
     };
     set(decoder, dist, unit == 1, feed);

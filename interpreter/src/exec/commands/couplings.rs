@@ -27,15 +27,15 @@ pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
 /// Row of `#ENABLE AX LINK`.
 pub(super) const ENABLE_AX_LINK: Row = Row::run("ENABLE AX LINK", enable)
     .form("#ENABLE AX LINK [group]")
-    .meaning("the slaves of a group follow their masters from where they are; the path stops")
-    .note("slaves must not be main axes (20467) and must not be programmed meanwhile; the path observes their limits")
+    .meaning("the slaves of a group follow their masters from their current positions; the path stops")
+    .note("slaves must not be main axes (20467) and must not be programmed while coupled; the path observes their limits")
     .example("#ENABLE AX LINK [1]")
     .related(&["#SET AX LINK", "#DISABLE AX LINK", "20457", "20467", "20468", "20169", "20545", "21481"]);
 
 /// Row of `#DISABLE AX LINK`.
 pub(super) const DISABLE_AX_LINK: Row = Row::run("DISABLE AX LINK", disable)
     .form("#DISABLE AX LINK [group]")
-    .meaning("ends the couplings of a group, without a bracket those of the group switched on last; the path stops")
+    .meaning("switches off the couplings of a group, without a bracket those of the group switched on last; the path stops")
     .example("#DISABLE AX LINK [1]")
     .related(&["#ENABLE AX LINK"]);
 
@@ -86,7 +86,7 @@ fn group_number(decoder: &Decoder, number: &Expr, least: u32) -> Outcome<u32> {
     let written = decoder.number(number)?;
     let most = u32::from(u16::MAX);
     whole(written, least, most).ok_or_else(|| {
-        let text = format!("there is no coupling group {written}");
+        let text = format!("coupling group {written} does not exist");
         Fault::new(Condition::CouplingGroupNumber, text, number.span).with(|d| {
             d.value(ValueKind::Wrong, written, "-").value(ValueKind::LowerLimit, least, "-").value(
                 ValueKind::UpperLimit,
@@ -173,7 +173,7 @@ fn numbered_coupling(decoder: &Decoder, item: &Item) -> Outcome<Option<(usize, u
         let numbered =
             |axis: &crate::machine::Axis| f64::from(axis.number()).total_cmp(&number).is_eq();
         decoder.machine.axes.iter().position(numbered).ok_or_else(|| {
-            let text = format!("there is no axis with the logical number {number}");
+            let text = format!("axis with the logical number {number} does not exist");
             Fault::new(Condition::AxisNumberUnknown, text, span)
                 .with(|d| d.value(ValueKind::Wrong, number, "-"))
         })
@@ -205,7 +205,7 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
     }
     let Some(Item { kind: ItemKind::Value(ItemValue::Expr(denominator)), .. }) = rest.first()
     else {
-        let text = format!("the coupling factor has the numerator {above} and no denominator");
+        let text = format!("the coupling factor has the numerator {above} but no denominator");
         return Err(Fault::new(Condition::CouplingDenominatorMissing, text, numerator.span)
             .with(|d| d.value(ValueKind::Current, above, "-")));
     };
@@ -213,7 +213,7 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
     if above.abs().to_bits() == below.abs().to_bits() {
         return Ok(above / below);
     }
-    let text = format!("the coupling factor is {above}/{below}, allowed are 1 and -1");
+    let text = format!("the coupling factor is {above}/{below}, allowed: 1 and -1");
     let fault = Fault::new(Condition::CouplingFactorInvalid, text, numerator.span);
     decoder.report.note(fault.with(|d| {
         let d = d.value(ValueKind::Current, above, "-").value(ValueKind::Current, below, "-");
@@ -245,7 +245,7 @@ fn fits(
     let (condition, axis, text) = if slave == master {
         (Condition::MasterIsSlave, slave, "an axis cannot be coupled with itself")
     } else if known.iter().any(|pair| pair.slave == slave) {
-        (Condition::SlaveTwice, slave, "an axis follows one master only")
+        (Condition::SlaveTwice, slave, "an axis can follow only one master")
     } else if known.iter().any(|pair| pair.master == slave) {
         (Condition::CouplingChain, slave, "a master cannot follow another axis")
     } else if known.iter().any(|pair| pair.slave == master) {

@@ -24,9 +24,9 @@ arguments! {
         axis: Word "AX", "", "axis or spindle";
         number: Number "AXNR", "", "logical number instead of AX";
         motor: Number "MOTOR" in POSITIVE, "", "motor of the amplifier";
-        set: Number "PARAM_SET" in POSITIVE, "", "set of parameters of the amplifier";
+        set: Number "PARAM_SET" in POSITIVE, "", "parameter set of the amplifier";
         key: Word "KEY", "", "name of the function";
-        value: Number "VAL" in between(-2_147_483_648.0, 4_294_967_295.0).whole(), "", "what is written";
+        value: Number "VAL" in between(-2_147_483_648.0, 4_294_967_295.0).whole(), "", "value to be written";
         wait: Flag "WAIT", "", "the path stops until the drive has answered";
     }
 }
@@ -36,14 +36,14 @@ arguments! {
     struct WaitArguments {
         axis: Word "AX", "", "axis or spindle";
         number: Number "AXNR", "", "logical number instead of AX";
-        done: Flag "SWITCH_OK", "", "all functions written before are done";
+        done: Flag "SWITCH_OK", "", "all functions written before are completed";
     }
 }
 
 /// Row of `#DRIVE`.
 pub(super) const DRIVE: Row = Row::run("DRIVE", drive)
     .form("#DRIVE WR SYN [AX=.. KEY=.. VAL=.. MOTOR=.. PARAM_SET=.. WAIT]   #DRIVE WAIT SYN [AX=.. SWITCH_OK]")
-    .meaning("writes a function of a drive, waits for it; the simulated drive keeps what its lists say")
+    .meaning("writes a function of a drive and waits for it; the simulated drive keeps the values of its lists")
     .keys(WriteArguments::KEYS)
     .example("#DRIVE WR SYN [AX=X KEY=torque_limit VAL=400 WAIT]")
     .related(&["K-0111"]);
@@ -67,10 +67,11 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             if let (Some(spindle), Some((_, at))) = (spindle, switched)
                 && decoder.motion.spindles[spindle].is_turning()
             {
-                let text = "#DRIVE: neither motor nor set of parameters of a turning spindle";
+                let text =
+                    "#DRIVE: motor and parameter set cannot be switched while the spindle turns";
                 return Err(Fault::new(Condition::Syntax, text, at).hint("write M5 before it"));
             }
-            let text = "#DRIVE WR SYN: the simulated drive keeps what its lists say";
+            let text = "#DRIVE WR SYN: the simulated drive keeps the values of its lists";
             decoder.report.note_once("#DRIVE", Fault::new(Condition::Fallback, text, call.span()));
             if keys.wait.is_some() {
                 decoder.sync(Sync::Stop);
@@ -122,7 +123,7 @@ fn driven(
             }
         }
         _ => {
-            let text = format!("{} needs AX or AXNR, one of them", call.title());
+            let text = format!("{} requires either AX or AXNR", call.title());
             Err(Fault::new(Condition::TokenUnknown, text, call.span()))
         }
     }

@@ -21,9 +21,9 @@ arguments! {
 /// Row of `#FILE EXIST`.
 pub(super) const FILE_EXIST: Row = Row::run("FILE EXIST", exists)
     .form("#FILE EXIST [PATH=\"name\"]")
-    .meaning("searches a file as L searches subroutines; the result is V.G.FILE_EXIST")
+    .meaning("searches for a file as L searches for subroutines; the result is V.G.FILE_EXIST")
     .keys(FileArguments::KEYS)
-    .note("a file that is not found is 0, with a note that names where it was searched; folders of the control do not exist here")
+    .note("0 for a file not found, with a note naming the folders searched; folders of the control do not exist here")
     .example("#FILE EXIST [PATH=\"offsets.nc\"]")
     .related(&["V.G.FILE_EXIST"]);
 

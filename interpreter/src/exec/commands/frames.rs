@@ -141,7 +141,7 @@ pub(super) fn turns_alike(decoder: &Decoder, call: &Call<'_>, frame: &Frame) -> 
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
         let turned = frame.m[i][j].abs() > 0.0 || frame.m[j][i].abs() > 0.0;
         if turned && main(i).is_some() && main(j).is_some() && kind(i) != kind(j) {
-            let what = format!("{} that turns a rotary axis and a linear one", call.title());
+            let what = format!("{} rotates a rotary axis and a linear axis", call.title());
             return Err(Fault::unsupported(what, call.span()));
         }
     }
@@ -154,7 +154,7 @@ pub(super) fn no_modulo_axes(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> 
     let mut modulo = axes.map(|axis| &decoder.machine.axes[axis]).filter(|axis| axis.is_modulo());
     let Some(axis) = modulo.next() else { return Ok(()) };
     let name = axis.name().to_owned();
-    let text = format!("{}: the main axis {name} counts modulo 360 degrees", call.title());
+    let text = format!("{}: the main axis {name} is a modulo axis", call.title());
     Err(Fault::new(Condition::SystemOfModuloAxis, text, call.span())
         .with(|d| d.axis(axis.number(), name)))
 }
@@ -167,7 +167,9 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
     no_compensation(decoder, call)?;
     if decoder.geometry.coordinates.stack_active() > 0 {
         let what = format!("{} while a system of #CS SELECT is active", call.title());
-        return Err(Fault::unsupported(what, call.span()).hint("#CS DEL ALL deletes the stack"));
+        return Err(
+            Fault::unsupported(what, call.span()).hint("use #CS DEL ALL to delete the stack")
+        );
     }
     if let Some(word) = call.rest.first() {
         if word.is("MODE") {
@@ -225,7 +227,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
 
 fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()> {
     if decoder.geometry.coordinates.is_system_active(id) {
-        let text = format!("coordinate system {id} is active: it cannot be defined anew");
+        let text = format!("coordinate system {id} is active and cannot be redefined");
         return Err(Fault::new(Condition::ActiveSystemDefined, text, span)
             .with(|d| d.value(ValueKind::Wrong, f64::from(id), "-")));
     }
@@ -277,7 +279,7 @@ pub(super) fn no_compensation(decoder: &Decoder, call: &Call<'_>) -> Outcome<()>
 pub(super) const MCS: Row = Row::run("MCS", machine_coordinates).bare()
     .form("#MCS ON   #MCS ON EX TOOL   #MCS OFF")
     .meaning("suspends coordinate systems, rotation, mirroring and all offsets: axis words are axis positions; OFF restores them")
-    .note("EX TOOL: a tool change in between does not act before OFF")
+    .note("EX TOOL: a tool change in between takes effect only at OFF")
     .example("#MCS ON")
     .related(&["20802"]);
 
@@ -338,7 +340,7 @@ fn rotary_surface(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
         };
         match radius {
             Some(radius) if radius <= 0.0 => {
-                let text = format!("{}: the radius {radius} is no radius", call.title());
+                let text = format!("{}: the radius {radius} is not valid", call.title());
                 return Err(Fault::new(Condition::CylinderRadius, text, word.span));
             }
             Some(_) => {}
@@ -376,10 +378,11 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
         return Ok(());
     }
     if decoder.identity_trafo {
-        let text = format!("{} is taken as identity: the axes move as programmed", call.title());
+        let text =
+            format!("{} is treated as the identity: the axes move as programmed", call.title());
         decoder.report.note_once(call.name, Fault::new(Condition::Fallback, text, call.span()));
         return Ok(());
     }
-    let hint = "--identity-trafo takes transformations as identity";
+    let hint = "use --identity-trafo to treat transformations as the identity";
     Err(Fault::unsupported(call.title(), call.span()).hint(hint))
 }

@@ -267,7 +267,7 @@ pub(in crate::exec) fn read_all(
         match read(decoder, title, item, keys) {
             Ok(None) => {}
             Ok(Some((name, _))) if found.get(name).is_some() => {
-                let text = format!("{title}: {name} twice, the second one is left out");
+                let text = format!("{title}: {name} given twice, the second one is ignored");
                 decoder.report.note(Fault::new(key_twice(title), text, item.span));
             }
             Ok(Some((name, written))) => found.found.push((name, written, item.span)),
@@ -278,7 +278,7 @@ pub(in crate::exec) fn read_all(
         if let (Some(range), Some((Written::Number(x), span))) = (range, found.get(name))
             && !range.contains(*x)
         {
-            let text = format!("{name}={x}, allowed are {}", range.allowed());
+            let text = format!("{name}={x}, allowed: {}", range.allowed());
             // the general ID of commands (254101131); brackets of axes have none
             let condition = match range.condition {
                 Condition::Range if title.starts_with('#') => Condition::KeyRange,
@@ -368,7 +368,7 @@ fn text(decoder: &Decoder, expr: &Expr) -> Outcome<Box<str>> {
 
 fn known(keys: &[Key]) -> String {
     let names: Vec<&str> = keys.iter().map(|k| k.name).collect();
-    format!("keys are {}", names.join(", "))
+    format!("use the keys {}", names.join(", "))
 }
 
 fn unknown(title: &str, ident: &Ident, keys: &[Key]) -> Box<Fault> {
@@ -386,10 +386,10 @@ fn unknown(title: &str, ident: &Ident, keys: &[Key]) -> Box<Fault> {
 fn incomplete(title: &str, key: &Key, span: Span) -> Box<Fault> {
     let what = match key.kind {
         KeyKind::Number => "needs a number",
-        KeyKind::MaybeNumber => "takes a number or nothing",
+        KeyKind::MaybeNumber => "takes a number or no value",
         KeyKind::Word => "needs a word",
-        KeyKind::Scalar => "needs a number or a text",
-        KeyKind::Flag => "takes no value",
+        KeyKind::Scalar => "requires a number or a text",
+        KeyKind::Flag => "does not take a value",
     };
     Fault::new(Condition::TokenUnknown, format!("{title}: {} {what}", key.name), span)
 }

@@ -22,7 +22,7 @@ const STAGES: usize = 3;
 /// Row of `#HANDWHEEL`.
 pub(super) const HANDWHEEL: Row = Row::run("HANDWHEEL", handwheel)
     .form("#HANDWHEEL [AX=X RES1=.. RES2=.. RES3=..]")
-    .meaning("ways of an axis per turn of the handwheel; checked, without effect")
+    .meaning("travel of an axis per handwheel revolution; checked, without effect")
     .example("#HANDWHEEL [AX=X RES1=0.1 RES2=0.5]")
     .related(&["G201", "K-0100"]);
 
@@ -36,7 +36,7 @@ pub(super) const JOG: Row = Row::run("JOG", jog)
 /// Row of `#MANUAL LIMITS`.
 pub(super) const MANUAL_LIMITS: Row = Row::run("MANUAL LIMITS", manual_limits)
     .form("#MANUAL LIMITS [AX=X NEGATIVE=.. POSITIVE=..]")
-    .meaning("how far an axis may be moved by hand in either direction; checked, without effect")
+    .meaning("travel limits of an axis in manual mode in both directions; checked, without effect")
     .example("#MANUAL LIMITS [AX=X NEGATIVE=-5 POSITIVE=5]")
     .related(&["G201", "K-0100"]);
 
@@ -72,7 +72,7 @@ pub(super) const SET_OFFSET: Row = Row::run("SET OFFSET", set_limits)
 pub(super) const MANUAL: Row = Row::run("MANUAL", manual)
     .form("#MANUAL [ORI_MODE=..]")
     .meaning(
-        "mode of orientation axes in manual mode; without effect, as nobody moves them by hand",
+        "mode of orientation axes in manual mode; without effect, as axes are not moved by hand",
     )
     .example("#MANUAL [ORI_MODE=1]")
     .related(&["G201", "22385"]);
@@ -82,7 +82,7 @@ pub(super) const GET_MANUAL_OFFSETS: Row = Row::run("GET MANUAL OFFSETS", get_of
     .bare()
     .form("#GET MANUAL OFFSETS")
     .meaning(
-        "the offsets of manual mode become V.A.MANUAL_OFFSETS: 0, as nobody moves the axes by hand",
+        "writes the offsets of manual mode to V.A.MANUAL_OFFSETS: 0, as axes are not moved by hand",
     )
     .example("#GET MANUAL OFFSETS")
     .related(&["G201"]);
@@ -235,14 +235,15 @@ fn get_offsets(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 fn older_form<'c>(decoder: &Decoder, call: &'c Call<'_>) -> Outcome<(usize, &'c [Item])> {
     let empty = |group: &&Group| group.items.is_empty();
     if let Some(group) = call.command.groups.first().filter(empty) {
-        let text = format!("{}: there is nothing in its brackets", call.title());
+        let text = format!("{}: its brackets are empty", call.title());
         return Err(Fault::new(Condition::EmptyBracket, text, group.span));
     }
     match (call.rest, &call.command.tail[..], call.command.groups.first()) {
         ([], [axis], Some(group)) => Ok((decoder.names.in_command(axis)?, &group.items)),
         ([word, ..], ..) => Err(call.unexpected(word)),
         _ => {
-            let text = format!("{} needs its values in brackets and then its axis", call.title());
+            let text =
+                format!("{} requires its values in brackets, followed by its axis", call.title());
             Err(Fault::new(Condition::TokenUnknown, text, call.span()))
         }
     }
@@ -287,7 +288,7 @@ fn numbers(
             }
         };
         if twice {
-            let text = format!("{}: a key is written twice", call.title());
+            let text = format!("{}: key given twice", call.title());
             return Err(Fault::new(Condition::CommandKeyTwice, text, item.span));
         }
     }
@@ -341,6 +342,6 @@ fn only_in_normal_mode(decoder: &Decoder, call: &Call<'_>, axis: usize) -> Outco
 }
 
 fn without_effect(decoder: &mut Decoder, call: &Call<'_>) {
-    let text = format!("{}: nobody moves the axes by hand here", call.title());
+    let text = format!("{}: axes are not moved by hand here", call.title());
     decoder.report.note_once(call.name, Fault::new(Condition::Ignored, text, call.span()));
 }

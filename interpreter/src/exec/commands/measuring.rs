@@ -15,9 +15,9 @@ use crate::syntax::ast::{ItemKind, ItemValue};
 arguments! {
     /// Keys of `#MEAS`.
     struct MeasArguments {
-        kind: Number "TYPE" in between(1.0, 7.0).whole(), "", "1 several axes, 2 one axis at P-AXIS-00215, 3 with G106 up to the target, 4 main axes, 5 and 6 G310";
+        kind: Number "TYPE" in between(1.0, 7.0).whole(), "", "1: several axes, 2: one axis at P-AXIS-00215, 3: with G106 up to the target, 4: main axes, 5 and 6: G310";
         err_no_signal: Number "ERR_NO_SIGNAL" in between(0.0, 1.0).whole(), "", "1: a run without a signal is an error (P-CHAN-00176)";
-        simu_offset: Number "SIMU_OFFSET", "mm", "not supported, --input gives the signal";
+        simu_offset: Number "SIMU_OFFSET", "mm", "not supported, the signal comes from --input";
         trigger: Flag "TRIGGER", "", "not supported (edge banding)";
         ax: Word "AX", "", "settings of one axis are not supported: there is one probe";
         axnr: Number "AXNR", "", "the same by the logical axis number";
@@ -32,7 +32,7 @@ arguments! {
 /// Row of `#MEAS`.
 pub(super) const MEAS: Row = Row::run("MEAS", settings)
     .form("#MEAS [TYPE=1 ERR_NO_SIGNAL=0|1]")
-    .meaning("type of measuring runs (G100, G310), and whether a missing signal of the probe is an error")
+    .meaning("type of measuring runs (G100, G310), and whether a missing probe signal is an error")
     .keys(MeasArguments::KEYS)
     .example("#MEAS [TYPE=3 ERR_NO_SIGNAL=1]")
     .related(&["G100", "G310", "K-0133", "P-CHAN-00057", "P-CHAN-00176"]);
@@ -41,7 +41,7 @@ fn settings(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let group = call.command.groups.first();
     if group.is_none_or(|g| g.items.is_empty()) {
-        let text = "#MEAS needs its settings in brackets";
+        let text = "#MEAS requires its settings in brackets";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
     let keys = MeasArguments::read(decoder, &call.title(), group)?;
@@ -67,7 +67,7 @@ fn settings(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Row of `#MEAS MODE`.
 pub(super) const MEAS_MODE: Row = Row::run("MEAS MODE", mode)
     .form("#MEAS MODE [type]")
-    .meaning("type of measuring runs, 1 to 7; without a type that of the list (P-CHAN-00057)")
+    .meaning("type of measuring runs, 1 to 7; without a type, the type of the list (P-CHAN-00057)")
     .example("#MEAS MODE [3]")
     .related(&["#MEAS", "P-CHAN-00057"]);
 
@@ -84,7 +84,7 @@ fn mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             decoder.whole(expr, "the measuring type", 1, 7)?
         }
         [_, second, ..] => {
-            let text = "#MEAS MODE has one number";
+            let text = "#MEAS MODE takes one number";
             return Err(Fault::new(Condition::TokenUnknown, text, second.span));
         }
     };

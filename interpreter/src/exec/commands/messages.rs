@@ -52,8 +52,9 @@ pub(in crate::exec) fn addition(decoder: &mut Decoder, hash: &HashWord, span: Sp
     for word in hash.name.split(' ').skip(1) {
         if !RECEIVERS.contains(&word) {
             let text = format!("#ADD: unexpected `{word}`");
-            return Err(Fault::new(Condition::TokenUnknown, text, span)
-                .hint("a receiver or nothing comes before the bracket, no mode: it acts as SYN"));
+            return Err(Fault::new(Condition::TokenUnknown, text, span).hint(
+                "only a receiver may precede the bracket, not a mode: the command acts as SYN",
+            ));
         }
         word.clone_into(&mut receiver);
     }
@@ -96,7 +97,8 @@ fn send(
 ) -> Outcome<()> {
     if receiver.eq_ignore_ascii_case(RECEIVERS[0]) && !save {
         let discarded = |condition| {
-            let hint = "the channel list discards messages to ISG_DIAG_BED; name another receiver";
+            let hint =
+                "messages to ISG_DIAG_BED are discarded by the channel list; name another receiver";
             Fault::new(condition, format!("message discarded: {text}"), span).hint(hint)
         };
         match decoder.machine.channel.diagnosis_messages {
@@ -141,7 +143,7 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         let Some(letter @ ('d' | 'D' | 'f' | 'F' | 's' | 'S')) = letter else {
             let shown = letter.map_or(String::new(), String::from);
             let message = format!("unknown format %{shown}");
-            let hint = "formats are %s, %d and %f; %% is a percent sign";
+            let hint = "use %s, %d or %f; %% is a percent sign";
             return Err(Fault::new(Condition::MessageFormat, message, at).hint(hint));
         };
         let Some(expr) = values.next() else {
@@ -151,7 +153,7 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         text.push_str(&form.of(&decoder.value(expr)?, letter));
     }
     if let Some(left) = values.next() {
-        let text = "a value without a format in the text";
+        let text = "a value without a format specifier in the text";
         return Err(Fault::new(Condition::MessageCount, text, left.span));
     }
     Ok(text)
@@ -219,7 +221,7 @@ arguments! {
     struct ErrorArguments {
         id: Number "ID" in between(1.0, 1000.0).whole(), "", "number of the message";
         rc: Number "RC", "", "0 warning, 2 error (the program aborts), 7 fatal; default 2";
-        mid: Number "MID" in between(0.0, 65535.0).whole(), "", "which of several messages with this ID";
+        mid: Number "MID" in between(0.0, 65535.0).whole(), "", "selects one of several messages with this ID";
         pv1: Scalar "PV1", "", "a value, or a text of up to 23 characters";
         pv2: Scalar "PV2", "", "a value, or a text of up to 23 characters";
         pv3: Scalar "PV3", "", "a value, or a text of up to 23 characters";
@@ -287,7 +289,7 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         Some(0) => Severity::Warning,
         Some(2 | 7) => Severity::Error,
         _ => {
-            let text = format!("#ERROR: RC={rc}, allowed are 0, 2 and 7");
+            let text = format!("#ERROR: RC={rc}, allowed: 0, 2 and 7");
             return Err(Fault::new(Condition::Range, text, call.span()));
         }
     };
@@ -303,7 +305,8 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         if let Value::Text(text) = &value
             && text.chars().count() > TEXT_MAX
         {
-            let text = format!("a text of {} characters, at most {TEXT_MAX}", text.chars().count());
+            let text =
+                format!("a text of {} characters, maximum: {TEXT_MAX}", text.chars().count());
             return Err(Fault::new(Condition::Range, text, span));
         }
         diagnostic = match (kind_of(meaning), value) {

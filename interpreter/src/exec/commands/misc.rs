@@ -17,7 +17,7 @@ use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
 pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
     .bare()
     .form("#FLUSH, #FLUSH CONTINUE, #FLUSH WAIT")
-    .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known, and the corner is not contoured")
+    .meaning("stops at the end of the preceding block; with CONTINUE only if no further blocks are known, and the corner is not contoured")
     .example("#FLUSH WAIT");
 
 /// 120102: a B-spline ends only at its own commands.
@@ -51,7 +51,7 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Row of `#CHANNEL INIT`.
 pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
     .form("#CHANNEL INIT [CMDPOS|ACTPOS AX=.. AXNR=..]")
-    .meaning("the programmed position becomes the command or actual position, with ACTPOS after waiting for every window")
+    .meaning("sets the programmed position to the command or actual position; ACTPOS first waits for all exact-stop windows")
     .example("#CHANNEL INIT [CMDPOS]");
 
 /// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AXNR=2]`; axes can also be given without `AX=`.
@@ -68,7 +68,7 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         match &item.kind {
             ItemKind::Flag(word) if word.is("CMDPOS") || word.is("ACTPOS") => {
                 if actual.replace(word.is("ACTPOS")).is_some() {
-                    let text = "#CHANNEL INIT: one of CMDPOS and ACTPOS, once";
+                    let text = "#CHANNEL INIT: write one of CMDPOS and ACTPOS, once";
                     return Err(Fault::new(Condition::ChannelInitTwice, text, item.span));
                 }
             }
@@ -143,7 +143,7 @@ fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Row of `#WAIT`.
 pub(super) const WAIT: Row = Row::run("WAIT", wait).several().values()
     .form("#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition   #WAIT [SYN] [ID=.. P[i]=variable CH=..]")
-    .meaning("the path stops until these independent axes have arrived; a condition is tested once; a signal is consumed")
+    .meaning("stops the path until these independent axes have arrived; tests a condition once; consumes a signal")
     .example("#WAIT INDP [X]")
     .related(&["INDP_ASYN", "#SIGNAL", "K-0018"]);
 
@@ -175,12 +175,12 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             if decoder.condition(condition)? {
                 return Ok(());
             }
-            let text = "the condition is false and nothing outside can make it true";
+            let text = "the condition is false and cannot become true in the simulation";
             let fault = Fault::new(Condition::Wait, text, condition.span);
             Err(fault.with(|d| d.severity(crate::diag::Severity::Error)))
         }
         _ => {
-            let text = format!("{} does not wait: there is nothing to wait for", call.title());
+            let text = format!("{} does not wait: no event to wait for", call.title());
             decoder.report.note_once("#WAIT", Fault::new(Condition::Wait, text, call.span()));
             Ok(())
         }
@@ -199,7 +199,7 @@ pub(super) const TIMER: Row = Row::run("TIMER", timer)
     .form("#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]")
     .meaning("starts or stops a timer, copies its count in ms to V.G.TIMER[i], or clears it")
     .keys(TimerArguments::KEYS)
-    .note("without SYN the timer runs with the decoder, which is ahead of the motion; READ SYN brings the path to rest")
+    .note("without SYN the timer runs with the decoder, which is ahead of the motion; READ SYN stops the path")
     .example("#TIMER START SYN [ID=3]");
 
 /// Operation of `#TIMER`.
@@ -217,7 +217,7 @@ fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let ids = ids.filter(|item| matches!(&item.kind, ItemKind::Pair { key, .. } if key.is("ID")));
     let acts = call.rest.iter().filter(|word| TIMER_ACTS.iter().any(|(name, _)| word.is(name)));
     if ids.count() > 1 || acts.count() > 1 {
-        let text = "#TIMER: one action and one ID";
+        let text = "#TIMER: write one action and one ID";
         return Err(Fault::new(Condition::TimerTwice, text, call.span()));
     }
     let keys = TimerArguments::read(decoder, &call.title(), group)?;
@@ -341,14 +341,14 @@ arguments! {
     struct MachineDataArguments {
         axis: Word "AX", "", "the axis";
         parameter: Word "AXPARAM", "", "key and value as in the axis list";
-        wait: Flag "WAIT", "", "with SYN: the program waits, as it does here anyway";
+        wait: Flag "WAIT", "", "with SYN: the program waits; here it always waits";
     }
 }
 
 /// Row of `#MACHINE DATA`.
 pub(super) const MACHINE_DATA: Row = Row::run("MACHINE DATA", machine_data)
     .form("#MACHINE DATA [SYN] [AX=.. AXPARAM=\"key value\" WAIT]")
-    .meaning("changes a parameter of an axis list from here on; the path stops")
+    .meaning("changes a parameter of an axis list from this block on; the path stops")
     .keys(MachineDataArguments::KEYS)
     .example("#MACHINE DATA [AX=Z AXPARAM=\"getriebe[0].kv 3000\"]");
 

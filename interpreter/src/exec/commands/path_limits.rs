@@ -34,7 +34,7 @@ pub(super) const VECTOR_LIMIT: Row = Row::run("VECTOR LIMIT", vector_limit)
     .form("#VECTOR LIMIT ON [VEL=.. ACC=.. DEC=.. JERK=.. RADIAL_ACC=.. RADIAL_JERK=.. TRANS_ACC=.. FEED RAPID]   #VECTOR LIMIT ON ALL   #VECTOR LIMIT OFF")
     .meaning("limits speed and acceleration along the path")
     .keys(VectorArguments::KEYS)
-    .note("a key without value takes the configured limit")
+    .note("a key without a value takes the configured limit")
     .example("#VECTOR LIMIT ON [ACC=1800000]")
     .related(&["P-CHAN-00002", "P-CHAN-00090", "P-CHAN-00208", "P-CHAN-00361", "P-CHAN-00351"]);
 

@@ -21,7 +21,7 @@ const MOST: usize = 32;
 /// Row of `#GET CMDPOS`.
 pub(super) const GET_CMDPOS: Row = Row::run("GET CMDPOS", command_positions).several().values()
     .form("#GET CMDPOS [variable=axis, ..]")
-    .meaning("the path stops; P parameters and V.P, V.L, V.S variables get the command positions of axes")
+    .meaning("stops the path and writes the command positions of axes to P parameters and V.P, V.L, V.S variables")
     .note("positions of the axes, without offsets; #SET IPO SOLLPOS is the older name")
     .example("#GET CMDPOS [P1=X, V.P.POS=Z]")
     .related(&["#GET ACTPOS", "#CHANNEL INIT", "20186"]);
@@ -36,7 +36,7 @@ pub(super) const GET_ACTPOS: Row = Row::run("GET ACTPOS", actual_positions)
     .values()
     .form("#GET ACTPOS [variable=axis, ..]")
     .meaning(
-        "the path stops; P parameters and V.P, V.L, V.S variables get the actual positions of axes",
+        "stops the path and writes the actual positions of axes to P parameters and V.P, V.L, V.S variables",
     )
     .note("positions of the axes, without offsets")
     .example("#GET ACTPOS [P1=X, V.P.POS=Z]")
@@ -58,7 +58,7 @@ fn actual_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 fn wrong(call: &Call<'_>, span: Span) -> Box<Fault> {
-    let text = format!("{}: variable=axis is expected, commas between", call.title());
+    let text = format!("{}: variable=axis is expected, separated by commas", call.title());
     Fault::new(Condition::PositionRequest, text, span)
 }
 

@@ -56,7 +56,7 @@ impl Range {
     pub(super) fn allowed(&self) -> String {
         let Self { low, high, .. } = self;
         if self.whole {
-            return format!("the whole numbers {low} to {high}");
+            return format!("whole numbers {low} to {high}");
         }
         match (self.open, *high < f64::MAX) {
             (true, false) => format!("values above {low}"),

@@ -25,7 +25,7 @@ const KEY_TWICE: &[(&str, Condition)] = &[
 /// Reason why the command is not executed.
 pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
     if call.command.groups.iter().any(|group| group.items.is_empty()) {
-        let text = format!("{}: there is nothing in its brackets", call.title());
+        let text = format!("{}: its brackets are empty", call.title());
         return Fault::new(Condition::EmptyBracket, text, call.span());
     }
     if let Some(fault) = keys_wrong(call) {
@@ -104,7 +104,7 @@ pub(super) fn keys_wrong(call: &Call<'_>) -> Option<Box<Fault>> {
     }
     let written = |name: &str| keys(call.command).find(|key| key.is(name));
     let (Some(_), Some(second)) = (written("ENABLE"), written("DISABLE")) else { return None };
-    let text = format!("{}: ENABLE and DISABLE exclude each other", call.title());
+    let text = format!("{}: ENABLE and DISABLE cannot be combined", call.title());
     Some(Fault::new(*condition, text, second.span))
 }
 

@@ -85,7 +85,7 @@ impl Row {
         let name = self.name;
         let (text, span) = if let Some(group) = command.groups.get(self.brackets) {
             let text = match self.brackets {
-                0 => format!("#{name} takes no bracket"),
+                0 => format!("#{name} does not take a bracket"),
                 _ => format!("#{name}: all its keys belong in one bracket"),
             };
             (text, group.span)

@@ -20,7 +20,7 @@ impl Decoder {
         match &self.shaping.used {
             Some((first, place)) if *first != family => {
                 let text = format!(
-                    "{} and {} in one program: {} is in line {} of {}",
+                    "{} and {} in one program: {} is on line {} of {}",
                     first.command(),
                     family.command(),
                     first.command(),
@@ -129,7 +129,7 @@ pub(super) const VIB_GUARD: Row = Row::run("VIB GUARD", vib_guard)
     )
     .keys(GuardArguments::KEYS)
     .note(
-        "independent of the FIR filter (#FILTER), which smooths a broad band: the two cannot be used in one program (22060). ON from program start: vib_guard.active. AX_DEV missing in a command switches the tolerance monitoring off again, the other keys keep their last value. Without ON or OFF the values are stored",
+        "independent of the FIR filter (#FILTER), which smooths a broad band: the two cannot be used in one program (22060). vib_guard.active switches it on from program start. A command without AX_DEV switches the tolerance monitoring off, the other keys keep their last value. Without ON or OFF the values are stored",
     )
     .example("#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]")
     .related(&["22060", "22062", "50820", "P-AXIS-00588", "P-AXIS-00571", "P-AXIS-00589", "P-AXIS-00568", "P-AXIS-00013"]);
@@ -177,7 +177,7 @@ fn stored_for_later(
     let mut text =
         "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON".to_owned();
     if tolerance {
-        text.push_str(", but AX_DEV counts only in the command that switches it on");
+        text.push_str(", but AX_DEV only applies in the command that switches it on");
     }
     decoder.report.note(Fault::new(Condition::GuardStored, text, span));
     Ok(())
@@ -203,7 +203,7 @@ fn note_command(decoder: &mut Decoder, keys: &GuardArguments, on: Option<bool>) 
 fn mode(x: f64, span: Span) -> Outcome<u8> {
     let whole = crate::exec::values::number::whole(x, 1, 4);
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
-        let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
+        let text = format!("Vibration Guard mode {x} does not exist, allowed: 1 to 4");
         Fault::new(Condition::GuardMode, text, span).with(|d| {
             d.value(ValueKind::Wrong, x, "-").value(ValueKind::LowerLimit, 1.0, "-").value(
                 ValueKind::UpperLimit,
@@ -235,7 +235,7 @@ arguments! {
     struct FilterArguments {
         hsc: Flag "HSC", "", "the HSC filter of the axis list";
         mode: Number "MODE", "", "does not exist here (22068)";
-        order: Number "ORDER" in between(0.0, ORDER_MAX).whole().or(Condition::FilterRange), "", "used up to 200";
+        order: Number "ORDER" in between(0.0, ORDER_MAX).whole().or(Condition::FilterRange), "", "values up to 200 are used";
         order_time: Number "ORDER_TIME" in between(0.0, 1e8).whole().or(Condition::FilterRange), "us", "";
         share: Number "SHARE" in between(0.0, 100.0).or(Condition::FilterRange), "%", "default 100";
         ax_dev: Number "AX_DEV" in at_least(0.0).or(Condition::FilterRange), "mm", "default 0 = no monitoring";
@@ -253,7 +253,7 @@ pub(super) const FILTER: Row = Row::run("FILTER", filter)
     )
     .keys(FilterArguments::KEYS)
     .note(
-        "needs a filter type in the axis list (filter_fir.type). Independent of the Vibration Guard (#VIB GUARD): not both in one program (22060). FIR filters are recommended instead of HSC filters from V3.1.3075.02 on",
+        "requires a filter type in the axis list (filter_fir.type). Independent of the Vibration Guard (#VIB GUARD): the two cannot be used in one program (22060). FIR filters are recommended instead of HSC filters from V3.1.3075.02 on",
     )
     .example("#FILTER ON [ORDER=20 AX_DEV=0.001]")
     .related(&["22060", "50989", "P-AXIS-00586", "P-AXIS-00587", "P-AXIS-00573", "#VIB GUARD"]);
@@ -280,7 +280,8 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if !configured {
         let (what, parameter) =
             if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };
-        let text = format!("{}: no axis list configures {what}: no effect", call.title());
+        let text =
+            format!("{}: {what} is not configured in any axis list: no effect", call.title());
         let fault = Fault::new(Condition::Odd, text, call.span()).warning();
         decoder.report.note_once(parameter, fault.with(|d| d.parameter(parameter)));
     }

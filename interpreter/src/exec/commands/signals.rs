@@ -28,7 +28,7 @@ const PARAMETER_MAX: u32 = 11;
 pub(super) const SIGNAL: Row = Row::run("SIGNAL", signal)
     .form("#SIGNAL [SYN] [ID=.. COUNT=.. P[i]=.. CH=..]   #SIGNAL REMOVE [ID=..]")
     .meaning("sends a signal to a channel, or to all channels without CH; #WAIT consumes it")
-    .note("ID number; COUNT how many waits it ends; P[0] to P[11] values passed to the waiting channel; CH receiving channels")
+    .note("ID: number; COUNT: number of waits it ends; P[0] to P[11]: values passed to the waiting channel; CH: receiving channels")
     .example("#SIGNAL [ID=4711 P[0]=10.5]")
     .related(&["#WAIT", "K-0018"]);
 
@@ -103,12 +103,12 @@ impl<'c> Words<'c> {
         };
         match known {
             "ID" if self.id.is_some() => {
-                let text = format!("{}: ID twice", call.title());
+                let text = format!("{}: ID given twice", call.title());
                 return Err(Fault::new(Condition::SignalNumberTwice, text, span));
             }
             "ID" => self.id = Some(value),
             "COUNT" if self.count.is_some() => {
-                let text = format!("{}: COUNT twice", call.title());
+                let text = format!("{}: COUNT given twice", call.title());
                 return Err(Fault::new(Condition::SignalCountTwice, text, span));
             }
             "COUNT" => self.count = Some(value),
@@ -164,8 +164,10 @@ fn signal(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.signals.retain(|s| s.id != id || !s.broadcast || s.count.is_some());
     }
     if decoder.signals.len() >= MOST {
-        let text =
-            format!("{}: {MOST} signals are open that no block has waited for", call.title());
+        let text = format!(
+            "{}: {MOST} signals are pending without a block waiting for them",
+            call.title()
+        );
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
     let count = words.count.or((!broadcast).then_some(1));
@@ -187,7 +189,7 @@ pub(super) fn wait_for_signal(
     if let (Some(mode), Some((_, _, span))) = (call.rest.first(), words.parameters.first())
         && mode.is("SYN")
     {
-        let text = "#WAIT SYN takes no parameters of signals";
+        let text = "#WAIT SYN cannot read signal parameters";
         return Err(Fault::new(Condition::SynchronousParameters, text, *span));
     }
     let broadcast = words.channels.is_empty();
@@ -207,7 +209,7 @@ pub(super) fn wait_for_signal(
     for (index, target, span) in &words.parameters {
         let ItemValue::Expr(expr) = target else { return Err(wrong(call, *span)) };
         let ExprKind::Place(target) = &expr.kind else {
-            let text = "#WAIT: a parameter of the signal goes into a variable: P[0]=V.P.NAME";
+            let text = "#WAIT: a signal parameter must be assigned to a variable: P[0]=V.P.NAME";
             return Err(Fault::new(Condition::TokenUnknown, text, *span));
         };
         let Some((_, value)) = parameters.iter().rev().find(|(i, _)| i == index) else {

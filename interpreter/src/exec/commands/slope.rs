@@ -47,7 +47,7 @@ arguments! {
     /// Keys of `#SLOPE`.
     struct SlopeArguments {
         kind: Word "TYPE", "", "STEP, TRAPEZ, SIN2 or HSC; default prog_start.slope.profile";
-        no_opt: Number "NO_OPT" in between(0.0, 1.0).whole(), "", "default 1; 0 matters only with constant ramp times (P-CHAN-00349): there the profile of each run of blocks is planned by itself, else across blocks";
+        no_opt: Number "NO_OPT" in between(0.0, 1.0).whole(), "", "default 1; 0 matters only with constant ramp times (P-CHAN-00349): there the profile of each run of blocks is planned separately, otherwise across blocks";
     }
 }
 
@@ -77,8 +77,9 @@ fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some((name, span)) = keys.kind {
         let Some(kind) = slope_type(&name) else {
             let text = format!("unknown slope type {name}");
-            return Err(Fault::new(Condition::SlopeType, text, span)
-                .hint("types are STEP, TRAPEZ, SIN2, HSC"));
+            return Err(
+                Fault::new(Condition::SlopeType, text, span).hint("use STEP, TRAPEZ, SIN2 or HSC")
+            );
         };
         decoder.modal.slope.kind = kind;
     }
@@ -111,7 +112,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::TokenUnknown, text, group.span));
     };
     if let Some(item) = modes.get(2) {
-        let text = "up to three numbers are expected: the profile and two modes of weights";
+        let text = "up to three numbers are expected: the profile and two weighting modes";
         return Err(Fault::new(Condition::TokenUnknown, text, item.span));
     }
     let value = number(decoder, item)?;
@@ -125,7 +126,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                     "-",
                 )
             })
-            .hint("profiles are 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC"));
+            .hint("write 0 (STEP), 1 (TRAPEZ), 2 (SIN2) or 3 (HSC)"));
     };
     for item in modes {
         let mode = number(decoder, item)?;
@@ -135,7 +136,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let what =
                     "a weight that acts on single ramp times or accelerations, set in the program,";
                 return Err(Fault::unsupported(what, item.span)
-                    .hint("P-CHAN-00073 and P-CHAN-00001 of the channel list set it"));
+                    .hint("set it with P-CHAN-00073 and P-CHAN-00001 in the channel list"));
             }
             None => {
                 let text = format!("mode {mode} of the weights does not exist");

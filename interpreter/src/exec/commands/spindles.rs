@@ -14,7 +14,7 @@ use crate::syntax::ast::{ItemKind, ItemValue, Span};
 /// Row of `#MAIN SPINDLE`.
 pub(super) const MAIN_SPINDLE: Row = Row::run("MAIN SPINDLE", main_spindle).several().values()
     .form("#MAIN SPINDLE [name|logical number]   #MAIN SPINDLE")
-    .meaning("makes another spindle of the channel the main spindle, which S and M3 to M19 address")
+    .meaning("makes another spindle of the channel the main spindle, addressed by S and M3 to M19")
     .note("without a bracket: the spindle of P-CHAN-00051; speeds and rotation of every spindle stay as they are")
     .example("#MAIN SPINDLE [S2]")
     .related(&["M03", "P-CHAN-00051", "P-CHAN-00053"]);

@@ -15,8 +15,8 @@ use crate::syntax::ast::{ItemKind, ItemValue, Span};
 /// Row of `#SPLINE`.
 pub(super) const SPLINE: Row = Row::run("SPLINE", spline).bare()
     .form("#SPLINE ON|OFF")
-    .meaning("a curve through the points of the following lines, as G151 and G150")
-    .note("the curve begins at the last point before the command; arcs interrupt it tangentially; it allows no stop, no G00 and no tool radius compensation")
+    .meaning("a curve through the points of the following linear blocks, as G151 and G150")
+    .note("the curve begins at the last point before the command; arcs interrupt it tangentially; stops, G00 and tool radius compensation are not allowed")
     .example("#SPLINE ON")
     .related(&["#AKIMA TRANS", "#SPLINE TYPE"]);
 
@@ -125,7 +125,7 @@ fn transitions_by_number(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
                 let text = format!("#SET ASPLINE MODE: transition {value} does not exist");
                 return Err(Fault::new(Condition::SplineTransition, text, item.span)
                     .with(|d| d.value(ValueKind::Current, value, "-"))
-                    .hint("transitions are 1 (automatic), 2 (tangential) and 3 (by #AKIMA STARTVECTOR or ENDVECTOR)"));
+                    .hint("write 1 (automatic), 2 (tangential) or 3 (by #AKIMA STARTVECTOR or ENDVECTOR)"));
             }
         };
     }
@@ -145,8 +145,7 @@ fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
     let found = known.into_iter().find(|(word, _)| name.eq_ignore_ascii_case(word));
     found.map(|(_, transition)| transition).ok_or_else(|| {
         let text = format!("#AKIMA TRANS: unknown transition `{name}`");
-        Fault::new(Condition::TokenUnknown, text, span)
-            .hint("transitions are AUTO, TANGENTIAL and USER")
+        Fault::new(Condition::TokenUnknown, text, span).hint("use AUTO, TANGENTIAL or USER")
     })
 }
 
@@ -177,7 +176,7 @@ impl Decoder {
             } else {
                 (Condition::Range, "start")
             };
-            let text = format!("the {which} tangent of a spline has no direction");
+            let text = format!("the {which} tangent of a spline does not have a direction");
             self.report.note(Fault::new(condition, text, at));
         }
         if start {

@@ -22,14 +22,16 @@ pub(super) const ADD: Row = Row::run("CS ADD", add)
     .several()
     .form("#CS ADD [name][x,y,z,a,b,c]")
     .meaning("puts a coordinate system with a name on the stack; #CS SELECT makes it active")
-    .note("five systems at most; names have up to eight characters, are case-sensitive, and are not ACS, IMCS or MCS")
+    .note("at most five systems; names have up to eight characters, are case-sensitive, and are not ACS, IMCS or MCS")
     .example("#CS ADD [WCS][15,20,0,0,0,0]")
     .related(&["#CS SELECT", "#CS SET", "#CS DEL"]);
 
 /// Row of `#CS SELECT`.
 pub(super) const SELECT: Row = Row::run("CS SELECT", select)
     .form("#CS SELECT [name]")
-    .meaning("words of the program are coordinates of this system, which is based on those below it in the stack")
+    .meaning(
+        "program coordinates refer to this system, which is based on those below it in the stack",
+    )
     .example("#CS SELECT [WCS]")
     .related(&["#CS ADD"]);
 
@@ -45,7 +47,7 @@ pub(super) const SET: Row = Row::run("CS SET", set)
 pub(super) const DELETE: Row = Row::run("CS DEL", delete)
     .bare()
     .form("#CS DEL [ALL]")
-    .meaning("deletes the uppermost system of the stack, or all; those below it stay active")
+    .meaning("deletes the top system of the stack, or all; those below it stay active")
     .example("#CS DEL ALL")
     .related(&["#CS ADD"]);
 
@@ -95,7 +97,7 @@ fn wrong_form(text: &str, span: Span) -> Box<Fault> {
 /// Checks that there are neither ON and OFF nor other words.
 fn plain(call: &Call<'_>) -> Outcome<()> {
     if call.command.on.is_some() {
-        return Err(wrong_form("neither ON nor OFF belongs here", call.span()));
+        return Err(wrong_form("neither ON nor OFF is allowed here", call.span()));
     }
     call.no_more_words()
 }
@@ -109,10 +111,10 @@ fn add(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if name.text.len() > NAME_MAX || RESERVED.iter().any(|reserved| name.is(reserved)) {
         let text = format!("{} cannot be the name of a coordinate system", name.text);
         return Err(wrong_form(&text, name.span)
-            .hint("up to eight characters, and none of ACS, IMCS and MCS"));
+            .hint("use up to eight characters, but not ACS, IMCS or MCS"));
     }
     if decoder.geometry.coordinates.stack().any(|known| known == &*name.text) {
-        let text = format!("the stack has a coordinate system {} already", name.text);
+        let text = format!("the stack already has a coordinate system {}", name.text);
         return Err(Fault::new(Condition::SystemNameInUse, text, name.span));
     }
     let frame = frames::system(decoder, values)?;
@@ -158,13 +160,13 @@ fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [word, ..] => return Err(call.unexpected(word)),
     };
     if call.command.on.is_some() {
-        return Err(wrong_form("neither ON nor OFF belongs here", call.span()));
+        return Err(wrong_form("neither ON nor OFF is allowed here", call.span()));
     }
     if decoder.geometry.coordinates.stack_active() > 0 {
         changes(decoder, call)?;
     }
     if !decoder.geometry.coordinates.stack_delete(all) && !all {
-        let text = "#CS DEL: the stack has no coordinate system";
+        let text = "#CS DEL: the stack is empty";
         return Err(Fault::new(Condition::NoCoordinateSystem, text, call.span())
             .hint("write #CS ADD [name][x,y,z,a,b,c] before it"));
     }

@@ -14,16 +14,14 @@ use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
 /// Row of `#TOOL DATA`.
 pub(super) const TOOL_DATA: Row = Row::run("TOOL DATA", tool_data)
     .form("#TOOL DATA [basic, sister, variant]")
-    .meaning("selects tool data, like the D word; sister and variant 0 or left out, others are not supported")
+    .meaning("selects tool data, like the D word; sister and variant must be 0 or omitted")
     .example("#TOOL DATA [5]")
     .related(&["#TOOL PREP", "#TOOL REFRESH"]);
 
 /// Row of `#TOOL PREP`.
 pub(super) const TOOL_PREP: Row = Row::run("TOOL PREP", tool_prep)
     .form("#TOOL PREP [basic, sister, variant]")
-    .meaning(
-        "selects a tool, like the T word; sister and variant 0 or left out, others are not supported",
-    )
+    .meaning("selects a tool, like the T word; sister and variant must be 0 or omitted")
     .example("#TOOL PREP [5]")
     .related(&["#TOOL DATA"]);
 

@@ -13,11 +13,11 @@ use crate::exec::values::number::is_true;
 arguments! {
     /// Keys of `#TURN`.
     struct TurnArguments {
-        _rot_feed_cpl: Number "ROT_FEED_CPL" in between(0.0, 1.0).whole(), "", "G95 with coupled axes: there are none here, no effect";
-        _time_in_rev_cpl: Number "TIME_IN_REV_CPL" in between(0.0, 1.0).whole(), "", "G04 S with coupled axes: there are none here, no effect";
-        tapping_act_pos: Number "TAPPING_ACT_POS" in between(0.0, 1.0).whole(), "", "1, the path follows the actual spindle in tapping, is not supported (P-CHAN-00761)";
+        _rot_feed_cpl: Number "ROT_FEED_CPL" in between(0.0, 1.0).whole(), "", "G95 with coupled axes: not available here, no effect";
+        _time_in_rev_cpl: Number "TIME_IN_REV_CPL" in between(0.0, 1.0).whole(), "", "G04 S with coupled axes: not available here, no effect";
+        tapping_act_pos: Number "TAPPING_ACT_POS" in between(0.0, 1.0).whole(), "", "1 (path follows the actual spindle position in tapping) is not supported (P-CHAN-00761)";
         _tapping_n_cycles: Number "TAPPING_N_CYCLES" in between(0.0, 20.0).whole(), "", "filter of TAPPING_ACT_POS=1";
-        thread_cut_act_speed: Number "THREAD_CUT_ACT_SPEED" in between(0.0, 1.0).whole(), "", "1, G33 follows the actual speed of the spindle, is not supported (P-CHAN-00834)";
+        thread_cut_act_speed: Number "THREAD_CUT_ACT_SPEED" in between(0.0, 1.0).whole(), "", "1 (G33 follows the actual spindle speed) is not supported (P-CHAN-00834)";
         _thread_cut_n_cycles: Number "THREAD_CUT_N_CYCLES" in between(0.0, 20.0).whole(), "", "filter of THREAD_CUT_ACT_SPEED=1";
         thread_cut_ignore_ov: Number "THREAD_CUT_IGNORE_OV" in between(0.0, 1.0).whole(), "", "1: the override does not act on G33 (P-CHAN-00836)";
         thread_chain: Number "THREAD_CHAIN" in between(0.0, 1.0).whole(), "", "1: consecutive blocks of G33 are one thread without a stop (P-CHAN-00837)";

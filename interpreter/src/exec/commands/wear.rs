@@ -19,19 +19,19 @@ arguments! {
         length: Flag "LENGTH", "", "wear of the length (default)";
         tool_dir: Flag "TOOL_DIR", "", "not supported";
         surface: Flag "SURF_NORM_DIR", "", "not supported";
-        disc: Flag "DISC", "", "wear from outside: the input wear_mm";
-        cont: Flag "CONT", "", "wear by the distance driven";
+        disc: Flag "DISC", "", "external wear: the input wear_mm";
+        cont: Flag "CONT", "", "wear by the distance travelled";
         auto: Flag "AUTO", "", "both (default)";
-        wear_const: Number "WEAR_CONST" in at_least(0.0), "0.1 um/m", "wear per distance; without it that of the tool (P-TOOL-00030)";
-        wear_const_tool: Flag "WEAR_CONST_TOOL", "", "that of the tool again";
-        acc_weight: Number "ACC_WEIGHT" in between(1.0, 100.0), "%", "acceleration with which a change of the wear is followed; default 100";
+        wear_const: Number "WEAR_CONST" in at_least(0.0), "0.1 um/m", "wear per distance; default: value of the tool (P-TOOL-00030)";
+        wear_const_tool: Flag "WEAR_CONST_TOOL", "", "restores the value of the tool";
+        acc_weight: Number "ACC_WEIGHT" in between(1.0, 100.0), "%", "acceleration used to follow a change of the wear; default 100";
     }
 }
 
 /// Row of `#OTC`.
 pub(super) const OTC: Row = Row::run("OTC", wear)
     .form("#OTC ON|OFF [RADIUS|LENGTH DISC|CONT|AUTO WEAR_CONST=.. ACC_WEIGHT=..]")
-    .meaning("online compensation of the wear of a grinding wheel; the bracket alone sets what ON begins with")
+    .meaning("online compensation of grinding wheel wear; the bracket alone sets the initial values for ON")
     .keys(WearArguments::KEYS)
     .note("the wear appears in X_add_mm of the axes, not in the contour; wear_mm of --input replaces that of the PLC")
     .example("#OTC ON [RADIUS DISC]")
@@ -99,7 +99,7 @@ fn one_of(words: &[(&str, Option<Span>)]) -> Outcome<()> {
     let mut written = words.iter().filter_map(|(name, span)| Some((name, (*span)?)));
     match (written.next(), written.next()) {
         (Some((first, a)), Some((second, b))) => {
-            let text = format!("#OTC: {first} and {second} exclude each other");
+            let text = format!("#OTC: {first} and {second} cannot be combined");
             let at = if a.start > b.start { a } else { b };
             Err(Fault::new(Condition::TokenUnknown, text, at))
         }

@@ -289,7 +289,7 @@ impl Akima {
         if self.run.is_none() && tangential && !self.moved {
             // reported once
             self.moved = true;
-            let text = "a spline with a tangential start needs a motion before it";
+            let text = "a spline with a tangential start requires a motion before it";
             return Err(Fault::new(Condition::SplineWithoutMotion, text, motion.span)
                 .in_block(motion.source));
         }

@@ -184,7 +184,7 @@ impl Compensator {
                 motion.compensation.is_some_and(|c| c.distance_mm * active.distance > 0.0);
             if changes {
                 let text =
-                    "the tool radius changes before an arc: a straight motion has to lead to it";
+                    "the tool radius changes before an arc: a straight motion must lead to it";
                 return Err(Fault::new(Condition::RadiusChangeInArc, text, motion.span)
                     .in_block(motion.source));
             }

@@ -37,8 +37,9 @@ pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f
 
 /// A sum after the sign of a modulo axis is ambiguous.
 pub(in crate::exec) fn two_readings(span: Span) -> Box<Fault> {
-    let text = "the first sign after a modulo axis is its direction, not that of a term";
-    let hint = "use brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way";
+    let text = "the first sign after a modulo axis is its direction, not the sign of a term";
+    let hint =
+        "use brackets: C-[P1+5] turns in the negative direction, C[-P1+5] takes the shortest way";
     Fault::new(Condition::Syntax, text, span).hint(hint)
 }
 

@@ -34,7 +34,7 @@ impl Decoder {
     /// 21904 for a first line without its second one at the end of the program.
     pub(in crate::exec) fn contour_line_ends(&mut self) {
         if let Some((_, span, source)) = self.motion.contour_line.open.take() {
-            let text = "no line with #ANG and the end of both follows the contour line";
+            let text = "the contour line is not followed by a line with #ANG and the end of both";
             self.report.note(Fault::new(Condition::ContourLineOpen, text, span).in_block(source));
         }
     }
@@ -117,7 +117,8 @@ impl Decoder {
             }
             (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
                 if !(x_absolute && y_absolute) {
-                    let text = "the end of two contour lines is programmed in relative coordinates";
+                    let text =
+                        "the end point of two contour lines is programmed in relative coordinates";
                     return Err(Fault::new(Condition::ContourLineRelative, text, span));
                 }
                 if words.group(Group::Insertion).is_some() || words.hashes.len() > 1 {

@@ -65,7 +65,7 @@ impl Decoder {
             let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
             let g = words.group(Group::Path).map_or(span, |g| g.span);
             return Err(Fault::new(Condition::ArcRadiusZero, text, g)
-                .hint("write I, J, K or R; R holds until the next one"));
+                .hint("write I, J, K or R; R is modal"));
         };
         let at = words.radius.or(centre_words[0]).or(centre_words[1]);
         let g = words.group(Group::Path).map_or(span, |g| g.span);
@@ -121,14 +121,14 @@ impl Decoder {
         let whole = plane.into_iter().all(in_group) && group().all(is_main);
         if !group().any(is_main) && group().next().is_some() {
             return Err(Fault::unsupported(
-                "an arc whose F counts along other axes (#FGROUP)",
+                "an arc whose F applies along other axes (#FGROUP)",
                 span,
             ));
         }
         if whole || group().next().is_none() {
             return Ok(());
         }
-        let text = "the axes of #FGROUP are not those of the arc: F counts along the plane";
+        let text = "the axes of #FGROUP are not those of the arc: F applies in the plane";
         self.report.note_once("feed group", Fault::new(Condition::FeedGroupOfArc, text, span));
         Ok(())
     }
@@ -257,7 +257,7 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
     match error {
         ArcError::RadiusZero => {
             Fault::new(Condition::ArcRadiusZero, "the radius of the arc is 0", span)
-                .hint("is I, J or K missing?")
+                .hint("check whether I, J or K is missing")
         }
         ArcError::FullCircleWithRadius => {
             let text = "a full circle cannot be programmed with R";
@@ -272,15 +272,15 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
         }
         ArcError::CentreTooFar { shift, limit } => {
             let text = format!(
-                "start, end and centre do not fit: the centre would have to move by {shift:.6} mm, at most {limit:.6} mm"
+                "start point, end point and centre do not match: the centre would have to move by {shift:.6} mm, maximum: {limit:.6} mm"
             );
             Fault::new(Condition::ArcCentre, text, span)
                 .with(|d| d.parameter("P-CHAN-00059"))
-                .hint("G161 makes I, J, K absolute, G162 relative to the start point")
+                .hint("check G161 (I, J, K absolute) and G162 (relative to the start point)")
         }
         ArcError::RadiiDiffer { start, end, limit } => {
             let text = format!(
-                "the radii at start and end differ by {:.6} mm, at most {limit:.6} mm",
+                "the radii at start and end differ by {:.6} mm, maximum: {limit:.6} mm",
                 (start - end).abs()
             );
             Fault::new(Condition::ArcRadiiDiffer, text, span).with(|d| {

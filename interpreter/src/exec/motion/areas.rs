@@ -39,15 +39,18 @@ impl Decoder {
         let Heading { number, span, .. } = heading;
         let areas = &self.motion.areas;
         if self.modal.path.is_thread() {
-            let text = "definition of a control area during a thread (G33, G63)";
+            let text = "control area defined while a thread is active (G33, G63)";
             return Err(Fault::new(Condition::AreaInThread, text, span));
         }
         if areas.is_defining() {
-            let text = "the control area before this one has no #CONTROL AREA END";
+            let text = "the previous control area has no #CONTROL AREA END";
             return Err(Fault::new(Condition::AreaOpen, text, span));
         }
         if areas.is_active(number) {
-            return Err(wrong(format!("control area {number} is active: it cannot change"), span));
+            return Err(wrong(
+                format!("control area {number} is active and cannot be changed"),
+                span,
+            ));
         }
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("a control area defined under G41 or G42", span));
@@ -87,7 +90,7 @@ impl Decoder {
                 let full = shape.sweep_rad.abs() - std::f64::consts::TAU;
                 if draft.circle.is_some() || full.abs() > 1e-9 {
                     return Err(wrong(
-                        "the contour of a control area CIRC is one full circle",
+                        "the contour of a control area CIRC must be one full circle",
                         span,
                     ));
                 }
@@ -100,7 +103,7 @@ impl Decoder {
                 return Err(wrong("a motion after the circle of a control area", span));
             }
             _ => {
-                let text = "the contour of a control area POLY consists of lines (G00, G01)";
+                let text = "the contour of a control area POLY must consist of lines (G00, G01)";
                 return Err(Fault::new(Condition::AreaOfArcs, text, span));
             }
         }
@@ -125,7 +128,7 @@ impl Decoder {
         let Heading { number, purpose, low_mm, high_mm, height_axis, .. } = heading;
         let (plane, base) = if heading.circle {
             if named.iter().any(|axis| self.geometry.coordinates.main_index(*axis).is_none()) {
-                let text = "the base of a control area CIRC lies in main axes";
+                let text = "the base of a control area CIRC must be in main axes";
                 return Err(Fault::new(Condition::AreaCircleAxis, text, span));
             }
             let Some((plane, centre_mm, radius_mm)) = circle else {
@@ -158,8 +161,7 @@ impl Decoder {
     fn area_plane(&self, named: &[usize], span: Span) -> Outcome<[usize; 2]> {
         let plane = self.in_plane(span)?.plane;
         if named.len() > 2 {
-            let text =
-                format!("{} axes in the contour of a control area, allowed are 2", named.len());
+            let text = format!("{} axes in the contour of a control area, allowed: 2", named.len());
             return Err(Fault::new(Condition::AreaAxes, text, span)
                 .with(|d| d.value(ValueKind::Wrong, named.len() as f64, "-")));
         }
@@ -167,12 +169,12 @@ impl Decoder {
         match *named {
             [a, b] if main(&a).is_none() && main(&b).is_none() => Ok([a, b]),
             [a] if main(&a).is_none() => {
-                let text = "a control area of other axes needs two of them in its contour";
+                let text = "a control area of other axes requires two of them in its contour";
                 Err(Fault::new(Condition::AreaOneAxis, text, span))
             }
             _ if named.iter().all(|axis| plane.contains(axis)) => Ok(plane),
             _ => {
-                let text = "the contour of a control area lies in the main axes of its plane";
+                let text = "the contour of a control area must be in the main axes of its plane";
                 Err(Fault::new(Condition::AreaAxis, text, span))
             }
         }
@@ -224,7 +226,7 @@ impl Decoder {
     pub(super) fn areas_fit(&self, shaped: bool, span: Span) -> Outcome<()> {
         let mut active = self.motion.areas.active.iter();
         if shaped && active.len() > 0 {
-            let what = "contouring, #HSC or a spline while a control area is watched";
+            let what = "contouring, #HSC or a spline while a control area is active";
             return Err(Fault::unsupported(what, span));
         }
         match active.find(|area| area.axes.iter().any(|axis| !self.names.has(*axis))) {
@@ -272,17 +274,16 @@ fn polygon(points: &[AxisVec], plane: [usize; 2], span: Span) -> Outcome<Base> {
     let mut corners: Vec<[f64; 2]> =
         points.iter().map(|point| plane.map(|axis| point[axis])).collect();
     if corners.len() > POLYGON_BLOCKS {
-        let text = format!(
-            "{} blocks in a control area POLY, allowed are {POLYGON_BLOCKS}",
-            corners.len()
-        );
+        let text =
+            format!("{} blocks in a control area POLY, maximum: {POLYGON_BLOCKS}", corners.len());
         return Err(Fault::new(Condition::AreaPoints, text, span));
     }
     let last = corners.pop();
     let closed = matches!((corners.first(), last), (Some(first), Some(last))
         if [0, 1].iter().all(|i| (first[*i] - last[*i]).abs() <= SAME_MM));
     if !closed || corners.len() < 3 {
-        let text = "the contour of a control area POLY has to be closed and to have three corners";
+        let text =
+            "the contour of a control area POLY must be closed and have at least three corners";
         return Err(wrong(text, span));
     }
     if overlaps(&corners) {

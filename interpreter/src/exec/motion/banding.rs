@@ -21,8 +21,8 @@ use crate::syntax::ast::Span;
 
 /// G108 that was not used.
 fn unused(span: Span) -> Box<Fault> {
-    let text = "G108 ends here without a motion that waited for the signal";
-    let hint = "such a motion has an M function that is MNE_SNS in P-CHAN-00041";
+    let text = "G108 ends here without a motion that has waited for the signal";
+    let hint = "write an M function that is MNE_SNS in P-CHAN-00041 in the block of the motion";
     Fault::new(Condition::Odd, text, span).warning().hint(hint)
 }
 
@@ -37,7 +37,7 @@ impl Decoder {
         }
         if on && self.machine.channel.banding_rejects_rest {
             return Err(Fault::unsupported(
-                "edge banding that leaves out the rest of its block (P-CHAN-00149)",
+                "edge banding that skips the rest of its block (P-CHAN-00149)",
                 g.span,
             ));
         }
@@ -115,7 +115,7 @@ impl Decoder {
         let coordinates = &self.geometry.coordinates;
         let main = (0..3).filter_map(|i| coordinates.main_axis(i));
         if !main.into_iter().any(|axis| self.machine.axes[axis].bands()) {
-            let text = "edge banding: no main axis takes part in it";
+            let text = "edge banding: none of the main axes takes part in it";
             return Err(Fault::new(Condition::NoBandingAxis, text, span));
         }
         for (axis, _, at) in &words.axes {
@@ -123,7 +123,7 @@ impl Decoder {
             if coordinates.main_index(*axis).is_some() && !listed.bands() {
                 let name = self.names.name(*axis).to_owned();
                 let number = listed.number();
-                let text = format!("axis {name} moves and does not take part in edge banding");
+                let text = format!("axis {name} moves but does not take part in edge banding");
                 return Err(Fault::new(Condition::MovedWithoutBanding, text, *at)
                     .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
             }

@@ -30,7 +30,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         if self.motion.couplings.is_on(group) {
-            let text = format!("coupling group {group} is switched on: it cannot be changed");
+            let text = format!("coupling group {group} is switched on and cannot be changed");
             return Err(Fault::new(Condition::CouplingGroupActive, text, span)
                 .with(|d| d.value(ValueKind::Wrong, group, "-")));
         }
@@ -110,7 +110,7 @@ impl Decoder {
     /// 20457, 120333.
     fn couplings_may_change(&self, span: Span) -> Outcome<()> {
         if self.modal.contouring {
-            let text = "axis couplings are switched while contouring is active";
+            let text = "axis couplings cannot be switched while contouring is active";
             return Err(Fault::new(Condition::CouplingWithContouring, text, span));
         }
         if self.modal.compensation == Compensation::Off {
@@ -135,7 +135,7 @@ impl Decoder {
             }))
         };
         if self.geometry.coordinates.main_index(pair.slave).is_some() {
-            let text = format!("axis {} is a main axis: it cannot be a slave", slave.name());
+            let text = format!("axis {} is a main axis and cannot be a slave", slave.name());
             return of(Condition::SlaveIsMainAxis, pair.slave, text, None);
         }
         if slave.kind() != master.kind() {
@@ -176,7 +176,7 @@ impl Decoder {
     pub(in crate::exec) fn moves_not_coupled(&self, axis: usize, span: Span) -> Outcome<()> {
         let Some(group) = self.motion.couplings.group_of(axis) else { return Ok(()) };
         let name = self.machine.axes[axis].name().to_owned();
-        let text = format!("axis {name} is coupled in group {group}: it cannot move alone");
+        let text = format!("axis {name} is coupled in group {group} and cannot move independently");
         let number = self.machine.axes[axis].number();
         Err(Fault::new(Condition::CoupledAxisAlone, text, span)
             .with(|d| d.axis(number, name).value(ValueKind::Current, group, "-")))
@@ -193,8 +193,7 @@ impl Decoder {
         let coupled = axes.find_map(|axis| Some((axis, self.motion.couplings.group_of(axis)?)));
         let Some((axis, group)) = coupled else { return Ok(()) };
         let name = self.machine.axes[axis].name().to_owned();
-        let text =
-            format!("axis {name} is coupled in group {group}: it keeps its place in the channel");
+        let text = format!("axis {name} is coupled in group {group} and cannot be exchanged");
         let number = self.machine.axes[axis].number();
         Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
     }

@@ -35,7 +35,8 @@ impl MotionState {
     pub(in crate::exec) fn no_spindle_override(&self, what: &str, span: Span) -> Outcome<()> {
         if self.spindles[0].is_overridden() {
             let what = format!("{what} with an override of the main spindle (S[OVERRIDE ..])");
-            return Err(Fault::unsupported(what, span).hint("S[OVERRIDE SPEED_FACT=100] ends it"));
+            return Err(Fault::unsupported(what, span)
+                .hint("write S[OVERRIDE SPEED_FACT=100] to cancel it"));
         }
         Ok(())
     }
@@ -75,7 +76,7 @@ impl Decoder {
                     Ok(())
                 }
                 _ => {
-                    let text = "G196 needs a speed above 0 (S)";
+                    let text = "G196 requires a speed greater than 0 (S)";
                     Err(Fault::new(Condition::CuttingSpeedMax, text, span))
                 }
             },
@@ -134,7 +135,7 @@ impl Decoder {
             > cutting.max_rpm * (1.0 + 1e-9)
         {
             let text = format!(
-                "{} mm from the turning centre the cutting speed needs more than {} rev/min: limited",
+                "{} mm from the turning centre the cutting speed requires more than {} rev/min: limited",
                 rounded(radius.abs()),
                 rounded(cutting.max_rpm)
             );
@@ -172,8 +173,8 @@ impl Decoder {
         let listed = &self.machine.axes[axis];
         if !listed.takes_diameters(true) && !listed.takes_diameters(false) {
             let name = self.names.name(axis).to_owned();
-            let text = format!("G51 without effect: axis {name} takes no diameters");
-            let hint = "kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059) make them diameters";
+            let text = format!("G51 has no effect: axis {name} does not accept diameters");
+            let hint = "enable diameters with kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059)";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
             self.report.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
         }

@@ -36,7 +36,7 @@ impl Decoder {
             self.motion.dwell_revolutions = *turns;
             (turns * 60.0 / rpm, *span)
         } else if let Some((_, _, span)) = words.axes.first() {
-            let text = "G04: the time follows the first main axis";
+            let text = "G04: the time must follow the first main axis";
             return Err(Fault::new(Condition::DwellWrongAxis, text, *span));
         } else {
             return Err(Fault::new(Condition::DwellWithoutTime, "G04 without a time", g.span));
@@ -50,7 +50,7 @@ impl Decoder {
         for (axis, span) in others {
             let number = self.machine.axes[axis].number();
             let name = self.names.name(axis).to_owned();
-            let text = format!("G04 with the further axis {name}, which does not move");
+            let text = format!("G04 with the additional axis {name}, which does not move");
             self.report.note(
                 Fault::new(Condition::DwellOtherAxes, text, span).with(|d| d.axis(number, name)),
             );

@@ -23,7 +23,7 @@ impl Decoder {
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let key = "20008".to_owned();
             let text = match self.modal.feed() {
-                Some(_) => "the feed is 0: that is the value of the last F word",
+                Some(_) => "the feed is 0: value of the last F word",
                 None => "the feed is 0: no F word has been programmed",
             };
             self.report.note_once(&key, Fault::new(Condition::FeedZero, text, span));
@@ -31,7 +31,7 @@ impl Decoder {
             return Ok(Feed::PathVelocity(1.0));
         };
         if self.feed_type() != self.modal.feed_type {
-            let text = "G93 in a B-spline: F counts in mm/min";
+            let text = "G93 in a B-spline: F is taken in mm/min";
             self.report.note_once("120847", Fault::new(Condition::TimeInSpline, text, span));
         }
         let main = &self.motion.spindles[0];
@@ -40,7 +40,7 @@ impl Decoder {
             && main.turning == Turning::Stopped
             && self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine) != 0.0
         {
-            let text = "feed per revolution while the main spindle is stopped: its S word counts";
+            let text = "feed per revolution while the main spindle is stopped: its S word is used";
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
             self.report.note_once("G95 at rest", fault);
         }
@@ -96,7 +96,7 @@ impl Decoder {
         let least_s = block.path.length() / speeds.highest();
         if time_s < least_s * (1.0 - 1e-9) {
             let text = format!(
-                "the block cannot be done in F{time_s} s (G93): its velocity limits need {least_s:.6} s"
+                "the block cannot be executed in F{time_s} s (G93): its velocity limits require {least_s:.6} s"
             );
             self.report.note(Fault::new(Condition::Odd, text, span).warning());
         }
@@ -113,16 +113,16 @@ impl Decoder {
 
     pub(super) fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {
         let Feed::PathVelocity(v) = feed else {
-            let text = "E acts only with G94 and not in rapid traverse";
+            let text = "E is only valid with G94 and not in rapid traverse";
             return Err(Fault::new(Condition::Syntax, text, span));
         };
         if self.modal.feed_type != FeedType::PerMinute {
-            return Err(Fault::new(Condition::Syntax, "E acts only with G94", span));
+            return Err(Fault::new(Condition::Syntax, "E is only valid with G94", span));
         }
         if value < 0.0 {
             let text = format!("E{value} is negative: E is the feed at the end of the block");
             return Err(Fault::new(Condition::Syntax, text, span)
-                .hint("numbers have no exponent in this dialect: 1e-05 is written 0.00001"));
+                .hint("numbers cannot have an exponent in this dialect: write 0.00001 for 1e-05"));
         }
         Ok(Some((value * self.modal.feed_unit_mm_s(&self.machine.channel)).min(v)))
     }

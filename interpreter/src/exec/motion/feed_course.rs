@@ -29,7 +29,7 @@ impl Decoder {
             _ if feed == Feed::Rapid => return Ok(None),
             (None, None) => return Ok(None),
             (Some((_, at)), Some(_)) => {
-                let what = "interpolation of the feed with corner deceleration (G13)";
+                let what = "feed interpolation with corner deceleration (G13)";
                 return Err(Fault::unsupported(what, at));
             }
             (Some((row, at)), None) => (format!("G{}", row.number), at),
@@ -73,8 +73,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<Option<FeedCourse>> {
         let Some(from) = self.motion.feed_before.filter(|word| word.value > 0.0) else {
-            let text =
-                format!("{name}: there is no earlier F word from which the feed could change");
+            let text = format!("{name}: no earlier F word to start the change of the feed from");
             return Err(Fault::new(Condition::FeedZero, text, span));
         };
         let unit_mm = if from.inch { 25.4 } else { 1.0 };

@@ -39,7 +39,7 @@ fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
 /// Sets a word that may appear only once.
 fn once<T>(slot: &mut Option<T>, value: T, what: &str, span: Span) -> Outcome<()> {
     if slot.replace(value).is_some() {
-        let text = format!("{what} twice in a bracket: the axis would move as the last one says");
+        let text = format!("{what} twice in a bracket: the last one would be used");
         return Err(Fault::new(Condition::IndependentRedundant, text, span));
     }
     Ok(())
@@ -110,7 +110,7 @@ impl Decoder {
                 / self.motion.dynamics(&self.machine, &self.modal, false).axes[axis].v_max_mm_s;
             if time_s < least_s * (1.0 - 1e-9) {
                 let text = format!(
-                    "the independent axis cannot move in TIME={time_s} s: its velocity limit needs {least_s:.6} s"
+                    "the independent axis cannot move in TIME={time_s} s: its velocity limit requires {least_s:.6} s"
                 );
                 self.report.note(Fault::new(Condition::Odd, text, span).warning());
             }
@@ -207,7 +207,7 @@ impl Decoder {
         if key.is("SLOPE_PROFIL") {
             let number = crate::exec::values::number::whole(value, 0, 3);
             let kind = number.and_then(crate::exec::commands::slope_of_number);
-            let kind = kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?;
+            let kind = kind.ok_or_else(|| wrong("use a slope type from 0 to 3", span))?;
             return once(&mut words.slope, kind, "the slope", span);
         }
         // F is the older keyword
@@ -220,7 +220,7 @@ impl Decoder {
         } else if key.is("FEED_MAX_WEIGHT") && value <= 100.0 {
             IndependentSpeed::ShareOfMaximum(value / 100.0)
         } else if key.is("FEED_MAX_WEIGHT") {
-            return Err(wrong("FEED_MAX_WEIGHT is at most 100 %", span));
+            return Err(wrong("use a FEED_MAX_WEIGHT up to 100 %", span));
         } else {
             return Err(wrong(format!("unknown word `{}`", key.text), span));
         };
@@ -228,7 +228,7 @@ impl Decoder {
             return Err(wrong(format!("{} must be above 0", key.text), span));
         }
         if words.speed.replace((speed, span)).is_some() {
-            return Err(wrong("two of FEED, TIME and FEED_MAX_WEIGHT", span));
+            return Err(wrong("more than one of FEED, TIME and FEED_MAX_WEIGHT", span));
         }
         Ok(())
     }

@@ -34,7 +34,7 @@ impl Decoder {
             200 => {
                 self.sync(Sync::FlushWait);
                 self.motion.manual.fill(false);
-                "G200: nobody moves the axes by hand, the program continues at once"
+                "G200: the axes are not moved by hand, the program continues immediately"
             }
             202 => {
                 for (axis, manual) in self.motion.manual.iter_mut().enumerate() {
@@ -46,7 +46,7 @@ impl Decoder {
                 for axis in axes {
                     self.motion.manual[axis] = true;
                 }
-                "G201: nobody moves the axes by hand"
+                "G201: the axes are not moved by hand"
             }
         };
         let key = format!("G{}", g.row.number);

@@ -131,11 +131,11 @@ impl Decoder {
             let text = match other {
                 Some((axis, _, _)) if count <= most => {
                     format!(
-                        "axis {} with measuring type 4: only main axes may measure",
+                        "axis {} with measuring type 4: only main axes are allowed",
                         self.names.name(*axis)
                     )
                 }
-                _ => format!("{count} axes with measuring type {kind}, which allows {most}"),
+                _ => format!("{count} axes with measuring type {kind}, maximum: {most}"),
             };
             return Err(Fault::new(Condition::MeasuringAxes, text, at).with(|d| {
                 d.value(ValueKind::Current, count as f64, "-").value(
@@ -158,7 +158,7 @@ impl Decoder {
             self.machine.axes[*axis].fixed_stop_lag_mm().is_some()
         };
         if kind == 7 && words.axes.iter().find(stop).is_none() {
-            let text = "measuring type 7: no axis of the run looks for a fixed stop";
+            let text = "measuring type 7: none of the axes of the run looks for a fixed stop";
             let hint = "set kenngr.meas_signal_fixed_stop to 1 and a lag in kenngr.fixed_stop_pos_lag_limit";
             return Err(Fault::new(Condition::NoMeasuringAxis, text, g.span).hint(hint));
         }
@@ -167,7 +167,7 @@ impl Decoder {
             return Err(Fault::new(Condition::MeasuringCompensated, text, g.span));
         }
         if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
-            let text = "a measuring run while contouring is on";
+            let text = "a measuring run while contouring is active";
             return Err(Fault::new(Condition::MeasuringWithContouring, text, g.span)
                 .hint("write G260 before it and G261 after it"));
         }

@@ -26,14 +26,14 @@ arguments! {
         off: Flag "OFF", "", "ends at the second position";
         first: Number "1ST_POS", "mm", "first reversal position";
         second: Number "2ND_POS", "mm", "second reversal position";
-        first_rest: Number "1ST_DELT" in at_least(0.0), "s", "rest at the first position";
-        second_rest: Number "2ND_DELT" in at_least(0.0), "s", "rest at the second position";
+        first_rest: Number "1ST_DELT" in at_least(0.0), "s", "dwell at the first position";
+        second_rest: Number "2ND_DELT" in at_least(0.0), "s", "dwell at the second position";
         feed: Number "FEED" in at_least(0.0), "mm/min", "";
         frequency: Number "FREQ" in above_zero(), "1/s", "instead of FEED";
         time: Number "TIME" in above_zero(), "s", "of an oscillation, instead of FEED";
-        count: Number "NBR_OSC" in between(1.0, u32::MAX as f64).whole().or(Condition::OscillationCount), "", "so many oscillations";
-        zero: Number "ZERO_POS", "mm", "middle of both positions, in their place with EXCUR";
-        excursion: Number "EXCUR", "mm", "from the middle: the first position is ZERO_POS - EXCUR";
+        count: Number "NBR_OSC" in between(1.0, u32::MAX as f64).whole().or(Condition::OscillationCount), "", "number of oscillations";
+        zero: Number "ZERO_POS", "mm", "centre of both positions, replaces them together with EXCUR";
+        excursion: Number "EXCUR", "mm", "excursion from the centre: the first position is ZERO_POS - EXCUR";
         offsets: Flag "INCL_OFFSETS", "", "the positions are those of the program, with its offsets";
         short: Flag "SHORT", "", "not supported";
         instant: Flag "INSTANT", "", "not supported";
@@ -102,8 +102,9 @@ impl Decoder {
                 [(zero - excursion, at), (zero + excursion, second_at)]
             }
             _ => {
-                let text =
-                    format!("axis {name}: 1ST_POS and 2ND_POS, or ZERO_POS and EXCUR, are needed");
+                let text = format!(
+                    "axis {name}: 1ST_POS and 2ND_POS, or ZERO_POS and EXCUR, are required"
+                );
                 return Err(of_axis(Condition::NoOscillation, text, span));
             }
         };
@@ -115,7 +116,7 @@ impl Decoder {
         let unit = self.modal.axis_unit(&self.machine.axes[axis]);
         let offset_mm = match keys.offsets {
             Some(at) if !self.geometry.coordinates.frame().is_identity() => {
-                let what = format!("{name}[OSC] with INCL_OFFSETS in a turned or mirrored system");
+                let what = format!("{name}[OSC] with INCL_OFFSETS in a rotated or mirrored system");
                 return Err(Fault::unsupported(what, at));
             }
             Some(_) => self.geometry.coordinates.active_offset(axis),
@@ -180,7 +181,7 @@ impl Decoder {
         let least_s = cycle.time_of(way.cycles());
         let limits = match speed {
             IndependentSpeed::Time(t) if least_s > t + cycle.seconds() => {
-                format!("{t} s for a stroke take {least_s} s")
+                format!("a stroke in {t} s requires {least_s} s")
             }
             IndependentSpeed::Feed(v) if v > dynamics.v_max_mm_s * (1.0 + 1e-9) => {
                 format!("a feed of {v} mm/s is limited to {} mm/s", dynamics.v_max_mm_s)

@@ -71,7 +71,7 @@ impl Decoder {
         }
         let axis = |m: usize| self.geometry.coordinates.main_axis(m);
         let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
-            let text = "a coordinate system turned in space needs three main axes";
+            let text = "a coordinate system rotated in space requires three main axes";
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
         let (axes, origin) = ([x, y, z], self.geometry.coordinates.to_machine([0.0; 3]));

@@ -34,11 +34,11 @@ impl Decoder {
         let factors = &words.axes;
         let before = words.axis_before(at).or(words.of_the_path().map(|g| g.span));
         if let Some(span) = before {
-            let text = "#SCALE beside a word of the path: words of axes after it are factors";
+            let text = "#SCALE beside a path word: axis words after it are factors";
             return Err(Fault::new(Condition::CommandNotAlone, text, span));
         }
         if let (Some(false), Some((_, _, span))) = (switch, factors.first()) {
-            let text = "#SCALE OFF takes no factors";
+            let text = "#SCALE OFF does not take factors";
             return Err(Fault::new(Condition::TokenUnknown, text, *span));
         }
         if switch.is_none() && factors.is_empty() {
@@ -47,7 +47,7 @@ impl Decoder {
         }
         if let (true, Some((_, _, span))) = (self.geometry.scale.is_on(), factors.first()) {
             let text = "the factors of #SCALE cannot change while scaling is on";
-            return Err(Fault::new(Condition::Syntax, text, *span).hint("#SCALE OFF comes first"));
+            return Err(Fault::new(Condition::Syntax, text, *span).hint("write #SCALE OFF first"));
         }
         for (axis, factor, span) in factors {
             if !self.machine.axes[*axis].is_linear() {
@@ -56,7 +56,7 @@ impl Decoder {
             }
             if *factor <= 0.0 || !factor.is_finite() {
                 let name = self.names.name(*axis);
-                let text = format!("#SCALE {name}{factor}: a factor is above 0");
+                let text = format!("#SCALE {name}{factor}: a factor must be greater than 0");
                 return Err(Fault::new(Condition::KeyRange, text, *span));
             }
         }

@@ -22,7 +22,7 @@ arguments! {
     /// Keys of `X[SET_POSITION]`.
     struct SetPositionArguments {
         position: Number "POS", "mm", "the new position of the axis, without offsets";
-        offset: Number "OFFSET", "mm", "in its place: by how much the position changes";
+        offset: Number "OFFSET", "mm", "instead of POS: change of the position";
     }
 }
 

@@ -70,7 +70,7 @@ impl Decoder {
         }
         if self.contour.compensates() {
             let text =
-                "an arc in space after G40: a straight motion has to lead away from the contour";
+                "an arc in space after G40: a straight motion must lead away from the contour";
             return Err(Fault::new(Condition::SpaceArcAfterCompensation, text, span));
         }
         let coordinates = &self.geometry.coordinates;
@@ -80,7 +80,7 @@ impl Decoder {
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
         if self.image_of_plane(span)?.tilt.is_some() {
-            return Err(Fault::unsupported("G303 in a turned coordinate system", span));
+            return Err(Fault::unsupported("G303 in a rotated coordinate system", span));
         }
         let axes = [x, y, z];
         let via = std::array::from_fn(|m| match words.centre[m] {
@@ -95,7 +95,7 @@ impl Decoder {
         let point = |p: &AxisVec| axes.map(|axis| p[axis]);
         let Some((centre, plane, sweep_rad)) = through(point(&from), via, point(&target)) else {
             let text =
-                "start, interim point (I, J, K) and target of G303 lie on a line or on each other";
+                "start, interim point (I, J, K) and target of G303 are collinear or coincide";
             return Err(Fault::new(Condition::ArcPoints, text, span));
         };
         let m = std::array::from_fn(|i| [plane[0][i], plane[1][i], plane[2][i]]);

@@ -181,15 +181,14 @@ impl Spindle {
     /// Reports a spindle that does not turn although it is commanded to.
     pub(in crate::exec) fn warn(&self, report: &mut Report, span: Span) {
         if self.index.is_none() {
-            let text = "the machine has no spindle: speeds are remembered, nothing turns";
+            let text = "the machine has no spindle: speeds are stored without effect";
             report.note_once("spindle", Fault::new(Condition::Ignored, text, span));
         } else if self.is_turning() && self.rpm == 0.0 {
-            let text = "M03 and M04 with the speed 0 turn nothing before an S word";
+            let text = "M03 and M04 have no effect at speed 0 before an S word";
             report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
         } else if matches!(self.turning, Turning::Positioned(_)) && self.rpm == 0.0 {
             // TF5200 programming manual, M19 (208038923, 208198923): a speed above 0 must be set
-            let text =
-                "M19 needs a spindle speed on the control, here the spindle goes as fast as it can";
+            let text = "M19 requires a spindle speed on the control; here the spindle positions at its maximum speed";
             let fault = Fault::new(Condition::Odd, text, span).hint("write S or REV before it");
             report.note_once("M19 speed", fault.warning());
         }

@@ -77,7 +77,7 @@ impl Decoder {
         }
         match suppressed {
             Some((_, at)) if targets.iter().any(|t| !t.absolute) => {
-                let text = "#SUPPRESS OFFSETS acts only with G90";
+                let text = "#SUPPRESS OFFSETS is only valid with G90";
                 return Err(Fault::new(Condition::SuppressWithIncremental, text, at));
             }
             Some((kinds, _)) => self.geometry.coordinates.program_without(&kinds, &targets),
@@ -110,7 +110,7 @@ impl Decoder {
             };
             if back {
                 let text =
-                    format!("{}: a negative way after its direction", self.names.name(*axis));
+                    format!("{}: a negative distance after its direction", self.names.name(*axis));
                 let at = words.axes.iter().find(|(a, _, _)| a == axis).map(|(_, _, at)| *at);
                 return Err(Fault::new(Condition::WayAfterDirection, text, at.unwrap_or_default()));
             }
@@ -132,7 +132,7 @@ impl Decoder {
             if lost {
                 let name = self.names.name(*axis);
                 let text = format!(
-                    "{name} leads along a main axis that is not in the channel: the system is turned"
+                    "{name} requires motion of a main axis that is not in the channel: the system is rotated"
                 );
                 return Err(Fault::new(Condition::AxisOrCommandExpected, text, *at));
             }

@@ -149,7 +149,7 @@ impl Decoder {
         let needed =
             queued.slope.up_distance(0.0, feed_mm_s) + queued.slope.down_distance(feed_mm_s, 0.0);
         let text = format!(
-            "the thread is too short for its pitch: the path reaches {reached:.3} of {feed_mm_s:.3} mm/s, starting and stopping take {needed:.3} mm"
+            "the thread is too short for its pitch: the path reaches {reached:.3} of {feed_mm_s:.3} mm/s, acceleration and deceleration take {needed:.3} mm"
         );
         self.report.note(Fault::new(Condition::ThreadBroken, text, span));
     }
@@ -163,7 +163,7 @@ impl Decoder {
             return Err(Fault::unsupported("a thread in a spline", span));
         }
         if !self.geometry.coordinates.frame().only_shifts() {
-            return Err(Fault::unsupported("a thread in a turned or mirrored system", span));
+            return Err(Fault::unsupported("a thread in a rotated or mirrored system", span));
         }
         if self.motion.spindles[0].index.is_none() {
             return Err(Fault::unsupported("a thread without a spindle in the machine", span));
@@ -187,7 +187,7 @@ impl Decoder {
         }
         let turns = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19));
         if turns.is_some() || self.motion.spindles[0].is_turning() {
-            let text = "tapping needs a stopped spindle: it turns with the path";
+            let text = "tapping requires a stopped spindle: the spindle turns with the path";
             let at = turns.map_or(span, |m| m.span);
             return Err(Fault::new(Condition::SpindleTurns, text, at));
         }
@@ -214,7 +214,7 @@ impl Decoder {
             }
         }
         best.ok_or_else(|| {
-            let text = "the thread has no pitch for the axes that it moves: I, J or K in mm/rev";
+            let text = "the thread has no pitch for the axes it moves: I, J or K in mm/rev";
             Fault::new(Condition::ThreadPitch, text, span)
         })
     }
@@ -226,16 +226,16 @@ impl Decoder {
         }
         let (axis, pitch_mm) = self.pitch(&path, span)?;
         if pitch_mm < 0.0 {
-            let text = "the pitch of G33 has no sign: M03 and M04 set the direction";
+            let text = "the pitch of G33 must not have a sign: M03 and M04 set the direction";
             return Err(Fault::new(Condition::ThreadPitch, text, span));
         }
         let spindle = &self.motion.spindles[0];
         let (Some(index), true) = (spindle.index, spindle.rpm.abs() > 0.0) else {
-            let text = "G33 needs a spindle that turns: M03 or M04 and S before it";
+            let text = "G33 requires a turning spindle: M03 or M04 and S before it";
             return Err(Fault::new(Condition::SpindleStandsInThread, text, span));
         };
         if !spindle.is_turning() {
-            let text = "G33 while the spindle is at rest: it has a speed, M03 or M04 is missing";
+            let text = "G33 while the spindle is at rest: M03 or M04 is missing";
             return Err(Fault::new(Condition::SpindleStoppedInThread, text, span));
         }
         let rev_s = spindle.rpm.abs().min(self.motion.spindles[0].most_rpm(&self.machine)) / 60.0;
@@ -251,7 +251,7 @@ impl Decoder {
             block.feed_ratio = self.motion.overrides.ratio(false, moved);
             if (block.feed_ratio - 1.0).abs() > 1e-12 {
                 let text = format!(
-                    "the programmed override acts on G33: the thread gets {} % of its pitch",
+                    "the programmed override acts on G33: the pitch of the thread becomes {} %",
                     rounded(block.feed_ratio * 100.0)
                 );
                 self.report.note_once("G33", Fault::new(Condition::ThreadBroken, text, span));
@@ -260,7 +260,7 @@ impl Decoder {
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
         if speeds.highest() < feed_mm_s * (1.0 - 1e-9) {
             let text = format!(
-                "the thread needs {feed_mm_s:.3} mm/s, the axes can do {:.3} mm/s: it would get another pitch",
+                "the thread requires {feed_mm_s:.3} mm/s, the axes reach {:.3} mm/s: the pitch would differ",
                 speeds.highest()
             );
             return Err(Fault::new(Condition::ThreadSpeed, text, span));
@@ -276,7 +276,7 @@ impl Decoder {
         let rpm = self.motion.spindles[0].rpm;
         if self.motion.threads.cutting {
             if rpm.to_bits() != self.motion.threads.rpm.to_bits() {
-                let what = "a chain of threads in which the speed of the spindle changes";
+                let what = "a chain of threads in which the spindle speed changes";
                 return Err(Fault::unsupported(what, span));
             }
             // the planner slows down at a corner, which would change the pitch
@@ -368,7 +368,7 @@ impl Decoder {
             let (name, other) = (axis.name(), turning.name());
             if kernel != of_spindle || (own - of_other).abs() > 1e-6 {
                 return Some(format!(
-                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not together in the thread"
+                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not synchronous in the thread"
                 ));
             }
             let speed_mm_s = feed_mm_s * way_mm(i) / path.length();

@@ -51,7 +51,7 @@ impl Spindle {
         if self.listed(machine).is_some_and(crate::machine::Axis::checks_tool_speed) {
             return Err(Fault::new(Condition::ToolSpeed, text, span));
         }
-        let text = format!("{text}: {} rev/min are used", rounded(used));
+        let text = format!("{text}: {} rev/min is used", rounded(used));
         let parameter = |d: crate::diag::Diagnostic| d.parameter("P-TOOL-00014");
         report.note(Fault::new(Condition::SpindleLimit, text, span).with(parameter));
         Ok(())
@@ -78,13 +78,13 @@ impl MotionState {
             |s: &Spindle| s.index.is_some_and(|i| machine.spindles[i].number() == number);
         let Some(index) = self.spindles.iter().position(of_number) else {
             let text = format!("D{data}: no spindle has the logical number {number}");
-            let hint = "P-TOOL-00012 of the tool is kopf.achs_nr of a spindle";
+            let hint = "write the kopf.achs_nr of a spindle in P-TOOL-00012 of the tool";
             return Err(Fault::new(Condition::ToolSpindleUnknown, text, span).hint(hint));
         };
         let name = self.spindles[index].name.clone();
         if limits.max_deg_s <= 0.0 || limits.acc_deg_s2 <= 0.0 {
             let text = format!(
-                "D{data}: {} deg/s and {} deg/s2 are no limits of {name}",
+                "D{data}: {} deg/s and {} deg/s2 are invalid as limits of {name}",
                 limits.max_deg_s, limits.acc_deg_s2
             );
             return Err(Fault::new(Condition::ToolLimitsInvalid, text, span));
@@ -92,7 +92,7 @@ impl MotionState {
         let least = limits.min_deg_s.clamp(0.0, limits.max_deg_s);
         if least.to_bits() != limits.min_deg_s.to_bits() {
             let text = format!(
-                "D{data}: the least speed {} deg/s of {name} is outside 0 to {}: {least} deg/s",
+                "D{data}: the minimum speed {} deg/s of {name} is outside 0 to {}: {least} deg/s",
                 limits.min_deg_s, limits.max_deg_s
             );
             report.note(Fault::new(Condition::ToolLeastSpeed, text, span));

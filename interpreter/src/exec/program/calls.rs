@@ -19,7 +19,7 @@ pub(super) const LEVELS_MAX: usize = 32;
 pub(super) fn too_deep() -> String {
     let subroutines = LEVELS_MAX - 1;
     format!(
-        "subroutines nested more than {subroutines} deep: with the main program that makes {LEVELS_MAX} levels"
+        "subroutines nested more than {subroutines} deep: {LEVELS_MAX} levels including the main program"
     )
 }
 
@@ -82,7 +82,7 @@ impl Executor {
         let fault = Fault::new(Condition::NoSubroutine, text, name.span);
         let hint = match suggest::hint(&name.text, known.iter().copied()) {
             Some(hint) => hint,
-            None if known.is_empty() => "local subroutines begin with %L NAME".to_owned(),
+            None if known.is_empty() => "begin a local subroutine with %L NAME".to_owned(),
             None if known.len() > NAMED_MAX => {
                 format!("local subroutines: {} and others", known[..NAMED_MAX].join(", "))
             }
@@ -98,7 +98,7 @@ impl Executor {
         let file = self.open_called(&path, caller, name.span)?;
         let index = Arc::clone(&self.files.file(file).index);
         let Some(section) = index.main() else {
-            let text = format!("{} holds no program to call", name.text);
+            let text = format!("{} does not contain a program to call", name.text);
             self.decoder.report.note(Fault::new(Condition::NoSubroutine, text, name.span));
             return None;
         };
@@ -138,7 +138,7 @@ impl Executor {
                 Some(path.strip_prefix(folder).unwrap_or(&path).replace('/', "\\").into())
             }
             Err(error) => {
-                let text = format!("#FILE EXIST: {name} is not there ({})", error.reason);
+                let text = format!("#FILE EXIST: {name} does not exist ({})", error.reason);
                 let note = Fault::new(Condition::Odd, text, span);
                 self.decoder
                     .report
@@ -158,9 +158,10 @@ impl Executor {
         };
         let (wanted, found) = (last(path), last(&self.files.file(file).name.replace('\\', "/")));
         if wanted != found && wanted.to_lowercase() == found.to_lowercase() {
-            let text = format!("{wanted} is {found}: upper and lower case differ from the file's");
+            let text =
+                format!("{wanted} is {found}: upper and lower case differ from the file name");
             let note = Fault::new(Condition::Odd, text, span);
-            self.decoder.report.note(note.hint("not every file system finds it under this name"));
+            self.decoder.report.note(note.hint("write the name as it is on disk: case-sensitive file systems do not find it under this name"));
         }
     }
 
@@ -221,12 +222,12 @@ impl Executor {
             return;
         };
         if self.decoder.modal.path.is_thread() {
-            let text = "a thread is being cut: no cycle may be called";
+            let text = "a thread is being cut: a cycle cannot be called";
             self.decoder.report.note(Fault::new(Condition::CycleInThread, text, span));
             return;
         }
         if self.decoder.calls.modal_cycle.is_some() {
-            let text = "a modal cycle is active: no other cycle may be called";
+            let text = "a modal cycle is active: another cycle cannot be called";
             self.decoder.report.note(Fault::new(Condition::CycleWhileModal, text, span));
             return;
         }
@@ -276,7 +277,10 @@ impl Executor {
             return;
         };
         if self.decoder.calls.modal_cycle.is_some() {
-            let text = format!("a modal cycle is active: no other cycle (G{})", call.number);
+            let text = format!(
+                "a modal cycle is active: another cycle cannot be called (G{})",
+                call.number
+            );
             self.decoder.report.note(Fault::new(Condition::CycleWhileModal, text, call.span));
             return;
         }

@@ -128,7 +128,7 @@ impl Executor {
         let name = Arc::clone(&self.files.file(file).name);
         let index = Arc::clone(&self.files.file(file).index);
         let Some(section) = index.main() else {
-            let text = format!("{name} holds no main program");
+            let text = format!("{name} does not contain a main program");
             let severity =
                 if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
             let mut diagnostic = Diagnostic::new(Condition::NoEnd, text).severity(severity);
@@ -158,7 +158,7 @@ impl Executor {
                 }
                 let searched = d.hint.clone().unwrap_or_default();
                 d.severity(Severity::Warning).hint(format!(
-                    "the program runs without it, --path names its folder; {searched}"
+                    "the program runs without it; name its folder with --path; {searched}"
                 ))
             });
             self.settle(false);

@@ -63,7 +63,7 @@ impl Executor {
             let part = &self.levels[level];
             let Some(place) = part.index.label(part.section, &label) else {
                 let text = format!("label {} does not exist in this program", shown(&label));
-                let hint = "a label comes first in its block: N20: or [NAME]";
+                let hint = "write a label first in its block: N20: or [NAME]";
                 return Err(Fault::new(Condition::Label, text, jump.span).hint(hint));
             };
             let from = self.position.offset;
@@ -152,9 +152,9 @@ impl Executor {
         let above = self.levels.len().saturating_sub(1);
         if above == 0 {
             let text = format!("M{} returns to another level or to a label", back.number);
-            let text = format!("{text}: the main program has no level above it");
+            let text = format!("{text}: there is no level above the main program");
             return Err(Fault::new(Condition::Syntax, text, span)
-                .hint("M30 ends the main program, $GOTO jumps inside it"));
+                .hint("use M30 to end the main program, $GOTO to jump within it"));
         }
         let levels = match &back.level {
             ReturnLevel::Caller => 1,
@@ -166,7 +166,7 @@ impl Executor {
                         "JUMPS={levels}, the main program is {above} up: the program continues there"
                     );
                     let fault = Fault::new(Condition::Odd, text, expr.span).warning();
-                    self.decoder.report.note(fault.hint("MAIN returns to the main program"));
+                    self.decoder.report.note(fault.hint("use MAIN to return to the main program"));
                 }
                 levels.min(above)
             }
@@ -199,7 +199,7 @@ impl Executor {
             return Err(Fault::new(Condition::Label, text, span));
         }
         let text = format!("label {} does not exist in {program}", shown(label));
-        let hint = "a label comes first in its block: N20: or [NAME]";
+        let hint = "write a label first in its block: N20: or [NAME]";
         Err(Fault::new(Condition::Label, text, span).hint(hint))
     }
 

@@ -147,7 +147,8 @@ impl Executor {
     /// Reports external variables whose values the program does not use: a name may be mistyped.
     fn external_at_end(&mut self) {
         for (name, similar) in self.decoder.values.variables.unused_external() {
-            let text = format!("V.E.{name} has a value from outside, the program does not use it");
+            let text =
+                format!("V.E.{name} has a value from --external, but the program does not use it");
             let diagnostic = Diagnostic::new(Condition::Odd, text);
             self.report(match similar {
                 Some(hint) => diagnostic.hint(hint),
@@ -196,7 +197,7 @@ impl Executor {
     /// 120206: contouring at the end of the program.
     fn contouring_at_end(&mut self) {
         if self.decoder.modal.contouring {
-            let text = "the program ends with contouring on";
+            let text = "the program ends with contouring active";
             let mut diagnostic =
                 Diagnostic::new(Condition::ContouringAtEnd, text).severity(Severity::Warning);
             diagnostic.source = self.here(Span::default());

@@ -73,7 +73,7 @@ impl Executor {
         let end = match words.end_tag {
             Some(_) if here && start.offset < call && (one_number || call < behind.offset) => call,
             Some(tag) if one_number => {
-                let text = "ENDTAG: the call does not come after the first block of the sequence";
+                let text = "ENDTAG: the call is not after the first block of the sequence";
                 return Err(Fault::new(Condition::Label, text, tag));
             }
             _ => behind.offset,
@@ -163,7 +163,7 @@ impl Executor {
         let numbers = numbers.ok_or_else(|| {
             let text = format!("{name}: too many unordered block numbers to search for one");
             Fault::new(Condition::Nesting, text, span)
-                .hint("number the blocks of the program in rising order")
+                .hint("number the blocks of the program in ascending order")
         })?;
         self.sequences.known.insert((file, section), numbers);
         Ok(())
@@ -184,10 +184,11 @@ impl Executor {
         let place = numbers.first.get(section, &LabelKind::Number(number))?;
         if let Some(second) = numbers.twice.get(&number) {
             let line = place.position.line;
-            let text =
-                format!("N{number} is the number of lines {line} and {second}: line {line} counts");
+            let text = format!(
+                "N{number} is the number of lines {line} and {second}: line {line} is used"
+            );
             let fault = Fault::new(Condition::Odd, text, span).warning();
-            let hint = "number the blocks of the program without repetition";
+            let hint = "use each block number only once";
             self.decoder.report.note_once(&format!("N{number} twice"), fault.hint(hint));
         }
         Some(place)

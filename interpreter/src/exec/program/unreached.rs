@@ -205,7 +205,9 @@ impl Silence {
 /// Turns a diagnostic into a warning that names its position.
 fn unreached(diagnostic: Diagnostic) -> Diagnostic {
     let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
-    let usual = || "no run comes here; the control looks at control statements only".to_owned();
+    let usual = || {
+        "this part is never executed; the control only checks control statements in it".to_owned()
+    };
     let hint = diagnostic.hint.or_else(|| Some(usual()));
     Diagnostic { id: Condition::Unreached.id(), text, hint, ..diagnostic }
         .severity(Severity::Warning)

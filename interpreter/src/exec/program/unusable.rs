@@ -24,19 +24,20 @@ impl FileError {
                 let searched = format!("searched: {}", e.searched.join(", "));
                 let hint = if is_vendor_cycle(&e.name) {
                     format!(
-                        "a cycle of the vendor's library, which is not part of kontur: copy it from the control; {searched}"
+                        "a cycle of the vendor's library, not included in kontur: copy it from the control; {searched}"
                     )
                 } else {
                     searched
                 };
                 (format!("{}: {}", e.name, e.reason), hint)
             }
-            Self::Read(e) => {
-                (format!("{name}: {e}"), "a program is a text file in UTF-8 or Latin-1".to_owned())
-            }
+            Self::Read(e) => (
+                format!("{name}: {e}"),
+                "save the program as a text file in UTF-8 or Latin-1".to_owned(),
+            ),
             Self::Foreign(file) => {
-                let hint = format!("`check {file}` shows what is wrong with its lines");
-                (format!("{name}: most of its lines are no NC blocks"), hint)
+                let hint = format!("run `check {file}` to see the errors in its lines");
+                (format!("{name}: most of its lines are not NC blocks"), hint)
             }
         }
     }

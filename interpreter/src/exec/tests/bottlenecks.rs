@@ -150,7 +150,7 @@ fn bottlenecks_of_random_contours_are_found_and_no_others() {
                     let end = rest.find(|c: char| c != '.' && !c.is_ascii_digit());
                     rest[..end.unwrap_or(rest.len())].trim_matches('.').parse::<f64>().unwrap()
                 };
-                let (contour, distance) = (numbers("line ") as u64 - 4, numbers("near as "));
+                let (contour, distance) = (numbers("line ") as u64 - 4, numbers("within "));
                 // brute force may miss a cut that is less deep than its step
                 let same = found.iter().find(|f| f.0 == line && f.1 == contour);
                 if let Some((_, _, apart, by_force, step)) = same {

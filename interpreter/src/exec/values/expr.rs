@@ -55,7 +55,7 @@ impl Decoder {
     ) -> Outcome<u32> {
         let x = self.number(expr)?;
         whole(x, low, high).ok_or_else(|| {
-            let text = format!("{what} is {x}, allowed are the whole numbers {low} to {high}");
+            let text = format!("{what} is {x}, allowed: whole numbers {low} to {high}");
             Fault::new(Condition::Range, text, expr.span)
         })
     }
@@ -103,9 +103,9 @@ fn apply(
         return texts(op, a, b, span);
     }
     if matches!((left, right), (Value::Text(_), _) | (_, Value::Text(_))) {
-        let text = "a text and a number in one operation";
+        let text = "text and number mixed in one operation";
         return Err(Fault::new(Condition::MixedTypes, text, span)
-            .hint("INT_TO_STR, REAL_TO_STR, STR_TO_INT and STR_TO_REAL make one of the other"));
+            .hint("use INT_TO_STR, REAL_TO_STR, STR_TO_INT or STR_TO_REAL to convert"));
     }
     let a = as_number(left, left_span)?;
     let b = as_number(right, right_span)?;

@@ -40,7 +40,7 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
     let n = call.arguments.len();
     if n < low || n > high {
         let name = call.function.name();
-        let text = format!("{name} takes {low} argument(s), {n} are written");
+        let text = format!("{name} takes {low} argument(s), found {n}");
         let condition = if n < low { Condition::TooFewArguments } else { Condition::Syntax };
         return Err(Fault::new(condition, text, span));
     }
@@ -97,7 +97,7 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
         Function::Sqrt if x < 0.0 => {
             return Err(Fault::new(
                 Condition::Sqrt,
-                format!("root of the negative number {x}"),
+                format!("square root of the negative number {x}"),
                 span,
             ));
         }
@@ -239,7 +239,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
     let count = |i: usize| {
         let x = decoder.number(&call.arguments[i])?;
         whole(x, 0, COUNT_MAX).map(|n| n as usize).ok_or_else(|| {
-            let text = format!("a count of characters is {x}, allowed are 0 to {COUNT_MAX}");
+            let text = format!("a character count is {x}, allowed: 0 to {COUNT_MAX}");
             Fault::new(Condition::TextCount, text, call.arguments[i].span)
         })
     };
@@ -251,7 +251,8 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         let at = whole(x, 0, u32::MAX).map(|at| at as usize);
         at.filter(|at| (least..=most).contains(at)).map(|at| at - least).ok_or_else(|| {
             let name = call.function.name();
-            let text = format!("{name}: the text has {most} characters, there is no position {x}");
+            let text =
+                format!("{name}: the text has {most} characters, position {x} does not exist");
             Fault::new(Condition::TextPosition, text, call.arguments[i].span).with(|d| {
                 d.value(ValueKind::Wrong, x, "-")
                     .value(ValueKind::LowerLimit, least as f64, "-")

@@ -18,7 +18,7 @@ pub(in crate::exec) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
     match value {
         Value::Number(x) => Ok(*x),
         Value::Text(_) => {
-            Err(Fault::new(Condition::NumberExpected, "a number is expected, not a text", span))
+            Err(Fault::new(Condition::NumberExpected, "number expected, found text", span))
         }
     }
 }
@@ -61,6 +61,6 @@ pub(in crate::exec) fn bits(x: f64, span: Span) -> Outcome<u32> {
     } else if cut < 0.0 && cut >= f64::from(i32::MIN) {
         Ok(cut as i32 as u32)
     } else {
-        Err(Fault::new(Condition::Range, format!("{x} does not fit into 32 bits"), span))
+        Err(Fault::new(Condition::Range, format!("{x} does not fit in 32 bits"), span))
     }
 }

@@ -135,8 +135,7 @@ impl Path<'_> {
                         self.segments.get(1).is_some_and(|s| s.name.eq_ignore_ascii_case("WZ"));
                     let condition =
                         if tool { Condition::ToolIndex } else { Condition::VariableNumber };
-                    let text =
-                        format!("the index is {x}, allowed are the whole numbers 0 to {high}");
+                    let text = format!("the index is {x}, allowed: whole numbers 0 to {high}");
                     Fault::new(condition, text, expr.span).with(|d| {
                         d.value(ValueKind::Wrong, x, "-")
                             .value(ValueKind::LowerLimit, 0, "-")
@@ -159,7 +158,7 @@ impl Path<'_> {
         if let Some(passed) = d.values.variables.passed(&name) {
             Ok(Value::truth(passed))
         } else {
-            let text = "V.G.@P[i].VALID is known only inside a cycle";
+            let text = "V.G.@P[i].VALID only exists inside a cycle";
             Err(Fault::new(Condition::ParameterOutsideCycle, text, self.span))
         }
     }
@@ -207,8 +206,8 @@ fn indices_fit(row: &Row, segments: &[Segment], span: Span) -> Outcome<()> {
     let wrong = (0..segments.len()).find(|i| !segments[*i].subscripts.is_empty() && !takes(*i));
     match wrong {
         Some(i) => {
-            let text = format!("{}: {} takes no index", row.title(), segments[i].name);
-            Err(Fault::new(Condition::NoArray, text, span).hint("leave the index out"))
+            let text = format!("{}: {} does not take an index", row.title(), segments[i].name);
+            Err(Fault::new(Condition::NoArray, text, span).hint("remove the index"))
         }
         None => Ok(()),
     }
@@ -224,8 +223,7 @@ fn is_kinematic(segments: &[Segment]) -> bool {
 /// Name of a kinematic parameter with its indices; refused unless transformations are treated as the identity.
 fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     if !d.identity_trafo {
-        let hint =
-            "--identity-trafo takes transformations as identity, their parameters have no effect";
+        let hint = "--identity-trafo treats transformations as the identity, their parameters have no effect";
         return Err(Fault::unsupported("variables V.G.KIN", span).hint(hint));
     }
     let mut parts = Vec::new();

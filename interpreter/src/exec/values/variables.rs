@@ -74,7 +74,7 @@ impl Decoder {
         let target = match resolve(self, place)? {
             Resolved::Variable(target @ (Target::Parameter(..) | Target::Own(..))) => target,
             Resolved::Variable(_) | Resolved::System(_) => {
-                let text = "only self-defined variables can be deleted";
+                let text = "only variables defined by the program can be deleted";
                 return Err(Fault::new(Condition::DeletedNotOwn, text, place.span));
             }
         };
@@ -86,8 +86,8 @@ impl Decoder {
 ///
 /// Assumption: it is rounded; the documents do not specify whether the control rounds or truncates.
 fn note_rounded(report: &mut Report, name: &str, x: f64, span: Span) {
-    let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
+    let text = format!("{name} only holds whole numbers: {x} is rounded to {}", x.round());
     let fault = Fault::new(Condition::Odd, text, span).warning();
-    let hint = "ROUND, INT, FLOOR or CEIL say which whole number is meant";
+    let hint = "use ROUND, INT, FLOOR or CEIL to select the whole number";
     report.note_once(&format!("rounded {name}"), fault.hint(hint));
 }

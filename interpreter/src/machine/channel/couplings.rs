@@ -40,7 +40,7 @@ pub(in crate::machine) fn default_couplings(
             let what = format!("axis {slave} cannot follow itself");
             (Condition::DefaultCouplingItself, slave_at, what)
         } else if pairs.iter().any(|p| p.slave == slave) {
-            let what = format!("axis {slave} follows another master already");
+            let what = format!("axis {slave} already follows another master");
             (Condition::DefaultCouplingSlaveTwice, slave_at, what)
         } else if pairs.iter().any(|p| p.slave == master) {
             let what = format!("the master {master} follows another axis");
@@ -64,7 +64,7 @@ fn left_out(
     pair: u32,
     what: &str,
 ) -> Diagnostic {
-    let text = format!("{}: {what}, pair {pair} is left out", at.place());
+    let text = format!("{}: {what}, pair {pair} ignored", at.place());
     let mut diagnostic = Diagnostic::new(condition, text).value(ValueKind::Current, pair, "-");
     let other = [of::COUPLING_MASTER.and(pair), of::COUPLING_SLAVE.and(pair)];
     let setting = list.set_by(at).or_else(|| other.iter().find_map(|at| list.set_by(*at)));

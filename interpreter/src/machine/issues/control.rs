@@ -58,42 +58,42 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
         }
         Issue::NoAdditiveVelocity => about(
             mode,
-            "additive velocity feedforward, the drive has no such input",
-            "the velocity part is off",
+            "additive velocity feedforward, but the drive has no such input",
+            "velocity feedforward is off",
         )
         .hint(additive_hint(axis, "S_0_0037", "velocity")),
         Issue::NoAdditiveTorque => about(
             mode,
-            "additive torque feedforward, the drive has no such input",
-            "the acceleration and jerk parts are off",
+            "additive torque feedforward, but the drive has no such input",
+            "acceleration and jerk feedforward are off",
         )
         .hint(additive_hint(axis, "S_0_0080", "torque")),
         Issue::WithoutDelayNeedsVelocityOnly => about(
             mode,
             "acceleration or jerk feedforward without the delay of 5 cycles",
-            "only the velocity part is on",
+            "only velocity feedforward is on",
         ),
         Issue::OutputWithoutActivation => about(
             mode,
             "output bit of the feedforward without its activation bit",
             "no effect",
         )
-        .hint("0x101, 0x202 and 0x804 are the additive parts with both bits"),
+        .hint("use 0x101, 0x202 and 0x804, the additive forms with both bits"),
         Issue::ActiveAndDisabled => about(
             axis_drive::FF_NEVER_ON.place(),
-            "feedforward always on (P-AXIS-00255) and never on (P-AXIS-00256)",
-            "it is off",
+            "feedforward both always on (P-AXIS-00255) and never on (P-AXIS-00256)",
+            "feedforward is off",
         ),
         Issue::ImplausibleLoad { torque, reference } => {
             let unit = if has_rotary_motor(axis) { "N m" } else { "N" };
             about(
                 axis_drive::LOAD.place(),
-                &format!("torque at the largest acceleration {torque} {unit}, ten times the reference is {}", 10.0 * reference),
+                &format!("torque at maximum acceleration {torque} {unit}, ten times the reference torque is {}", 10.0 * reference),
                 "used as it is",
             )
             .value(ValueKind::Current, torque, unit)
             .value(ValueKind::Limit, 10.0 * reference, unit)
-            .hint("check the unit of the load: kg m2 at the motor shaft, or kg of a linear motor; 1 kg cm2 is 1e-4 kg m2")
+            .hint("check the unit of `load`: kg m2 at the motor shaft, or kg for a linear motor; 1 kg cm2 is 1e-4 kg m2")
         }
         Issue::TorqueScaleDenominatorZero => {
             about(axis_drive::TORQUE_SCALE_DENOM.place(), "torque scale denominator 0", "no torque output")
@@ -110,7 +110,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
         }
         Issue::SimulationDamping { damping_ratio } => about(
             axis_drive::SIMU_DAMPING_NUM.place(),
-            &format!("damping {damping_ratio} of the simulated drive, below 1"),
+            &format!("damping {damping_ratio} of the simulated drive, must be below 1"),
             "0.999 is used",
         )
         .value(ValueKind::Wrong, damping_ratio, "-")
@@ -119,7 +119,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             let max = PlantConfig::MAX_DEAD_TIME as f64;
             about(
                 axis_drive::SIMU_DEAD_TIME.place(),
-                &format!("dead time {cycles} cycles of the simulated drive, at most {max}"),
+                &format!("dead time {cycles} cycles of the simulated drive, maximum: {max}"),
                 &format!("{max} is used"),
             )
             .value(ValueKind::Wrong, cycles, "cycles")
@@ -133,34 +133,33 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
         ),
         Issue::IpcNumerator { stage, value } => about(
             axis_guard::IPC_WEIGHT_NUM.at(stage as u32).place(),
-            &format!("weight numerator {value}, it must be above 0"),
+            &format!("weight numerator {value}, must be greater than 0"),
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),
         Issue::IpcDenominator { stage, value } => about(
             axis_guard::IPC_WEIGHT_DENOM.at(stage as u32).place(),
-            &format!("weight denominator {value}, it must be above 0"),
+            &format!("weight denominator {value}, must be greater than 0"),
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),
         Issue::IpcRange { stage, what, value } => ipc_range(axis, condition, stage, what, value, cycle),
         Issue::IpcNoInput => about(
             axis_guard::IPC_ENABLE.place(),
-            "Improved Position Control while the drive closes the position loop (P-AXIS-00320) and takes no additive \
-             velocity",
+            "Improved Position Control while the drive closes the position loop (P-AXIS-00320) without an input for additive velocity",
             ipc_off,
         )
-        .hint("name S_0_0037 in antr.sercos.mdt[i].nc_ref, or antr.operation_mode CNC_POSITION_CONTROL"),
+        .hint("enter S_0_0037 in antr.sercos.mdt[i].nc_ref, or set antr.operation_mode to CNC_POSITION_CONTROL"),
         Issue::IpcNoLimit => about(
             axis_guard::IPC_SPEED_MAX.place(),
-            "Improved Position Control with the limit 0 of its additive speed",
+            "Improved Position Control with an additive speed limit of 0",
             "no effect",
         ),
         Issue::IpcWeight { stage, weight } => {
             let max = IpcStageConfig::MAX_WEIGHT;
             about(
                 axis_guard::IPC_WEIGHT_NUM.at(stage as u32).place(),
-                &format!("weight {weight}, at most {max}"),
+                &format!("weight {weight}, maximum: {max}"),
                 &format!("{max} is used"),
             )
             .value(ValueKind::Wrong, weight, "-")
@@ -169,8 +168,8 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
         }
         Issue::IpcOverlap { stages: (first, second) } => about(
             axis_guard::IPC_FREQUENCY.at(second as u32).place(),
-            &format!("pass band of stage {second} that overlaps with that of stage {first}"),
-            "they influence each other",
+            &format!("pass band of stage {second} overlaps with stage {first}"),
+            "the stages affect each other",
         ),
     }
 }
@@ -181,14 +180,14 @@ fn additive_hint(axis: &Axis, ident: &str, input: &str) -> String {
     if simulated {
         let n = axis.number();
         return format!(
-            "the simulated drive (type 4) gets the input by kontur.axis[{n}].additive.{input} 1"
+            "set kontur.axis[{n}].additive.{input} to 1 to give the simulated drive (type 4) this input"
         );
     }
     let telegram = axis_drive::TELEGRAM.place().row;
     let named = axis.parameters().settings().filter(|(_, s)| s.row.key == telegram.key);
     let names: Vec<&str> = named.filter_map(|(_, s)| s.value.text()).collect();
     let present = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
-    format!("name {ident} in antr.sercos.mdt[i].nc_ref; the telegram carries {present}")
+    format!("enter {ident} in antr.sercos.mdt[i].nc_ref; the telegram contains {present}")
 }
 
 fn delay(
@@ -201,7 +200,8 @@ fn delay(
 ) -> Diagnostic {
     let (delay_us, limit_us) =
         (1e6 * delay_s, f64::from(cycle.us()) * FeedforwardConfig::MAX_DELAY_CYCLES as f64);
-    let what = format!("delay of the {part} feedforward {delay_us} us, below {limit_us} us");
+    let what =
+        format!("delay of the {part} feedforward {delay_us} us, must be below {limit_us} us");
     about(axis, condition, param, &what, "0 is used")
         .value(ValueKind::Wrong, delay_us, "us")
         .value(ValueKind::UpperLimit, limit_us, "us")

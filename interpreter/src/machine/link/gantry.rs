@@ -25,10 +25,10 @@ pub(super) fn check(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diag
         let (bits, master) = (axis.get(MODE), axis.get(GANTRY_MASTER));
         let name = &named.name;
         let (condition, message) = if master != 0 && bits & mode::GANTRY_MASTER != 0 {
-            let text = format!("{name} is a gantry master and has the master {master} itself");
+            let text = format!("{name} is a gantry master and is itself a slave of {master}");
             (Condition::GantryMasterOfMaster, text)
         } else if master != 0 || bits & mode::GANTRY_SLAVE != 0 {
-            let text = format!("{name} is a gantry slave and an axis of the channel");
+            let text = format!("{name} is a gantry slave and also an axis of the channel");
             (Condition::GantrySlaveInChannel, text)
         } else {
             continue;

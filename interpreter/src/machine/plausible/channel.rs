@@ -30,7 +30,8 @@ fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
         "{}: a preset of G135 has no effect, programs start with feedforward off",
         preset.place()
     );
-    let hint = "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
+    let hint =
+        "use vorsteuer.default_active (P-AXIS-00255) in the axis list to keep feedforward on";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
@@ -61,10 +62,10 @@ fn check_rapid_override(parameters: &Parameters, diagnostics: &mut Vec<Diagnosti
         return;
     }
     let text = format!(
-        "{}: ACTIVE_EXTENDED acts as ACTIVE, measuring runs and homing follow the override of feed",
+        "{}: ACTIVE_EXTENDED acts as ACTIVE, measuring runs and homing follow the feed override",
         channel::RAPID_OVERRIDE.place()
     );
-    let hint = "rapid_override_percent of --input acts on G00 only";
+    let hint = "rapid_override_percent of --input only acts on G00";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
@@ -117,10 +118,10 @@ fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnost
     };
     let Some((i, setting)) = parameters.settings().find(is_missing) else { return };
     let text = format!(
-        "{}: no time is spent on the acknowledgement of functions, the path does not wait for it",
+        "{}: the acknowledgement of functions takes no time, the path does not wait for it",
         with_indices(setting.row.key, i)
     );
-    let hint = "m_prozess_zeit and its relatives (P-CHAN-00040, 00026, 00044) with --techno-times let the path wait for functions";
+    let hint = "use m_prozess_zeit and the related times (P-CHAN-00040, 00026, 00044) with --techno-times to make the path wait for functions";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

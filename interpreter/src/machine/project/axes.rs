@@ -93,7 +93,6 @@ pub(super) fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
         .map(|(axis, _)| format!("`{}` of {}", axis.list.name, axis.list.file))
         .collect();
     let message = format!("axis lists with the same kopf.achs_nr {number}: {}", names.join(", "));
-    let hint = "give each axis its own number, or remove the list that is left over; only \
-                where all lists have the same number they are numbered in their order";
+    let hint = "give each axis its own number, or remove the surplus list; lists are only numbered in their order if all of them have the same number";
     Diagnostic::new(Condition::ProjectWrong, message).hint(hint)
 }

@@ -90,12 +90,12 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         tell(Place { row: setting.row, indices }, &what, hint);
     }
     if let Some((place, reader)) = plant::of_another_model(axis) {
-        let hint = format!("{reader} reads it: kontur.axis[i].plant.model");
+        let hint = format!("only used by {reader} in kontur.axis[i].plant.model");
         tell(place, "parameter of another model of drive and mechanics", &hint);
     }
     if let Some((indices, setting)) = plant::of_the_simulated_drive(axis) {
         let hint =
-            "SIMU in kontur.axis[i].plant.model reads it; the model of kontur.lis takes its place";
+            "only used by SIMU in kontur.axis[i].plant.model; the model of kontur.lis replaces it";
         tell(Place { row: setting.row, indices }, "parameter of the simulated drive", hint);
     }
     let of_motor = |row: &Row| {
@@ -108,7 +108,7 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         .settings()
         .find(|([i, _], s)| *i != 1 && of_motor(s.row) && s.is_changed());
     if let Some((indices, setting)) = other {
-        let hint = "lr_hw[1] is the direct measuring system; the one of the motor has \
+        let hint = "lr_hw[1] is the direct measuring system; the motor encoder has \
             getriebe[0].wegaufz and wegaufn, or getriebe[0].incr_per_rev";
         tell(Place { row: setting.row, indices }, "resolution of the motor encoder", hint);
     }
@@ -118,13 +118,13 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         tell(
             of::FF_SHIFT.place(),
             "time offset of the feedforward without PROFIdrive",
-            "it holds for kenngr.antr_typ 3 only",
+            "it only applies to kenngr.antr_typ 3",
         );
     }
     if drive != Drive::Simulated {
         for input in [kontur::ADDITIVE_VELOCITY, kontur::ADDITIVE_TORQUE] {
             if axis.get(input) {
-                let hint = "a bus drive has the inputs that antr.sercos.mdt[i].nc_ref names";
+                let hint = "a bus drive has the inputs named in antr.sercos.mdt[i].nc_ref";
                 let what = "additive input of the simulated drive, for another drive";
                 tell(input.at(axis.number()).place(), what, hint);
             }
@@ -212,7 +212,7 @@ fn additive_inputs(
     let copied = torque.is_none() && uses_torque && !mode.contains(FeedforwardMode::ADD_VEL);
     if let Some(([entry, _], _)) = velocity.filter(|_| copied) {
         let telegram = of::TELEGRAM.at(entry);
-        let (what, effect) = ("additive input S_0_0037", "taken for the additive torque");
+        let (what, effect) = ("additive input S_0_0037", "used as the additive torque");
         diagnostics.push(
             issues::about(axis, Condition::NoAdditiveTorque, telegram, what, effect)
                 .severity(Severity::Note)
@@ -251,7 +251,7 @@ fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop
         let what = "position loop closed in the drive";
         let effect = "simulated with the law of the control and its gain kv (P-AXIS-00099)";
         diagnostics.push(issues::about(axis, Condition::PositionLoop, param, what, effect).hint(
-            "set kv to the gain of the drive; CNC_POSITION_CONTROL closes the loop in the control",
+            "set kv to the gain of the drive, or use CNC_POSITION_CONTROL to close the loop in the control",
         ));
     }
     PositionLoop::Drive
@@ -287,7 +287,7 @@ fn dynamic_kv(
         axis_control::GAIN_SPEED_2,
     ];
     let mut without_effect = |place: Place, what: &str, hint: &str| {
-        let effect = "the gain is that of kv (P-AXIS-00099)";
+        let effect = "the gain kv (P-AXIS-00099) is used";
         diagnostics
             .push(issues::about(axis, Condition::ListNoEffect, place, what, effect).hint(hint));
     };
@@ -296,8 +296,8 @@ fn dynamic_kv(
         if let Some(value) = written.filter(|_| axis.set_by(switch).is_none()) {
             without_effect(
                 value.place(),
-                "dynamic kv that is not switched on",
-                "getriebe[0].dyn_kv.dyn_kv_active 1 switches it on, 0 says that it is meant to be off",
+                "dynamic kv configured but not switched on",
+                "set getriebe[0].dyn_kv.dyn_kv_active to 1 to switch it on, or to 0 to leave it off intentionally",
             );
         }
         return None;
@@ -305,8 +305,8 @@ fn dynamic_kv(
     if closed_in == PositionLoop::Drive && matches!(axis.get(axis_general::DRIVE), 2 | 8) {
         without_effect(
             switch.place(),
-            "dynamic kv of a drive that closes the position loop",
-            "CNC_POSITION_CONTROL (P-AXIS-00320) closes the loop in the control",
+            "dynamic kv for a drive that closes the position loop",
+            "use CNC_POSITION_CONTROL (P-AXIS-00320) to close the loop in the control",
         );
         return None;
     }

@@ -109,7 +109,7 @@ fn entry(
             let what = format!("prototype {number} of a filter");
             diagnostics.push(
                 issues::about(axis, Condition::ListRange, keys.prototype, &what, "filter off")
-                    .hint("CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5; 4 is not assigned"),
+                    .hint("write 1 (CRIT_DAMPING), 2 (BUTTERWORTH), 3 (BESSEL) or 5 (HSC)"),
             );
             enable = false;
             default.prototype
@@ -121,10 +121,10 @@ fn entry(
     if enable && order == 0 && !is_hsc {
         let place = [keys.order.place(), keys.enable.place()];
         let place = place[usize::from(axis.set_by(keys.order).is_none())];
-        let (what, effect) = ("filter that is switched on with the order 0", "the filter is off");
+        let (what, effect) = ("filter switched on with order 0", "the filter is off");
         diagnostics.push(
             issues::about(axis, Condition::ListNoEffect, place, what, effect)
-                .hint("it needs an order above 0: 1 for PT1, 2 for PT2, any for TIME_DELAY"),
+                .hint("write an order greater than 0: 1 for PT1, 2 for PT2, any for TIME_DELAY"),
         );
     }
     FilterEntry {
@@ -195,7 +195,7 @@ pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec
 pub(super) fn check_fir_kind(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let number = axis.get(of::FIR_FILTER.kind);
     if number > 4 {
-        let what = format!("type {number} of the FIR filter, 0 to 4 exist");
+        let what = format!("type {number} of the FIR filter, allowed: 0 to 4");
         let place = of::FIR_FILTER.kind;
         diagnostics.push(issues::about(axis, Condition::ListRange, place, &what, "no FIR filter"));
     }

@@ -46,13 +46,14 @@ pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
             let effect = format!("no effect beside {}", newer.place());
             found.push(
                 issues::about(axis, Condition::ListNoEffect, older, &what, &effect)
-                    .hint("leave one of the two out"),
+                    .hint("remove one of the two"),
             );
         }
     }
     let value = axis.listed(of::IPC_SPEED_MAX);
     if value > MOST_LIMIT {
-        let what = format!("limit {value} of the additive speed, 0 to {MOST_LIMIT} (0.1 %)");
+        let what =
+            format!("limit {value} of the additive speed, allowed: 0 to {MOST_LIMIT} (0.1 %)");
         let effect = "Improved Position Control is off for the axis";
         found.push(
             issues::about(axis, Condition::IpcRange, of::IPC_SPEED_MAX, &what, effect)

@@ -5,7 +5,7 @@ use super::param::parameters;
 use super::row::{Bound, Raw, axis};
 
 parameters! {
-    axis("P-AXIS-00021", "lr_param.anwahl_losekomp", Raw::Uns16, "backlash compensation: 0 off, 1 the last motion was in positive, 2 in negative direction; not simulated")
+    axis("P-AXIS-00021", "lr_param.anwahl_losekomp", Raw::Uns16, "backlash compensation: 0 off, 1 last motion in the positive, 2 in the negative direction; not simulated")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0);
     axis("P-AXIS-00047", "lr_param.crosscomp", Raw::Boolean, "cross compensation; not simulated")
         .default(0.0).axes("T");
@@ -25,7 +25,7 @@ parameters! {
         .axes("TR");
     axis("P-AXIS-00431", "dynamic_weighting.enable", Raw::Boolean, "speed, acceleration and ramp time of rapid motions depend on their length; not simulated")
         .default(0.0).axes("TR");
-    axis("P-AXIS-00432", "dynamic_weighting.param[i].path_limit", Raw::Uns32, "length up to which the weights of entry i hold; not simulated")
+    axis("P-AXIS-00432", "dynamic_weighting.param[i].path_limit", Raw::Uns32, "length up to which the weights of entry i apply; not simulated")
         .default(0.0).unit("0.1um", "0.0001deg").axes("TR");
     axis("P-AXIS-00433", "dynamic_weighting.param[i].velocity_fact", Raw::Uns32, "weight of the rapid speed; not simulated")
         .default(0.0).unit("0.1%", "0.1%").axes("TR");

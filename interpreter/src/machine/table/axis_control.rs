@@ -25,13 +25,13 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(1.0).drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"), as COMMAND_GAIN_DENOM: Number;
     axis("P-AXIS-00129", "getriebe[i].multi_gain_z", Raw::Uns32, "output at 1 m/min (1000 deg/min), numerator")
         .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"), as COMMAND_GAIN_NUM: Number;
-    axis("P-AXIS-00151", "getriebe[i].pos_einschw_zeit", Raw::Uns32, "old time limit, 0 off; older manual gives ms")
+    axis("P-AXIS-00151", "getriebe[i].pos_einschw_zeit", Raw::Uns32, "older time limit, 0 off; the older manual gives ms")
         .range(Bound::At(0.0), Bound::At(4294967.0)).default(1000000.0).unit("us", "us"), as SETTLING_TIME_OLD: Number;
-    axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the dropped type 3; no effect")
+    axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the discontinued type 3; no effect")
         .range(Bound::At(0.0), Bound::At(1024.0)).default(512.0);
     axis("P-AXIS-00167", "getriebe[i].slep_dyn", Raw::Sgn16, "filter constant or slope factor; 1024 = off")
         .range(Bound::At(0.0), Bound::At(1024.0)).default(1000.0), as LAG_DYNAMICS: Number;
-    axis("P-AXIS-00168", "getriebe[i].slep_max", Raw::Sgn32, "largest lag (type 1, 4) / lower bound while moving (type 2); older manual default 5000000")
+    axis("P-AXIS-00168", "getriebe[i].slep_max", Raw::Sgn32, "maximum lag (type 1, 4) / lower bound while moving (type 2); default in the older manual 5000000")
         .range(Bound::At(0.0), Bound::None).default(100000.0).unit("0.1um", "0.0001deg"), as LAG_MAX: Number;
     axis("P-AXIS-00169", "getriebe[i].slep_min", Raw::Sgn32, "limit at standstill / lower bound (type 1)")
         .range(Bound::At(1.0), Bound::None).default(20000.0).unit("0.1um", "0.0001deg"), as LAG_MIN: Number;
@@ -57,7 +57,7 @@ parameters! {
         .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_SPEED_2: Number;
     axis("P-AXIS-00320", "antr.operation_mode", Raw::Word(OPERATION_MODES), "where the position loop is closed")
         .default_is(Default::Text("DRIVE_DEFAULT")).drives("SERCOS").source("TwinCAT 3 CNC axis commissioning"), as OPERATION_MODE: Text;
-    axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "lag below which an axis at rest gets no command")
+    axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "lag below which an axis at rest gets no speed command")
         .range(Bound::None, Bound::Of("P-AXIS-00236")).default(0.0).unit("0.1um", "0.0001deg").above(Condition::DeadBand, Correction::Limit).source("TF5200 diagnosis"), as DEAD_BAND: Number;
     axis("P-AXIS-00407", "lr_param.dyn_monitoring_v_err", Raw::Uns32, "speed excess allowed in the controller (70382); 0 = off")
         .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"), as SPEED_EXCESS: Number;

@@ -30,23 +30,23 @@ parameters! {
         .default(0.0).drives("Simulation"), as SIMU_FOLLOWS: Switch;
     axis("P-AXIS-00165", "vorsteuer.shift_time", Raw::Uns16, "feedforward output this many cycles before its setpoint")
         .range(Bound::At(0.0), Bound::At(4.0)).default(3.0).unit("cycles", "cycles").drives("Profidrive").source("TF5200 feedforward control"), as FF_SHIFT: Whole;
-    axis("P-AXIS-00191", "antr.nbr_delay_cycles", Raw::Uns16, "cycles between command output and actual read-in, only for the lag")
+    axis("P-AXIS-00191", "antr.nbr_delay_cycles", Raw::Uns16, "cycles between command output and reading of the actual position, only for the lag")
         .range(Bound::At(0.0), Bound::At(10.0)).default(4.0).unit("cycles", "cycles").drives("SERCOS, CANopen, KUKA"), as LAG_DELAY: Whole;
     axis("P-AXIS-00194", "antr.simu.totzeit", Raw::Uns32, "dead time of the plant; more gives 110040")
         .range(Bound::At(0.0), Bound::At(5.0)).default(0.0).unit("cycles", "cycles").drives("Simulation").above(Condition::DeadTime, Correction::Limit), as SIMU_DEAD_TIME: Whole;
-    axis("P-AXIS-00205", "antr.v_reso_denom", Raw::Uns32, "speed scaling: path driven per time base when v_reso_num is output")
+    axis("P-AXIS-00205", "antr.v_reso_denom", Raw::Uns32, "speed scaling: distance travelled per time base when v_reso_num is output")
         .range(Bound::At(1.0), Bound::None).default(36.0).unit("um", "0.001deg").below(Condition::SpeedScaleDenominator, Correction::Refuse).source("TF5200 feedforward control"), as SPEED_PATH: Number;
-    axis("P-AXIS-00206", "antr.v_reso_num", Raw::Uns32, "speed scaling: increments that are output for the path v_reso_denom per time base")
+    axis("P-AXIS-00206", "antr.v_reso_num", Raw::Uns32, "speed scaling: increments output for the distance v_reso_denom per time base")
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("incr", "incr").source("TF5200 feedforward control"), as SPEED_INCREMENTS: Number;
     axis("P-AXIS-00207", "antr.v_time_base", Raw::Uns16, "0 per minute, 1 per second, 2 per sampling interval")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0).drives("SERCOS").above(Condition::TimeBaseUnknown, Correction::Refuse).source("TF5200 feedforward control"), as SPEED_TIME_BASE: Whole;
     axis("P-AXIS-00223", "vorsteuer.vorsteuerung", Raw::Flags(FEEDFORWARD_BITS), "what is fed forward and where it enters, names joined by |: NONE 0; VEL 0x1, ACC 0x2, JERK 0x4 at the output of the position controller; ADD_VEL 0x101 as additive velocity, ADD_ACC 0x202 and ADD_JERK 0x804 as additive torque or current of the drive")
         .default(0.0).source("TF5200 feedforward control"), as FEEDFORWARD: Whole;
-    axis("P-AXIS-00225", "vorsteuer.vs_a_faktor", Raw::Sgn32, "Ta numerator (conventional); dimensionless weight in the additive variant; 0 is a legal weight")
+    axis("P-AXIS-00225", "vorsteuer.vs_a_faktor", Raw::Sgn32, "Ta numerator (conventional); dimensionless weight in the additive variant; 0 is a valid weight")
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("us", "us").source("TF5200 feedforward control"), as FF_ACC_NUM: Number;
     axis("P-AXIS-00226", "vorsteuer.vs_a_nenner", Raw::Sgn32, "Ta denominator; 0 gives 110381")
         .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::AccelerationDenominator, Correction::Value(1.0)).source("TF5200 feedforward control"), as FF_ACC_DENOM: Number;
-    axis("P-AXIS-00228", "vorsteuer.vs_v_faktor", Raw::Sgn32, "global weight numerator; recommended weight 0.7..1; 0 is a legal weight")
+    axis("P-AXIS-00228", "vorsteuer.vs_v_faktor", Raw::Sgn32, "global weight numerator; recommended weight 0.7..1; 0 is a valid weight")
         .range(Bound::At(0.0), Bound::None).default(1.0).source("TF5200 feedforward control"), as FF_WEIGHT_NUM: Number;
     axis("P-AXIS-00229", "vorsteuer.vs_v_nenner", Raw::Sgn32, "global weight denominator; 0 gives 110123")
         .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::FeedforwardDenominator, Correction::Value(1.0)).source("TF5200 feedforward control"), as FF_WEIGHT_DENOM: Number;

@@ -51,15 +51,15 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).above(Condition::AccelerationCurve, Correction::Refuse).axes("S");
     axis("P-AXIS-00007", "getriebe[i].beschl_kennlinie.a_konst", Raw::Uns32, "acceleration below P-AXIS-00130, curves 1 and 2; not simulated")
         .default(0.0).unit("-", "deg/s2").axes("S");
-    axis("P-AXIS-00010", "getriebe[i].beschl_kennlinie.a_min", Raw::Real64, "least acceleration of the curve; not simulated")
+    axis("P-AXIS-00010", "getriebe[i].beschl_kennlinie.a_min", Raw::Real64, "minimum acceleration of the curve; not simulated")
         .unit("-", "deg/s2").axes("S");
-    axis("P-AXIS-00130", "getriebe[i].beschl_kennlinie.n_grenz", Raw::Uns32, "speed at which curves 1 and 2 begin to fall; not simulated")
+    axis("P-AXIS-00130", "getriebe[i].beschl_kennlinie.n_grenz", Raw::Uns32, "speed above which curves 1 and 2 decrease; not simulated")
         .default(0.0).unit("-", "0.001deg/s").axes("S");
     axis("P-AXIS-00240", "getriebe[i].beschl_kennlinie.a_max", Raw::Real64, "acceleration below P-AXIS-00241, curve 3; not simulated")
         .default(0.0).unit("-", "deg/s2").axes("S");
-    axis("P-AXIS-00241", "getriebe[i].beschl_kennlinie.n1", Raw::Real64, "speed above which curve 3 falls with 1/n; not simulated")
+    axis("P-AXIS-00241", "getriebe[i].beschl_kennlinie.n1", Raw::Real64, "speed above which curve 3 decreases with 1/n; not simulated")
         .default(0.0).unit("-", "0.001deg/s").axes("S");
-    axis("P-AXIS-00242", "getriebe[i].beschl_kennlinie.n2", Raw::Real64, "speed above which curve 3 falls with 1/n2; not simulated")
+    axis("P-AXIS-00242", "getriebe[i].beschl_kennlinie.n2", Raw::Real64, "speed above which curve 3 decreases with 1/n2; not simulated")
         .default(0.0).unit("-", "0.001deg/s").axes("S");
     axis("P-AXIS-00208", "", Raw::Uns32, "not found in any public document; read and ignored");
     axis("P-AXIS-00209", "getriebe[i].vb_eilgang", Raw::Uns32, "rapid speed G00")
@@ -68,7 +68,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00212")).default(100000.0).unit("um/s", "0.001deg/s"), as STEP_RAPID_CHANGE: Number;
     axis("P-AXIS-00212", "getriebe[i].dynamik.vb_max", Raw::Uns32, "maximum axis speed")
         .range(Bound::At(1.0), Bound::At(2000000000.0)).default(200000.0).unit("um/s", "0.001deg/s").below(Condition::AxisSpeedZero, Correction::Default), as SPEED_MAX: Number;
-    axis("P-AXIS-00214", "getriebe[i].vb_max_red", Raw::Uns32, "reduced speed, not active headless")
+    axis("P-AXIS-00214", "getriebe[i].vb_max_red", Raw::Uns32, "reduced speed, not active in the simulation")
         .unit("um/s", "0.001deg/s");
     axis("P-AXIS-00221", "getriebe[i].lslope_profil.vb_stufe_1_2", Raw::Uns32, "STEP slope switching speed")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00212")).default(100000.0).unit("um/s", "0.001deg/s"), as STEP_CHANGE: Number;
@@ -88,6 +88,6 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("m/s3", "1000deg/s3").axes("TR"), as TANGENTIAL_JERK: Number;
     axis("P-AXIS-00292", "getriebe[i].dynamik.a_w_max", Raw::Uns32, "maximum acceleration under G130/G131 weighting")
         .range(Bound::GreatestOf(&["P-AXIS-00001", "P-AXIS-00002"]), Bound::Of("P-AXIS-00008")).default_is(Default::Of("P-AXIS-00008")).unit("mm/s2", "deg/s2").axes("TR"), as WEIGHTED_ACC_MAX: Number;
-    axis("P-AXIS-00293", "getriebe[i].dynamik.tr_w_min", Raw::Uns32, "floor of the ramp time under G132/G133 (110406)")
+    axis("P-AXIS-00293", "getriebe[i].dynamik.tr_w_min", Raw::Uns32, "lower limit of the ramp time under G132/G133 (110406)")
         .range(Bound::Of("P-AXIS-00201"), Bound::LeastOf(&["P-AXIS-00195", "P-AXIS-00196", "P-AXIS-00197", "P-AXIS-00198"])).default(0.0).unit("us", "us").axes("TR").special(0.0).below(Condition::WeightedRampFloor, Correction::Limit), as WEIGHTED_RAMP_MIN: Number;
 }

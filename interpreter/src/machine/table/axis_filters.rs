@@ -29,7 +29,7 @@ parameters! {
     axis("P-AXIS-00080", "filter[i].guete", Raw::Real64, "Q = centre frequency / bandwidth, for BANDPASS and BANDSTOP only: the -3 dB edges are exactly fg_f0 / guete apart at any cycle time, unlike those of Improved Position Control, which keep the Q of the continuous filter")
         .range(Bound::At(1.0), Bound::At(10.0)).default(1.0).at_setup().source("TF5200 axis filters"), as QUALITY: Number;
     axis("P-AXIS-00140", "filter[i].order", Raw::Uns32, "filter order, 0 = off")
-        .range(Bound::At(0.0), Bound::Text("6 (LOWPASS, HIGHPASS, ALLPASS), 3 (BANDPASS, BANDSTOP), 1 (PT1), 2 (PT2), 200 (HSC); TIME_DELAY: any above 0 switches on")).default(0.0).at_setup().source("TF5200 axis filters"), as ORDER: Whole;
+        .range(Bound::At(0.0), Bound::Text("6 (LOWPASS, HIGHPASS, ALLPASS), 3 (BANDPASS, BANDSTOP), 1 (PT1), 2 (PT2), 200 (HSC); TIME_DELAY: any order above 0 switches the filter on")).default(0.0).at_setup().source("TF5200 axis filters"), as ORDER: Whole;
     axis("P-AXIS-00153", "filter[i].prototype", Raw::Names(PROTOTYPES), "CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5")
         .default(1.0).at_setup().source("TF5200 axis filters"), as PROTOTYPE: Whole;
     axis("P-AXIS-00164", "filter[i].share_percent", Raw::Real64, "share of the signal that passes the filter")
@@ -38,7 +38,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(12.0)).default(1.0).at_setup().source("TF5200 axis filters"), as TYPE: Whole;
     axis("P-AXIS-00319", "filter[i].enable", Raw::Boolean, "switches a standard filter; active only with order > 0; no effect for HSC")
         .default(0.0).source("TF5200 axis filters"), as ENABLE: Switch;
-    axis("P-AXIS-00351", "kenngr.filter_position_window", Raw::Real64, "filter counts as settled when input and output differ by less")
+    axis("P-AXIS-00351", "kenngr.filter_position_window", Raw::Real64, "the filter is settled when input and output differ by less")
         .range(Bound::At(0.01), Bound::None).default(0.4).unit("0.1um", "0.0001deg"), as SETTLED_WINDOW: Number;
     axis("P-AXIS-00357", "filter[i].time_constant", Raw::Uns32, "time constant (PT1, PT2), delay (TIME_DELAY), or HSC order as time, used when the order is 0")
         .range(Bound::Text("one cycle (PT1, PT2, HSC), 0 (TIME_DELAY)"), Bound::Text("below 6 cycles (TIME_DELAY), 200 cycles (HSC)")).default(10000.0).unit("us", "us").at_setup().source("TF5200 axis filters"), as TIME: Whole;
@@ -59,7 +59,7 @@ parameters! {
     axis("P-AXIS-00735", "lr_param.add_interface.filter[i].enable", Raw::Boolean, "switches the filter of the additional interface")
         .default(0.0).source("TF5200 axis filters"), as ADDITIONAL_ENABLE: Switch;
     axis("P-AXIS-00736", "lr_param.add_interface.filter[i].order", Raw::Uns32, "order of the filter of the additional interface")
-        .range(Bound::At(0.0), Bound::Text("6 (LOWPASS, HIGHPASS, ALLPASS), 3 (BANDPASS, BANDSTOP); PT1, PT2, TIME_DELAY: any above 0 switches on")).default(2.0).at_setup().source("TF5200 axis filters"), as ADDITIONAL_ORDER: Whole;
+        .range(Bound::At(0.0), Bound::Text("6 (LOWPASS, HIGHPASS, ALLPASS), 3 (BANDPASS, BANDSTOP); PT1, PT2, TIME_DELAY: any order above 0 switches the filter on")).default(2.0).at_setup().source("TF5200 axis filters"), as ADDITIONAL_ORDER: Whole;
     axis("P-AXIS-00737", "lr_param.add_interface.filter[i].prototype", Raw::Names(PROTOTYPES), "prototype of the filter of the additional interface")
         .default(1.0).axes("T").at_setup().source("TF5200 axis filters"), as ADDITIONAL_PROTOTYPE: Whole;
     axis("P-AXIS-00738", "lr_param.add_interface.filter[i].type", Raw::Names(FILTER_TYPES), "type of the filter of the additional interface")

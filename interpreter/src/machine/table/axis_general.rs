@@ -9,7 +9,7 @@ const AXIS_TYPES: &[(&str, u32)] =
     &[("ACHSTYP_TRANSLATOR", 1), ("ACHSTYP_ROTATOR", 2), ("ACHSTYP_SPINDEL", 4)];
 
 parameters! {
-    axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, no homing needed; no effect here, every axis counts as homed")
+    axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, homing not required; no effect here, every axis is treated as homed")
         .default(0.0).drives("Simulation, SERCOS, CANopen");
     axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, face turning axis 0x40, longitudinal turning axis 0x80, gantry master 0x10000, gantry slave 0x20000")
         .default(1.0), as MODE: Whole;
@@ -17,7 +17,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(Condition::AxisNumberZero, Correction::Refuse), as NUMBER: Whole;
     axis("P-AXIS-00031", "kenngr.beweg_richt", Raw::Boolean, "the only direction of a spindle with P-AXIS-00224: 0 negative, 1 positive; not simulated")
         .default(0.0).axes("RS").source("TF5200 axis parameters 117210251");
-    axis("P-AXIS-00224", "kenngr.vorz_richtung", Raw::Boolean, "1: the spindle turns in one direction alone (P-AXIS-00031); not simulated")
+    axis("P-AXIS-00224", "kenngr.vorz_richtung", Raw::Boolean, "1: the spindle only turns in one direction (P-AXIS-00031); not simulated")
         .default(0.0).axes("RS").source("TF5200 axis parameters 117208715");
     axis("P-AXIS-00018", "kenngr.achs_typ", Raw::Names(AXIS_TYPES), "ACHSTYP_TRANSLATOR 0x1, ACHSTYP_ROTATOR 0x2, ACHSTYP_SPINDEL 0x4")
         .default(1.0), as KIND: Whole;
@@ -27,9 +27,9 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"), as GANTRY_MASTER: Whole;
     axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; raise it for measuring moves, whose distance is shortened by the content of the feedforward buffer")
         .axes("TR").source("TF5200 feedforward control");
-    axis("P-AXIS-00058", "kenngr.durchm_prog_abs", Raw::Boolean, "with G51 and G90 words of a face turning axis are diameters")
+    axis("P-AXIS-00058", "kenngr.durchm_prog_abs", Raw::Boolean, "with G51 and G90, words of a face turning axis are diameters")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_ABSOLUTE: Switch;
-    axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "with G51 and G91 words of a face turning axis are diameters")
+    axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "with G51 and G91, words of a face turning axis are diameters")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_RELATIVE: Switch;
     axis("P-AXIS-00098", "kenngr.kasto_achse", Raw::Boolean, "1: the axis takes part in edge banding (G108)")
         .default(0.0).axes("TR").source("TF5200 axis parameters"), as BANDS: Switch;
@@ -37,7 +37,7 @@ parameters! {
         .default(0.0).axes("TR").source("TF5200 axis parameters"), as MEASURES: Switch;
     axis("P-AXIS-00330", "kenngr.meas_signal_fixed_stop", Raw::Boolean, "1: measuring type 7 looks for a fixed stop with this axis")
         .default(0.0), as STOPS: Switch;
-    axis("P-AXIS-00331", "kenngr.fixed_stop_pos_lag_limit", Raw::Uns32, "measuring type 7: lag beyond which the axis is at its fixed stop; 0 never")
+    axis("P-AXIS-00331", "kenngr.fixed_stop_pos_lag_limit", Raw::Uns32, "measuring type 7: lag above which the axis has reached its fixed stop; 0: never")
         .default(0.0).unit("0.1um", "0.0001deg"), as STOP_LAG: Number;
     axis("P-AXIS-00769", "antr.fixed_stop.detect.pos_lag_limit", Raw::Sgn32, "replaces P-AXIS-00331 if it is not negative")
         .default(-1.0).unit("0.1um", "0.0001deg"), as STOP_LAG_OF_DRIVE: Number;
@@ -45,7 +45,7 @@ parameters! {
         .default(-1.0).unit("0.1um", "0.0001deg"), as STOP_LAG_OF_RUN: Number;
     axis("P-AXIS-00215", "kenngr.vb_messen", Raw::Uns32, "speed of measuring runs of type 2")
         .range(Bound::At(1.0), Bound::None).default(16666.0).unit("um/s", "0.001deg/s").axes("TR").source("TF5200 axis parameters"), as MEASURING_SPEED: Number;
-    axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of independent axes; that of spindles is not simulated")
+    axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "maximum override of independent axes; not simulated for spindles")
         .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit), as MOST_OVERRIDE: Number;
     axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; the documents do not print the prefix of the key: kenngr., lr_param., getriebe[0]. and no prefix are accepted")
         .default(0.0).axes("TR"), as LAG_SUPPRESSED: Switch;
@@ -70,9 +70,9 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_ERROR: Number;
     axis("P-AXIS-00474", "kenngr.check_spindle_speed_in_tool_range", Raw::Boolean, "1: a speed outside P-TOOL-00013 to P-TOOL-00014 is an error (60312), 0: it is limited")
         .default(0.0).axes("S").source("TF5200 axis parameters 117225611"), as TOOL_SPEED_CHECKED: Switch;
-    axis("P-AXIS-00491", "kenngr.indp_override_mode", Raw::Uns16, "override of independent axes: 0 of the channel, 1 the smaller one of channel and axis, 2 of the axis; that of the axis is always 100 %")
+    axis("P-AXIS-00491", "kenngr.indp_override_mode", Raw::Uns16, "override of independent axes: 0 channel override, 1 the smaller of channel and axis override, 2 axis override; the axis override is always 100 %")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0).axes("TR").source("TF5200 axis parameters"), as INDEPENDENT_OVERRIDE: Whole;
-    axis("P-AXIS-00540", "kenngr.indp_feedhold_mode", Raw::Uns16, "feedhold of independent axes: 0 of channel and axis, 1 of the axis, which never holds here")
+    axis("P-AXIS-00540", "kenngr.indp_feedhold_mode", Raw::Uns16, "feedhold of independent axes: 0 by channel and axis, 1 by the axis only, which is never active here")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0).axes("TR").source("TF5200 axis parameters"), as INDEPENDENT_FEEDHOLD: Switch;
     axis("P-AXIS-00520", "lr_param.check_pos_command_limit", Raw::Boolean, "monitor setpoints against the positive limit in the controller every cycle (70195)")
         .default(0.0).axes("T");

@@ -12,7 +12,7 @@ const IPC_MODES: &[(&str, u32)] =
 parameters! {
     axis("P-AXIS-00568", "vib_guard.damping", Raw::Real64, "damping of the frequency to suppress")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.1).outside(Condition::GuardRange, Correction::Default).source("TF5250 Vibration Guard"), as DAMPING: Number;
-    axis("P-AXIS-00571", "vib_guard.mode", Raw::Uns32, "mode 1-3 asymmetric, rising robustness; 4 symmetric")
+    axis("P-AXIS-00571", "vib_guard.mode", Raw::Uns32, "modes 1-3 asymmetric, with increasing robustness; 4 symmetric")
         .range(Bound::At(1.0), Bound::At(4.0)).default(1.0).outside(Condition::GuardRange, Correction::Default).source("TF5250 Vibration Guard"), as MODE: Whole;
     axis("P-AXIS-00588", "vib_guard.active", Raw::Boolean, "Vibration Guard permanently on from program start")
         .default(0.0).source("TF5250 Vibration Guard"), as ACTIVE: Switch;
@@ -24,7 +24,7 @@ parameters! {
         .range(Bound::Beyond(0.0), Bound::At(500.0)).default(-1.0).unit("Hz", "Hz").drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"), as IPC_FREQUENCY: Number;
     axis("P-AXIS-00752", "lr_param.improved_position_control.stage[i].filter[k].q_factor", Raw::Real64, "Q = f0/bandwidth")
         .range(Bound::At(1.0), Bound::At(10.0)).default(-1.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"), as IPC_QUALITY: Number;
-    axis("P-AXIS-00753", "lr_param.improved_position_control.stage[i].mode", Raw::Names(IPC_MODES), "kind of the stage: 0 NOT_ACTIVE, 1 DIRECT, 2 INDIRECT, 3 SET_POINT; i = 0..2")
+    axis("P-AXIS-00753", "lr_param.improved_position_control.stage[i].mode", Raw::Names(IPC_MODES), "type of the stage: 0 NOT_ACTIVE, 1 DIRECT, 2 INDIRECT, 3 SET_POINT; i = 0..2")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"), as IPC_MODE: Whole;
     axis("P-AXIS-00754", "lr_param.improved_position_control.stage[i].weight_fact_num", Raw::Uns32, "weight numerator; weight at most 7.0; <= 0 gives 70603")
         .range(Bound::At(1.0), Bound::None).default(1.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"), as IPC_WEIGHT_NUM: Number;

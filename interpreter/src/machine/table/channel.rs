@@ -71,7 +71,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(1.0)).default(1.0);
     chan("P-CHAN-00028", "syn_chk.interaktiv", Raw::Uns16, "0 automatic, 1 step by step; newer key name not seen; no effect here")
         .range(Bound::At(0.0), Bound::At(1.0));
-    chan("P-CHAN-00035", "gruppe[i].achse[j].log_achs_nr", Raw::Uns16, "logical axis number: ties the name to the axis list with the same kopf.achs_nr; 0 not allowed, no number twice")
+    chan("P-CHAN-00035", "gruppe[i].achse[j].log_achs_nr", Raw::Uns16, "logical axis number: links the name to the axis list with the same kopf.achs_nr; 0 not allowed, unique")
         .range(Bound::At(0.0), Bound::At(65535.0)), as AXIS_NUMBER: Whole;
     chan("P-CHAN-00036", "spindel[i].log_achs_nr", Raw::Uns16, "logical axis number of the spindle")
         .range(Bound::At(1.0), Bound::At(65535.0)), as SPINDLE_NUMBER: Whole;
@@ -81,63 +81,63 @@ parameters! {
         .default(0.0), as COUPLING_SLAVE: Whole;
     chan("P-CHAN-00054", "mass_einh", Raw::Uns08, "0 mm, 1 inch for all linear axes")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
-    chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: distance after the signal of the probe")
+    chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: distance after the probe signal")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
         .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
-    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i goes: it changes no motion, but the axis cannot move independently in the block of the function")
+    chan("P-CHAN-00039", "m_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which M function i is output; motion is not affected, but the axis cannot move independently in the block of the function")
         .source("TF5200 M and H functions 286205579"), as M_OUTPUT: Text;
-    chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i goes; read and ignored, it changes no motion")
+    chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i is output; read and ignored, motion is not affected")
         .source("TF5200 M and H functions 286205579");
-    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; MNE_SNS acts with G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
+    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i is output to the PLC and acknowledged; MNE_SNS is for G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i goes to the PLC and is acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
+    chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i is output to the PLC and acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00069", "spindel[i].plc_control", Raw::Boolean, "the PLC turns the spindle: its bracket takes M3, M4, M5, M19, REV and POS only; simulated as a spindle of the control")
+    chan("P-CHAN-00069", "spindel[i].plc_control", Raw::Boolean, "the PLC controls the spindle: its bracket only takes M3, M4, M5, M19, REV and POS; simulated as a spindle of the control")
         .default(0.0).source("TF5200 channel parameters"), as PLC_SPINDLE: Switch;
-    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
+    chan("P-CHAN-00045", "spindel[i].m3_synch", Raw::Flags(SYNCHRONISATION), "when M3 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle has reached the commanded state, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M3_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
+    chan("P-CHAN-00047", "spindel[i].m4_synch", Raw::Flags(SYNCHRONISATION), "when M4 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle has reached the commanded state, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M4_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for; without it M5 acts after the motion")
+    chan("P-CHAN-00049", "spindel[i].m5_synch", Raw::Flags(SYNCHRONISATION), "when M5 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle has reached the commanded state, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for; without it M5 acts after the motion")
         .source("TF5200 channel parameters"), as SPINDLE_M5_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
+    chan("P-CHAN-00043", "spindel[i].m19_synch", Raw::Flags(SYNCHRONISATION), "when M19 acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle has reached the commanded state, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_M19_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle is as it should be, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
+    chan("P-CHAN-00081", "spindel[i].s_synch", Raw::Flags(SYNCHRONISATION), "when the S word acts and is acknowledged: MVS_SVS before the motion, which waits until the spindle has reached the commanded state, MVS_SNS before the motion and waited for after it, MNS_SNS after the motion and waited for; others before the motion and not waited for")
         .source("TF5200 channel parameters"), as SPINDLE_SPEED_SYNCHRONISATION: Optional;
-    chan("P-CHAN-00070", "m_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which M function i goes out early; read and ignored, it changes no motion")
+    chan("P-CHAN-00070", "m_pre_outp[i]", Raw::Uns32, "distance (0.1 um, MEP) or time (us, MET) by which M function i is output early; read and ignored, motion is not affected")
         .default(0.0).source("TF5200 channel parameters");
-    chan("P-CHAN-00107", "h_pre_outp[i]", Raw::Uns32, "way (0.1 um, MEP) or time (us, MET) by which H function i goes out early; read and ignored, it changes no motion")
+    chan("P-CHAN-00107", "h_pre_outp[i]", Raw::Uns32, "distance (0.1 um, MEP) or time (us, MET) by which H function i is output early; read and ignored, motion is not affected")
         .default(0.0).source("TF5200 channel parameters");
-    chan("P-CHAN-00397", "coordinate_system.axes_offsets_layer_specific", Raw::Boolean, "offsets of axes that are no main axes: 1 belong to the coordinate system that they are programmed in, 0 to the channel")
+    chan("P-CHAN-00397", "coordinate_system.axes_offsets_layer_specific", Raw::Boolean, "offsets of axes that are not main axes: 1 belong to the coordinate system in which they are programmed, 0 to the channel")
         .default(1.0).source("TF5200 channel parameters"), as OFFSETS_IN_SYSTEMS: Switch;
     chan("P-CHAN-00100", "move_tool_offsets_directly", Raw::Boolean, "0: a new tool moves an axis with its next absolute word, 1: at once with D")
         .default(0.0).source("TF5200 channel parameters"), as TOOL_OFFSETS_AT_ONCE: Switch;
-    chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always go the shortest way, their first sign belongs to the position")
+    chan("P-CHAN-00346", "enable_mod_axis_always_shortest_way", Raw::Boolean, "1: absolute words of modulo axes always take the shortest way, their first sign belongs to the position")
         .default(0.0).source("TF5200 channel parameters"), as SHORTEST_WAY: Switch;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;
-    chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: 1, a measuring run without a signal of the probe is an error")
+    chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: with 1, a measuring run without a probe signal is an error")
         .default(0.0).source("TF5200 channel parameters"), as MISSING_SIGNAL_IS_ERROR: Switch;
-    chan("P-CHAN-00056", "max_vb_override", Raw::Uns16, "largest override of --input; limits where the list gives it")
+    chan("P-CHAN-00056", "max_vb_override", Raw::Uns16, "maximum override of --input; only limits if given in the list")
         .range(Bound::At(0.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").above(Condition::MostOverride, Correction::Limit).source("TF5200 channel parameters"), as MOST_OVERRIDE: Number;
-    chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
+    chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: maximum centre shift, absolute")
         .range(Bound::Beyond(0.0), Bound::None).default(20000.0).unit("0.0001mm", "0.0001mm").below(Condition::CentreShiftZero, Correction::Default).source("TF5200 programming"), as CENTRE_SHIFT: Number;
-    chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
+    chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: maximum centre shift relative to the radius")
         .range(Bound::At(1.0), Bound::None).below(Condition::CentreFactorZero, Correction::Default).default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
-    chan("P-CHAN-00062", "makro_def[i].nc_code", Raw::Code, "NC code of a macro that every program has, to the end of the line; \\\"NAME\\\" in it uses another one")
+    chan("P-CHAN-00062", "makro_def[i].nc_code", Raw::Code, "NC code of a macro available in every program, to the end of the line; \\\"NAME\\\" in it uses another one")
         .source("TF5200 channel parameters"), as MACRO_CODE: Text;
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
-    chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what a real-time override multiplies: 0 the velocity that feed, axes and curves allow, 1 the programmed feed, 2 as 0, but as 1 under a velocity of #VECTOR LIMIT; speeds at corners of the path remain as they are; #OVERRIDE multiplies the programmed feed")
+    chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what a real-time override multiplies: 0 the velocity that feed, axes and curves allow, 1 the programmed feed, 2 as 0, but as 1 under a velocity of #VECTOR LIMIT; speeds at corners of the path are not changed; #OVERRIDE multiplies the programmed feed")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as OVERRIDE_MODE: Whole;
-    chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start; no effect here, a run begins without any")
+    chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start; no effect here, a run starts without parameters")
         .default(0.0), as KEEP_P_PARAMETERS: Switch;
     chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default), as SLOPE: Whole;
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse), as RAMP_SELECTION: Whole;
-    chan("P-CHAN-00085", "makro_def[i].symbol", Raw::Text, "name of a macro that every program has, see P-CHAN-00062")
+    chan("P-CHAN-00085", "makro_def[i].symbol", Raw::Text, "name of a macro available in every program, see P-CHAN-00062")
         .source("TF5200 channel parameters"), as MACRO_NAME: Text;
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
         .range(Bound::Beyond(0.0), Bound::None).default(2000000000.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as PATH_SPEED: Number;
@@ -147,15 +147,15 @@ parameters! {
         .default(0.0), as OWN_FEEDHOLD: Switch;
     chan("P-CHAN-00099", "prog_start.feedrate", Raw::Real64, "F at program start; 0 means F must be programmed (20008)")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/min", "mm/min").outside(Condition::ListRange, Correction::Default), as FEED: Number;
-    chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "unit of the F word: 100 mm/min, 0.1 m/min; -1 is 100 too, any other value warns and becomes 100")
+    chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "unit of the F word: 100 mm/min, 0.1 m/min; -1 also means 100, any other value gives a warning and becomes 100")
         .range(Bound::At(0.1), Bound::At(100.0)).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default), as FEED_UNIT: Number;
     chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials: 0 none, 1 by tr_geom (P-AXIS-00199), 2 by the longest ramp time of the slope (P-AXIS-00195 to 00198), 3 as 1 here")
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
-    chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
+    chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, each effective from its position")
         .default(0.0), as SEVERAL_DIMENSIONS: Switch;
     chan("P-CHAN-00148", "multi_axes_in_block", Raw::Boolean, "1: with P-CHAN-00116, an axis may have several words in a motion block; incremental ones add up, an absolute one replaces those before it")
         .default(0.0).source("TF5200 channel parameters"), as SEVERAL_WORDS: Switch;
-    chan("P-CHAN-00149", "kasto_reject_rest_block", Raw::Boolean, "1: edge banding (G108) leaves out the rest of the block after its M function; refused")
+    chan("P-CHAN-00149", "kasto_reject_rest_block", Raw::Boolean, "1: edge banding (G108) skips the rest of the block after its M function; refused")
         .default(0.0).source("TF5200 channel parameters 149014539"), as BANDING_REJECTS_REST: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
@@ -163,18 +163,18 @@ parameters! {
     chan("P-CHAN-00119", "start_init_prog_file", Raw::Text, "global subroutine called at program start"), as START_PROGRAM: Text;
     chan("P-CHAN-00136", "", Raw::Uns32, "secant error of HSC segmentation (with 00138)")
         .default(50.0).unit("0.1um", "0.1um");
-    chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "how the jerk check takes the speed of the polynomial parameter; jerk is checked as with 1 here")
+    chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "how the jerk check uses the speed of the polynomial parameter; jerk is checked as with 1 here")
         .range(Bound::At(0.0), Bound::At(2.0)).default(1.0);
-    chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with warning instead of error at setpoint limits")
+    chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with a warning instead of an error at setpoint limits")
         .default(0.0), as LIMIT_WARNINGS: Whole;
-    chan("P-CHAN-00159", "modal_i_j_k_for_circle", Raw::Boolean, "1: I, J and K of arcs hold until the next ones")
+    chan("P-CHAN-00159", "modal_i_j_k_for_circle", Raw::Boolean, "1: I, J and K of arcs are modal")
         .default(0.0).source("TF5200 channel parameters 149414539"), as MODAL_CENTRES: Switch;
     chan("P-CHAN-00160", "g80_prog_file", Raw::Text, "global subroutine called by G80"), as G80_PROGRAM: Text;
     chan("P-CHAN-00171", "max_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference (21758)")
         .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
     chan("P-CHAN-00172", "max_proz_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference relative to the radius; printed default 0.1")
         .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
-    chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED that of feed, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE its own, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
+    chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED the feed override, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE the rapid override, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
     chan("P-CHAN-00187", "g800_prog_file[i]", Raw::Text, "global subroutines called by G800 to G839")
         .source("TF5200 channel parameters 149419147"), as G800_PROGRAM: Text;
@@ -197,7 +197,7 @@ parameters! {
         .default(0.0).source("TF5263 extended interpolation 1097158155");
     chan("P-CHAN-00273", "disable_chamfers_roundings", Raw::Boolean, "1: no chamfers and roundings (G301, G302: 21718; #ANG, #CHR, #CHF, #RND: 21932)")
         .default(0.0).source("TF5200 channel parameters"), as NO_CHAMFERS: Switch;
-    chan("P-CHAN-00297", "mode_exact_stop_indp_axis", Raw::Uns16, "0: #WAIT INDP waits for set positions; 1: G60 waits for independent axes too, until they are in their windows; 2: #WAIT INDP waits for the windows of all axes")
+    chan("P-CHAN-00297", "mode_exact_stop_indp_axis", Raw::Uns16, "0: #WAIT INDP waits for set positions; 1: G60 also waits until independent axes are in their windows; 2: #WAIT INDP waits for the windows of all axes")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as INDEPENDENT_STOP: Whole;
     chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
         .default(0.0), as CONSTANT_RAMP_TIME: Switch;
@@ -211,22 +211,22 @@ parameters! {
         .source("TF5200 channel parameters 405038859"), as TOOL_DATA_PROGRAM: Text;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")
         .default(0.0), as CONTOURING_INCH: Switch;
-    chan("P-CHAN-00451", "mode_implicite_sync_indp_asyn_axis", Raw::Uns16, "the path waits for an independent axis (INDP_ASYN) or ends an oscillating one: 0 when it moves the axis, 1 when a block names it")
+    chan("P-CHAN-00451", "mode_implicite_sync_indp_asyn_axis", Raw::Uns16, "the path waits for an independent axis (INDP_ASYN) or ends its oscillation: 0 when the path moves the axis, 1 when a block names it")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0).source("TF5200 channel parameters 502430091"), as JOINS_NAMED: Whole;
-    chan("P-CHAN-00463", "create_cycle_param_on_read", Raw::Boolean, "a @P parameter that was not passed to its cycle: 1 reading it creates it with 0, 0 it is 20394")
+    chan("P-CHAN-00463", "create_cycle_param_on_read", Raw::Boolean, "reading a @P parameter that was not passed to its cycle: 1 creates it with the value 0, 0 is an error (20394)")
         .default(1.0).source("TF5200 channel parameters 818650763"), as CREATES_PARAMETERS: Switch;
     chan("P-CHAN-00498", "range_check_prog_soft_limits", Raw::Boolean, "1: G98 and G99 stay within the software limits of the axis list")
         .default(0.0).source("TF5200 channel parameters"), as LIMITS_BOUNDED: Switch;
-    chan("P-CHAN-00511", "configuration.decoder.macro_symbol_len", Raw::Uns16, "most characters of the name of a macro (20614)")
+    chan("P-CHAN-00511", "configuration.decoder.macro_symbol_len", Raw::Uns16, "maximum number of characters in the name of a macro (20614)")
         .range(Bound::Beyond(0.0), Bound::At(128.0)).default(30.0).source("TF5200 channel parameters"), as MACRO_NAME_LENGTH: Whole;
-    chan("P-CHAN-00512", "configuration.decoder.macro_nc_code_len", Raw::Uns16, "most characters of the text of a macro")
+    chan("P-CHAN-00512", "configuration.decoder.macro_nc_code_len", Raw::Uns16, "maximum number of characters in the text of a macro")
         .range(Bound::Beyond(0.0), Bound::At(1024.0)).default(80.0).source("TF5200 channel parameters"), as MACRO_TEXT_LENGTH: Whole;
     chan("P-CHAN-00518", "configuration.decoder.msg_to_default", Raw::Word(&["STANDARD", "DISABLED", "WARNING", "ERROR"]), "#MSG to the diagnosis receiver: STANDARD, DISABLED, WARNING (22194), ERROR (22195)")
         .default_is(Default::Text("STANDARD")), as DIAGNOSIS_MESSAGES: Text;
     chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored");
     chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored");
     chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored");
-    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound; no effect here, S[CALLAX] is refused");
+    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs as a path axis; no effect here, S[CALLAX] is refused");
     chan("P-CHAN-00026", "h_prozess_zeit[i]", Raw::Uns32, "duration of H function i, counted with --techno-times")
         .default(0.0).unit("us", "us"), as H_DURATION: Optional;
     chan("P-CHAN-00040", "m_prozess_zeit[i]", Raw::Uns32, "duration of M function i, counted with --techno-times")
@@ -251,7 +251,7 @@ parameters! {
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
     chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T also selects the tool data with its number, like T5 D5")
         .default(0.0).source("TF5200 tool data"), as TOOL_DATA_WITH_TOOL: Switch;
-    chan("P-CHAN-00016", "ext_wzv_vorhanden", Raw::Boolean, "1: an external tool management has the data of the tools; not simulated")
+    chan("P-CHAN-00016", "ext_wzv_vorhanden", Raw::Boolean, "1: the tool data come from an external tool management; not simulated")
         .default(0.0).source("TF5200 channel parameters 147959819");
     chan("P-CHAN-00836", "thread_cutting.ignore_override", Raw::Boolean, "G33: 0 the override acts and changes the pitch, 1 it does not act")
         .default(0.0).source("TF5200 channel parameters"), as THREAD_IGNORES_OVERRIDE: Switch;

@@ -8,7 +8,7 @@ use crate::diag::Condition;
 const PLANTS: &[&str] = &["SIMU", "PT1", "TWO_MASS", "MODAL"];
 
 parameters! {
-    own("kontur.cycle_time_us", Raw::Uns32, "cycle of the interpolator; the vendor has no parameter for it")
+    own("kontur.cycle_time_us", Raw::Uns32, "cycle time of the interpolator; there is no vendor parameter for it")
         .range(Bound::At(100.0), Bound::At(20000.0)).default(1000.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse), as CYCLE_TIME: Whole;
     own("kontur.axis[i].plant.model", Raw::Word(PLANTS), "drive and mechanics: SIMU the vendor's simulated drive, PT1 first order, TWO_MASS, MODAL rigid body with modes")
         .default_is(Default::Text("SIMU")), as PLANT_MODEL: Text;
@@ -20,7 +20,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(30000.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse), as SPEED_INTEGRAL: Number;
     own("kontur.axis[i].plant.ti_us", Raw::Uns32, "TWO_MASS, MODAL: time constant of the current loop")
         .range(Bound::At(1.0), Bound::None).default(500.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse), as CURRENT_TIME: Number;
-    own("kontur.axis[i].plant.inertia", Raw::Real64, "inertia at the motor shaft, or moved mass of a linear motor, on which an additive torque actually acts; 0: that of the axis list (P-AXIS-00391)")
+    own("kontur.axis[i].plant.inertia", Raw::Real64, "inertia at the motor shaft, or moved mass of a linear motor, on which an additive torque actually acts; 0: value of the axis list (P-AXIS-00391)")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("kg m2 or kg", "kg m2").outside(Condition::ListRange, Correction::Refuse), as INERTIA: Number;
     own("kontur.axis[i].plant.mass_motor", Raw::Real64, "TWO_MASS: inertia on the motor side, relative to the whole")
         .range(Bound::Beyond(0.0), Bound::None).default(0.5).outside(Condition::ListRange, Correction::Refuse), as MASS_MOTOR: Number;
@@ -30,7 +30,7 @@ parameters! {
         .range(Bound::Beyond(0.0), Bound::None).default(50.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as RESONANCE: Number;
     own("kontur.axis[i].plant.damping", Raw::Real64, "TWO_MASS: damping of the natural frequency of the two free masses")
         .range(Bound::At(0.0), Bound::Beyond(1.0)).default(0.02).outside(Condition::ListRange, Correction::Refuse), as DAMPING: Number;
-    own("kontur.axis[i].plant.mode[j].f0", Raw::Real64, "MODAL: natural frequency of mode j; a mode without it does not exist")
+    own("kontur.axis[i].plant.mode[j].f0", Raw::Real64, "MODAL: natural frequency of mode j; a mode without a frequency does not exist")
         .range(Bound::Beyond(0.0), Bound::None).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as MODE_FREQUENCY: Optional;
     own("kontur.axis[i].plant.mode[j].damping", Raw::Real64, "MODAL: damping of mode j")
         .range(Bound::At(0.0), Bound::Beyond(1.0)).default(0.02).outside(Condition::ListRange, Correction::Refuse), as MODE_DAMPING: Number;
@@ -46,7 +46,7 @@ parameters! {
         .default(0.0).unit("mm/s2", "deg/s2"), as DISTURBANCE_AMPLITUDE: Number;
     own("kontur.axis[i].plant.disturbance.frequency", Raw::Real64, "frequency of the disturbance force; 0: constant")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FREQUENCY: Number;
-    own("kontur.axis[i].plant.disturbance.full_speed", Raw::Real64, "load speed from which the disturbance has its full amplitude, in proportion below; 0: always")
+    own("kontur.axis[i].plant.disturbance.full_speed", Raw::Real64, "load speed from which the disturbance has its full amplitude, proportional below; 0: always full")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/s", "deg/s").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FULL_SPEED: Number;
     own("kontur.axis[i].load_encoder", Raw::Boolean, "the axis has a direct measuring system, which closes the position loop")
         .default(0.0), as LOAD_ENCODER: Switch;

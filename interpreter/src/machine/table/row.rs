@@ -114,8 +114,8 @@ impl std::fmt::Display for Bound {
             Self::Of(id) => write!(f, "{id}"),
             Self::BeyondOf(id) => write!(f, "{id} (excluded)"),
             Self::Times(k, id) => write!(f, "{k} x {id}"),
-            Self::LeastOf(ids) => write!(f, "least of {}", ids.join(", ")),
-            Self::GreatestOf(ids) => write!(f, "greatest of {}", ids.join(", ")),
+            Self::LeastOf(ids) => write!(f, "smallest of {}", ids.join(", ")),
+            Self::GreatestOf(ids) => write!(f, "largest of {}", ids.join(", ")),
             Self::BeyondCycles(n) => write!(f, "{n} cycles (excluded)"),
             Self::Text(text) => write!(f, "{text}"),
         }

@@ -10,7 +10,7 @@ parameters! {
         .default(0.0).unit("0.1um", "0.1um"), as LENGTH: Number;
     tool("P-TOOL-00004", "wz[i].radius", Raw::Sgn32, "radius of the tool")
         .default(0.0).unit("0.1um", "0.1um"), as RADIUS: Number;
-    tool("P-TOOL-00005", "wz[i].gueltig", Raw::Boolean, "1: D may select these data")
+    tool("P-TOOL-00005", "wz[i].gueltig", Raw::Boolean, "1: D can select these data")
         .default(0.0), as VALID: Switch;
     tool("P-TOOL-00006", "wz[i].ax_versatz[j]", Raw::Sgn32, "offset of axis j of the channel")
         .default(0.0).unit("0.1um", "0.1um"), as OFFSET: Number;
@@ -20,16 +20,16 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
     tool("P-TOOL-00012", "wz[i].log_ax_nr_spdl", Raw::Uns16, "logical number of the spindle that P-TOOL-00013 to 00015 limit, 0: none")
         .default(0.0).source("TF5200 spindle 287679371"), as SPINDLE: Whole;
-    tool("P-TOOL-00013", "wz[i].vb_min", Raw::Real64, "least speed of the spindle with this tool, where it turns")
+    tool("P-TOOL-00013", "wz[i].vb_min", Raw::Real64, "minimum speed of the spindle with this tool, while it turns")
         .default(0.0).unit("0.001deg/s", "0.001deg/s").source("TF5200 spindle 287679371"), as SPINDLE_MIN: Number;
-    tool("P-TOOL-00014", "wz[i].vb_max", Raw::Real64, "largest speed of the spindle with this tool")
+    tool("P-TOOL-00014", "wz[i].vb_max", Raw::Real64, "maximum speed of the spindle with this tool")
         .default(1.0).unit("0.001deg/s", "0.001deg/s").source("TF5200 tool data 125214603"), as SPINDLE_MAX: Number;
-    tool("P-TOOL-00015", "wz[i].a_max", Raw::Real64, "largest acceleration of the spindle with this tool")
+    tool("P-TOOL-00015", "wz[i].a_max", Raw::Real64, "maximum acceleration of the spindle with this tool")
         .default(1.0).unit("deg/s2", "deg/s2").source("TF5200 tool data 104795019"), as SPINDLE_ACC: Number;
     tool("P-TOOL-00030", "wz[i].grinding_wear_const", Raw::Real64, "wear of a grinding wheel per distance, in 0.1 um per metre (#OTC)")
         .range(Bound::At(0.0), Bound::At(1e9)).default(0.0), as WEAR: Number;
-    tool("P-TOOL-00031", "wz[i].grinding_max_infeed", Raw::Real64, "largest external wear that #OTC accepts, positive or negative")
+    tool("P-TOOL-00031", "wz[i].grinding_max_infeed", Raw::Real64, "maximum external wear accepted by #OTC, positive or negative")
         .default(0.0).unit("0.1um", "0.1um"), as INFEED: Number;
-    tool("P-TOOL-00138", "wz[i].grinding_disc_tilt_angle", Raw::Real64, "angle between the axis of a grinding wheel and the third main axis; others than 0 are refused with #OTC")
+    tool("P-TOOL-00138", "wz[i].grinding_disc_tilt_angle", Raw::Real64, "angle between the axis of a grinding wheel and the third main axis; values other than 0 are refused with #OTC")
         .range(Bound::At(-450_000.0), Bound::At(450_000.0)).default(0.0).unit("0.0001deg", "0.0001deg"), as TILT: Number;
 }

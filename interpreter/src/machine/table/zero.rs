@@ -5,7 +5,7 @@ use super::row::{Bound, Correction, Raw, zero};
 use crate::diag::Condition;
 
 parameters! {
-    zero("P-ZERO-00001", "g53_verfuegbar", Raw::Boolean, "1: G53 and G159=0 use group 0; 0: they take the zero offsets back")
+    zero("P-ZERO-00001", "g53_verfuegbar", Raw::Boolean, "1: G53 and G159=0 use group 0; 0: they cancel the zero offsets")
         .default(0.0), as G53_IN_USE: Switch;
     zero("P-ZERO-00002", "default_index", Raw::Uns16, "group that is active at program start; 0: none (G53)")
         .range(Bound::At(0.0), Bound::At(96.0)).default(0.0).above(Condition::ZeroOffsetDefault, Correction::Refuse), as DEFAULT_GROUP: Whole;

@@ -52,9 +52,9 @@ impl Builder<'_> {
         } else if of(&["CS", "ACS"]) {
             Some((Condition::CoordinateSystemSyntax, "two values of a coordinate system"))
         } else if of(&["CALL AX", "SET AX"]) {
-            Some((Condition::ExchangeNumber, "the number and the index of an axis"))
+            Some((Condition::ExchangeNumber, "axis number and axis index"))
         } else if of(&["CAX"]) {
-            Some((Condition::SpindleAxisComma, "the spindle and its axis"))
+            Some((Condition::SpindleAxisComma, "spindle and axis"))
         } else {
             None
         };
@@ -96,8 +96,7 @@ impl Builder<'_> {
                     bare = true;
                 }
                 Rule::bar => {
-                    let text =
-                        "`|` between two keys belongs to the notation of manuals, it is ignored";
+                    let text = "`|` between two keys is notation of the manuals and is ignored";
                     self.report(Problem::syntax(place, text).severity(Severity::Note));
                 }
                 Rule::item | Rule::name_item => {
@@ -213,7 +212,7 @@ impl Builder<'_> {
             }
             ["IF" | "ELSE" | "ENDIF", ..] if block.number.is_some() || block.label.is_some() => {
                 let text = format!("#{} after a block number", words.join(" "));
-                let hint = "only a skip mark may precede it";
+                let hint = "only a skip character may precede it";
                 self.report(
                     Problem::new(Condition::ConditionalNotFirst, command.span, text).hint(hint),
                 );
@@ -243,10 +242,10 @@ impl Builder<'_> {
             && keys.split_ascii_whitespace().nth(1).is_some_and(has_value);
         if is_key && (remark[key..].trim_ascii_start().starts_with('=') || behind_flag) {
             let start = end + behind.len() - behind.trim_ascii_start().len();
-            let text = "a remark that reads like keys: it has no effect";
+            let text = "a remark that looks like keys: it has no effect";
             let problem = Problem::new(Condition::Odd, Span::new(start, start + 1), text)
                 .severity(Severity::Warning)
-                .hint("keys of a command go in square brackets");
+                .hint("write keys of a command in square brackets");
             self.report(problem);
         }
     }
@@ -282,7 +281,7 @@ impl Builder<'_> {
                 Rule::bad_counter => {
                     let at = self.span(&part);
                     let text = format!("`{}` cannot count a $FOR loop", part.as_str());
-                    let hint = "the counter is a P parameter or a variable that may be written";
+                    let hint = "use a P parameter or a writable variable as the counter";
                     self.report(Problem::new(Condition::ForCounter, at, text).hint(hint));
                     // the executor reports this place as well; once is enough
                     place = Some(Place { kind: PlaceKind::Variable(Vec::new()), span: at });

@@ -102,7 +102,7 @@ fn messages_say_what_was_expected() {
         ("X[1+*2]", "unexpected `*`, expected a value"),
         ("#SLOPE [TYPE=", "the block ends too early, expected a value"),
         ("#SLOPE [TYPE= ", "the block ends too early, expected a value"),
-        ("#A [B=[1,2]+3]", "a list in brackets has no value to calculate with"),
+        ("#A [B=[1,2]+3]", "a list in brackets does not have a value"),
     ] {
         let (_, diagnostics) = parse(line);
         assert!(diagnostics[0].text.starts_with(expected), "{line}: {}", diagnostics[0].text);

@@ -23,14 +23,14 @@ function choice(parent, names, chosen, pick) {
   });
 }
 const most = Math.max(...runs.map(r => r.plane.length));
-const HOW = "wheel or pinch zooms, drag pans, double-click shows all; arrow keys, + and - work as well";
+const HOW = "zoom with the wheel or by pinching, pan by dragging, double-click to show all; arrow keys, + and - also work";
 byId("how").textContent = HOW;
 if (most === 3) {
   const plane = (p, i) => [i, p.map(a => runs.find(r => r.plane.length > a).plane[a]).join("")];
   choice(byId("planes"), [...PLANES.map(plane), [SPACE, "3D"]], view.plane, i => {
     view.plane = i;
     view.turn = [...ISOMETRIC];
-    byId("how").textContent = i === SPACE ? "drag turns, with Shift or two fingers it moves" : HOW;
+    byId("how").textContent = i === SPACE ? "drag to rotate, with Shift or two fingers to pan" : HOW;
     frames.forEach(showAll);
   });
 }
@@ -73,9 +73,9 @@ for (const { summary: s } of runs) for (const m of s.messages.slice(0, 50)) {
 }
 const widest = Math.max(...runs.map(r => r.width)), within = Math.max(...runs.map(r => r.within));
 if (within > VISIBLE) byId("legend").append(make("div",
-  `Points of the contour are left out where they lie within ${within < 0.1 ? `${+(within * 1000).toPrecision(2)} µm` : `${+within.toPrecision(2)} mm`} of the lines that are drawn; --window draws a part of the run with all of them.`, "note"));
+  `Points of the contour are omitted where they are within ${within < 0.1 ? `${+(within * 1000).toPrecision(2)} µm` : `${+within.toPrecision(2)} mm`} of the drawn lines; use --window to draw a part of the run with all points.`, "note"));
 if (widest > 1) byId("legend").append(make("div",
-  `Over time least and greatest value of ${widest} cycles each; under the pointer their middle. --window draws a part of the run cycle by cycle.`, "note"));
+  `Over time, minimum and maximum of ${widest} cycles each; under the pointer their midpoint. Use --window to draw a part of the run cycle by cycle.`, "note"));
 
 // what a canvas shows, for those who do not see it
 function describe() {

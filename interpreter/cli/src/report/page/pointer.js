@@ -94,7 +94,7 @@ function tip(x, y) {
     if (!one) text.push(r.name);
     // a bucket of several cycles has no value of one moment
     const last = (i + 1 < r.k.length ? r.k[i + 1] : r.last + 1) - 1, [from, to] = [r.k[i], last].map(k => seconds(r, k).toFixed(6));
-    text.push(`t = ${from} s${last > r.k[i] ? ` to ${to} s, positions in their middle` : ""}   ${file}line ${r.line[i]}${r.block[i] === null ? "" : "   N" + r.block[i]}   held by ${r.limit[i]}`);
+    text.push(`t = ${from} s${last > r.k[i] ? ` to ${to} s, positions at the midpoint` : ""}   ${file}line ${r.line[i]}${r.block[i] === null ? "" : "   N" + r.block[i]}   limited by ${r.limit[i]}`);
     r.plane.forEach((name, a) => {
       if (!name) return;
       const [set, act] = [r.setCurves[a], r.actCurves[a]].map(c => c ? valueOf(c, i).toFixed(5) : "-");

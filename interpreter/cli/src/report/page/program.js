@@ -86,12 +86,12 @@ for (const r of runs) {
     box.append(t);
     byId("times").append(box);
   };
-  table("by what held the speed", ["reason", "s", "%", ""], t => r.times.reasons.forEach(reason => {
+  table("by what limited the speed", ["reason", "s", "%", ""], t => r.times.reasons.forEach(reason => {
     const row = make("tr");
     row.append(make("td", because(reason)), make("td", reason.seconds.toFixed(3)), make("td", (100 * reason.seconds / total).toFixed(1)), bar(reason.seconds / total));
     t.append(row);
   }));
-  table("the most expensive lines", ["line", "s", "%", "", "mostly"], t => r.times.lines.slice(0, MOST_LINES).forEach(l => {
+  table("lines that take the most time", ["line", "s", "%", "", "mostly"], t => r.times.lines.slice(0, MOST_LINES).forEach(l => {
     const row = make("tr"), name = `${r.files.length > 1 ? l.file + " " : ""}${l.line}${l.block === null ? "" : " N" + l.block}`;
     row.append(make("td", name), make("td", l.seconds.toFixed(3)), make("td", (100 * l.seconds / total).toFixed(1)), bar(l.seconds / total),
       make("td", `${l.kind === "none" ? "" : l.kind + ", "}${l.reasons.length ? because(l.reasons[0]) : ""}`, "text"));

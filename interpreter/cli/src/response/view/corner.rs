@@ -27,7 +27,7 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
     let mut paths = Vec::new();
     for curve in curves {
         let path = CornerPath::drive(&curve.shaping, speed_mm_s, cycle).ok_or_else(|| {
-            let text = "does not follow its input, so that a path has no corner through it";
+            let text = "does not follow its input, so a corner of the path cannot be shown";
             Error::Usage(format!("--corner: {} {text}", curve.label))
         })?;
         table.push(vec![
@@ -65,7 +65,7 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
         });
     } else if !few {
         let text = format!(
-            "--corner: {MOST_PATHS} paths at most in a picture, or filters that differ in their order"
+            "--corner: at most {MOST_PATHS} paths in a picture, or filters that differ in their order"
         );
         return Err(Error::Usage(text));
     }

@@ -35,8 +35,9 @@ pub(super) fn view(
     let nyquist_hz = 0.5 / cycle.seconds();
     let range = args.range.unwrap_or((0.5_f64.min(0.001 * nyquist_hz), nyquist_hz));
     if range.1 > nyquist_hz {
-        let text =
-            format!("--range: frequencies end at {nyquist_hz} Hz, half the sampling frequency");
+        let text = format!(
+            "--range: the maximum frequency is {nyquist_hz} Hz, half the sampling frequency"
+        );
         return Err(Error::Usage(text));
     }
     let header = &["curve", "f_hz", "magnitude_db", "phase_deg", "group_delay_ms"];

@@ -26,8 +26,7 @@ pub(super) fn view(
 ) -> Result<Answer, Error> {
     if let Some(curve) = curves.iter().find(|curve| curve.has_filters) {
         return Err(Error::Usage(format!(
-            "--residual: {} holds standard filters, which have no last impulse; \
-             it shows --guard, --fir, --hsc-mean, --hsc-novib",
+            "--residual: {} contains standard filters, which have no last impulse; use --guard, --fir, --hsc-mean or --hsc-novib",
             curve.label
         )));
     }

@@ -48,11 +48,11 @@ impl Decoder {
         match switch {
             None => return wrong("ON, OFF or OFF_ALL is missing".to_owned(), span),
             Some("OFF_ALL") if kinds > 0 => {
-                return wrong("OFF_ALL takes no compensation".to_owned(), span);
+                return wrong("OFF_ALL does not take a compensation".to_owned(), span);
             }
             Some(_) => {}
         }
-        let text = "axis compensations are not simulated: the path stops, and nothing else happens";
+        let text = "axis compensations are not simulated: only the stop of the path is";
         self.report.note_once("COMP", Fault::new(Condition::Fallback, text, span));
         self.sync(Sync::FlushWait);
         Ok(())

@@ -129,7 +129,7 @@ impl Decoder {
             matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
         };
         if let (Some(true), Some((_, span))) = (of_plc, items.iter().find(|(i, _)| !own(i))) {
-            let text = "a spindle of the PLC takes M3, M4, M5, M19, REV and POS only";
+            let text = "a spindle controlled by the PLC only takes M3, M4, M5, M19, REV and POS";
             return Err(Fault::new(Condition::PlcSpindle, text, *span));
         }
         let feedforward =
@@ -146,13 +146,13 @@ impl Decoder {
         let other = items.iter().find(|(i, _)| !feedforward(i));
         let weight = items.iter().find(|(i, _)| matches!(i, SpindleItem::Acceleration(_)));
         if let (Some(_), Some((_, span))) = (some, weight) {
-            let text = "feedforward and G130 in one bracket exclude each other";
+            let text = "feedforward and G130 cannot be in one bracket";
             return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
         }
         let homes = items.iter().any(|(i, _)| matches!(i, SpindleItem::Home));
         let turns = items.iter().find(|(i, _)| matches!(i, SpindleItem::Turn(_)));
         if let (true, Some((_, span))) = (homes, turns) {
-            let text = "G74 and M3, M4, M5 or M19 in one bracket exclude each other";
+            let text = "G74 and M3, M4, M5 or M19 cannot be in one bracket";
             return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
         }
         if let (Some(_), Some((_, span))) = (some, other) {
@@ -171,7 +171,7 @@ impl Decoder {
                 )
             };
             if !several && items[..i].iter().any(|other| same(other) && !directs(other)) {
-                let text = "two words of a spindle bracket that set the same value";
+                let text = "two words of the spindle bracket set the same value";
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
                     SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
@@ -188,7 +188,7 @@ impl Decoder {
         if let Some((_, span)) =
             items.iter().find(|(i, _)| self.is_set_twice(spindle, i, bracket, words))
         {
-            let text = "turned, or given a speed, twice in one block";
+            let text = "started, stopped or given a speed twice in one block";
             let text = format!("{} is {text}", self.motion.spindles[spindle].name);
             return Err(Fault::new(Condition::DuplicateGroup, text, *span));
         }
@@ -327,7 +327,7 @@ impl Decoder {
                 return Err(Fault::new(Condition::InternalFunction, text, item.span));
             }
             (other, _) if is_function(other, 'G') => {
-                let text = format!("{other} is no function of a spindle");
+                let text = format!("{other} is not a spindle function");
                 return Err(Fault::new(Condition::SpindleCommand, text, item.span));
             }
             (other, _) => return Err(unknown(other)),
@@ -366,7 +366,7 @@ impl Decoder {
             SpindleItem::Function(function, value) => self.call_function(function, value),
             SpindleItem::FullOverride => {}
             SpindleItem::Home => {
-                let text = "G74: a spindle counts as homed where it is, nothing turns";
+                let text = "G74: the spindle is treated as homed at its position and does not turn";
                 self.report.note_once("S[G74]", Fault::new(Condition::Fallback, text, span));
             }
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {

@@ -196,7 +196,10 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End | MKind::Return if !matches!(then, Then::Next) => {
-                    let text = format!("M{:02} beside another end of the level", m.number);
+                    let text = format!(
+                        "M{:02} with another end of the program level in one block",
+                        m.number
+                    );
                     self.report.note(Fault::new(Condition::DuplicateGroup, text, m.span));
                 }
                 MKind::End => {

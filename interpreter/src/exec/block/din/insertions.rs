@@ -60,7 +60,7 @@ impl Decoder {
                 "FRC" => {
                     feed = value.filter(|v| *v > 0.0).map(|v| (v, *span));
                     if feed.is_none() {
-                        let text = "#FRC needs a feed above 0";
+                        let text = "#FRC requires a feed greater than 0";
                         self.report.note(Fault::new(Condition::Range, text, *span));
                     }
                     continue;
@@ -94,7 +94,7 @@ impl Decoder {
             match value.map(|v| v * self.modal.unit_mm()) {
                 Some(size) if size > 0.0 => {
                     if request.replace((kind, size, *span)).is_some() {
-                        let text = "two insertions in one block, the last one acts";
+                        let text = "two insertions in one block, the last one is used";
                         let condition = Condition::InsertionsWithoutMotion;
                         self.report.note(Fault::new(condition, text, *span).warning());
                     }

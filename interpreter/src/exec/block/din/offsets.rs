@@ -30,7 +30,7 @@ fn zero_group(g: &GWord) -> Outcome<u32> {
     if group > LAST_ZERO_GROUP {
         let condition = if by_axes { Condition::MaskedGroup } else { Condition::ZeroGroup };
         let text =
-            format!("there is no zero-offset group {group}, the last one is {LAST_ZERO_GROUP}");
+            format!("zero-offset group {group} does not exist, the last one is {LAST_ZERO_GROUP}");
         return Err(wrong(condition, text));
     }
     Ok(group)
@@ -63,7 +63,7 @@ impl Geometry {
                 v if v.total_cmp(&1.0).is_eq() => false,
                 v if v.total_cmp(&-1.0).is_eq() => true,
                 _ => {
-                    let text = format!("mirroring is switched by 1 and -1, not by {value}");
+                    let text = format!("mirroring is switched with 1 and -1, not with {value}");
                     return Err(Fault::new(Condition::MirrorSwitch, text, *span)
                         .with(|d| d.value(ValueKind::Wrong, *value, "-")));
                 }
@@ -141,7 +141,7 @@ impl Decoder {
         }
         let straight = matches!(self.modal.path_mode(words), PathMode::Rapid | PathMode::Linear);
         if takes_axes.is_some() || !straight {
-            let what = "D whose offsets move at once (P-CHAN-00100) in another block than a straight motion";
+            let what = "D with offsets moved at once (P-CHAN-00100) in a block other than a straight motion";
             self.report.note(Fault::unsupported(what, span));
             return;
         }
@@ -266,7 +266,7 @@ impl Decoder {
         needs_axes(g, words)?;
         if self.geometry.coordinates.systems() > 0 {
             let text =
-                format!("G{} in a coordinate system: limits are those of axes", g.row.number);
+                format!("G{} in a coordinate system: the limits apply to axes", g.row.number);
             return Err(Fault::new(Condition::FunctionInSystem, text, g.span));
         }
         for (i, (axis, value, span)) in words.axes.iter().enumerate() {
@@ -301,8 +301,9 @@ impl Decoder {
         if let (Some((lowest, highest)), true) = (listed, self.machine.channel.limits_bounded) {
             let bound = if positive { limit.min(highest) } else { limit.max(lowest) };
             if bound.to_bits() != limit.to_bits() {
-                let text =
-                    format!("the limit {limit} of axis {name} is beyond that of its list: {bound}");
+                let text = format!(
+                    "the limit {limit} of axis {name} is beyond the limit of its list: {bound}"
+                );
                 let condition = if positive {
                     Condition::PositiveLimitAboveList
                 } else {
@@ -314,7 +315,7 @@ impl Decoder {
         }
         let (low, high) = if positive { (low, limit) } else { (limit, high) };
         if low >= high {
-            let text = format!("axis {name}: the limits {low} and {high} leave no room");
+            let text = format!("axis {name}: the limits {low} and {high} leave no travel");
             let condition = if positive {
                 Condition::PositiveLimitTooLow
             } else {
@@ -384,7 +385,7 @@ pub(super) fn axis_functions(words: &Words<'_>, report: &mut Report) -> Option<G
     for g in words.g.iter().filter(|g| groups::takes_axes(g.row)) {
         if let Some(first) = found {
             let text = format!(
-                "G{} and G{} in one block: both need the axis words",
+                "G{} and G{} in one block: both require the axis words",
                 first.row.number, g.row.number
             );
             report.note(Fault::new(Condition::Syntax, text, g.span));

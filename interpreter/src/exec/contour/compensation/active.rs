@@ -167,9 +167,9 @@ impl Active {
         let mut watched = Watched::new(&mut self, out);
         let Self { distance, plane, last, between, .. } = self;
         if last.tangential {
-            let text = "G05: no contour follows the approach";
+            let text = "G05: the approach is not followed by a contour";
             return Err(Fault::new(Condition::Compensation, text, last.motion.span)
-                .hint("its arc touches the motion that comes next")
+                .hint("its arc touches the following motion")
                 .in_block(last.motion.source));
         }
         let at = above(last.side.end_point(), last.side.tangent(true), distance);

@@ -48,11 +48,11 @@ impl Closed {
         let stays = match motion.compensation {
             Some(c) if c.distance_mm.to_bits() == self.distance.to_bits() => true,
             Some(c) if c.distance_mm.abs().to_bits() != self.distance.abs().to_bits() => {
-                let text = "the radius of the tool changes within the contour of G238";
+                let text = "the tool radius changes within the contour of G238";
                 return Err(Fault::new(Condition::InsideCornerRadius, text, span));
             }
             Some(_) => {
-                let text = "the side of the tool changes within the contour of G238";
+                let text = "the tool side changes within the contour of G238";
                 return Err(Fault::new(Condition::Compensation, text, span));
             }
             None => moving_side(&motion, self.approach.plane)?.is_none(),
@@ -155,7 +155,7 @@ fn corner(approach: &Motion, distance: f64, items: &[Item]) -> Fallible<Point> {
         }
     }
     let [(first, _), between @ .., (last, _)] = &sides[..] else {
-        return Err(refused("a contour of G238 has at least two blocks"));
+        return Err(refused("a contour of G238 must have at least two blocks"));
     };
     if !matches!(first, Side::Line { .. }) {
         return Err(refused("the contour of G238 does not begin with a line"));

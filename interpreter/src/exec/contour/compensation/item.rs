@@ -36,6 +36,6 @@ pub(super) type Fallible<T> = Result<T, Box<Fault>>;
 ///
 /// Source: TF5200 diagnosis 261669259, 261704075.
 pub(super) fn too_tight(condition: Condition, motion: &Motion) -> Box<Fault> {
-    let text = "the contour is too tight for the radius of the tool";
+    let text = "the contour is too tight for the tool radius";
     Fault::new(condition, text, motion.span).in_block(motion.source)
 }

@@ -44,9 +44,9 @@ pub(super) fn way(
         if dot(tangent, chord) > 0.0 {
             return Ok(line(motion, plane, from, to));
         }
-        let text = "G05: no arc leads from a point straight ahead back to the contour";
+        let text = "G05: an arc from a point straight ahead back to the contour does not exist";
         return Err(Fault::new(Condition::Compensation, text, motion.span)
-            .hint("begin and end at a distance from the contour")
+            .hint("start and end at a distance from the contour")
             .in_block(motion.source));
     }
     let (centre_mm, sweep_rad) = match touch {

@@ -141,7 +141,7 @@ impl Executor {
             Keyword::Remark => {
                 let at = entry.position;
                 if let Some(location) = self.place(at, entry.span) {
-                    let text = "a % block inside a program: taken as a remark here, the control refuses it";
+                    let text = "a % block inside a program: treated as a remark here, refused by the control";
                     let condition = match self.levels.len() {
                         1 => Condition::PercentInProgram,
                         _ => Condition::PercentInSubroutine,
@@ -194,7 +194,7 @@ impl Executor {
             }
             Err(e) => {
                 let name = Arc::clone(&self.files.file(file).name);
-                let hint = "it was executed up to there";
+                let hint = "the program was executed up to this point";
                 self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")).hint(hint));
                 self.end(EndReason::Aborted);
                 None
@@ -275,7 +275,7 @@ impl Executor {
                 // the only number that the control itself rounds
                 let outcome = self.decoder.number(expr).and_then(|x| {
                     whole(x.round(), 0, u32::MAX).ok_or_else(|| {
-                        let text = format!("a block number is {x}, allowed are 0 to {}", u32::MAX);
+                        let text = format!("a block number is {x}, allowed: 0 to {}", u32::MAX);
                         Fault::new(Condition::Range, text, expr.span)
                     })
                 });
@@ -370,7 +370,7 @@ impl Executor {
         match on {
             Some(true) => level.optional = Some(here),
             Some(false) if level.optional.take().is_none() => {
-                let text = "#OPTIONAL EXECUTION OFF without ON on its level";
+                let text = "#OPTIONAL EXECUTION OFF without ON on the same program level";
                 let fault = Fault::new(Condition::OptionalNotOpen, text, command.span);
                 self.decoder.report.note(fault);
             }
@@ -422,7 +422,7 @@ impl Executor {
             Then::Goto(label) => self.goto(label),
             Then::Return(Some((back, span))) => {
                 if self.levels.len() > levels {
-                    let text = format!("M{} to another place in a block that calls", back.number);
+                    let text = format!("M{} with a target in a block with a call", back.number);
                     self.decoder.report.note(Fault::new(Condition::BehindCall, text, span));
                 }
                 self.return_to(back, span);

@@ -46,12 +46,12 @@ impl Executor {
             matches!(counter.kind, PlaceKind::Parameter { .. } | PlaceKind::Variable(_));
         if !is_counter {
             self.leave_structure(id);
-            let text = "the counter of $FOR is a P parameter or a variable";
+            let text = "the counter of $FOR must be a P parameter or a variable";
             return Err(Fault::new(Condition::ForCounter, text, counter.span));
         }
         if by == 0.0 {
             let at = step.map_or(span, |s| s.span);
-            let text = "$FOR with step 0 does not end";
+            let text = "$FOR with step 0 never ends";
             self.decoder.report.note(Fault::new(Condition::Odd, text, at).warning());
         }
         if let Err(fault) = self.decoder.write(counter, Value::Number(first), start.span) {

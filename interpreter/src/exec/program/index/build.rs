@@ -175,7 +175,7 @@ impl Builder<'_> {
             let text = format!(
                 "program {name} never runs: the blocks before the first % are the main program"
             );
-            let hint = "no block comes before the first %L or %; write M30 after the blocks if they are the program";
+            let hint = "do not write blocks before the first %L or %; write M30 after the blocks if they are the program";
             let d = Diagnostic::new(Condition::TextBehindEnd, text);
             let d = d.severity(Severity::Error).hint(hint);
             self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
@@ -389,7 +389,8 @@ impl Builder<'_> {
                 _ => format!("{} after the $ELSE of the same $IF", keyword.text()),
             };
             let d = Diagnostic::new(keyword.unexpected(), text);
-            let hint = format!("is {} of a structure inside missing?", closer_of(keyword));
+            let hint =
+                format!("check whether {} of an inner structure is missing", closer_of(keyword));
             self.report(raw, head.at, name.len() + 1, d.hint(hint));
         }
         let parent = self.index.entry(open).parent;
@@ -484,7 +485,7 @@ pub(in crate::exec) fn build(
                 "control statements, labels and subroutines of one file take more than {} MB",
                 STRUCTURE_MAX / 1_000_000
             );
-            let hint = "divide the program into several files, called one after the other";
+            let hint = "split the program into several files, called one after the other";
             let location = raw.locate(file, Span::new(0, raw.text.len()));
             let diagnostic = Diagnostic::new(Condition::Nesting, text).at(location).hint(hint);
             builder.diagnostics.push(diagnostic);

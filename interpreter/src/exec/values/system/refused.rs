@@ -11,12 +11,12 @@ use crate::syntax::ast::{Segment, Span};
 const CLASSES: &[(&str, &str)] = &[
     (
         "TOOL",
-        "the parts of a tool ID have no tool management here; T and D words are V.G.T_AKT and V.G.D_AKT",
+        "tool IDs are not available, as tool management is not simulated; use V.G.T_AKT and V.G.D_AKT for the T and D words",
     ),
     ("TLM", "the weights of tool life are V.TLM.TIME_FACT and V.TLM.DIST_FACT"),
     ("RTG", "real-time cycles (#RT CYCLE) are not simulated"),
     ("RTA", "real-time cycles (#RT CYCLE) are not simulated"),
-    ("I", "no page says what these variables are"),
+    ("I", "these variables are not documented"),
 ];
 
 /// Variables of functions that are not simulated, with the reason. Source: TF5200 volumetric compensation; outputs of M
@@ -24,12 +24,12 @@ const CLASSES: &[(&str, &str)] = &[
 /// block type (tccncprogramming 15557116555); ADS access (312808843).
 const OTHERS: &[(&str, &str, &str)] = &[
     ("A", "RETRACT_ACS_POS", "tools are not retracted after a fault"),
-    ("A", "WCS", "the page names the variable and not the system that it counts in"),
+    ("A", "WCS", "the documentation does not state the coordinate system of this variable"),
     ("G", "VOLCOMP", "volumetric compensation is not simulated"),
-    ("G", "M_FCT", "outputs before their place are not simulated"),
-    ("G", "H_FCT", "outputs before their place are not simulated"),
-    ("G", "IP_NR", "there is no job manager here"),
-    ("G", "PROG_SA", "the numbers of the block types are printed nowhere"),
+    ("G", "M_FCT", "outputs ahead of their position are not simulated"),
+    ("G", "H_FCT", "outputs ahead of their position are not simulated"),
+    ("G", "IP_NR", "the job manager is not simulated"),
+    ("G", "PROG_SA", "the numbers of the block types are not documented"),
 ];
 
 /// Tool data that is not used here. Source: TF5200 external tool management 318262795; online tool compensation
@@ -80,6 +80,6 @@ pub(super) fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Faul
     let near = suggest::nearest(&name, names.iter().map(String::as_str));
     match near.or_else(|| begun().min_by_key(|known| known.len()).map(String::as_str)) {
         Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
-        None => fault.hint("variables of a program are V.P.NAME and V.L.NAME, declared by #VAR"),
+        None => fault.hint("declare program variables V.P.NAME and V.L.NAME with #VAR"),
     }
 }

@@ -32,7 +32,7 @@ pub(in crate::exec) fn write(
         }
         d.values.kinematics.insert(name, value);
         let text =
-            "V.G.KIN: transformations are taken as identity, their parameters have no effect";
+            "V.G.KIN: transformations are treated as the identity, their parameters have no effect";
         d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
         return Ok(());
     }
@@ -86,11 +86,11 @@ pub(in crate::exec) fn write(
         ["TLM", name @ ("TIME_FACT" | "DIST_FACT")] => {
             let weight = x()?;
             if weight < 0.0 {
-                let text = format!("V.TLM.{name} = {weight}, allowed are values from 0");
+                let text = format!("V.TLM.{name} = {weight}, allowed: values from 0");
                 return Err(Fault::new(Condition::Range, text, span));
             }
             d.values.tool_life[usize::from(name == "DIST_FACT")] = weight;
-            let text = "V.TLM: the life of tools is not counted, its weights have no effect";
+            let text = "V.TLM: tool life is not counted, its weights have no effect";
             d.report.note_once("V.TLM", Fault::new(Condition::Ignored, text, span));
         }
         ["G", "RW"] => {
@@ -147,7 +147,7 @@ fn write_tool(
         ["L"] => tool.length_mm = x,
         ["SPDL_AX_NR"] => {
             let number = whole(x, 0, u32::from(u16::MAX)).ok_or_else(|| {
-                let text = format!("{x} is no logical axis number");
+                let text = format!("{x} is not a logical axis number");
                 Fault::new(Condition::Range, text, path.span)
             })?;
             tool.spindle = number;
@@ -174,16 +174,16 @@ impl Calls {
         report: &mut Report,
     ) -> Outcome<()> {
         let Some(blocks) = whole(blocks, 0, u32::MAX) else {
-            let text = format!("{blocks} blocks ahead, allowed are the whole numbers from 0");
+            let text = format!("{blocks} blocks ahead, allowed: whole numbers from 0");
             return Err(Fault::new(Condition::Range, text, span));
         };
         if blocks > 0 && self.blocks_ahead[1 - which] > 0.0 {
-            let text = "two limits of the blocks ahead: the other one is in force";
+            let text = "two limits for the blocks read ahead: the other one is active";
             return Err(Fault::new(Condition::BlocksAheadTwice, text, span));
         }
         self.blocks_ahead[which] = f64::from(blocks);
         if blocks > 0 {
-            let text = "the blocks ahead are not limited: the path is planned over all of them";
+            let text = "the number of blocks read ahead is not limited: the path is planned over all of them";
             report.note_once("blocks ahead", Fault::new(Condition::Fallback, text, span));
         }
         Ok(())

@@ -26,7 +26,7 @@ impl Variables {
                 Some(variable) => variable.get(subscripts, Owner::Parameter, span),
                 None if !subscripts.is_empty() => Err(undeclared_array(*index, span)),
                 None if channel.keep_p_parameters => {
-                    let hint = "P-CHAN-00067 keeps parameters of earlier programs; here none ran";
+                    let hint = "P-CHAN-00067 keeps parameters of earlier programs; here no earlier program has run";
                     Err(undefined_parameter(*index, span).hint(hint))
                 }
                 None => Err(undefined_parameter(*index, span)),
@@ -55,7 +55,7 @@ impl Variables {
                 let fault = undefined(&format!("V.E.{name}"), span);
                 Err(match suggest::hint(name, known) {
                     Some(hint) => fault.hint(hint),
-                    None => fault.hint("external variables get their values from --external"),
+                    None => fault.hint("set the values of external variables with --external"),
                 })
             }
         }
@@ -132,7 +132,7 @@ impl Variables {
                 Ok(())
             }
             None => {
-                let text = format!("V.E.{name} is not configured, the program created it");
+                let text = format!("V.E.{name} is not configured and was created by the program");
                 report.note(Fault::new(Condition::ExternalCreated, text, span));
                 self.external.insert(name, External { value, access: Access::ReadWrite });
                 Ok(())
@@ -198,15 +198,15 @@ impl Variables {
         match class {
             Class::Cycle if self.find(Class::Cycle, name).is_none() => Ok(()),
             Class::Cycle => {
-                let text = format!("V.CYC.{name} was created on a level above");
+                let text = format!("V.CYC.{name} was created on a higher level");
                 Err(Fault::new(Condition::DeletedAbove, text, span))
             }
             Class::Shared => {
                 // on the control they outlive programs, so a program may delete those of another one
                 let text = format!(
-                    "V.S.{name} does not exist: a run begins without what earlier programs left"
+                    "V.S.{name} does not exist: a run starts without variables of earlier programs"
                 );
-                let hint = "on the control a missing variable is 20932";
+                let hint = "on the control, a missing variable is error 20932";
                 let fault = Fault::new(Condition::Ignored, text, span).hint(hint);
                 report.note_once("deleted shared variable", fault);
                 Ok(())

@@ -54,7 +54,9 @@ impl Variables {
     /// Reports each `@P` that the block has created by reading, once per program.
     pub(in crate::exec) fn report_created(&self, report: &mut Report) {
         for (name, span) in self.created.take() {
-            let text = format!("@{name} was not passed to the cycle: reading it creates it with 0");
+            let text = format!(
+                "@{name} was not passed to the cycle: reading it creates it with the value 0"
+            );
             let fault = Fault::new(Condition::Odd, text, span)
                 .warning()
                 .hint(pass_it(&name))

@@ -88,7 +88,7 @@ fn declared(decoder: &Decoder, place: &Place) -> Outcome<Declared> {
             let Some((class, _)) = class(first) else {
                 let text = format!("variables of class V.{first} cannot be declared");
                 let fault = Fault::new(Condition::VariableType, text, span);
-                return Err(fault.hint("V.P, V.L, V.S and V.CYC can be declared"));
+                return Err(fault.hint("declare V.P, V.L, V.S or V.CYC variables"));
             };
             let names: Vec<&str> = segments[1..].iter().map(|s| &*s.name).collect();
             Ok(Declared::Own(class, names.join(".")))
@@ -107,7 +107,7 @@ fn declared_type(decoder: &Decoder, declaration: &Declaration) -> Outcome<Type> 
     };
     let kind = Type::from_name(&name.text.to_ascii_uppercase()).ok_or_else(|| {
         Fault::new(Condition::VariableType, format!("unknown type {}", name.text), name.span)
-            .hint("types are BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64, STRING[n]")
+            .hint("use BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64 or STRING[n]")
     })?;
     match (&declaration.length, kind) {
         (Some(length), Type::Text(_)) => {
@@ -122,9 +122,8 @@ fn sizes(decoder: &Decoder, place: &Place) -> Outcome<SmallVec<[usize; 2]>> {
     let size = |e: &Expr| {
         let x = decoder.number(e)?;
         whole(x, 1, high).map(|n| n as usize).ok_or_else(|| {
-            let text = format!(
-                "the size of a dimension is {x}, allowed are the whole numbers 1 to {high}"
-            );
+            let text =
+                format!("the size of a dimension is {x}, allowed: whole numbers 1 to {high}");
             let condition = if x < 1.0 {
                 Condition::DimensionTooSmall
             } else if x > f64::from(high) {

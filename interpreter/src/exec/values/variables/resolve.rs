@@ -81,7 +81,7 @@ fn external_name(decoder: &Decoder, segments: &[Segment]) -> Outcome<String> {
         for expr in &segment.subscripts {
             let x = decoder.number(expr)?;
             let index = whole(x, 0, u32::MAX).ok_or_else(|| {
-                let text = format!("subscript {x} is not a whole number from 0");
+                let text = format!("index {x} is not a whole number from 0");
                 Fault::new(Condition::VariableIndex, text, expr.span)
             })?;
             // writing to a String cannot fail
@@ -100,7 +100,7 @@ pub(super) fn parameter_index(
 ) -> Outcome<u32> {
     let checked = |x: f64| {
         whole(x, 1, INDEX_MAX).ok_or_else(|| {
-            let text = format!("P{x} does not exist, indices are 1 to {INDEX_MAX}");
+            let text = format!("P{x} does not exist, allowed: indices 1 to {INDEX_MAX}");
             Fault::new(Condition::ParameterNumber, text, span).with(|d| {
                 d.value(ValueKind::Wrong, x, "-").value(ValueKind::UpperLimit, INDEX_MAX, "-")
             })

@@ -82,7 +82,7 @@ impl Type {
                 Value::Text(text) if text.chars().count() > length => {
                     let written = text.chars().count();
                     let text =
-                        format!("a text of {written} characters, the variable holds {length}");
+                        format!("a text of {written} characters, the variable can hold {length}");
                     return Err(Fault::new(Condition::TextTooLong, text, span).with(|d| {
                         d.value(ValueKind::Wrong, written as f64, "-").value(
                             ValueKind::UpperLimit,
@@ -93,7 +93,7 @@ impl Type {
                 }
                 Value::Text(text) => Value::Text(text),
                 Value::Number(_) => {
-                    return Err(Fault::new(Condition::TextExpected, "a text is expected", span));
+                    return Err(Fault::new(Condition::TextExpected, "text expected", span));
                 }
             },
         })
@@ -164,7 +164,7 @@ impl Variable {
         };
         if subscripts.len() != self.sizes.len() {
             let text = format!(
-                "{} subscript(s) are written, the variable has {} dimension(s)",
+                "{} index(es) given, the variable has {} dimension(s)",
                 subscripts.len(),
                 self.sizes.len()
             );
@@ -174,7 +174,7 @@ impl Variable {
         for (x, size) in subscripts.iter().zip(&self.sizes) {
             let high = u32::try_from(size - 1).unwrap_or(u32::MAX);
             let Some(i) = whole(*x, 0, high) else {
-                let text = format!("subscript {x} is not in 0 to {high}");
+                let text = format!("index {x} is not in 0 to {high}");
                 return Err(Fault::new(wrong_index, text, span)
                     .with(|d| d.value(ValueKind::Wrong, *x, "-")));
             };
