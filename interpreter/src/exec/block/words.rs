@@ -19,6 +19,48 @@ use crate::syntax::ast::{
     Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, PlaceKind, Span, Word, WordKind,
 };
 
+impl Code {
+    /// An M or H function and its value; `letter`: which of the two.
+    pub(super) fn read(
+        decoder: &Decoder,
+        number: &CodeNumber,
+        value: Option<&Expr>,
+        letter: &str,
+        span: Span,
+    ) -> Outcome<Self> {
+        // the diagnosis manual prints the limit of M (20160, 250945931), but not that of H
+        let (highest, condition) = match letter {
+            "M" => (1000, Condition::MNumberTooLarge),
+            _ => (65535, Condition::Range),
+        };
+        let number = match number {
+            CodeNumber::Literal(n) => *n,
+            CodeNumber::Computed(expr) => {
+                decoder.whole(expr, "the number of a function", 0, u32::MAX)?
+            }
+        };
+        if number > highest {
+            let text = format!("the number of the {letter} function is above {highest}");
+            return Err(Fault::new(condition, text, span).with(|d| {
+                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, highest, "-")
+            }));
+        }
+        let value = match value {
+            Some(expr) => Some(decoder.number(expr)?),
+            None => None,
+        };
+        if let (Some(fraction), "M") = (value.filter(|x| x.fract() != 0.0), letter) {
+            let text = format!("M{number:02}={fraction}: the value of an M function is an integer");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
+            let text = format!("M{number:02} takes no value, not {value}");
+            return Err(Fault::new(Condition::Syntax, text, span));
+        }
+        Ok(Self { number, value, span })
+    }
+}
+
 impl Decoder {
     /// Collects the words of a block and executes its assignments. Invalid words are reported and skipped.
     pub(in crate::exec) fn collect<'b>(&mut self, words: &'b [Word], block: &mut Words<'b>) {
@@ -80,7 +122,7 @@ impl Decoder {
                 self.g_word(number, None, span, block)
             }
             WordKind::M(number, value) => {
-                let code = self.code(number, value.as_deref(), "M", span)?;
+                let code = Code::read(self, number, value.as_deref(), "M", span)?;
                 once(&block.m, &code, "M", Condition::MTwice)?;
                 block.m.push(code);
                 Ok(())
@@ -93,7 +135,7 @@ impl Decoder {
                 Ok(())
             }
             WordKind::H(number, value) => {
-                let code = self.code(number, value.as_deref(), "H", span)?;
+                let code = Code::read(self, number, value.as_deref(), "H", span)?;
                 once(&block.h, &code, "H", Condition::HTwice)?;
                 block.h.push(code);
                 Ok(())
@@ -230,45 +272,6 @@ impl Decoder {
             }
         };
         self.write(target, result, span)
-    }
-
-    fn code(
-        &mut self,
-        number: &CodeNumber,
-        value: Option<&Expr>,
-        letter: &str,
-        span: Span,
-    ) -> Outcome<Code> {
-        // the diagnosis manual prints the limit of M (20160, 250945931), but not that of H
-        let (highest, condition) = match letter {
-            "M" => (1000, Condition::MNumberTooLarge),
-            _ => (65535, Condition::Range),
-        };
-        let number = match number {
-            CodeNumber::Literal(n) => *n,
-            CodeNumber::Computed(expr) => {
-                self.whole(expr, "the number of a function", 0, u32::MAX)?
-            }
-        };
-        if number > highest {
-            let text = format!("the number of the {letter} function is above {highest}");
-            return Err(Fault::new(condition, text, span).with(|d| {
-                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, highest, "-")
-            }));
-        }
-        let value = match value {
-            Some(expr) => Some(self.number(expr)?),
-            None => None,
-        };
-        if let (Some(fraction), "M") = (value.filter(|x| x.fract() != 0.0), letter) {
-            let text = format!("M{number:02}={fraction}: the value of an M function is an integer");
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
-            let text = format!("M{number:02} takes no value, not {value}");
-            return Err(Fault::new(Condition::Syntax, text, span));
-        }
-        Ok(Code { number, value, span })
     }
 }
 

@@ -41,7 +41,12 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     } else {
         call.command.groups.iter().flat_map(|g| &g.items).filter_map(released).collect()
     };
-    decoder.moves_no_coupled(named.iter().copied(), Condition::CoupledAxisReleased, call.span())?;
+    decoder.motion.couplings.moves_no_coupled(
+        named.iter().copied(),
+        &decoder.machine,
+        Condition::CoupledAxisReleased,
+        call.span(),
+    )?;
     exchange(decoder, call.span())?;
     if decoder.modal.diameter.is_some_and(|axis| named.contains(&axis)) {
         let text = "the face turning axis cannot be released under G51";
@@ -104,7 +109,12 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
 /// `#SET AX [name, number, index, options]..`: replaces the set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let axes = 0..decoder.machine.axes.len();
-    decoder.moves_no_coupled(axes, Condition::CoupledAxisSorted, call.span())?;
+    decoder.motion.couplings.moves_no_coupled(
+        axes,
+        &decoder.machine,
+        Condition::CoupledAxisSorted,
+        call.span(),
+    )?;
     exchange(decoder, call.span())?;
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
@@ -120,7 +130,12 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let axes = 0..decoder.machine.axes.len();
-    decoder.moves_no_coupled(axes, Condition::CoupledAxisSorted, call.span())?;
+    decoder.motion.couplings.moves_no_coupled(
+        axes,
+        &decoder.machine,
+        Condition::CoupledAxisSorted,
+        call.span(),
+    )?;
     exchange(decoder, call.span())?;
     match call.rest {
         [word] if word.is("DEFAULT") => {
@@ -356,7 +371,12 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
         return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)).hint(hint));
     };
     taken.add(index, logical, [at(1), at(2)])?;
-    decoder.moves_no_coupled(std::iter::once(axis), Condition::CoupledAxisSorted, at(0))?;
+    decoder.motion.couplings.moves_no_coupled(
+        std::iter::once(axis),
+        &decoder.machine,
+        Condition::CoupledAxisSorted,
+        at(0),
+    )?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
         // the manual has an ID for two names within the command, and another one for an axis that is already in the channel
         let condition = if taken.numbers.contains(&decoder.machine.axes[other].number()) {

@@ -21,11 +21,15 @@ use crate::exec::block::groups::Act;
 use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::spindles::Turning;
+use crate::exec::motion::state::Threads;
+use crate::exec::report::Report;
 use crate::exec::step::{Event, SpindleState, Sync};
 use crate::machine::Axis;
 use crate::syntax::ast::{ItemKind, Span};
 use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
@@ -59,6 +63,32 @@ struct Coupling {
     deg_per_mm: f64,
     /// Degrees per mm of path, unsigned.
     deg_per_path_mm: f64,
+}
+
+impl Threads {
+    /// The pitch of a path: that of its longest main axis with a pitch.
+    fn pitch(&self, coordinates: &Coordinates, path: &Path, span: Span) -> Outcome<(usize, f64)> {
+        let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
+        let mut best: Option<(usize, f64)> = None;
+        let pitches = self.pitch_mm.iter().enumerate();
+        let absent = |main| coordinates.main_axis(main).is_none();
+        if pitches.clone().any(|(main, pitch)| pitch.is_some() && absent(main)) {
+            let text = "the channel has no axis for the pitch of the thread (I, J or K)";
+            return Err(Fault::new(Condition::PitchAxisMissing, text, span));
+        }
+        for (main, pitch) in self.pitch_mm.iter().enumerate() {
+            let (Some(pitch), Some(axis)) = (pitch, coordinates.main_axis(main)) else {
+                continue;
+            };
+            if way(axis) > 0.0 && best.is_none_or(|(b, _)| way(axis) > way(b)) {
+                best = Some((axis, *pitch));
+            }
+        }
+        best.ok_or_else(|| {
+            let text = "the thread has no pitch for the axes that it moves: I, J or K in mm/rev";
+            Fault::new(Condition::ThreadPitch, text, span)
+        })
+    }
 }
 
 impl Decoder {
@@ -138,22 +168,6 @@ impl Decoder {
         }
     }
 
-    /// K-0132 for a thread from standstill to standstill that ends before the path reaches the speed of its pitch.
-    fn thread_is_long_enough(&mut self, block: &Block, feed_mm_s: f64, span: Span) {
-        let queued = Queued::new(block.clone(), self.machine.cycle);
-        let profile = queued.slope.plan(0.0, 0.0, feed_mm_s, queued.length);
-        let Some(reached) = profile.ok().map(|p| p.peak()).filter(|v| *v < feed_mm_s * SHORT)
-        else {
-            return;
-        };
-        let needed =
-            queued.slope.up_distance(0.0, feed_mm_s) + queued.slope.down_distance(feed_mm_s, 0.0);
-        let text = format!(
-            "the thread is too short for its pitch: the path reaches {reached:.3} of {feed_mm_s:.3} mm/s, starting and stopping take {needed:.3} mm"
-        );
-        self.report.note(Fault::new(Condition::ThreadBroken, text, span));
-    }
-
     /// Functions that cannot be combined with threads.
     fn thread_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         if self.modal.compensation != Compensation::Off {
@@ -194,37 +208,13 @@ impl Decoder {
         Ok(())
     }
 
-    /// The pitch of a path: that of its longest main axis with a pitch.
-    fn pitch(&self, path: &Path, span: Span) -> Outcome<(usize, f64)> {
-        let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
-        let mut best: Option<(usize, f64)> = None;
-        let pitches = self.motion.threads.pitch_mm.iter().enumerate();
-        let absent = |main| self.geometry.coordinates.main_axis(main).is_none();
-        if pitches.clone().any(|(main, pitch)| pitch.is_some() && absent(main)) {
-            let text = "the channel has no axis for the pitch of the thread (I, J or K)";
-            return Err(Fault::new(Condition::PitchAxisMissing, text, span));
-        }
-        for (main, pitch) in self.motion.threads.pitch_mm.iter().enumerate() {
-            let (Some(pitch), Some(axis)) = (pitch, self.geometry.coordinates.main_axis(main))
-            else {
-                continue;
-            };
-            if way(axis) > 0.0 && best.is_none_or(|(b, _)| way(axis) > way(b)) {
-                best = Some((axis, *pitch));
-            }
-        }
-        best.ok_or_else(|| {
-            let text = "the thread has no pitch for the axes that it moves: I, J or K in mm/rev";
-            Fault::new(Condition::ThreadPitch, text, span)
-        })
-    }
-
     fn cut_thread(&mut self, path: Path, words: &Words<'_>, span: Span) -> Outcome<()> {
         let modes = self.motion.threads.turning;
         if !modes.chain {
             self.end_thread();
         }
-        let (axis, pitch_mm) = self.pitch(&path, span)?;
+        let (axis, pitch_mm) =
+            self.motion.threads.pitch(&self.geometry.coordinates, &path, span)?;
         if pitch_mm < 0.0 {
             let text = "the pitch of G33 has no sign: M03 and M04 set the direction";
             return Err(Fault::new(Condition::ThreadPitch, text, span));
@@ -266,7 +256,7 @@ impl Decoder {
             return Err(Fault::new(Condition::ThreadSpeed, text, span));
         }
         if !modes.chain {
-            self.thread_is_long_enough(&block, feed_mm_s, span);
+            thread_is_long_enough(&block, feed_mm_s, self.machine.cycle, (&mut self.report, span));
         }
         let plane = self.in_plane(span)?;
         if self.report.failed() && !self.checking {
@@ -395,7 +385,8 @@ impl Decoder {
             };
             (rpm.abs() * 6.0 / feed_mm_s, rpm.signum(), feed_mm_s)
         } else {
-            let (axis, pitch_mm) = self.pitch(path, span)?;
+            let (axis, pitch_mm) =
+                self.motion.threads.pitch(&self.geometry.coordinates, path, span)?;
             let per_path_mm = 360.0 * way(axis).abs() / (pitch_mm.abs() * path.length());
             let back = if self.modal.path == PathMode::TapBack { -1.0 } else { 1.0 };
             (per_path_mm, pitch_mm.signum() * back, rpm.abs() * 6.0 / per_path_mm)
@@ -425,4 +416,24 @@ impl Decoder {
             spline: None,
         })
     }
+}
+
+/// K-0132 for a thread from standstill to standstill that ends before the path reaches the speed of its pitch.
+fn thread_is_long_enough(
+    block: &Block,
+    feed_mm_s: f64,
+    cycle: CycleTime,
+    (report, span): (&mut Report, Span),
+) {
+    let queued = Queued::new(block.clone(), cycle);
+    let profile = queued.slope.plan(0.0, 0.0, feed_mm_s, queued.length);
+    let Some(reached) = profile.ok().map(|p| p.peak()).filter(|v| *v < feed_mm_s * SHORT) else {
+        return;
+    };
+    let needed =
+        queued.slope.up_distance(0.0, feed_mm_s) + queued.slope.down_distance(feed_mm_s, 0.0);
+    let text = format!(
+        "the thread is too short for its pitch: the path reaches {reached:.3} of {feed_mm_s:.3} mm/s, starting and stopping take {needed:.3} mm"
+    );
+    report.note(Fault::new(Condition::ThreadBroken, text, span));
 }

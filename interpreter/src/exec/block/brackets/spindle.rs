@@ -252,7 +252,9 @@ impl Decoder {
                     );
                 }
             }
-            SpindleItem::Function(function, value) => self.call_function(function, value),
+            SpindleItem::Function(function, value) => {
+                self.motion.call(function, value, &self.machine.channel, &mut self.contour);
+            }
             SpindleItem::FullOverride => {}
             SpindleItem::Home => {
                 let text = "G74: a spindle counts as homed where it is, nothing turns";

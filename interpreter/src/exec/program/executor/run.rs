@@ -5,6 +5,7 @@ use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::din::{After, CallAfter, Then};
 use crate::exec::fault::Fault;
+use crate::exec::motion::straight::StraightWords;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
 use crate::exec::program::state::Closing;
@@ -64,7 +65,8 @@ impl Executor {
         match fetched {
             Fetched::Plain => {
                 let plain = self.files.plain();
-                let (number, words) = (plain.frame.number, self.decoder.straight_words(plain));
+                let (number, words) =
+                    (plain.frame.number, StraightWords::read(&self.decoder, plain));
                 self.source_of(file, at, number);
                 match words {
                     Some(words) => self.decoder.straight_motion(&words, None, None),
