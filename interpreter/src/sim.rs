@@ -21,6 +21,7 @@ mod real_time;
 mod smoothing;
 mod spindle;
 mod start;
+mod steps;
 mod totals;
 mod wait;
 mod wear;
@@ -30,7 +31,7 @@ pub(crate) use out::{Measuring, Messages, Samples};
 pub(crate) use start::impossible_axes;
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::exec::{EndReason, Event, Executor, SourceRef, Step, Sync};
+use crate::exec::{EndReason, Event, Executor, SourceRef, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion, RowBuffer};
 use axes::Driver;
@@ -41,7 +42,6 @@ use independent::IndependentAxes;
 use inputs::Inputs;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use probe::Probing;
@@ -50,7 +50,7 @@ use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use totals::{Programmed, Progress};
-use wait::{AwaitedMark, Parts, Wait};
+use wait::{Parts, Wait};
 use wear::Wear;
 
 /// Phase of a run.
@@ -325,131 +325,6 @@ impl Simulation {
         self.messages.own.push(fault::internal(text));
         self.totals.aborted = true;
         self.phase = Phase::Done;
-    }
-
-    /// Takes the next step of the program.
-    fn pull(&mut self) {
-        let feedback = self.feedback();
-        match self.executor.next(feedback) {
-            Step::Motion { block, source, events } => self.motion(block, source, events),
-            Step::Sync { what, source, events } => {
-                let measures = match &what {
-                    Sync::Measured { through, stops } => Some((*through, stops.clone())),
-                    _ => None,
-                };
-                self.pending = Some((After::Sync(what), source, events));
-                self.path_stops();
-                if let Some((through, stops)) = measures {
-                    self.begin_probing(through, &stops);
-                }
-            }
-            Step::End { reason, source, events } => {
-                self.pending = Some((After::End(reason), source, events));
-                self.path_stops();
-            }
-        }
-    }
-
-    fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
-        let programmed = Programmed::new(&block, self.executor.blocks());
-        let jerk_limited = block.slope.kind != SlopeKind::Step;
-        let motion = Motion::of(&block);
-        let (seq, target) = (block.seq, block.path.end().clone());
-        let bands = events.iter().any(|event| matches!(event, Event::Banding(_)));
-        self.underway.push_back(Underway {
-            seq,
-            source,
-            programmed,
-            motion,
-            target,
-            jerk_limited,
-            events,
-        });
-        self.smoothing.push(block, &mut self.planner);
-        if bands {
-            self.smoothing.flush(&mut self.planner);
-            self.planner.halt_behind();
-        }
-        self.not_contoured();
-    }
-
-    /// Announces that the path stops after the last motion.
-    fn path_stops(&mut self) {
-        self.smoothing.flush(&mut self.planner);
-        self.not_contoured();
-        self.planner.finish();
-    }
-
-    /// Handles the rest of the path after everything that was pushed.
-    fn at_rest(&mut self) {
-        if self.planner.halts() {
-            self.at_halt();
-            return;
-        }
-        let Some((after, source, events)) = self.pending.take() else {
-            self.pull();
-            return;
-        };
-        self.progress.complete(self.executor.blocks());
-        self.waits_at = source;
-        let k = self.planner.setpoint().k;
-        for event in events {
-            self.act(event, k);
-        }
-        self.expect_stops();
-        let wait = match after {
-            After::Sync(sync) => Wait::for_sync(sync, self.cycle),
-            After::End(reason) => Wait::for_end(reason),
-        };
-        for axis in wait.end_oscillations(&mut self.independent) {
-            self.oscillation_ends(axis);
-        }
-        self.phase = Phase::Waiting(wait);
-    }
-
-    /// Expects the axes at the rest position of the path.
-    fn expect_stops(&mut self) {
-        for (i, chain) in self.chains.iter_mut().enumerate() {
-            if let Driver::Path(p) = self.drivers[i]
-                && !self.independent.is_moving(p)
-            {
-                let way_mm = self.independent.done_mm(p);
-                chain.expect_stop(self.planner.setpoint().position[p] + way_mm);
-                self.stops_at[i] = self.current;
-            }
-        }
-    }
-
-    /// Ends a wait: performs its action and returns to the program.
-    fn go_on(&mut self) {
-        let Phase::Waiting(wait) = std::mem::replace(&mut self.phase, Phase::Running) else {
-            return;
-        };
-        if let Some(AwaitedMark { spindle, deg, full_override }) = wait.mark() {
-            self.thread = Some(Thread { full_override, broken: false });
-            let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
-            self.thread_delay = share.unwrap_or(0.0);
-            self.planned.copy_from_slice(&self.path_position);
-        }
-        match wait.into_action() {
-            wait::Action::None => {}
-            wait::Action::ThreadEnd => {
-                self.thread_delay = 0.0;
-                self.thread = None;
-            }
-            wait::Action::Halted => self.call_at_halt(),
-            wait::Action::Resume => self.resume(),
-            wait::Action::Shaping(setup) => self.swap_kernels(&setup),
-            wait::Action::MachineData => self.machine_data(),
-            wait::Action::SetPosition { axis, offset_mm, moves } => {
-                self.set_position(axis, offset_mm, moves);
-                self.phase = Phase::Waiting(Wait::for_a_cycle());
-            }
-            wait::Action::End(reason) => {
-                self.totals.aborted |= reason == EndReason::Aborted;
-                self.phase = Phase::Done;
-            }
-        }
     }
 
     /// Ends the run where the program needs a cycle beyond its time limit; braking after a fault is not limited.

@@ -171,4 +171,25 @@ impl Geometry {
         }
         tip
     }
+
+    /// Factor of centres and radii in the plane of these main axes.
+    ///
+    /// # Errors
+    /// The axes of the plane have different factors: the scaled arc would not be an arc.
+    pub(in crate::exec) fn scale_of_plane(&self, plane: [usize; 2], span: Span) -> Outcome<f64> {
+        let [first, second] = plane.map(|main| self.scale_of_main(main));
+        if first.to_bits() == second.to_bits() {
+            Ok(first)
+        } else {
+            Err(Fault::unsupported(
+                "an arc in a plane whose axes have different factors (#SCALE)",
+                span,
+            ))
+        }
+    }
+
+    /// Factor of a main axis, 1 for one that is missing.
+    pub(in crate::exec) fn scale_of_main(&self, main: usize) -> f64 {
+        self.coordinates.main_axis(main).map_or(1.0, |axis| self.scale.factor(axis))
+    }
 }

@@ -42,6 +42,9 @@ use super::fault::{Fault, Outcome};
 use super::step::Sync;
 use super::values::number::LARGEST_MM;
 use crate::diag::Condition;
+use crate::exec::geometry::Geometry;
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::state::MotionState;
 use crate::exec::report::Report;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed, SlopeKind};
@@ -62,6 +65,61 @@ impl Modal {
             report.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
         }
         late
+    }
+
+    /// I, J, K and E that are not used.
+    fn unused_words(&mut self, words: &Words<'_>, takes_axes: Option<GWord>, report: &mut Report) {
+        let inserted = words.group(Group::Insertion).is_some();
+        if words.centre[0].is_some() && inserted {
+            return;
+        }
+        if let Some((_, span)) = words.centre.iter().flatten().next() {
+            let text = "I, J and K have no meaning without an arc";
+            report.note(Fault::new(Condition::Odd, text, *span).warning());
+        }
+        let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
+        if let (Some((radius, span)), false) = (words.radius, rotates) {
+            // R alone applies to the arcs that follow; in a block with G02 or G03 it would be taken for a radius
+            self.radius_mm = Some(radius * self.unit_mm());
+            if words.group(Group::Path).is_some() {
+                let text = "R without an end point has no effect here: it is kept for the next arc";
+                report.note(Fault::new(Condition::Odd, text, span).warning());
+            }
+        }
+        if let Some((_, span)) = words.end_feed {
+            let text = "E has no meaning without motion";
+            report.note(Fault::new(Condition::Odd, text, span).warning());
+        }
+    }
+}
+
+impl Geometry {
+    /// 120180: a point of a spline must move a main axis.
+    fn spline_leads(&self, path: &Path, span: Span) -> Outcome<()> {
+        let moves = |axis: usize| {
+            path.extent(axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
+        };
+        let mut main = (0..3).filter_map(|i| self.coordinates.main_axis(i));
+        if main.any(moves) {
+            return Ok(());
+        }
+        let text = "spline point without motion of a main axis";
+        Err(Fault::new(Condition::SplineWithoutMainAxis, text, span))
+    }
+}
+
+impl MotionState {
+    /// 120566: the feed rate of contoured motions refers to the main axes.
+    ///
+    /// Source: TF5200 diagnosis 265098635.
+    fn contouring_fits(&self, coordinates: &Coordinates, span: Span) -> Outcome<()> {
+        let feed = &self.feed_axes;
+        let is_main = |axis: usize| coordinates.main_index(axis).is_some();
+        if (0..feed.len()).all(|axis| feed[axis] == is_main(axis)) {
+            return Ok(());
+        }
+        let text = "contouring, but the feed axes (#FGROUP, P-CHAN-00011) are not the main axes";
+        Err(Fault::new(Condition::ContouringFeedGroup, text, span))
     }
 }
 
@@ -123,7 +181,7 @@ impl Decoder {
         }
         if takes_axes.is_some() || (words.axes.is_empty() && !full_circle) {
             self.stop_without_motion(words);
-            self.unused_words(words, takes_axes);
+            self.modal.unused_words(words, takes_axes, &mut self.report);
             return;
         }
         let outcome = if self.modal.path.is_thread() {
@@ -156,31 +214,6 @@ impl Decoder {
             let hint = "write G60 in the block at the end of which the axes must have arrived";
             self.report.note(Fault::new(Condition::AxisMissing, text, g.span).hint(hint));
             self.sync(Sync::Dwell { seconds: 0.0 });
-        }
-    }
-
-    /// I, J, K and E that are not used.
-    fn unused_words(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
-        let inserted = words.group(Group::Insertion).is_some();
-        if words.centre[0].is_some() && inserted {
-            return;
-        }
-        if let Some((_, span)) = words.centre.iter().flatten().next() {
-            let text = "I, J and K have no meaning without an arc";
-            self.report.note(Fault::new(Condition::Odd, text, *span).warning());
-        }
-        let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
-        if let (Some((radius, span)), false) = (words.radius, rotates) {
-            // R alone applies to the arcs that follow; in a block with G02 or G03 it would be taken for a radius
-            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
-            if words.group(Group::Path).is_some() {
-                let text = "R without an end point has no effect here: it is kept for the next arc";
-                self.report.note(Fault::new(Condition::Odd, text, span).warning());
-            }
-        }
-        if let Some((_, span)) = words.end_feed {
-            let text = "E has no meaning without motion";
-            self.report.note(Fault::new(Condition::Odd, text, span).warning());
         }
     }
 
@@ -236,7 +269,7 @@ impl Decoder {
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
         let feed = self.feed_of(&path, at)?;
         let end_velocity_mm_s = match words.end_feed {
-            Some(end) => self.end_velocity(end, feed)?,
+            Some(end) => self.modal.end_velocity(end, feed, &self.machine.channel)?,
             None => None,
         };
         let rapid = feed == Feed::Rapid;
@@ -252,18 +285,18 @@ impl Decoder {
         let late_braking =
             self.modal.brakes_late(once(Act::EarlyBrakingOnce), span, &mut self.report);
         if rounds {
-            self.contouring_fits(span)?;
+            self.motion.contouring_fits(&self.geometry.coordinates, span)?;
         }
         let course = self.feed_course(words, feed, rounds, span)?;
         let shaped = rounds
             || self.contour.hsc.contour().is_some()
             || self.contour.hsc.spline().is_some()
             || self.contour.akima.selected;
-        self.areas_fit(shaped, span)?;
+        self.motion.areas.fit(shaped, &self.names, span)?;
         let in_plane = self.in_plane(span)?;
         if self.contour.akima.selected {
             self.spline_fits(rapid, rounds, span)?;
-            self.spline_leads(&path, span)?;
+            self.geometry.spline_leads(&path, span)?;
         }
         // a block with an error causes no motion; conditions reported before it are still output
         if self.report.failed() && !self.checking {
@@ -287,7 +320,7 @@ impl Decoder {
             },
             spline: self.contour.hsc.spline(),
         });
-        self.check_time(&block, at);
+        feed::check_time(&block, at, &mut self.report);
         let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
         if per_revolution && self.motion.cutting.speed.is_some() {
             return self.send_pieces(&block, &in_plane, span);
@@ -322,32 +355,6 @@ impl Decoder {
         Err(Fault::unsupported(what, span))
     }
 
-    /// 120566: the feed rate of contoured motions refers to the main axes.
-    ///
-    /// Source: TF5200 diagnosis 265098635.
-    fn contouring_fits(&self, span: Span) -> Outcome<()> {
-        let feed = &self.motion.feed_axes;
-        let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
-        if (0..feed.len()).all(|axis| feed[axis] == is_main(axis)) {
-            return Ok(());
-        }
-        let text = "contouring, but the feed axes (#FGROUP, P-CHAN-00011) are not the main axes";
-        Err(Fault::new(Condition::ContouringFeedGroup, text, span))
-    }
-
-    /// 120180: a point of a spline must move a main axis.
-    fn spline_leads(&self, path: &Path, span: Span) -> Outcome<()> {
-        let moves = |axis: usize| {
-            path.extent(axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
-        };
-        let mut main = (0..3).filter_map(|i| self.geometry.coordinates.main_axis(i));
-        if main.any(moves) {
-            return Ok(());
-        }
-        let text = "spline point without motion of a main axis";
-        Err(Fault::new(Condition::SplineWithoutMainAxis, text, span))
-    }
-
     /// A motion with G95 under G96: its feed rate changes with the speed of the spindle.
     fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
         if in_plane.compensation.is_some() {
@@ -356,7 +363,7 @@ impl Decoder {
         }
         let Some(cutting) = self.motion.cutting.speed else { return Ok(()) };
         for (path, rpm) in cutting::pieces(cutting, &block.path, &self.motion.feed_axes, span)? {
-            let feed = self.feed_per_revolution(&path, rpm);
+            let feed = self.modal.feed_per_revolution(&self.machine, &path, rpm);
             let block = Box::new(Block { path, feed, ..block.clone() });
             let InPlane { plane, tilt, .. } = in_plane;
             let in_plane = InPlane { plane: *plane, tilt: tilt.clone(), compensation: None };
@@ -375,7 +382,8 @@ impl Decoder {
     ) {
         let InPlane { plane, tilt, compensation } = in_plane;
         let akima = self.contour.akima.selected && block.path.is_straight();
-        let watch = self.watch();
+        let watch =
+            self.motion.areas.watch(&self.geometry, &self.motion.independent.way, &self.names);
         let motion = Box::new(Motion {
             block,
             course,

@@ -120,6 +120,11 @@ impl AxisNames {
         self.axes[axis].as_deref().unwrap_or("?")
     }
 
+    /// Logical number of an axis.
+    pub(super) fn number(&self, axis: usize) -> u32 {
+        self.numbers[axis]
+    }
+
     /// An axis that is moved twice by one block.
     pub(super) fn twice(&self, axis: usize, span: Span) -> Box<Fault> {
         let (number, name) = (self.numbers[axis], self.name(axis).to_owned());

@@ -21,10 +21,10 @@ use variables::scopes::Variables;
 pub(super) struct Values {
     pub(super) variables: Variables,
     /// `V.G.KIN..` under `--identity-trafo`, by their names with indices; stored without effect.
-    pub(super) kinematics: BTreeMap<String, f64>,
+    kinematics: BTreeMap<String, f64>,
     pub(super) timers: Timers,
     /// `V.TLM.TIME_FACT` and `V.TLM.DIST_FACT`; stored without effect. Source: TF5200 programming manual, 208584843.
-    pub(super) tool_life: [f64; 2],
+    tool_life: [f64; 2],
 }
 
 impl Values {

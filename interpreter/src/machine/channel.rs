@@ -2,16 +2,17 @@
 
 pub(super) mod couplings;
 pub(super) mod functions;
+mod path;
 
 use super::parameters::{Parameters, Setting};
 use super::table::Indices;
 use super::table::channel as of;
-use super::table::param::{Number, Optional, Param, Text, Whole, whole};
-use super::table::start_up as from;
+use super::table::param::{Optional, Param, Text, Whole, whole};
 use couplings::{DefaultCoupling, default_couplings};
 use functions::{Acknowledged, SpindleDurations, SpindleWaits};
 use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 use kontur_motion::realtime::OverrideMode;
+use path::{feed_unit, look_ahead, slope, vector, vector_time_s};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Number of blocks in the look-ahead of the planner (P-STUP-00070, P-STUP-00071).
@@ -396,47 +397,4 @@ fn macros(p: &Parameters) -> BTreeMap<Box<str>, Box<str>> {
         Some((name.into(), code.replace("\\\"", "\"").into()))
     };
     named.filter_map(both).collect()
-}
-
-fn slope(profile: u32) -> SlopeKind {
-    match profile {
-        1 => SlopeKind::Trapez,
-        2 => SlopeKind::Sin2,
-        3 => SlopeKind::Hsc,
-        _ => SlopeKind::Step,
-    }
-}
-
-/// P-CHAN-00108: 100 is mm/min, 0.1 is m/min, -1 the same as 100.
-fn feed_unit(factor: f64) -> f64 {
-    if factor > 0.0 { 100.0 / factor } else { 1.0 }
-}
-
-/// Unit of time of the path accelerations in s; the default is mm/min2 (P-CHAN-00351).
-fn vector_time_s(p: &Parameters) -> f64 {
-    if p.get(of::PATH_ACC_UNIT).as_deref() == Some("MM_S2") { 1.0 } else { 60.0 }
-}
-
-/// Start values of the path limits, in mm/s and mm/s2.
-fn vector(p: &Parameters) -> VectorLimits {
-    let t = vector_time_s(p);
-    let acc = |param: Param<Number>| Some(p.get(param) / (t * t));
-    VectorLimits {
-        vel_mm_s: Some(p.get(of::PATH_SPEED) / 60.0),
-        acc_mm_s2: acc(of::PATH_ACC),
-        dec_mm_s2: acc(of::PATH_DEC),
-        radial_acc_mm_s2: acc(of::PATH_RADIAL_ACC),
-        ..VectorLimits::default()
-    }
-}
-
-/// Size of the look-ahead of channel 0; P-STUP-00071 acts only with the function `_CUSTOM`.
-fn look_ahead(start_up: &Parameters) -> LookAhead {
-    let blocks = match start_up.get(from::LOOK_AHEAD).as_deref() {
-        Some("FCT_LOOK_AHEAD_LOW") => 30,
-        Some("FCT_LOOK_AHEAD_STANDARD") => 70,
-        Some("FCT_LOOK_AHEAD_CUSTOM") => start_up.get(from::LOOK_AHEAD_BLOCKS),
-        _ => 120,
-    };
-    LookAhead { blocks }
 }

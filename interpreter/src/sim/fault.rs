@@ -4,6 +4,8 @@
 //! stops where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7); the others brake along the
 //! path with P-AXIS-00003. The run continues until the axes are at rest.
 
+mod text;
+
 use super::axes::Driver;
 use super::chain::Remaining;
 use super::inputs::SpeedChange;
@@ -11,11 +13,12 @@ use super::{Phase, Simulation};
 use crate::diag::{Condition, Diagnostic, Reaction, Severity, ValueKind, rounded};
 use crate::exec::{SourceRef, SpindleMotion};
 use crate::machine::{Axis, AxisKind, Machine};
-use kontur_filters::control::fault::{Derivative, Fault};
+use kontur_filters::control::fault::Fault;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
 use kontur_motion::contouring::NoContour;
 use kontur_motion::tolerance::Unkept;
+use text::{condition, order, per_s, text, thresholds};
 
 /// Number of cycles of standstill shown after the stop of a fault.
 pub(super) const CYCLES_AT_REST: u32 = 5;
@@ -210,103 +213,6 @@ impl Simulation {
     }
 }
 
-/// A value and its limit, with as many digits as it takes to tell them apart.
-fn distinct(value: f64, limit: f64) -> (String, String) {
-    let rough = (rounded(value), rounded(limit));
-    if rough.0 != rough.1 {
-        return rough;
-    }
-    let fine = |decimals: usize| (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
-    (3..=12).map(fine).find(|(value, limit)| value != limit).unwrap_or(rough)
-}
-
-/// Value and limit of a fault, in the unit of the axis, `mm` or `deg`.
-fn text(fault: &Fault, unit: &'static str) -> String {
-    let r = rounded;
-    let speed = per_s(unit, 1);
-    match *fault {
-        Fault::FollowingError { lag_mm, limit_mm } => {
-            let (lag, limit) = distinct(lag_mm, limit_mm);
-            format!("following error {lag} {unit} exceeds {limit} {unit}")
-        }
-        Fault::SettlingTimeout { lag_mm, window_mm, time_s } => format!(
-            "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}",
-            r(lag_mm),
-            r(time_s),
-            r(window_mm)
-        ),
-        Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => {
-            let (value, limit) = distinct(speed_mm_s, limit_mm_s);
-            format!("speed command {value} {speed} exceeds {limit} {speed}")
-        }
-        Fault::SetpointWarning { what, value, limit }
-        | Fault::SetpointError { what, value, limit } => {
-            let unit = per_s(unit, order(what));
-            let quantity = what.name();
-            let (value, limit) = distinct(value, limit);
-            format!("{quantity} of the set position {value} {unit} exceeds {limit} {unit}")
-        }
-        Fault::Unstable { lag_mm, limit_mm } => format!(
-            "following error {} {unit} beyond {} {unit}: the simulated axis is unstable",
-            r(lag_mm),
-            r(limit_mm)
-        ),
-        Fault::IpcChangedMoving => {
-            "parameters of Improved Position Control changed while the axis moves".to_owned()
-        }
-    }
-}
-
-/// Order of a derivative of the position.
-const fn order(what: Derivative) -> usize {
-    match what {
-        Derivative::Velocity => 1,
-        Derivative::Acceleration => 2,
-        Derivative::Jerk => 3,
-    }
-}
-
-/// Unit of a derivative of a position in `mm` or `deg`.
-fn per_s(unit: &str, order: usize) -> &'static str {
-    const LINEAR: [&str; 4] = ["mm", "mm/s", "mm/s2", "mm/s3"];
-    const ROTARY: [&str; 4] = ["deg", "deg/s", "deg/s2", "deg/s3"];
-    if unit == "deg" { ROTARY[order] } else { LINEAR[order] }
-}
-
-/// The condition of a fault; spindles have separate numbers for their speed.
-const fn condition(fault: &Fault, spindle: bool) -> Condition {
-    match fault {
-        Fault::FollowingError { .. } => Condition::FollowingError,
-        Fault::SettlingTimeout { .. } => Condition::SettlingTimeout,
-        Fault::ControllerSpeed { .. } => Condition::ControllerSpeed,
-        Fault::SetpointWarning { what: Derivative::Velocity, .. } if spindle => {
-            Condition::SpindleSpeedWarning
-        }
-        Fault::SetpointError { what: Derivative::Velocity, .. } if spindle => {
-            Condition::SpindleSpeedError
-        }
-        Fault::SetpointWarning { what: Derivative::Velocity, .. } => Condition::SpeedWarning,
-        Fault::SetpointError { what: Derivative::Velocity, .. } => Condition::SpeedError,
-        Fault::SetpointWarning { what: Derivative::Acceleration | Derivative::Jerk, .. } => {
-            Condition::SetpointWarning
-        }
-        Fault::SetpointError { what: Derivative::Acceleration | Derivative::Jerk, .. } => {
-            Condition::SetpointError
-        }
-        Fault::IpcChangedMoving => Condition::IpcChangedMoving,
-        Fault::Unstable { .. } => Condition::Unstable,
-    }
-}
-
-/// Parameters of the warning and of the error.
-const fn thresholds(what: Derivative) -> (&'static str, &'static str) {
-    match what {
-        Derivative::Velocity => ("P-AXIS-00439", "P-AXIS-00440"),
-        Derivative::Acceleration => ("P-AXIS-00441", "P-AXIS-00442"),
-        Derivative::Jerk => ("P-AXIS-00443", "P-AXIS-00444"),
-    }
-}
-
 /// The plant of an axis cannot be simulated.
 pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diagnostic {
     let name = machine.all_axes().nth(chain).map_or("?", |a| a.name());
@@ -481,22 +387,5 @@ impl Simulation {
                 self.messages.own.push(d);
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::distinct;
-
-    #[test]
-    fn a_value_and_its_limit_are_told_apart() {
-        let pair = |value, limit| {
-            let (value, limit) = distinct(value, limit);
-            format!("{value} {limit}")
-        };
-        assert_eq!(pair(108.0, 105.0), "108 105");
-        assert_eq!(pair(105.001, 105.0), "105.001 105.000");
-        assert_eq!(pair(105.000_000_4, 105.0), "105.0000004 105.0000000");
-        assert_eq!(pair(105.0, 105.0), "105 105");
     }
 }

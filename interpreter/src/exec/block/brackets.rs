@@ -9,11 +9,13 @@ use super::collected::Words;
 use crate::diag::Condition;
 use crate::exec::commands::keys::arguments;
 use crate::exec::commands::range::between;
+use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::{Function, MotionState};
 use crate::exec::names::AxisNames;
 use crate::exec::step::Event;
+use crate::machine::Channel;
 use crate::syntax::ast::{Bracket, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// Words that belong to the functions of an axis and must not precede them (21301).
@@ -62,6 +64,22 @@ impl MotionState {
         }
         Ok(())
     }
+
+    /// An M or H function of an axis or spindle: written to the log, with its duration included.
+    pub(in crate::exec::block) fn call(
+        &mut self,
+        function: Function,
+        value: Option<f64>,
+        channel: &Channel,
+        contour: &mut Contour,
+    ) {
+        self.takes_time(function, channel, contour);
+        match function {
+            Function::M(number) => contour.event(Event::MFunction { number, value }),
+            Function::H(number) => contour.event(Event::HFunction { number, value }),
+            Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => {}
+        }
+    }
 }
 
 impl Decoder {
@@ -92,7 +110,7 @@ impl Decoder {
             once(&functions, bracket, words)?;
             for ((function, _), item) in functions.into_iter().zip(&group.items) {
                 let value = value_of_function(self, item)?;
-                self.call_function(function, value);
+                self.motion.call(function, value, &self.machine.channel, &mut self.contour);
             }
             return Ok(());
         }
@@ -189,16 +207,6 @@ impl Decoder {
         }
         self.motion.overrides.set(axis, feed, rapid);
         Ok(())
-    }
-
-    /// An M or H function of an axis or spindle: written to the log, with its duration included.
-    fn call_function(&mut self, function: Function, value: Option<f64>) {
-        self.motion.takes_time(function, &self.machine.channel, &mut self.contour);
-        match function {
-            Function::M(number) => self.contour.event(Event::MFunction { number, value }),
-            Function::H(number) => self.contour.event(Event::HFunction { number, value }),
-            Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => {}
-        }
     }
 }
 

@@ -59,7 +59,7 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
     /// A write to `V.G.WZ_AKT`.
-    pub(in crate::exec) tool_written: Option<(Condition, Span)>,
+    pub(in crate::exec::block) tool_written: Option<(Condition, Span)>,
     pub(in crate::exec) m: SmallVec<[Code; 4]>,
     pub(in crate::exec) h: SmallVec<[Code; 1]>,
     pub(in crate::exec) cycle: Option<CycleCall>,
@@ -70,7 +70,7 @@ pub(in crate::exec) struct Words<'b> {
     /// `#ADD`, the last word.
     pub(in crate::exec) addition: Option<(&'b HashWord, Span)>,
     /// Where the last assignment ends.
-    pub(in crate::exec) assigned_to: Option<u32>,
+    pub(in crate::exec::block) assigned_to: Option<u32>,
     /// Target of M17 or M29, if they name one.
     pub(in crate::exec) back: Option<(&'b Return, Span)>,
 }

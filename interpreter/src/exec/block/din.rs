@@ -107,7 +107,7 @@ impl Decoder {
         }
         let preset = self.scaling_words(&words)
             || self.position_presets(&words)
-            || self.spline_vectors(&words);
+            || self.contour.akima.spline_vectors(&words, &mut self.report);
         self.motion.feed_before = self.modal.feed();
         self.feeds_and_modes(&words, takes_axes);
         // after G04 the S word is a number of revolutions, after G74 a sequence
@@ -272,7 +272,14 @@ impl Decoder {
                     self.report.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
                 }
             }
-            Act::Banding(on) => self.set_banding(on, g)?,
+            Act::Banding(on) => {
+                self.motion.measuring.set_banding(
+                    on,
+                    g,
+                    &self.machine.channel,
+                    &mut self.report,
+                )?;
+            }
             Act::LateBraking(late) => self.modal.late_braking = late,
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,

@@ -152,7 +152,7 @@ impl Decoder {
 
     /// D: tool data; the length applies along the third main axis of the plane.
     pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
-        if self.report.keep(self.keeps_tool_while_coupled(span)).is_none() {
+        if self.report.keep(self.motion.couplings.keep_tool(span)).is_none() {
             return;
         }
         let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) else {
@@ -222,7 +222,7 @@ impl Decoder {
             target[axis] = x + self.motion.independent.way[axis];
         }
         self.geometry.coordinates.set_target(&target);
-        self.follow_masters();
+        self.motion.follow_masters(&mut self.geometry.coordinates);
         self.motion.left_contour = true;
     }
 

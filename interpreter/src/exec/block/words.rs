@@ -3,9 +3,10 @@
 //! Assignments take effect while the words are collected, so that a value uses the assignments written before it. Everything
 //! else takes effect afterwards, in the order of [`super::din`].
 
-use super::collected::{Code, CycleCall, GWord, Words};
-use super::groups::{self, Act, Group, Row, ValueRule};
-use super::modal::Selection;
+mod g;
+
+use super::collected::{Code, Words};
+use super::groups::{self};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -15,8 +16,51 @@ use crate::exec::values::{every_axis, system};
 use crate::machine::Channel;
 use crate::suggest;
 use crate::syntax::ast::{
-    Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, GValue, PlaceKind, Span, Word, WordKind,
+    Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, PlaceKind, Span, Word, WordKind,
 };
+
+impl Code {
+    /// An M or H function and its value; `letter`: which of the two.
+    pub(super) fn read(
+        decoder: &Decoder,
+        number: &CodeNumber,
+        value: Option<&Expr>,
+        letter: &str,
+        span: Span,
+    ) -> Outcome<Self> {
+        // the diagnosis manual prints the limit of M (20160, 250945931), but not that of H
+        let (highest, condition) = match letter {
+            "M" => (1000, Condition::MNumberTooLarge),
+            _ => (65535, Condition::Range),
+        };
+        let number = match number {
+            CodeNumber::Literal(n) => *n,
+            CodeNumber::Computed(expr) => {
+                decoder.whole(expr, "the number of a function", 0, u32::MAX)?
+            }
+        };
+        if number > highest {
+            let text = format!("the number of the {letter} function exceeds {highest}");
+            return Err(Fault::new(condition, text, span).with(|d| {
+                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, highest, "-")
+            }));
+        }
+        let value = match value {
+            Some(expr) => Some(decoder.number(expr)?),
+            None => None,
+        };
+        if let (Some(fraction), "M") = (value.filter(|x| x.fract() != 0.0), letter) {
+            let text =
+                format!("M{number:02}={fraction}: the value of an M function must be an integer");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
+            let text = format!("M{number:02} takes no value, not {value}");
+            return Err(Fault::new(Condition::Syntax, text, span));
+        }
+        Ok(Self { number, value, span })
+    }
+}
 
 impl Decoder {
     /// Collects the words of a block and executes its assignments. Invalid words are reported and skipped.
@@ -79,7 +123,7 @@ impl Decoder {
                 self.g_word(number, None, span, block)
             }
             WordKind::M(number, value) => {
-                let code = self.code(number, value.as_deref(), "M", span)?;
+                let code = Code::read(self, number, value.as_deref(), "M", span)?;
                 once(&block.m, &code, "M", Condition::MTwice)?;
                 block.m.push(code);
                 Ok(())
@@ -92,7 +136,7 @@ impl Decoder {
                 Ok(())
             }
             WordKind::H(number, value) => {
-                let code = self.code(number, value.as_deref(), "H", span)?;
+                let code = Code::read(self, number, value.as_deref(), "H", span)?;
                 once(&block.h, &code, "H", Condition::HTwice)?;
                 block.h.push(code);
                 Ok(())
@@ -230,178 +274,6 @@ impl Decoder {
         };
         self.write(target, result, span)
     }
-
-    fn code(
-        &mut self,
-        number: &CodeNumber,
-        value: Option<&Expr>,
-        letter: &str,
-        span: Span,
-    ) -> Outcome<Code> {
-        // the diagnosis manual prints the limit of M (20160, 250945931), but not that of H
-        let (highest, condition) = match letter {
-            "M" => (1000, Condition::MNumberTooLarge),
-            _ => (65535, Condition::Range),
-        };
-        let number = match number {
-            CodeNumber::Literal(n) => *n,
-            CodeNumber::Computed(expr) => {
-                self.whole(expr, "the number of a function", 0, u32::MAX)?
-            }
-        };
-        if number > highest {
-            let text = format!("the number of the {letter} function exceeds {highest}");
-            return Err(Fault::new(condition, text, span).with(|d| {
-                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, highest, "-")
-            }));
-        }
-        let value = match value {
-            Some(expr) => Some(self.number(expr)?),
-            None => None,
-        };
-        if let (Some(fraction), "M") = (value.filter(|x| x.fract() != 0.0), letter) {
-            let text =
-                format!("M{number:02}={fraction}: the value of an M function must be an integer");
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
-            let text = format!("M{number:02} takes no value, not {value}");
-            return Err(Fault::new(Condition::Syntax, text, span));
-        }
-        Ok(Code { number, value, span })
-    }
-
-    fn g_word(
-        &mut self,
-        number: u32,
-        value: Option<&GValue>,
-        span: Span,
-        block: &mut Words<'_>,
-    ) -> Outcome<()> {
-        if groups::is_cycle_call(number) {
-            return self.cycle_word(number, value, span, block);
-        }
-        if number > groups::NUMBER_MAX {
-            let text = format!("the number of the G function exceeds {}", groups::NUMBER_MAX);
-            return Err(Fault::new(Condition::GNumberTooLarge, text, span).with(|d| {
-                // more digits than a number in the syntax tree can have
-                let known = number < u32::MAX;
-                let d = if known { d.value(ValueKind::Wrong, number, "-") } else { d };
-                d.value(ValueKind::UpperLimit, groups::NUMBER_MAX, "-")
-            }));
-        }
-        let Some(row) = groups::row(number) else {
-            if matches!(number, 28 | 29) && self.dialect.is_printer() {
-                let meaning = "homes or levels after a temperature";
-                return Err(super::dialect::printer(&format!("G{number}"), meaning, span));
-            }
-            let fault =
-                Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
-                    .with(|d| d.value(ValueKind::Current, number, "-"));
-            return Err(match super::dialect::unknown_g(number) {
-                Some(hint) => fault.hint(hint),
-                None => fault,
-            });
-        };
-        if self.machine.channel.several_dimensions
-            && let Act::Absolute(absolute) = row.act
-        {
-            if block.dimensions.is_empty() {
-                block.dimensions.push((0, self.modal.absolute));
-            }
-            block.dimensions.push((block.axes.len(), absolute));
-        } else if row.group != Group::None
-            && let Some(first) = block.group(row.group)
-        {
-            return Err(duplicate(first.row, row, span));
-        }
-        for other in &block.g {
-            if let Some(why) = groups::exclude(other.row, row) {
-                let text = format!("G{:02} and G{number:02} in one block: {why}", other.row.number);
-                return Err(Fault::new(Condition::DuplicateGroup, text, span)
-                    .with(|d| d.value(ValueKind::Wrong, number, "-")));
-            }
-        }
-        if number == 5 && self.modal.selection == Selection::InsideCorner {
-            let text = "G05 cannot be used with the inside corner selection G238 and is ignored";
-            self.report.note(Fault::new(Condition::TangentialInsideCorner, text, span));
-            return Ok(());
-        }
-        if let Act::Unsupported(what) = row.act {
-            // it still uses its axis words and occupies its group
-            block.g.push(GWord { row, value: None, span });
-            return Err(Fault::unsupported(format!("G{number:02} ({what})"), span));
-        }
-        let value = match (value, row.value) {
-            (None, ValueRule::Required) => {
-                let text = format!("G{number} needs a value");
-                return Err(Fault::new(Condition::ValueMissing, text, span));
-            }
-            (Some(GValue::Scalar(expr)), ValueRule::Required | ValueRule::Optional) => {
-                let value = self.number(expr);
-                Some(value.map_err(|fault| match row.act {
-                    Act::Dwell if fault.diagnostic.id == Condition::ParameterUnknown.id() => {
-                        fault.hint("write the time in seconds without an address: G04 0.5")
-                    }
-                    _ => fault,
-                })?)
-            }
-            (Some(GValue::Scalar(expr)), ValueRule::Never) => {
-                let text = format!("G{number:02} takes no value");
-                return Err(Fault::new(Condition::Syntax, text, expr.span));
-            }
-            (Some(GValue::List(_)), _) => {
-                let text = format!("G{number:02} takes no list");
-                return Err(Fault::new(Condition::Syntax, text, span));
-            }
-            (None, _) => None,
-        };
-        block.g.push(GWord { row, value, span });
-        Ok(())
-    }
-
-    fn cycle_word(
-        &mut self,
-        number: u32,
-        value: Option<&GValue>,
-        span: Span,
-        block: &mut Words<'_>,
-    ) -> Outcome<()> {
-        if !self.calls.cycle_files.contains_key(&number) {
-            let text = format!("G{number}: no subroutine is configured");
-            let hint = "configure one with P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"]";
-            let fault = Fault::new(Condition::GUnknown, text, span)
-                .with(|d| d.value(ValueKind::Current, number, "-"));
-            return Err(fault.hint(hint));
-        }
-        let written = value.is_some();
-        let mut values = Vec::new();
-        match value {
-            None => {}
-            Some(GValue::Scalar(expr)) => values.push(Some(self.value(expr)?)),
-            Some(GValue::List(list)) => {
-                for entry in list {
-                    values.push(match entry {
-                        Some(expr) => Some(self.value(expr)?),
-                        None => None,
-                    });
-                }
-            }
-        }
-        if values.len() > 50 {
-            let text = format!("{} values, a call takes at most 50", values.len());
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        let values = written.then_some(values);
-        if block.cycle.replace(CycleCall { number, values, span }).is_some() {
-            return Err(Fault::new(
-                Condition::SeveralCalls,
-                "two implicit calls in one block",
-                span,
-            ));
-        }
-        Ok(())
-    }
 }
 
 /// A function may appear only once in a block.
@@ -412,22 +284,6 @@ fn once(written: &[Code], code: &Code, letter: &str, condition: Condition) -> Ou
     let text = format!("{letter}{} twice in one block", code.number);
     Err(Fault::new(condition, text, code.span)
         .with(|d| d.value(ValueKind::Current, code.number, "-")))
-}
-
-fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
-    let text = format!(
-        "G{:02} and G{:02} in one block: both set {}",
-        first.number,
-        second.number,
-        second.group.name()
-    );
-    let dwells = first.act == Act::Dwell && second.act == Act::Dwell;
-    let condition = match (dwells, first.number, second.number) {
-        (true, _, _) => Condition::DwellTwice,
-        (false, 310, 310) => Condition::InterruptibleTwice,
-        _ => second.group.duplicate(),
-    };
-    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, second.number, "-"))
 }
 
 /// Checks the length of the name and the text of a macro (P-CHAN-00511, 00512).

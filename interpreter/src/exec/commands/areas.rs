@@ -112,15 +112,19 @@ fn begin(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::AxisNameUnknown, text, at));
     }
     let height_axis = height.and_then(|(axis, ..)| axis);
-    decoder.begin_area(Heading {
-        number: number as u32,
-        purpose,
-        circle,
-        low_mm: low * unit,
-        high_mm: high * unit,
-        height_axis,
-        span,
-    })
+    decoder.motion.areas.begin(
+        Heading {
+            number: number as u32,
+            purpose,
+            circle,
+            low_mm: low * unit,
+            high_mm: high * unit,
+            height_axis,
+            span,
+        },
+        &decoder.modal,
+        decoder.geometry.coordinates.target(),
+    )
 }
 
 fn end(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
@@ -139,14 +143,16 @@ fn switch(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     let number = keys.id.map(|(number, _)| number as u32);
     match (call.command.on, all, number) {
-        (Some(true), true, None) => decoder.watch_areas(None, span),
-        (Some(true), false, Some(_)) => decoder.watch_areas(number, span),
+        (Some(true), true, None) | (Some(true), false, Some(_)) => {
+            let tip = decoder.geometry.tip(decoder.geometry.coordinates.target());
+            decoder.motion.areas.switch_on(number, &tip, &decoder.names, span)
+        }
         (Some(false), true, None) => {
-            decoder.leave_areas();
+            decoder.motion.areas.switch_all_off();
             Ok(())
         }
         (Some(false), false, _) => {
-            decoder.leave_area(number);
+            decoder.motion.areas.switch_off(number);
             Ok(())
         }
         _ => {

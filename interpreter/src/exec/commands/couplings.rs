@@ -144,7 +144,7 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
         known.push(pair);
     }
-    decoder.define_couplings(group, known, call.span())
+    decoder.motion.couplings.define(group, known, call.span())
 }
 
 /// `Y=X`, or `[Y=X, ..]` with monitoring limits (G) or a ratio.

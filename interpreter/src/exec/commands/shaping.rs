@@ -8,16 +8,25 @@ use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::report::Report;
+use crate::exec::shaping::ShapingState;
 use crate::exec::shaping::{Family, FilterKeys, GuardKeys};
 use crate::machine::issues;
+use crate::machine::{Axis, Machine};
 use crate::syntax::ast::Span;
 use kontur_filters::fir::MAX_ORDER;
 use kontur_filters::vib_guard::VibGuardSettings;
 
-impl Decoder {
+impl ShapingState {
     /// 22060: a program must use only one of the two commands.
-    fn use_family(&mut self, family: Family, span: Span) -> Outcome<()> {
-        match &self.shaping.used {
+    fn use_family(
+        &mut self,
+        family: Family,
+        machine: &Machine,
+        report: &Report,
+        span: Span,
+    ) -> Outcome<()> {
+        match &self.used {
             Some((first, place)) if *first != family => {
                 let text = format!(
                     "{} and {} in one program: {} is on line {} of {}",
@@ -27,7 +36,7 @@ impl Decoder {
                     place.line,
                     place.file
                 );
-                let lines = (place.line, self.report.source.line);
+                let lines = (place.line, report.source.line);
                 return Err(Fault::new(Condition::FilterAndGuard, text, span).with(|d| {
                     d.value(ValueKind::Identification, lines.0, "line").value(
                         ValueKind::Identification,
@@ -38,19 +47,19 @@ impl Decoder {
             }
             Some(_) => {}
             None => {
-                if let Some(place) = self.report.location.clone() {
-                    self.shaping.used = Some((family, place));
+                if let Some(place) = report.location.clone() {
+                    self.used = Some((family, place));
                 }
             }
         }
-        self.list_conflict(family, span)
+        self.list_conflict(family, machine, span)
     }
 
     /// Conflicts of a command with the axis lists.
-    fn list_conflict(&mut self, family: Family, span: Span) -> Outcome<()> {
-        let cycle = self.machine.cycle;
-        let conflict = self.machine.axes.iter().find(|axis| {
-            let listed = self.shaping.listed(axis, cycle);
+    fn list_conflict(&self, family: Family, machine: &Machine, span: Span) -> Outcome<()> {
+        let cycle = machine.cycle;
+        let conflict = machine.axes.iter().find(|axis| {
+            let listed = self.listed(axis, cycle);
             match family {
                 Family::Filter => listed.vib_guard.active,
                 Family::VibGuard => listed.fir.is_some() || listed.hsc.is_some(),
@@ -75,38 +84,12 @@ impl Decoder {
     }
 
     /// `AX_DEV` and `ACC_FACT`, common to both commands.
-    fn tolerances(
-        &mut self,
-        family: Family,
-        ax_dev: Option<(f64, Span)>,
-        acc_fact: Option<(f64, Span)>,
-    ) {
-        let ax_dev_mm =
-            ax_dev.map(|(x, _)| x * self.modal.tolerance_unit_mm(&self.machine.channel));
-        self.shaping.ax_dev_mm = match family {
-            Family::VibGuard => self.shaping.guard_tolerance_mm(ax_dev_mm),
+    fn set_tolerances(&mut self, family: Family, ax_dev_mm: Option<f64>, acc_fact: Option<f64>) {
+        self.ax_dev_mm = match family {
+            Family::VibGuard => self.guard_tolerance_mm(ax_dev_mm),
             Family::Filter => ax_dev_mm.filter(|mm| *mm > 0.0),
         };
-        if let Some((x, _)) = acc_fact {
-            self.shaping.acc_fact = Some(x);
-        }
-        if let Some((x, span)) = acc_fact.filter(|(x, _)| *x > 1.0) {
-            let without: Vec<String> = self
-                .machine
-                .axes
-                .iter()
-                .filter(|a| a.dynamics().a_trans_ratio <= 0.0)
-                .map(|a| a.name().to_owned())
-                .collect();
-            if !without.is_empty() {
-                let text = format!(
-                    "ACC_FACT={x} has no effect on the axes {}: it needs a valid P-AXIS-00013",
-                    without.join(", ")
-                );
-                let fault = Fault::new(Condition::AccFactIgnored, text, span);
-                self.report.note(fault);
-            }
-        }
+        self.acc_fact = acc_fact.or(self.acc_fact);
     }
 }
 
@@ -137,7 +120,7 @@ pub(super) const VIB_GUARD: Row = Row::run("VIB GUARD", vib_guard)
 /// `#VIB GUARD [ON|OFF] [MODE= FREQ= DAMPING= AX_DEV= ACC_FACT=]`.
 fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.use_family(Family::VibGuard, call.span())?;
+    decoder.shaping.use_family(Family::VibGuard, &decoder.machine, &decoder.report, call.span())?;
     let keys = GuardArguments::read(decoder, &call.title(), call.command.groups.first())?;
     note_command(decoder, &keys, call.command.on);
     let mut programmed = decoder.shaping.guard;
@@ -146,7 +129,7 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     programmed.freq_hz = keys.freq.map(|(x, _)| x).or(programmed.freq_hz);
     programmed.damping = keys.damping.map(|(x, _)| x).or(programmed.damping);
-    decoder.tolerances(Family::VibGuard, keys.ax_dev, keys.acc_fact);
+    tolerances(decoder, Family::VibGuard, keys.ax_dev, keys.acc_fact);
     decoder.shaping.guard = programmed;
     decoder.shaping.guard_on = call.command.on.or(decoder.shaping.guard_on);
     // OFF without a bracket has no settings to store
@@ -261,7 +244,7 @@ pub(super) const FILTER: Row = Row::run("FILTER", filter)
 /// `#FILTER [ON|OFF] [[HSC] ORDER= ORDER_TIME= SHARE= AX_DEV= FCUT= ACC_FACT= QUALITY=]`.
 fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.use_family(Family::Filter, call.span())?;
+    decoder.shaping.use_family(Family::Filter, &decoder.machine, &decoder.report, call.span())?;
     let keys = FilterArguments::read(decoder, &call.title(), call.command.groups.first())?;
     if let Some((x, span)) = keys.mode {
         let text = format!("#FILTER has no MODE ({x})");
@@ -271,7 +254,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let hsc = keys.hsc.is_some();
     let mut stored = if hsc { decoder.shaping.hsc } else { decoder.shaping.fir };
     filter_keys(&keys, &mut stored);
-    decoder.tolerances(Family::Filter, keys.ax_dev, keys.acc_fact);
+    tolerances(decoder, Family::Filter, keys.ax_dev, keys.acc_fact);
     let cycle = decoder.machine.cycle;
     let configured = decoder.machine.axes.iter().any(|axis| {
         let listed = axis.kernel_preset(cycle);
@@ -321,4 +304,34 @@ fn filter_keys(keys: &FilterArguments, stored: &mut FilterKeys) {
     stored.share_ratio = number(keys.share).map(|p| p / 100.0).or(stored.share_ratio);
     stored.fcut_hz = number(keys.fcut).or(stored.fcut_hz);
     stored.quality = number(keys.quality).or(stored.quality);
+}
+
+/// The warning about an `ACC_FACT` above 1 without effect on axes of the machine.
+fn acc_fact_fits(machine: &Machine, acc_fact: Option<(f64, Span)>) -> Option<Box<Fault>> {
+    let (x, span) = acc_fact.filter(|(x, _)| *x > 1.0)?;
+    let without: Vec<&str> =
+        machine.axes.iter().filter(|a| a.dynamics().a_trans_ratio <= 0.0).map(Axis::name).collect();
+    if without.is_empty() {
+        return None;
+    }
+    let text = format!(
+        "ACC_FACT={x} has no effect on the axes {}: it needs a valid P-AXIS-00013",
+        without.join(", ")
+    );
+    Some(Fault::new(Condition::AccFactIgnored, text, span))
+}
+
+/// `AX_DEV` and `ACC_FACT`, common to both commands.
+fn tolerances(
+    decoder: &mut Decoder,
+    family: Family,
+    ax_dev: Option<(f64, Span)>,
+    acc_fact: Option<(f64, Span)>,
+) {
+    let unit_mm = decoder.modal.tolerance_unit_mm(&decoder.machine.channel);
+    let ratio = acc_fact.map(|(x, _)| x);
+    decoder.shaping.set_tolerances(family, ax_dev.map(|(x, _)| x * unit_mm), ratio);
+    if let Some(fault) = acc_fact_fits(&decoder.machine, acc_fact) {
+        decoder.report.note(fault);
+    }
 }

@@ -6,9 +6,11 @@ use super::keys::arguments;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::Words;
+use crate::exec::contour::akima::Akima;
 use crate::exec::contour::akima::Transition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::report::Report;
 use crate::exec::values::number::{LARGEST_MM, whole};
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
 
@@ -149,10 +151,14 @@ fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
     })
 }
 
-impl Decoder {
+impl Akima {
     /// `#AKIMA STARTVECTOR X1 Y1`, `#AKIMA ENDVECTOR` and their older names: returns whether the axis words of the block belong
     /// to one of them.
-    pub(in crate::exec) fn spline_vectors(&mut self, words: &Words<'_>) -> bool {
+    pub(in crate::exec) fn spline_vectors(
+        &mut self,
+        words: &Words<'_>,
+        report: &mut Report,
+    ) -> bool {
         let named =
             |names: [&str; 2]| words.hashes.iter().any(|(hash, _, _)| names.contains(&&*hash.name));
         let start = named(["AKIMA STARTVECTOR", "SET ASPLINE STARTTANG"]);
@@ -162,7 +168,7 @@ impl Decoder {
         let large = words.axes.iter().find(|(_, value, _)| value.abs() > LARGEST_MM);
         if let (true, Some((_, value, at))) = (start || end, large) {
             let text = format!("the component {value} of a tangent is outside the data format");
-            self.report.note(Fault::new(Condition::SplineParameter, text, *at).with(|d| {
+            report.note(Fault::new(Condition::SplineParameter, text, *at).with(|d| {
                 d.value(ValueKind::Wrong, *value, "-")
                     .value(ValueKind::LowerLimit, -LARGEST_MM, "-")
                     .value(ValueKind::UpperLimit, LARGEST_MM, "-")
@@ -177,13 +183,13 @@ impl Decoder {
                 (Condition::Range, "start")
             };
             let text = format!("the {which} tangent of a spline does not have a direction");
-            self.report.note(Fault::new(condition, text, at));
+            report.note(Fault::new(condition, text, at));
         }
         if start {
-            self.contour.akima.start.vector.clone_from(&vector);
+            self.start.vector.clone_from(&vector);
         }
         if end {
-            self.contour.akima.end.vector = vector;
+            self.end.vector = vector;
         }
         start || end
     }

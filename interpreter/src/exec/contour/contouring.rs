@@ -3,6 +3,7 @@
 //! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
 //! the spline.
 
+use crate::exec::block::modal::FeedType;
 use kontur_motion::block::{ContourMode, ContourSettings, SplineSettings};
 
 /// Mode of `#CONTOUR MODE`.
@@ -82,6 +83,14 @@ impl Hsc {
     /// Settings of a block that becomes part of a spline.
     pub(in crate::exec) fn spline(&self) -> Option<SplineSettings> {
         (self.on && !self.rounds_corners).then_some(self.spline)
+    }
+
+    /// The effective feed type: in a B-spline G94 replaces G93 (120847).
+    pub(in crate::exec) fn feed_type(&self, programmed: FeedType) -> FeedType {
+        match programmed {
+            FeedType::Time if self.spline().is_some() => FeedType::PerMinute,
+            other => other,
+        }
     }
 
     /// Settings of a block whose corner the older form rounds.

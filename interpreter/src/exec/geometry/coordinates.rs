@@ -10,6 +10,7 @@
 mod layer;
 mod machine;
 mod stack;
+mod words;
 
 use super::frame::Frame;
 use crate::diag::Condition;
@@ -206,36 +207,6 @@ impl Coordinates {
         self.measuring[axis] = value_mm;
     }
 
-    /// `#SUPPRESS OFFSETS`: targets of axes without offsets of these kinds. Systems, rotation and mirroring remain (207072907).
-    ///
-    /// Assumption: in a rotated system a coordinate that is not programmed keeps its value in the system without these offsets.
-    pub(in crate::exec) fn program_without(&mut self, kinds: &[OffsetKind], words: &[Target]) {
-        let frame = self.frame_with(|layer, axis| self.layer_without(layer, kinds, axis));
-        let rest = self.main.map(|m| m.map_or(0.0, |axis| self.offset_without(kinds, axis)));
-        let at = |i: usize| self.main[i].map_or(0.0, |axis| self.target[axis] - rest[i]);
-        let mut point = frame.inverse(std::array::from_fn(at));
-        let mut programmed = [false; 3];
-        for &Target { axis, value, .. } in words {
-            self.word[axis] = value;
-            if let Some(main) = self.main_index(axis) {
-                (point[main], programmed[main]) = (value, true);
-            } else {
-                let value = if self.mirrored[axis] { -value } else { value };
-                self.target[axis] = value + self.offset_without(kinds, axis);
-                self.applied[axis] = self.active_offset(axis);
-            }
-        }
-        let moved = frame.apply(point);
-        for main in 0..3 {
-            let follows = (0..3).any(|i| programmed[i] && frame.m[main][i] != 0.0);
-            if let (Some(axis), true) = (self.main[main], follows) {
-                self.target[axis] = moved[main] + rest[main];
-                self.applied[axis] = self.active_offset(axis);
-            }
-        }
-        self.recompute_program();
-    }
-
     /// An axis moves to a position without offsets and systems (independent axes, 208612235).
     pub(in crate::exec) fn place(&mut self, axis: usize, position_mm: f64) {
         (self.word[axis], self.target[axis]) = (position_mm, position_mm);
@@ -356,57 +327,6 @@ impl Coordinates {
         for (main, value) in program.into_iter().enumerate() {
             if let Some(axis) = self.main[main] {
                 self.program[axis] = value;
-            }
-        }
-    }
-
-    /// Applies the words of a block; the new targets are in [`target`](Self::target).
-    pub(in crate::exec) fn program(&mut self, words: impl IntoIterator<Item = Target>) {
-        let mut framed = [None; 3];
-        for Target { axis, value, absolute } in words {
-            self.word[axis] = value;
-            if absolute {
-                self.program[axis] = value;
-            } else {
-                self.program[axis] += value;
-            }
-            match if self.plain { None } else { self.main_index(axis) } {
-                Some(main) => framed[main] = Some(absolute),
-                None => self.program_plain(axis, value, absolute),
-            }
-        }
-        if !self.plain && framed.iter().any(Option::is_some) {
-            self.program_in_frame(framed);
-        }
-    }
-
-    #[inline]
-    fn program_plain(&mut self, axis: usize, value: f64, absolute: bool) {
-        let value = if self.mirrored[axis] { -value } else { value };
-        if absolute {
-            self.applied[axis] = self.active_offset(axis);
-            self.target[axis] = value + self.applied[axis];
-        } else {
-            self.target[axis] += value;
-        }
-    }
-
-    /// Targets of the programmed main axes (`Some(absolute)`), and of those that the frame couples to them.
-    fn program_in_frame(&mut self, programmed: [Option<bool>; 3]) {
-        let p = self.main.map(|m| m.map_or(0.0, |axis| self.program[axis]));
-        let q = self.frame.apply(p);
-        let coupled: [bool; 3] =
-            std::array::from_fn(|i| (0..3).any(|j| i != j && self.frame.m[i][j] != 0.0));
-        let coupling = || (0..3).filter(|i| coupled[*i]).filter_map(|i| programmed[i]);
-        let (couples, absolute) =
-            (coupling().next().is_some(), coupling().any(|absolute| absolute));
-        for main in 0..3 {
-            let affected = programmed[main].is_some() || (couples && coupled[main]);
-            if let (Some(axis), true) = (self.main[main], affected) {
-                if programmed[main].unwrap_or(absolute) {
-                    self.applied[axis] = self.active_offset(axis);
-                }
-                self.target[axis] = q[main] + self.applied[axis];
             }
         }
     }

@@ -5,6 +5,7 @@
 //!
 //! Source: TF5200 programming manual, contour line programming; 21892, 21895, 21904, 21910.
 
+use super::state::ContourLines;
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
@@ -13,6 +14,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::report::Report;
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
 
@@ -30,15 +32,17 @@ pub(super) enum ContourLine {
     Corner([f64; 2], SourceRef),
 }
 
-impl Decoder {
+impl ContourLines {
     /// 21904 for a first line without its second one at the end of the program.
-    pub(in crate::exec) fn contour_line_ends(&mut self) {
-        if let Some((_, span, source)) = self.motion.contour_line.open.take() {
+    pub(in crate::exec) fn end(&mut self, report: &mut Report) {
+        if let Some((_, span, source)) = self.open.take() {
             let text = "the contour line is not followed by a line with #ANG and the end of both";
-            self.report.note(Fault::new(Condition::ContourLineOpen, text, span).in_block(source));
+            report.note(Fault::new(Condition::ContourLineOpen, text, span).in_block(source));
         }
     }
+}
 
+impl Decoder {
     /// Applies `#ANG` to the current block.
     pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");

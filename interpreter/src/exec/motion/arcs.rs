@@ -4,7 +4,7 @@ use super::plane::PlaneImage;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{Placed, Words};
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::modal::PathMode;
+use crate::exec::block::modal::{Modal, PathMode};
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -12,9 +12,43 @@ use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::arc::{self, ArcError};
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::values::number::LARGEST_MM;
+use crate::machine::Channel;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
+
+impl Modal {
+    /// I, J and K of a block in the plane of its arc. With P-CHAN-00159 = 1 the last values apply to those that the block
+    /// omits.
+    ///
+    /// Assumption: when both a modal centre and a modal radius exist, the later one applies.
+    fn centre_words(
+        &mut self,
+        channel: &Channel,
+        words: &Words<'_>,
+        plane: [usize; 2],
+        span: Span,
+    ) -> [Option<Placed>; 2] {
+        let written = plane.map(|main| words.centre[main]);
+        if !channel.modal_centres {
+            return written;
+        }
+        let unit = self.unit_mm();
+        if words.radius.is_some() {
+            self.centre_mm = [None; 3];
+            return written;
+        }
+        for (main, word) in plane.into_iter().zip(written) {
+            if let Some((value, _)) = word {
+                self.centre_mm[main] = Some(value * unit);
+                self.radius_mm = None;
+            }
+        }
+        plane.map(|main| {
+            words.centre[main].or(self.centre_mm[main].map(|value| (value / unit, span)))
+        })
+    }
+}
 
 impl Decoder {
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
@@ -22,7 +56,11 @@ impl Decoder {
         let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
         // in a plane oblique to the axes, the arc is given in the coordinate system
-        let PlaneImage { main: image, keeps_sense, tilt } = self.image_of_plane(span)?;
+        let PlaneImage { main: image, keeps_sense, tilt } = self.geometry.image_of_plane(
+            self.modal.plane.main_axes(),
+            &self.motion.independent.way,
+            span,
+        )?;
         let (start, end) = match &tilt {
             Some(tilt) => local_ends(tilt, from, &target),
             None => (from.clone(), target.clone()),
@@ -37,9 +75,10 @@ impl Decoder {
         let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
         let (s, e) = (in_plane(&start), in_plane(&end));
         let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
-        let scale = self.scale_of_plane([main[0], main[1]], span)?;
+        let scale = self.geometry.scale_of_plane([main[0], main[1]], span)?;
         let centre_words = self
-            .centre_words(words, [main[0], main[1]], span)
+            .modal
+            .centre_words(&self.machine.channel, words, [main[0], main[1]], span)
             .map(|word| word.map(|(value, at)| (value * scale, at)));
         let has_centre = centre_words.iter().any(Option::is_some);
         let by_word = words.g.iter().find(|g| g.row.act == Act::Radius);
@@ -87,7 +126,7 @@ impl Decoder {
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             } else {
-                let pitch_mm = pitch * self.modal.unit_mm() * self.scale_of_main(main[2]);
+                let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
             }
         }
@@ -184,36 +223,6 @@ impl Decoder {
             Target { axis: y, value: end[1], absolute: true },
         ];
         Ok(())
-    }
-
-    /// I, J and K of a block in the plane of its arc. With P-CHAN-00159 = 1 the last values apply to those that the block
-    /// omits.
-    ///
-    /// Assumption: when both a modal centre and a modal radius exist, the later one applies.
-    fn centre_words(
-        &mut self,
-        words: &Words<'_>,
-        plane: [usize; 2],
-        span: Span,
-    ) -> [Option<Placed>; 2] {
-        let written = plane.map(|main| words.centre[main]);
-        if !self.machine.channel.modal_centres {
-            return written;
-        }
-        let unit = self.modal.unit_mm();
-        if words.radius.is_some() {
-            self.modal.centre_mm = [None; 3];
-            return written;
-        }
-        for (main, word) in plane.into_iter().zip(written) {
-            if let Some((value, _)) = word {
-                self.modal.centre_mm[main] = Some(value * unit);
-                self.modal.radius_mm = None;
-            }
-        }
-        plane.map(|main| {
-            words.centre[main].or(self.modal.centre_mm[main].map(|value| (value / unit, span)))
-        })
     }
 
     /// Centre in axis coordinates, or in program coordinates if the plane is oblique to the axes.

@@ -13,11 +13,14 @@
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
-use crate::exec::block::modal::{Compensation, PathMode};
+use crate::exec::block::modal::{Compensation, Modal, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::geometry::area::{Area, Base, Violation, overlaps};
-use crate::exec::motion::state::areas::{Draft, Heading, Watch, violated};
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::state::areas::{Areas, Draft, Heading, Watch, violated};
+use crate::exec::names::AxisNames;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::Path;
@@ -33,35 +36,183 @@ fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
     Fault::new(Condition::AreaWrong, text, span)
 }
 
-impl Decoder {
+impl Areas {
+    /// `#CONTROL AREA OFF`: one area, or the last one for `None`.
+    pub(in crate::exec) fn switch_off(&mut self, number: Option<u32>) {
+        let active = &mut self.active;
+        match number {
+            Some(number) => active.retain(|area| area.number != number),
+            None => drop(active.pop()),
+        }
+    }
+
+    /// `#CONTROL AREA OFF ALL`.
+    pub(in crate::exec) fn switch_all_off(&mut self) {
+        self.active.clear();
+    }
+
+    /// Whether a motion can be monitored: contouring and splines change its path later.
+    pub(super) fn fit(&self, shaped: bool, names: &AxisNames, span: Span) -> Outcome<()> {
+        let mut active = self.active.iter();
+        if shaped && active.len() > 0 {
+            let what = "contouring, #HSC or a spline while a control area is active";
+            return Err(Fault::unsupported(what, span));
+        }
+        match active.find(|area| area.axes.iter().any(|axis| !names.has(*axis))) {
+            Some(area) => {
+                let text = format!("an axis of control area {} has left the channel", area.number);
+                Err(Fault::new(Condition::AreaAxisMissing, text, span))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The areas to check the next motion against; `way`: independent travel of the axes.
+    pub(super) fn watch(
+        &mut self,
+        geometry: &Geometry,
+        way: &AxisVec,
+        names: &AxisNames,
+    ) -> Option<Arc<Watch>> {
+        if self.active.is_empty() {
+            return None;
+        }
+        let offsets_mm = geometry.tip(way);
+        let areas = self.active.clone();
+        let watch = Watch { areas, offsets_mm, names: names.all() };
+        // shared by consecutive motions
+        if self.watch.as_deref() != Some(&watch) {
+            self.watch = Some(Arc::new(watch));
+        }
+        self.watch.clone()
+    }
+
+    /// 120742: an axis of an active area moves independently.
+    pub(super) fn moves_unwatched(
+        &self,
+        axis: usize,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<()> {
+        if self.is_defining() {
+            return Err(wrong("an independent axis in the definition of a control area", span));
+        }
+        let Some(area) = self.active.iter().find(|area| area.axes.contains(&axis)) else {
+            return Ok(());
+        };
+        let name = names.name(axis);
+        let text =
+            format!("{name} belongs to control area {}: it cannot move independently", area.number);
+        Err(Fault::new(Condition::AreaAxisAlone, text, span))
+    }
+
     /// `#CONTROL AREA BEGIN`.
-    pub(in crate::exec) fn begin_area(&mut self, heading: Heading) -> Outcome<()> {
+    pub(in crate::exec) fn begin(
+        &mut self,
+        heading: Heading,
+        modal: &Modal,
+        at: &AxisVec,
+    ) -> Outcome<()> {
         let Heading { number, span, .. } = heading;
-        let areas = &self.motion.areas;
-        if self.modal.path.is_thread() {
+        if modal.path.is_thread() {
             let text = "control area defined while a thread is active (G33, G63)";
             return Err(Fault::new(Condition::AreaInThread, text, span));
         }
-        if areas.is_defining() {
+        if self.is_defining() {
             let text = "the previous control area has no #CONTROL AREA END";
             return Err(Fault::new(Condition::AreaOpen, text, span));
         }
-        if areas.is_active(number) {
+        if self.is_active(number) {
             return Err(wrong(
                 format!("control area {number} is active and cannot be changed"),
                 span,
             ));
         }
-        if self.modal.compensation != Compensation::Off {
+        if modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("a control area defined under G41 or G42", span));
         }
-        let before = self.geometry.coordinates.target().clone();
+        let before = at.clone();
         let (named, points) = (Vec::new(), Vec::new());
-        self.motion.areas.draft =
-            Some(Box::new(Draft { heading, before, named, points, circle: None }));
+        self.draft = Some(Box::new(Draft { heading, before, named, points, circle: None }));
         Ok(())
     }
 
+    /// `#CONTROL AREA ON`: one area, or all for `None`.
+    pub(in crate::exec) fn switch_on(
+        &mut self,
+        number: Option<u32>,
+        tip: &AxisVec,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<()> {
+        let chosen: Vec<Arc<Area>> = match number {
+            Some(number) => match self.defined.get(&number) {
+                Some(area) => vec![Arc::clone(area)],
+                None => return Err(wrong(format!("control area {number} is not defined"), span)),
+            },
+            None => self.defined.values().cloned().collect(),
+        };
+        for area in chosen {
+            let missing = area.axes.iter().find(|axis| !names.has(**axis));
+            if missing.is_some() {
+                let text = format!("an axis of control area {} is not in the channel", area.number);
+                return Err(Fault::new(Condition::AreaAxisMissing, text, span));
+            }
+            if !area.admits(tip) {
+                let point_mm = area.axes.map(|axis| tip[axis]);
+                let violation = Violation { point_mm, at_end: true };
+                return Err(violated(&area, violation, &names.all(), span));
+            }
+            if !self.is_active(area.number) {
+                self.active.push(area);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Draft {
+    /// The area of a complete definition; `plane`: axes of the active plane, for a polygon.
+    fn area(
+        self,
+        plane: Option<[usize; 2]>,
+        coordinates: &Coordinates,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<Area> {
+        let Self { heading, named, points, circle, .. } = self;
+        let Heading { number, purpose, low_mm, high_mm, height_axis, .. } = heading;
+        let (plane, base) = if let Some(plane) = plane {
+            let plane = area_plane(coordinates, plane, &named, span)?;
+            (plane, polygon(&points, plane, span)?)
+        } else {
+            if named.iter().any(|axis| coordinates.main_index(*axis).is_none()) {
+                let text = "the base of a control area CIRC must be in main axes";
+                return Err(Fault::new(Condition::AreaCircleAxis, text, span));
+            }
+            let Some((plane, centre_mm, radius_mm)) = circle else {
+                return Err(wrong("a control area CIRC needs a full circle", span));
+            };
+            (plane, Base::Circle { centre_mm, radius_mm })
+        };
+        let third = || {
+            (0..3).find_map(|main| {
+                let axis = coordinates.main_axis(main)?;
+                (!plane.contains(&axis)).then_some(axis)
+            })
+        };
+        let Some(height) = height_axis.or_else(third) else {
+            return Err(wrong("a control area without an axis for its height", span));
+        };
+        if plane.contains(&height) {
+            let text = format!("axis {} of EXCUR belongs to the base", names.name(height));
+            return Err(Fault::new(Condition::AreaHeightInBase, text, span));
+        }
+        Ok(Area { number, purpose, base, axes: [plane[0], plane[1], height], low_mm, high_mm })
+    }
+}
+
+impl Decoder {
     /// A block of a definition, with its path if it moves.
     pub(super) fn area_block(
         &mut self,
@@ -118,154 +269,10 @@ impl Decoder {
             return Ok(());
         };
         self.geometry.coordinates.set_target(&draft.before);
-        let area = self.area_of(*draft, span)?;
+        let plane = if draft.heading.circle { None } else { Some(self.in_plane(span)?.plane) };
+        let area = draft.area(plane, &self.geometry.coordinates, &self.names, span)?;
         self.motion.areas.defined.insert(area.number, Arc::new(area));
         Ok(())
-    }
-
-    fn area_of(&self, draft: Draft, span: Span) -> Outcome<Area> {
-        let Draft { heading, named, points, circle, .. } = draft;
-        let Heading { number, purpose, low_mm, high_mm, height_axis, .. } = heading;
-        let (plane, base) = if heading.circle {
-            if named.iter().any(|axis| self.geometry.coordinates.main_index(*axis).is_none()) {
-                let text = "the base of a control area CIRC must be in main axes";
-                return Err(Fault::new(Condition::AreaCircleAxis, text, span));
-            }
-            let Some((plane, centre_mm, radius_mm)) = circle else {
-                return Err(wrong("a control area CIRC needs a full circle", span));
-            };
-            (plane, Base::Circle { centre_mm, radius_mm })
-        } else {
-            let plane = self.area_plane(&named, span)?;
-            (plane, polygon(&points, plane, span)?)
-        };
-        let third = || {
-            (0..3).find_map(|main| {
-                let axis = self.geometry.coordinates.main_axis(main)?;
-                (!plane.contains(&axis)).then_some(axis)
-            })
-        };
-        let Some(height) = height_axis.or_else(third) else {
-            return Err(wrong("a control area without an axis for its height", span));
-        };
-        if plane.contains(&height) {
-            let text = format!("axis {} of EXCUR belongs to the base", self.names.name(height));
-            return Err(Fault::new(Condition::AreaHeightInBase, text, span));
-        }
-        Ok(Area { number, purpose, base, axes: [plane[0], plane[1], height], low_mm, high_mm })
-    }
-
-    /// Axes of a polygon: those of the plane, or two others that its blocks name.
-    ///
-    /// The pages print both 21363 and 21797 for a third axis; 21797 is from later builds, which support areas of other axes.
-    fn area_plane(&self, named: &[usize], span: Span) -> Outcome<[usize; 2]> {
-        let plane = self.in_plane(span)?.plane;
-        if named.len() > 2 {
-            let text = format!("{} axes in the contour of a control area, allowed: 2", named.len());
-            return Err(Fault::new(Condition::AreaAxes, text, span)
-                .with(|d| d.value(ValueKind::Wrong, named.len() as f64, "-")));
-        }
-        let main = |axis: &usize| self.geometry.coordinates.main_index(*axis);
-        match *named {
-            [a, b] if main(&a).is_none() && main(&b).is_none() => Ok([a, b]),
-            [a] if main(&a).is_none() => {
-                let text = "a control area of other axes requires two of them in its contour";
-                Err(Fault::new(Condition::AreaOneAxis, text, span))
-            }
-            _ if named.iter().all(|axis| plane.contains(axis)) => Ok(plane),
-            _ => {
-                let text = "the contour of a control area must be in the main axes of its plane";
-                Err(Fault::new(Condition::AreaAxis, text, span))
-            }
-        }
-    }
-
-    /// `#CONTROL AREA ON`: one area, or all for `None`.
-    pub(in crate::exec) fn watch_areas(&mut self, number: Option<u32>, span: Span) -> Outcome<()> {
-        let chosen: Vec<Arc<Area>> = match number {
-            Some(number) => match self.motion.areas.defined.get(&number) {
-                Some(area) => vec![Arc::clone(area)],
-                None => return Err(wrong(format!("control area {number} is not defined"), span)),
-            },
-            None => self.motion.areas.defined.values().cloned().collect(),
-        };
-        let tip = self.geometry.tip(self.geometry.coordinates.target());
-        for area in chosen {
-            let missing = area.axes.iter().find(|axis| !self.names.has(**axis));
-            if missing.is_some() {
-                let text = format!("an axis of control area {} is not in the channel", area.number);
-                return Err(Fault::new(Condition::AreaAxisMissing, text, span));
-            }
-            if !area.admits(&tip) {
-                let point_mm = area.axes.map(|axis| tip[axis]);
-                let violation = Violation { point_mm, at_end: true };
-                return Err(violated(&area, violation, &self.names.all(), span));
-            }
-            if !self.motion.areas.is_active(area.number) {
-                self.motion.areas.active.push(area);
-            }
-        }
-        Ok(())
-    }
-
-    /// `#CONTROL AREA OFF`: one area, or the last one for `None`.
-    pub(in crate::exec) fn leave_area(&mut self, number: Option<u32>) {
-        let active = &mut self.motion.areas.active;
-        match number {
-            Some(number) => active.retain(|area| area.number != number),
-            None => drop(active.pop()),
-        }
-    }
-
-    /// `#CONTROL AREA OFF ALL`.
-    pub(in crate::exec) fn leave_areas(&mut self) {
-        self.motion.areas.active.clear();
-    }
-
-    /// Whether a motion can be monitored: contouring and splines change its path later.
-    pub(super) fn areas_fit(&self, shaped: bool, span: Span) -> Outcome<()> {
-        let mut active = self.motion.areas.active.iter();
-        if shaped && active.len() > 0 {
-            let what = "contouring, #HSC or a spline while a control area is active";
-            return Err(Fault::unsupported(what, span));
-        }
-        match active.find(|area| area.axes.iter().any(|axis| !self.names.has(*axis))) {
-            Some(area) => {
-                let text = format!("an axis of control area {} has left the channel", area.number);
-                Err(Fault::new(Condition::AreaAxisMissing, text, span))
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The areas to check the next motion against.
-    pub(super) fn watch(&mut self) -> Option<Arc<Watch>> {
-        if self.motion.areas.active.is_empty() {
-            return None;
-        }
-        let offsets_mm = self.geometry.tip(&self.motion.independent.way);
-        let areas = self.motion.areas.active.clone();
-        let watch = Watch { areas, offsets_mm, names: self.names.all() };
-        // shared by consecutive motions
-        if self.motion.areas.watch.as_deref() != Some(&watch) {
-            self.motion.areas.watch = Some(Arc::new(watch));
-        }
-        self.motion.areas.watch.clone()
-    }
-
-    /// 120742: an axis of an active area moves independently.
-    pub(super) fn moves_unwatched(&self, axis: usize, span: Span) -> Outcome<()> {
-        if self.motion.areas.is_defining() {
-            return Err(wrong("an independent axis in the definition of a control area", span));
-        }
-        let Some(area) = self.motion.areas.active.iter().find(|area| area.axes.contains(&axis))
-        else {
-            return Ok(());
-        };
-        let name = self.names.name(axis);
-        let text =
-            format!("{name} belongs to control area {}: it cannot move independently", area.number);
-        Err(Fault::new(Condition::AreaAxisAlone, text, span))
     }
 }
 
@@ -291,4 +298,33 @@ fn polygon(points: &[AxisVec], plane: [usize; 2], span: Span) -> Outcome<Base> {
         return Err(Fault::new(Condition::AreaOverlaps, text, span));
     }
     Ok(Base::Polygon(corners))
+}
+
+/// Axes of a polygon: those of the plane, or two others that its blocks name.
+///
+/// The pages print both 21363 and 21797 for a third axis; 21797 is from later builds, which support areas of other axes.
+fn area_plane(
+    coordinates: &Coordinates,
+    plane: [usize; 2],
+    named: &[usize],
+    span: Span,
+) -> Outcome<[usize; 2]> {
+    if named.len() > 2 {
+        let text = format!("{} axes in the contour of a control area, allowed: 2", named.len());
+        return Err(Fault::new(Condition::AreaAxes, text, span)
+            .with(|d| d.value(ValueKind::Wrong, named.len() as f64, "-")));
+    }
+    let main = |axis: &usize| coordinates.main_index(*axis);
+    match *named {
+        [a, b] if main(&a).is_none() && main(&b).is_none() => Ok([a, b]),
+        [a] if main(&a).is_none() => {
+            let text = "a control area of other axes requires two of them in its contour";
+            Err(Fault::new(Condition::AreaOneAxis, text, span))
+        }
+        _ if named.iter().all(|axis| plane.contains(axis)) => Ok(plane),
+        _ => {
+            let text = "the contour of a control area must be in the main axes of its plane";
+            Err(Fault::new(Condition::AreaAxis, text, span))
+        }
+    }
 }

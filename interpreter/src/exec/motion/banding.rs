@@ -9,6 +9,7 @@
 //! Assumptions, where they are silent: the distance is measured from the point of the path that is nearest to the measured
 //! actual position; the path stops at the end of this distance, not after it.
 
+use super::state::measuring::Measuring;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
@@ -16,7 +17,9 @@ use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::Function;
+use crate::exec::report::Report;
 use crate::exec::step::{BandingRun, Event};
+use crate::machine::Channel;
 use crate::syntax::ast::Span;
 
 /// G108 that was not used.
@@ -26,34 +29,42 @@ fn unused(span: Span) -> Box<Fault> {
     Fault::new(Condition::Odd, text, span).warning().hint(hint)
 }
 
-impl Decoder {
+impl Measuring {
     /// G108, G107.
-    pub(in crate::exec) fn set_banding(&mut self, on: bool, g: &GWord) -> Outcome<()> {
-        if on && self.machine.channel.banding_over_blocks {
+    pub(in crate::exec) fn set_banding(
+        &mut self,
+        on: bool,
+        g: &GWord,
+        channel: &Channel,
+        report: &mut Report,
+    ) -> Outcome<()> {
+        if on && channel.banding_over_blocks {
             return Err(Fault::unsupported(
                 "edge banding over several blocks (P-CHAN-00029)",
                 g.span,
             ));
         }
-        if on && self.machine.channel.banding_rejects_rest {
+        if on && channel.banding_rejects_rest {
             return Err(Fault::unsupported(
                 "edge banding that skips the rest of its block (P-CHAN-00149)",
                 g.span,
             ));
         }
-        if std::mem::replace(&mut self.motion.measuring.banding, on) && !on {
-            self.report.note(unused(g.span));
+        if std::mem::replace(&mut self.banding, on) && !on {
+            report.note(unused(g.span));
         }
         Ok(())
     }
 
     /// End of the program.
-    pub(in crate::exec) fn banding_ends(&mut self) {
-        if std::mem::take(&mut self.motion.measuring.banding) {
-            self.report.note(unused(Span::default()));
+    pub(in crate::exec) fn banding_ends(&mut self, report: &mut Report) {
+        if std::mem::take(&mut self.banding) {
+            report.note(unused(Span::default()));
         }
     }
+}
 
+impl Decoder {
     /// If edge banding is on and the block of the motion has an M function for it, the motion waits for the signal. Returns the
     /// position of that function in the program text.
     pub(in crate::exec) fn banding_run(&mut self, words: &Words<'_>) -> Outcome<Option<Span>> {

@@ -12,35 +12,129 @@
 //!
 //! [`Independent::way`]: super::state::Independent::way
 
+use super::state::MotionState;
 use super::state::coupling::{Couplings, Follower, Pair};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::modal::Compensation;
+use crate::exec::block::modal::{Compensation, Modal};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::names::AxisNames;
 use crate::exec::step::{Event, Sync};
+use crate::machine::Machine;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
-impl Decoder {
+impl Couplings {
     /// `#SET AX LINK`: defines a group, which must not be active.
-    pub(in crate::exec) fn define_couplings(
+    pub(in crate::exec) fn define(
         &mut self,
         group: u32,
         pairs: Vec<Pair>,
         span: Span,
     ) -> Outcome<()> {
-        if self.motion.couplings.is_on(group) {
+        if self.is_on(group) {
             let text = format!("coupling group {group} is switched on and cannot be changed");
             return Err(Fault::new(Condition::CouplingGroupActive, text, span)
                 .with(|d| d.value(ValueKind::Wrong, group, "-")));
         }
-        self.motion.couplings.groups.insert(group, pairs);
+        self.groups.insert(group, pairs);
         Ok(())
     }
 
+    /// A program must not move a slave.
+    pub(in crate::exec::motion) fn moves_no_slave(
+        &self,
+        axis: usize,
+        names: &AxisNames,
+        at: Span,
+    ) -> Outcome<()> {
+        let mut followers = self.followers();
+        let Some((group, f)) = followers.find(|(_, f)| f.pair.slave == axis) else { return Ok(()) };
+        let (name, master) = (names.name(axis), names.name(f.pair.master));
+        let text = format!("axis {name} follows {master} in coupling group {group}");
+        let (number, name) = (names.number(axis), name.to_owned());
+        Err(Fault::new(Condition::SlaveProgrammed, text, at).with(|d| d.axis(number, name)))
+    }
+
+    /// 21481 for a coupled axis that is commanded to move independently.
+    pub(in crate::exec) fn moves_not_coupled(
+        &self,
+        axis: usize,
+        machine: &Machine,
+        span: Span,
+    ) -> Outcome<()> {
+        let Some(group) = self.group_of(axis) else { return Ok(()) };
+        let name = machine.axes[axis].name().to_owned();
+        let text = format!("axis {name} is coupled in group {group} and cannot move independently");
+        let number = machine.axes[axis].number();
+        Err(Fault::new(Condition::CoupledAxisAlone, text, span)
+            .with(|d| d.axis(number, name).value(ValueKind::Current, group, "-")))
+    }
+
+    /// 20545 for a coupled axis that is to be released, 21312 for one that is to change its position in the channel; only the
+    /// first error.
+    pub(in crate::exec) fn moves_no_coupled(
+        &self,
+        mut axes: impl Iterator<Item = usize>,
+        machine: &Machine,
+        condition: Condition,
+        span: Span,
+    ) -> Outcome<()> {
+        let coupled = axes.find_map(|axis| Some((axis, self.group_of(axis)?)));
+        let Some((axis, group)) = coupled else { return Ok(()) };
+        let name = machine.axes[axis].name().to_owned();
+        let text = format!("axis {name} is coupled in group {group} and cannot be exchanged");
+        let number = machine.axes[axis].number();
+        Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
+    }
+
+    /// 20169.
+    pub(in crate::exec) fn keep_tool(&self, span: Span) -> Outcome<()> {
+        if self.are_off() {
+            return Ok(());
+        }
+        let text = "the tool data cannot change while axes are coupled";
+        Err(Fault::new(Condition::ToolWhileCoupled, text, span))
+    }
+}
+
+impl Modal {
+    /// 20457, 120333.
+    fn couplings_may_change(&self, span: Span) -> Outcome<()> {
+        if self.contouring {
+            let text = "axis couplings cannot be switched while contouring is active";
+            return Err(Fault::new(Condition::CouplingWithContouring, text, span));
+        }
+        if self.compensation == Compensation::Off {
+            return Ok(());
+        }
+        let text = "couplings cannot be switched while tool radius compensation is active";
+        Err(Fault::new(Condition::CouplingWithCompensation, text, span))
+    }
+}
+
+impl MotionState {
+    /// Moves the slaves along with their masters.
+    pub(in crate::exec) fn follow_masters(&mut self, coordinates: &mut Coordinates) {
+        if self.couplings.are_off() {
+            return;
+        }
+        let mut target: AxisVec = coordinates.target().clone();
+        for (_, follower) in self.couplings.followers() {
+            let slave = follower.pair.slave;
+            target[slave] = Couplings::slave_at(follower, target[follower.pair.master]);
+            let way_mm = follower.way_mm + (target[slave] - follower.slave_mm);
+            self.independent.way[slave] = way_mm;
+        }
+        coordinates.set_target(&target);
+    }
+}
+
+impl Decoder {
     /// `#ENABLE AX LINK`.
     pub(in crate::exec) fn switch_couplings_on(&mut self, group: u32, span: Span) -> Outcome<()> {
-        self.couplings_may_change(span)?;
+        self.modal.couplings_may_change(span)?;
         let Some(pairs) = self.motion.couplings.groups.get(&group).cloned() else {
             let text = format!("coupling group {group} is not defined");
             return Err(Fault::new(Condition::CouplingGroupUndefined, text, span));
@@ -81,7 +175,7 @@ impl Decoder {
         group: Option<u32>,
         span: Span,
     ) -> Outcome<()> {
-        self.couplings_may_change(span)?;
+        self.modal.couplings_may_change(span)?;
         let active = &self.motion.couplings.active;
         let place = match group {
             Some(group) => active.iter().position(|(active, _)| *active == group),
@@ -100,24 +194,11 @@ impl Decoder {
 
     /// `#AX LINK OFF ALL`.
     pub(in crate::exec) fn switch_all_couplings_off(&mut self, span: Span) -> Outcome<()> {
-        self.couplings_may_change(span)?;
+        self.modal.couplings_may_change(span)?;
         while !self.motion.couplings.are_off() {
             self.switch_couplings_off(None, span)?;
         }
         Ok(())
-    }
-
-    /// 20457, 120333.
-    fn couplings_may_change(&self, span: Span) -> Outcome<()> {
-        if self.modal.contouring {
-            let text = "axis couplings cannot be switched while contouring is active";
-            return Err(Fault::new(Condition::CouplingWithContouring, text, span));
-        }
-        if self.modal.compensation == Compensation::Off {
-            return Ok(());
-        }
-        let text = "couplings cannot be switched while tool radius compensation is active";
-        Err(Fault::new(Condition::CouplingWithCompensation, text, span))
     }
 
     /// A pair to be activated.
@@ -160,65 +241,5 @@ impl Decoder {
             return of(condition, axis, text, Some(active));
         }
         Ok(())
-    }
-
-    /// A program must not move a slave.
-    pub(super) fn moves_no_slave(&self, axis: usize, at: Span) -> Outcome<()> {
-        let mut followers = self.motion.couplings.followers();
-        let Some((group, f)) = followers.find(|(_, f)| f.pair.slave == axis) else { return Ok(()) };
-        let (name, master) = (self.names.name(axis), self.names.name(f.pair.master));
-        let text = format!("axis {name} follows {master} in coupling group {group}");
-        let (number, name) = (self.machine.axes[axis].number(), name.to_owned());
-        Err(Fault::new(Condition::SlaveProgrammed, text, at).with(|d| d.axis(number, name)))
-    }
-
-    /// 21481 for a coupled axis that is commanded to move independently.
-    pub(in crate::exec) fn moves_not_coupled(&self, axis: usize, span: Span) -> Outcome<()> {
-        let Some(group) = self.motion.couplings.group_of(axis) else { return Ok(()) };
-        let name = self.machine.axes[axis].name().to_owned();
-        let text = format!("axis {name} is coupled in group {group} and cannot move independently");
-        let number = self.machine.axes[axis].number();
-        Err(Fault::new(Condition::CoupledAxisAlone, text, span)
-            .with(|d| d.axis(number, name).value(ValueKind::Current, group, "-")))
-    }
-
-    /// 20545 for a coupled axis that is to be released, 21312 for one that is to change its position in the channel; only the
-    /// first error.
-    pub(in crate::exec) fn moves_no_coupled(
-        &self,
-        mut axes: impl Iterator<Item = usize>,
-        condition: Condition,
-        span: Span,
-    ) -> Outcome<()> {
-        let coupled = axes.find_map(|axis| Some((axis, self.motion.couplings.group_of(axis)?)));
-        let Some((axis, group)) = coupled else { return Ok(()) };
-        let name = self.machine.axes[axis].name().to_owned();
-        let text = format!("axis {name} is coupled in group {group} and cannot be exchanged");
-        let number = self.machine.axes[axis].number();
-        Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
-    }
-
-    /// 20169.
-    pub(in crate::exec) fn keeps_tool_while_coupled(&self, span: Span) -> Outcome<()> {
-        if self.motion.couplings.are_off() {
-            return Ok(());
-        }
-        let text = "the tool data cannot change while axes are coupled";
-        Err(Fault::new(Condition::ToolWhileCoupled, text, span))
-    }
-
-    /// Moves the slaves along with their masters.
-    pub(in crate::exec) fn follow_masters(&mut self) {
-        if self.motion.couplings.are_off() {
-            return;
-        }
-        let mut target: AxisVec = self.geometry.coordinates.target().clone();
-        for (_, follower) in self.motion.couplings.followers() {
-            let slave = follower.pair.slave;
-            target[slave] = Couplings::slave_at(follower, target[follower.pair.master]);
-            let way_mm = follower.way_mm + (target[slave] - follower.slave_mm);
-            self.motion.independent.way[slave] = way_mm;
-        }
-        self.geometry.coordinates.set_target(&target);
     }
 }

@@ -2,14 +2,47 @@
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Placed;
-use crate::exec::block::modal::{FeedType, PathMode};
+use crate::exec::block::modal::{FeedType, Modal, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
+use crate::exec::report::Report;
+use crate::machine::{Channel, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::Path;
+
+impl Modal {
+    /// G95 at a spindle speed in rev/min.
+    pub(super) fn feed_per_revolution(&self, machine: &Machine, path: &Path, rpm: f64) -> Feed {
+        let word = self.feed();
+        let inch = word.is_some_and(|word| word.inch) && feed_is_linear(machine, path);
+        let unit_mm = if inch { 25.4 } else { 1.0 };
+        per_revolution(word.map_or(0.0, |word| word.value) * unit_mm, rpm)
+    }
+
+    pub(super) fn end_velocity(
+        &self,
+        (value, span): Placed,
+        feed: Feed,
+        channel: &Channel,
+    ) -> Outcome<Option<f64>> {
+        let Feed::PathVelocity(v) = feed else {
+            let text = "E is only valid with G94 and not in rapid traverse";
+            return Err(Fault::new(Condition::Syntax, text, span));
+        };
+        if self.feed_type != FeedType::PerMinute {
+            return Err(Fault::new(Condition::Syntax, "E is only valid with G94", span));
+        }
+        if value < 0.0 {
+            let text = format!("E{value} is negative: E is the feed at the end of the block");
+            return Err(Fault::new(Condition::Syntax, text, span)
+                .hint("numbers cannot have an exponent in this dialect: write 0.00001 for 1e-05"));
+        }
+        Ok(Some((value * self.feed_unit_mm_s(channel)).min(v)))
+    }
+}
 
 impl Decoder {
     /// Feed rate of a block with this path.
@@ -30,7 +63,7 @@ impl Decoder {
             // the block is skipped, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
-        if self.feed_type() != self.modal.feed_type {
+        if self.contour.hsc.feed_type(self.modal.feed_type) != self.modal.feed_type {
             let text = "G93 in a B-spline: F is taken in mm/min";
             self.report.note_once("120847", Fault::new(Condition::TimeInSpline, text, span));
         }
@@ -44,21 +77,13 @@ impl Decoder {
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
             self.report.note_once("G95 at rest", fault);
         }
-        let unit_mm = if word.inch && self.feed_is_linear(path) { 25.4 } else { 1.0 };
+        let unit_mm = if word.inch && feed_is_linear(&self.machine, path) { 25.4 } else { 1.0 };
         self.feed_from(word.value, unit_mm, span)
-    }
-
-    /// The effective feed type: in a B-spline G94 replaces G93 (120847).
-    fn feed_type(&self) -> FeedType {
-        match self.modal.feed_type {
-            FeedType::Time if self.contour.hsc.spline().is_some() => FeedType::PerMinute,
-            other => other,
-        }
     }
 
     /// Feed rate for a value above 0 with the active feed type; the unit of a distance in mm is given.
     pub(in crate::exec) fn feed_from(&self, value: f64, unit_mm: f64, span: Span) -> Outcome<Feed> {
-        Ok(match self.feed_type() {
+        Ok(match self.contour.hsc.feed_type(self.modal.feed_type) {
             FeedType::PerMinute => {
                 Feed::PathVelocity(value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0)
             }
@@ -80,55 +105,30 @@ impl Decoder {
             }
         })
     }
-
-    /// G95 at a spindle speed in rev/min.
-    pub(super) fn feed_per_revolution(&self, path: &Path, rpm: f64) -> Feed {
-        let word = self.modal.feed();
-        let inch = word.is_some_and(|word| word.inch) && self.feed_is_linear(path);
-        let unit_mm = if inch { 25.4 } else { 1.0 };
-        per_revolution(word.map_or(0.0, |word| word.value) * unit_mm, rpm)
-    }
-
-    /// Reports a time (G93) that the limits of the axes do not allow; the limits apply.
-    pub(super) fn check_time(&mut self, block: &Block, span: Span) {
-        let Feed::Duration(time_s) = block.feed else { return };
-        let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));
-        let least_s = block.path.length() / speeds.highest();
-        if time_s < least_s * (1.0 - 1e-9) {
-            let text = format!(
-                "the block cannot be executed in F{time_s} s (G93): its velocity limits require {least_s:.6} s"
-            );
-            self.report.note(Fault::new(Condition::Odd, text, span).warning());
-        }
-    }
-
-    /// Whether not only rotary axes move.
-    fn feed_is_linear(&self, path: &Path) -> bool {
-        !path.is_straight()
-            || (0..path.start().len()).any(|i| {
-                self.machine.axes[i].is_linear()
-                    && path.start()[i].to_bits() != path.end()[i].to_bits()
-            })
-    }
-
-    pub(super) fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {
-        let Feed::PathVelocity(v) = feed else {
-            let text = "E is only valid with G94 and not in rapid traverse";
-            return Err(Fault::new(Condition::Syntax, text, span));
-        };
-        if self.modal.feed_type != FeedType::PerMinute {
-            return Err(Fault::new(Condition::Syntax, "E is only valid with G94", span));
-        }
-        if value < 0.0 {
-            let text = format!("E{value} is negative: E is the feed at the end of the block");
-            return Err(Fault::new(Condition::Syntax, text, span)
-                .hint("numbers cannot have an exponent in this dialect: write 0.00001 for 1e-05"));
-        }
-        Ok(Some((value * self.modal.feed_unit_mm_s(&self.machine.channel)).min(v)))
-    }
 }
 
 /// A distance in mm per revolution at a speed in rev/min.
 fn per_revolution(way_mm: f64, rpm: f64) -> Feed {
     Feed::PathVelocity(way_mm * rpm / 60.0)
+}
+
+/// Reports a time (G93) that the limits of the axes do not allow; the limits apply.
+pub(super) fn check_time(block: &Block, span: Span, report: &mut Report) {
+    let Feed::Duration(time_s) = block.feed else { return };
+    let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));
+    let least_s = block.path.length() / speeds.highest();
+    if time_s < least_s * (1.0 - 1e-9) {
+        let text = format!(
+            "the block cannot be executed in F{time_s} s (G93): its velocity limits require {least_s:.6} s"
+        );
+        report.note(Fault::new(Condition::Odd, text, span).warning());
+    }
+}
+
+/// Whether not only rotary axes move.
+fn feed_is_linear(machine: &Machine, path: &Path) -> bool {
+    !path.is_straight()
+        || (0..path.start().len()).any(|i| {
+            machine.axes[i].is_linear() && path.start()[i].to_bits() != path.end()[i].to_bits()
+        })
 }

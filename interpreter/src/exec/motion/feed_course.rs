@@ -1,5 +1,6 @@
 //! Feed rates that change along a motion (G13, G193, G293), and the functions with which they cannot be combined.
 
+use super::state::MotionState;
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
@@ -7,8 +8,29 @@ use crate::exec::block::modal::{Compensation, FeedType};
 use crate::exec::contour::FeedCourse;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::machine::Channel;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Feed, SlopeKind};
+
+impl MotionState {
+    /// Interpolates from the previous F word to that of the block.
+    fn interpolated_feed(
+        &self,
+        channel: &Channel,
+        name: &str,
+        over_path: bool,
+        span: Span,
+    ) -> Outcome<Option<FeedCourse>> {
+        let Some(from) = self.feed_before.filter(|word| word.value > 0.0) else {
+            let text = format!("{name}: no earlier F word to start the change of the feed from");
+            return Err(Fault::new(Condition::FeedZero, text, span));
+        };
+        let unit_mm = if from.inch { 25.4 } else { 1.0 };
+        let mm_s = from.value * unit_mm * channel.feed_unit_mm_min / 60.0;
+        let course = if over_path { FeedCourse::OverPath } else { FeedCourse::OverTime };
+        Ok(Some(course(mm_s)))
+    }
+}
 
 impl Decoder {
     /// How the feed rate changes along a motion. Assumption: not in rapid traverse, which has no feed rate.
@@ -57,28 +79,11 @@ impl Decoder {
             "tool radius compensation"
         } else {
             return if interpolated.is_some() {
-                self.interpolated_feed(&name, over_path, span)
+                self.motion.interpolated_feed(&self.machine.channel, &name, over_path, span)
             } else {
                 Ok(corner.map(FeedCourse::Corner))
             };
         };
         Err(Fault::unsupported(format!("{name} with {beside}"), span))
-    }
-
-    /// Interpolates from the previous F word to that of the block.
-    fn interpolated_feed(
-        &self,
-        name: &str,
-        over_path: bool,
-        span: Span,
-    ) -> Outcome<Option<FeedCourse>> {
-        let Some(from) = self.motion.feed_before.filter(|word| word.value > 0.0) else {
-            let text = format!("{name}: no earlier F word to start the change of the feed from");
-            return Err(Fault::new(Condition::FeedZero, text, span));
-        };
-        let unit_mm = if from.inch { 25.4 } else { 1.0 };
-        let mm_s = from.value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0;
-        let course = if over_path { FeedCourse::OverPath } else { FeedCourse::OverTime };
-        Ok(Some(course(mm_s)))
     }
 }

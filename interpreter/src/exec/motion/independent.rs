@@ -45,6 +45,107 @@ fn once<T>(slot: &mut Option<T>, value: T, what: &str, span: Span) -> Outcome<()
     Ok(())
 }
 
+impl Words {
+    /// The words of a bracket of an axis.
+    fn read(decoder: &Decoder, axis: usize, items: &[Item]) -> Outcome<Self> {
+        let mut words = Self::default();
+        let unit_mm_s = decoder.machine.channel.feed_unit_mm_min / 60.0
+            * decoder.modal.axis_unit(&decoder.machine.axes[axis]);
+        let measuring = decoder.motion.measuring.kind;
+        for item in items {
+            match &item.kind {
+                ItemKind::Missing => {}
+                ItemKind::Flag(word) => words.flag(word, measuring, unit_mm_s)?,
+                ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
+                    let value = decoder.number(expr)?;
+                    words.value(key, value, item.span, unit_mm_s)?;
+                }
+                ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("SLOPE_TYPE") => {
+                    let Some(kind) = crate::exec::commands::slope_type(&name.text) else {
+                        let text = format!("unknown slope type {}", name.text);
+                        return Err(wrong(text, name.span));
+                    };
+                    once(&mut words.slope, kind, "the slope", name.span)?;
+                }
+                ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
+                    return Err(wrong("a word of independent axes is expected", item.span));
+                }
+            }
+        }
+        Ok(words)
+    }
+
+    /// A word without `=`; `kind`: the measuring type.
+    fn flag(&mut self, word: &Ident, kind: u32, unit_mm_s: f64) -> Outcome<()> {
+        if word.is("G100") && !matches!(kind, 1 | 2 | 7) {
+            let text = format!("G100 of an independent axis with measuring type {kind}");
+            return Err(Fault::new(Condition::IndependentMeasuring, text, word.span));
+        }
+        if UNSUPPORTED.iter().any(|w| word.is(w)) {
+            let what = format!("{} of an independent axis", word.text);
+            return Err(Fault::unsupported(what, word.span));
+        }
+        let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
+        let code = crate::exec::values::number::whole(number, 0, 65535);
+        match (name.to_ascii_uppercase().as_str(), code) {
+            ("G", Some(number @ (90 | 91))) => {
+                once(&mut self.relative, number == 91, "G90 and G91", word.span)?;
+            }
+            ("G", Some(number @ (0 | 1))) => {
+                once(&mut self.rapid, number == 0, "G00 and G01", word.span)?;
+            }
+            ("M", Some(number)) => {
+                self.functions.push(Event::MFunction { number, value: None });
+            }
+            ("H", Some(number)) => {
+                self.functions.push(Event::HFunction { number, value: None });
+            }
+            (_, _) if number.is_finite() && !name.eq_ignore_ascii_case("G") => {
+                let key = Ident { text: name.into(), span: word.span };
+                self.value(&key, number, word.span, unit_mm_s)?;
+            }
+            _ => return Err(wrong(format!("unknown word `{}`", word.text), word.span)),
+        }
+        Ok(())
+    }
+
+    /// A word with a value; `unit_mm_s`: unit of a feed rate.
+    fn value(&mut self, key: &Ident, value: f64, span: Span, unit_mm_s: f64) -> Outcome<()> {
+        if UNSUPPORTED.iter().any(|w| key.is(w)) {
+            let what = format!("{} of an independent axis", key.text);
+            return Err(Fault::unsupported(what, span));
+        }
+        if key.is("POS") {
+            return once(&mut self.position, (value, span), "POS", span);
+        }
+        if key.is("SLOPE_PROFIL") {
+            let number = crate::exec::values::number::whole(value, 0, 3);
+            let kind = number.and_then(crate::exec::commands::slope_of_number);
+            let kind = kind.ok_or_else(|| wrong("use a slope type from 0 to 3", span))?;
+            return once(&mut self.slope, kind, "the slope", span);
+        }
+        // F is the older keyword
+        let speed = if key.is("FEED") || key.is("F") {
+            IndependentSpeed::Feed(value * unit_mm_s)
+        } else if key.is("TIME") {
+            IndependentSpeed::Time(value)
+        } else if key.is("FEED_MAX_WEIGHT") && value <= 100.0 {
+            IndependentSpeed::ShareOfMaximum(value / 100.0)
+        } else if key.is("FEED_MAX_WEIGHT") {
+            return Err(wrong("use a FEED_MAX_WEIGHT up to 100 %", span));
+        } else {
+            return Err(wrong(format!("unknown word `{}`", key.text), span));
+        };
+        if value <= 0.0 || !value.is_finite() {
+            return Err(wrong(format!("{} must be above 0", key.text), span));
+        }
+        if self.speed.replace((speed, span)).is_some() {
+            return Err(wrong("more than one of FEED, TIME and FEED_MAX_WEIGHT", span));
+        }
+        Ok(())
+    }
+}
+
 impl Decoder {
     /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: the text after the first word.
     pub(in crate::exec) fn independent_axis(
@@ -54,14 +155,14 @@ impl Decoder {
         rest: &[Item],
         span: Span,
     ) -> Outcome<()> {
-        self.moves_not_coupled(axis, span)?;
-        self.moves_unwatched(axis, span)?;
+        self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
+        self.motion.areas.moves_unwatched(axis, &self.names, span)?;
         if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
             let name = self.machine.axes[axis].name();
             let text = format!("{name} cannot move independently within a spline");
             return Err(Fault::new(Condition::IndependentInSpline, text, span));
         }
-        let words = self.independent_words(axis, rest)?;
+        let words = Words::read(self, axis, rest)?;
         for function in words.functions {
             match function {
                 Event::MFunction { number, .. } => self.motion.takes_time(
@@ -127,109 +228,6 @@ impl Decoder {
             &mut self.motion.independent.open
         };
         list.push(axis);
-        Ok(())
-    }
-
-    fn independent_words(&self, axis: usize, items: &[Item]) -> Outcome<Words> {
-        let mut words = Words::default();
-        for item in items {
-            match &item.kind {
-                ItemKind::Missing => {}
-                ItemKind::Flag(word) => self.independent_flag(axis, word, &mut words)?,
-                ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
-                    let value = self.number(expr)?;
-                    self.independent_value(axis, key, value, item.span, &mut words)?;
-                }
-                ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("SLOPE_TYPE") => {
-                    let Some(kind) = crate::exec::commands::slope_type(&name.text) else {
-                        let text = format!("unknown slope type {}", name.text);
-                        return Err(wrong(text, name.span));
-                    };
-                    once(&mut words.slope, kind, "the slope", name.span)?;
-                }
-                ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
-                    return Err(wrong("a word of independent axes is expected", item.span));
-                }
-            }
-        }
-        Ok(words)
-    }
-
-    fn independent_flag(&self, axis: usize, word: &Ident, words: &mut Words) -> Outcome<()> {
-        let kind = self.motion.measuring.kind;
-        if word.is("G100") && !matches!(kind, 1 | 2 | 7) {
-            let text = format!("G100 of an independent axis with measuring type {kind}");
-            return Err(Fault::new(Condition::IndependentMeasuring, text, word.span));
-        }
-        if UNSUPPORTED.iter().any(|w| word.is(w)) {
-            let what = format!("{} of an independent axis", word.text);
-            return Err(Fault::unsupported(what, word.span));
-        }
-        let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
-        let code = crate::exec::values::number::whole(number, 0, 65535);
-        match (name.to_ascii_uppercase().as_str(), code) {
-            ("G", Some(number @ (90 | 91))) => {
-                once(&mut words.relative, number == 91, "G90 and G91", word.span)?;
-            }
-            ("G", Some(number @ (0 | 1))) => {
-                once(&mut words.rapid, number == 0, "G00 and G01", word.span)?;
-            }
-            ("M", Some(number)) => {
-                words.functions.push(Event::MFunction { number, value: None });
-            }
-            ("H", Some(number)) => {
-                words.functions.push(Event::HFunction { number, value: None });
-            }
-            (_, _) if number.is_finite() && !name.eq_ignore_ascii_case("G") => {
-                let key = Ident { text: name.into(), span: word.span };
-                self.independent_value(axis, &key, number, word.span, words)?;
-            }
-            _ => return Err(wrong(format!("unknown word `{}`", word.text), word.span)),
-        }
-        Ok(())
-    }
-
-    fn independent_value(
-        &self,
-        axis: usize,
-        key: &Ident,
-        value: f64,
-        span: Span,
-        words: &mut Words,
-    ) -> Outcome<()> {
-        if UNSUPPORTED.iter().any(|w| key.is(w)) {
-            let what = format!("{} of an independent axis", key.text);
-            return Err(Fault::unsupported(what, span));
-        }
-        if key.is("POS") {
-            return once(&mut words.position, (value, span), "POS", span);
-        }
-        if key.is("SLOPE_PROFIL") {
-            let number = crate::exec::values::number::whole(value, 0, 3);
-            let kind = number.and_then(crate::exec::commands::slope_of_number);
-            let kind = kind.ok_or_else(|| wrong("use a slope type from 0 to 3", span))?;
-            return once(&mut words.slope, kind, "the slope", span);
-        }
-        // F is the older keyword
-        let speed = if key.is("FEED") || key.is("F") {
-            let unit = self.machine.channel.feed_unit_mm_min / 60.0
-                * self.modal.axis_unit(&self.machine.axes[axis]);
-            IndependentSpeed::Feed(value * unit)
-        } else if key.is("TIME") {
-            IndependentSpeed::Time(value)
-        } else if key.is("FEED_MAX_WEIGHT") && value <= 100.0 {
-            IndependentSpeed::ShareOfMaximum(value / 100.0)
-        } else if key.is("FEED_MAX_WEIGHT") {
-            return Err(wrong("use a FEED_MAX_WEIGHT up to 100 %", span));
-        } else {
-            return Err(wrong(format!("unknown word `{}`", key.text), span));
-        };
-        if value <= 0.0 || !value.is_finite() {
-            return Err(wrong(format!("{} must be above 0", key.text), span));
-        }
-        if words.speed.replace((speed, span)).is_some() {
-            return Err(wrong("more than one of FEED, TIME and FEED_MAX_WEIGHT", span));
-        }
         Ok(())
     }
 

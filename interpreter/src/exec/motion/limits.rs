@@ -4,11 +4,93 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
-use crate::machine::is_outside;
+use crate::exec::motion::state::MotionState;
+use crate::exec::names::AxisNames;
+use crate::machine::{Machine, is_outside};
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
+/// What a check against the software limits reads.
+pub(super) struct Limits<'a> {
+    ranges_mm: &'a [Option<(f64, f64)>],
+    motion: &'a MotionState,
+    names: &'a AxisNames,
+    machine: &'a Machine,
+}
+
+impl Limits<'_> {
+    /// 21897 for the slaves of an axis that moves between `low` and `high`.
+    fn slaves_outside(&self, master: usize, low: f64, high: f64, at: Span) -> Vec<Fault> {
+        let way = &self.motion.independent.way;
+        let range = (low + way[master], high + way[master]);
+        let slaves = self.motion.couplings.slaves_of(master, range);
+        // the travel of a slave is not part of its path
+        slaves
+            .filter_map(|(slave, low, high)| {
+                self.outside(slave, low - way[slave], high - way[slave], None, || at).map(|f| *f)
+            })
+            .collect()
+    }
+
+    /// 21897 for an axis that moves between `low` and `high` and exceeds its limits.
+    pub(super) fn outside(
+        &self,
+        axis: usize,
+        low: f64,
+        high: f64,
+        end: Option<f64>,
+        place: impl FnOnce() -> Span,
+    ) -> Option<Box<Fault>> {
+        if low.to_bits() == high.to_bits() {
+            return None;
+        }
+        let limits = self.ranges_mm[axis]?;
+        let outside = |x: f64| is_outside(x, limits);
+        // the path does not contain the independent travel of the axis
+        let way = self.motion.independent.way[axis];
+        let (low, high) = (low + way, high + way);
+        // the end of the block is the programmed one
+        let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
+            Some(end) => ("target", end),
+            None if outside(low) => ("lowest position", low),
+            None if outside(high) => ("highest position", high),
+            None => return None,
+        };
+        Some(self.fault(axis, what, x, limits, place()))
+    }
+
+    fn fault(
+        &self,
+        axis: usize,
+        what: &str,
+        x: f64,
+        (least, most): (f64, f64),
+        span: Span,
+    ) -> Box<Fault> {
+        let name = self.names.name(axis).to_owned();
+        let number = self.names.number(axis);
+        // increments have four decimals; digits beyond are rounding
+        let shown = (x * 1e7).round() / 1e7;
+        let text = format!("axis {name}: {what} {shown} is outside its limits {least} to {most}");
+        let limit = if x < least { "P-AXIS-00177" } else { "P-AXIS-00178" };
+        let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {
+            d.axis(number, name)
+                .value(ValueKind::Current, x * 1e4, "0.1um")
+                .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
+                .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
+                .parameter(limit)
+        });
+        if self.machine.limits_only_warn(axis) { fault.warning() } else { fault }
+    }
+}
+
 impl Decoder {
+    /// The software limits as the program has set them.
+    pub(super) fn limits(&self) -> Limits<'_> {
+        let (ranges_mm, motion) = (&self.geometry.limits_mm[..], &self.motion);
+        Limits { ranges_mm, motion, names: &self.names, machine: &self.machine }
+    }
+
     /// Checks a path against the software limits (P-AXIS-00177, P-AXIS-00178), including the reversal points of arcs; `place`
     /// is the position of the word of an axis.
     pub(super) fn check_limits(
@@ -25,27 +107,13 @@ impl Decoder {
             let Some((low, high)) = path.extent(axis) else { return };
             let end = path.end()[axis];
             let at = || place(axis).unwrap_or(span);
-            if let Some(fault) = self.outside_limits(axis, low, high, Some(end), at) {
+            if let Some(fault) = self.limits().outside(axis, low, high, Some(end), at) {
                 self.report.note(fault);
             }
-            for fault in self.slaves_outside(axis, low, high, at()) {
+            for fault in self.limits().slaves_outside(axis, low, high, at()) {
                 self.report.note(Box::new(fault));
             }
         }
-    }
-
-    /// 21897 for the slaves of an axis that moves between `low` and `high`.
-    fn slaves_outside(&self, master: usize, low: f64, high: f64, at: Span) -> Vec<Fault> {
-        let way = &self.motion.independent.way;
-        let range = (low + way[master], high + way[master]);
-        let slaves = self.motion.couplings.slaves_of(master, range);
-        // the travel of a slave is not part of its path
-        slaves
-            .filter_map(|(slave, low, high)| {
-                self.outside_limits(slave, low - way[slave], high - way[slave], None, || at)
-                    .map(|f| *f)
-            })
-            .collect()
     }
 
     /// Checks compensated motions against the software limits, and all motions against the control areas.
@@ -53,8 +121,8 @@ impl Decoder {
         let driven = self.contour.take_driven();
         let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
             extents_mm.iter().enumerate().flat_map(|(axis, (low, high))| {
-                let slaves = self.slaves_outside(axis, *low, *high, *span);
-                let own = self.outside_limits(axis, *low, *high, None, || *span);
+                let slaves = self.limits().slaves_outside(axis, *low, *high, *span);
+                let own = self.limits().outside(axis, *low, *high, None, || *span);
                 let all = own.map(|fault| *fault).into_iter().chain(slaves);
                 all.map(|fault| *Box::new(fault).in_block(*source))
             })
@@ -64,63 +132,12 @@ impl Decoder {
         faults
     }
 
-    /// 21897 for an axis that moves between `low` and `high` and exceeds its limits.
-    pub(super) fn outside_limits(
-        &self,
-        axis: usize,
-        low: f64,
-        high: f64,
-        end: Option<f64>,
-        place: impl FnOnce() -> Span,
-    ) -> Option<Box<Fault>> {
-        if low.to_bits() == high.to_bits() {
-            return None;
-        }
-        let limits = self.geometry.limits_mm[axis]?;
-        let outside = |x: f64| is_outside(x, limits);
-        // the path does not contain the independent travel of the axis
-        let way = self.motion.independent.way[axis];
-        let (low, high) = (low + way, high + way);
-        // the end of the block is the programmed one
-        let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
-            Some(end) => ("target", end),
-            None if outside(low) => ("lowest position", low),
-            None if outside(high) => ("highest position", high),
-            None => return None,
-        };
-        Some(self.limit_fault(axis, what, x, limits, place()))
-    }
-
     /// 21897 for a target outside the software limits of its axis.
     pub(in crate::exec) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
         let Some(limits) = self.geometry.limits_mm[axis] else { return };
         if is_outside(target, limits) {
-            let fault = self.limit_fault(axis, "target", target, limits, at);
+            let fault = self.limits().fault(axis, "target", target, limits, at);
             self.report.note(fault);
         }
-    }
-
-    fn limit_fault(
-        &self,
-        axis: usize,
-        what: &str,
-        x: f64,
-        (least, most): (f64, f64),
-        span: Span,
-    ) -> Box<Fault> {
-        let name = self.names.name(axis).to_owned();
-        let number = self.machine.axes[axis].number();
-        // increments have four decimals; digits beyond are rounding
-        let shown = (x * 1e7).round() / 1e7;
-        let text = format!("axis {name}: {what} {shown} is outside its limits {least} to {most}");
-        let limit = if x < least { "P-AXIS-00177" } else { "P-AXIS-00178" };
-        let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {
-            d.axis(number, name)
-                .value(ValueKind::Current, x * 1e4, "0.1um")
-                .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
-                .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
-                .parameter(limit)
-        });
-        if self.machine.limits_only_warn(axis) { fault.warning() } else { fault }
     }
 }

@@ -212,7 +212,7 @@ impl Decoder {
         if let Some(rest) = rest {
             self.geometry.coordinates.set_target(&rest);
         }
-        self.follow_masters();
+        self.motion.follow_masters(&mut self.geometry.coordinates);
         jump.filter(|_| signal.is_some())
     }
 

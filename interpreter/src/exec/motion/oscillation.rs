@@ -15,6 +15,7 @@ use crate::exec::commands::range::{above_zero, at_least, between};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{Event, OscillatingMotion, Sync};
+use crate::machine::Machine;
 use crate::syntax::ast::{Group, Item, Span};
 use kontur_motion::independent::{IndependentMove, IndependentSpeed};
 
@@ -75,8 +76,8 @@ impl Decoder {
         if self.machine.axes[axis].is_modulo() {
             return Err(Fault::unsupported(format!("{title} of a modulo axis"), span));
         }
-        self.moves_not_coupled(axis, span)?;
-        self.moves_unwatched(axis, span)?;
+        self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
+        self.motion.areas.moves_unwatched(axis, &self.names, span)?;
         match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => self.oscillation(axis, &keys, span),
             (None, Some(_)) => {
@@ -137,7 +138,13 @@ impl Decoder {
                 return Err(Fault::new(Condition::IndependentSyntax, text, span));
             }
         };
-        self.check_oscillation(axis, reversal_mm, speed, span);
+        if let Some(limits) = limited_stroke(&self.machine, axis, reversal_mm, speed) {
+            // 50487
+            let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
+            let text = format!("axis {name} oscillates more slowly than programmed: {limits}");
+            let fault = Fault::new(Condition::OscillationLimited, text, span);
+            self.report.note(fault.with(|d| d.axis(number, name)));
+        }
         if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
@@ -162,36 +169,27 @@ impl Decoder {
         self.motion.independent.open.push(axis);
         Ok(())
     }
+}
 
-    /// 50487: the limits of the axis do not allow the programmed time or feed rate.
-    fn check_oscillation(
-        &mut self,
-        axis: usize,
-        [first, second]: [f64; 2],
-        speed: IndependentSpeed,
-        span: Span,
-    ) {
-        let machine = &self.machine;
-        let (dynamics, cycle) = (machine.axes[axis].dynamics(), machine.cycle);
-        let slope = machine.channel.slope;
-        // the speed is above 0
-        let Ok(way) = IndependentMove::new(first, second, speed, slope, &dynamics, cycle) else {
-            return;
-        };
-        let least_s = cycle.time_of(way.cycles());
-        let limits = match speed {
-            IndependentSpeed::Time(t) if least_s > t + cycle.seconds() => {
-                format!("a stroke in {t} s requires {least_s} s")
-            }
-            IndependentSpeed::Feed(v) if v > dynamics.v_max_mm_s * (1.0 + 1e-9) => {
-                format!("a feed of {v} mm/s is limited to {} mm/s", dynamics.v_max_mm_s)
-            }
-            _ => return,
-        };
-        let number = machine.axes[axis].number();
-        let name = self.names.name(axis).to_owned();
-        let text = format!("axis {name} oscillates more slowly than programmed: {limits}");
-        let fault = Fault::new(Condition::OscillationLimited, text, span);
-        self.report.note(fault.with(|d| d.axis(number, name)));
+/// What the limits of the axis make of the programmed time or feed rate of a stroke; `None` if they allow it.
+fn limited_stroke(
+    machine: &Machine,
+    axis: usize,
+    [first, second]: [f64; 2],
+    speed: IndependentSpeed,
+) -> Option<String> {
+    let (dynamics, cycle) = (machine.axes[axis].dynamics(), machine.cycle);
+    let slope = machine.channel.slope;
+    // the speed is above 0
+    let way = IndependentMove::new(first, second, speed, slope, &dynamics, cycle).ok()?;
+    let least_s = cycle.time_of(way.cycles());
+    match speed {
+        IndependentSpeed::Time(t) if least_s > t + cycle.seconds() => {
+            Some(format!("a stroke in {t} s requires {least_s} s"))
+        }
+        IndependentSpeed::Feed(v) if v > dynamics.v_max_mm_s * (1.0 + 1e-9) => {
+            Some(format!("a feed of {v} mm/s is limited to {} mm/s", dynamics.v_max_mm_s))
+        }
+        _ => None,
     }
 }

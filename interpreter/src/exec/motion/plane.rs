@@ -5,7 +5,9 @@ use crate::exec::block::modal::{Compensation, Corners};
 use crate::exec::contour::Compensated;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
 use kontur_motion::path::Tilt;
 
 /// The active plane as a motion needs it.
@@ -27,13 +29,41 @@ pub(super) struct PlaneImage {
     pub(super) tilt: Option<Box<Tilt>>,
 }
 
+impl Geometry {
+    /// Orientation of the plane of these main axes in the frame; `way`: independent travel of the axes.
+    pub(super) fn image_of_plane(
+        &self,
+        [a, b, _]: [usize; 3],
+        way: &AxisVec,
+        span: Span,
+    ) -> Outcome<PlaneImage> {
+        let frame = self.coordinates.frame();
+        if let Some((main, keeps_sense)) = frame.image_of_plane(a, b) {
+            return Ok(PlaneImage { main, keeps_sense, tilt: None });
+        }
+        let axis = |m: usize| self.coordinates.main_axis(m);
+        let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
+            let text = "a coordinate system rotated in space requires three main axes";
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+        };
+        let (axes, origin) = ([x, y, z], self.coordinates.to_machine([0.0; 3]));
+        let t_mm = std::array::from_fn(|i| origin[i] - way[axes[i]]);
+        let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
+        Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
+    }
+}
+
 impl Decoder {
     /// Axes of the active plane, its coordinate system if it is oblique to the axes, and the compensation.
     pub(super) fn in_plane(&self, span: Span) -> Outcome<InPlane> {
         let axis = |m: usize| self.geometry.coordinates.main_axis(m);
         let compensated =
             self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
-        let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
+        let PlaneImage { main, keeps_sense, tilt } = self.geometry.image_of_plane(
+            self.modal.plane.main_axes(),
+            &self.motion.independent.way,
+            span,
+        )?;
         if compensated && tilt.is_some() && self.motion.wear.on && self.motion.wear.radius {
             let what = "#OTC [RADIUS] in a plane askew to the axes";
             return Err(Fault::unsupported(what, span));
@@ -60,23 +90,5 @@ impl Decoder {
                 .then_some(self.modal.engagement_radius_mm),
         });
         Ok(InPlane { plane: [first, second], tilt, compensation })
-    }
-
-    /// Orientation of the active plane in the frame.
-    pub(super) fn image_of_plane(&self, span: Span) -> Outcome<PlaneImage> {
-        let [a, b, _] = self.modal.plane.main_axes();
-        let frame = self.geometry.coordinates.frame();
-        if let Some((main, keeps_sense)) = frame.image_of_plane(a, b) {
-            return Ok(PlaneImage { main, keeps_sense, tilt: None });
-        }
-        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
-            let text = "a coordinate system rotated in space requires three main axes";
-            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
-        };
-        let (axes, origin) = ([x, y, z], self.geometry.coordinates.to_machine([0.0; 3]));
-        let t_mm = std::array::from_fn(|i| origin[i] - self.motion.independent.way[axes[i]]);
-        let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
-        Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
     }
 }

@@ -34,7 +34,7 @@ impl Decoder {
         rest: &[Item],
         span: Span,
     ) -> Outcome<()> {
-        self.moves_not_coupled(axis, span)?;
+        self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
         let title = format!("{}[SET_POSITION]", self.names.name(axis));
         if self.geometry.scale.changes(axis) {
             return Err(Fault::unsupported(format!("{title} with #SCALE"), span));

@@ -79,7 +79,12 @@ impl Decoder {
             let text = "G303 needs three main axes in the channel";
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
-        if self.image_of_plane(span)?.tilt.is_some() {
+        if self
+            .geometry
+            .image_of_plane(self.modal.plane.main_axes(), &self.motion.independent.way, span)?
+            .tilt
+            .is_some()
+        {
             return Err(Fault::unsupported("G303 in a rotated coordinate system", span));
         }
         let axes = [x, y, z];

@@ -6,11 +6,12 @@
 
 use super::InPlane;
 use super::state::Straight;
-use crate::exec::block::modal::{Compensation, FeedType, PathMode};
+use crate::exec::block::modal::{Compensation, FeedType, Modal, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::values::number::LARGEST_MM;
+use crate::machine::Channel;
 use crate::machine::is_outside;
 use crate::syntax::ast::Span;
 use crate::syntax::{Plain, PlainValue, PlainWord};
@@ -29,56 +30,12 @@ pub(in crate::exec) struct StraightWords {
     pub(in crate::exec) span: Span,
 }
 
-impl Decoder {
-    /// The words of a plain block if it contains only a straight motion.
-    pub(in crate::exec) fn straight_words(&self, plain: &Plain) -> Option<StraightWords> {
-        if !self.is_straight() {
-            return None;
-        }
-        let mut words = StraightWords { span: plain.frame.span, ..StraightWords::default() };
-        let all = plain.words.iter().all(|word| self.straight_word(word, &mut words));
-        (all && self.moves_straight(&words)).then_some(words)
-    }
-
-    /// Adds a word of a straight motion: G00 or G01, F or an axis. Returns false for any other word, and for a repetition.
-    #[inline]
-    pub(in crate::exec) fn straight_word(
-        &self,
-        word: &PlainWord,
-        words: &mut StraightWords,
-    ) -> bool {
-        let value = match &word.value {
-            PlainValue::Code(code) => {
-                let mode = match (word.letter, code) {
-                    (b'G', 0) => PathMode::Rapid,
-                    (b'G', 1) => PathMode::Linear,
-                    _ => return false,
-                };
-                return words.path.replace(mode).is_none();
-            }
-            PlainValue::Number(value) => *value,
-            PlainValue::Sum(sum) => match self.number(sum) {
-                Ok(value) => value,
-                Err(_) => return false,
-            },
-        };
-        match self.names.of_letter(word.letter) {
-            Some(axis) if !self.machine.axes[axis].is_modulo() => {
-                let twice = words.targets.iter().any(|(target, _)| target.axis == axis);
-                let target = Target { axis, value, absolute: self.modal.absolute };
-                words.targets.push((target, word.span));
-                !twice && value.abs() <= LARGEST_MM
-            }
-            None if word.letter == b'F' => words.feed.replace((value, word.span)).is_none(),
-            _ => false,
-        }
-    }
-
+impl Modal {
     /// Whether these words of a straight motion are complete.
-    pub(in crate::exec) fn moves_straight(&self, words: &StraightWords) -> bool {
-        let path_mode = words.path.unwrap_or(self.modal.path);
-        let feed = words.feed.map_or(self.modal.feed().map(|word| word.value), |(f, _)| Some(f));
-        let stops = path_mode == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
+    pub(in crate::exec) fn moves_straight(&self, words: &StraightWords, channel: &Channel) -> bool {
+        let path_mode = words.path.unwrap_or(self.path);
+        let feed = words.feed.map_or(self.feed().map(|word| word.value), |(f, _)| Some(f));
+        let stops = path_mode == PathMode::Rapid && channel.exact_stop_after_g00;
         let moves = match path_mode {
             PathMode::Rapid => !stops,
             PathMode::Linear => feed.is_some_and(|f| f > 0.0),
@@ -87,7 +44,51 @@ impl Decoder {
         let fits = words.feed.is_none_or(|(f, _)| (0.0..=1e9).contains(&f));
         moves && fits && !words.targets.is_empty()
     }
+}
 
+impl StraightWords {
+    /// The words of a plain block if it contains only a straight motion.
+    pub(in crate::exec) fn read(decoder: &Decoder, plain: &Plain) -> Option<Self> {
+        if !decoder.is_straight() {
+            return None;
+        }
+        let mut words = Self { span: plain.frame.span, ..Self::default() };
+        let all = plain.words.iter().all(|word| words.add(decoder, word));
+        (all && decoder.modal.moves_straight(&words, &decoder.machine.channel)).then_some(words)
+    }
+
+    /// Adds a word of a straight motion: G00 or G01, F or an axis. Returns false for any other word, and for a repetition.
+    #[inline]
+    pub(in crate::exec) fn add(&mut self, decoder: &Decoder, word: &PlainWord) -> bool {
+        let value = match &word.value {
+            PlainValue::Code(code) => {
+                let mode = match (word.letter, code) {
+                    (b'G', 0) => PathMode::Rapid,
+                    (b'G', 1) => PathMode::Linear,
+                    _ => return false,
+                };
+                return self.path.replace(mode).is_none();
+            }
+            PlainValue::Number(value) => *value,
+            PlainValue::Sum(sum) => match decoder.number(sum) {
+                Ok(value) => value,
+                Err(_) => return false,
+            },
+        };
+        match decoder.names.of_letter(word.letter) {
+            Some(axis) if !decoder.machine.axes[axis].is_modulo() => {
+                let twice = self.targets.iter().any(|(target, _)| target.axis == axis);
+                let target = Target { axis, value, absolute: decoder.modal.absolute };
+                self.targets.push((target, word.span));
+                !twice && value.abs() <= LARGEST_MM
+            }
+            None if word.letter == b'F' => self.feed.replace((value, word.span)).is_none(),
+            _ => false,
+        }
+    }
+}
+
+impl Decoder {
     /// Executes a block of such words, together with what it has in common with the previous block if that was such a block,
     /// too. With `passed`, the program is only examined: a motion that has everything in common with the previous one does not
     /// become a step, and the time in s that the previous one takes is returned in it.
@@ -217,7 +218,7 @@ impl Decoder {
         for axis in 0..end.len() {
             let (from, to) = (start[axis], end[axis]);
             let (low, high) = (from.min(to), from.max(to));
-            if let Some(fault) = self.outside_limits(axis, low, high, Some(to), || place(axis)) {
+            if let Some(fault) = self.limits().outside(axis, low, high, Some(to), || place(axis)) {
                 self.report.note(fault);
             }
         }

@@ -5,7 +5,8 @@ use crate::exec::block::collected::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
-use crate::exec::geometry::modulo;
+use crate::exec::geometry::{Geometry, modulo};
+use crate::exec::names::AxisNames;
 use crate::exec::values::number::LARGEST_MM;
 use crate::syntax::ast::{Group, ItemKind, Sign};
 use kontur_motion::axis::AxisVec;
@@ -16,11 +17,40 @@ type Targets = smallvec::SmallVec<[Target; 8]>;
 /// Largest component of a direction that counts as rounding.
 const STRAIGHT: f64 = 1e-12;
 
+impl Geometry {
+    /// 20200: a rotated coordinate system requires motion along a main axis that is not in the channel.
+    fn turns_within_the_channel(
+        &self,
+        targets: &[Target],
+        words: &Words<'_>,
+        names: &AxisNames,
+    ) -> Outcome<()> {
+        let coordinates = &self.coordinates;
+        let frame = coordinates.frame();
+        if frame.is_identity() {
+            return Ok(());
+        }
+        for (target, (axis, _, at)) in targets.iter().zip(&words.axes) {
+            let Some(main) = coordinates.main_index(target.axis) else { continue };
+            let lost = (0..3)
+                .any(|i| coordinates.main_axis(i).is_none() && frame.m[i][main].abs() > STRAIGHT);
+            if lost {
+                let name = names.name(*axis);
+                let text = format!(
+                    "{name} requires motion of a main axis that is not in the channel: the system is rotated"
+                );
+                return Err(Fault::new(Condition::AxisOrCommandExpected, text, *at));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Decoder {
     /// Applies the coordinate words to the target; returns the previous positions of the axes.
     pub(super) fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
         for (axis, _, at) in &words.axes {
-            self.moves_no_slave(*axis, *at)?;
+            self.motion.couplings.moves_no_slave(*axis, &self.names, *at)?;
         }
         let mut start = self.geometry.coordinates.target().clone();
         let mut targets: Targets = words
@@ -43,8 +73,10 @@ impl Decoder {
             targets = joined(targets);
         }
         targets.extend(self.motion.contour_line.targets.drain(..));
-        self.turns_go_forward(&targets, words)?;
-        self.turns_within_the_channel(&targets, words)?;
+        if !self.machine.channel.shortest_way {
+            turns_go_forward(&targets, words, &self.names)?;
+        }
+        self.geometry.turns_within_the_channel(&targets, words, &self.names)?;
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         let suppressed = match suppressed {
             Some((hash, _, at)) => {
@@ -83,7 +115,7 @@ impl Decoder {
             Some((kinds, _)) => self.geometry.coordinates.program_without(&kinds, &targets),
             None => self.geometry.coordinates.program(targets.iter().copied()),
         }
-        self.follow_masters();
+        self.motion.follow_masters(&mut self.geometry.coordinates);
         // the travel of a slave is on the path, also at the start of the path
         for slave in self.motion.couplings.slaves() {
             start[slave] = self.geometry.coordinates.target()[slave];
@@ -94,52 +126,6 @@ impl Decoder {
 }
 
 impl Decoder {
-    /// 20958: the first sign of a relative word of a modulo axis is the direction of travel; the distance itself is unsigned.
-    ///
-    /// Source: TF5200 diagnosis 253095819; modulo programming in relative coordinates (tccncprogramming 15557270155).
-    fn turns_go_forward(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
-        if self.machine.channel.shortest_way {
-            return Ok(());
-        }
-        for (axis, sign) in &words.turns {
-            let is_own = |t: &&Target| t.axis == *axis && !t.absolute;
-            let (Some(target), Ok(sign)) = (targets.iter().find(is_own), sign) else { continue };
-            let back = match sign {
-                Sign::Plus => target.value < 0.0,
-                Sign::Minus => target.value > 0.0,
-            };
-            if back {
-                let text =
-                    format!("{}: a negative distance after its direction", self.names.name(*axis));
-                let at = words.axes.iter().find(|(a, _, _)| a == axis).map(|(_, _, at)| *at);
-                return Err(Fault::new(Condition::WayAfterDirection, text, at.unwrap_or_default()));
-            }
-        }
-        Ok(())
-    }
-
-    /// 20200: a rotated coordinate system requires motion along a main axis that is not in the channel.
-    fn turns_within_the_channel(&self, targets: &[Target], words: &Words<'_>) -> Outcome<()> {
-        let coordinates = &self.geometry.coordinates;
-        let frame = coordinates.frame();
-        if frame.is_identity() {
-            return Ok(());
-        }
-        for (target, (axis, _, at)) in targets.iter().zip(&words.axes) {
-            let Some(main) = coordinates.main_index(target.axis) else { continue };
-            let lost = (0..3)
-                .any(|i| coordinates.main_axis(i).is_none() && frame.m[i][main].abs() > STRAIGHT);
-            if lost {
-                let name = self.names.name(*axis);
-                let text = format!(
-                    "{name} requires motion of a main axis that is not in the channel: the system is rotated"
-                );
-                return Err(Fault::new(Condition::AxisOrCommandExpected, text, *at));
-            }
-        }
-        Ok(())
-    }
-
     /// Diameters must be neither negative nor mirrored.
     ///
     /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.
@@ -198,4 +184,24 @@ fn kinds(group: &Group) -> Outcome<Vec<OffsetKind>> {
         }
     }
     if group.items.is_empty() { Err(wrong(group.span)) } else { Ok(kinds) }
+}
+
+/// 20958: the first sign of a relative word of a modulo axis is the direction of travel; the distance itself is unsigned.
+///
+/// Source: TF5200 diagnosis 253095819; modulo programming in relative coordinates (tccncprogramming 15557270155).
+fn turns_go_forward(targets: &[Target], words: &Words<'_>, names: &AxisNames) -> Outcome<()> {
+    for (axis, sign) in &words.turns {
+        let is_own = |t: &&Target| t.axis == *axis && !t.absolute;
+        let (Some(target), Ok(sign)) = (targets.iter().find(is_own), sign) else { continue };
+        let back = match sign {
+            Sign::Plus => target.value < 0.0,
+            Sign::Minus => target.value > 0.0,
+        };
+        if back {
+            let text = format!("{}: a negative distance after its direction", names.name(*axis));
+            let at = words.axes.iter().find(|(a, _, _)| a == axis).map(|(_, _, at)| *at);
+            return Err(Fault::new(Condition::WayAfterDirection, text, at.unwrap_or_default()));
+        }
+    }
+    Ok(())
 }

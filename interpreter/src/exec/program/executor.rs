@@ -54,7 +54,7 @@ pub(crate) struct Executor {
     /// Whether blocks that a check did not execute call further files.
     pub(in crate::exec) calls_more: bool,
     /// Whether the program of P-CHAN-00252 has been called.
-    pub(in crate::exec) end_program_called: bool,
+    pub(in crate::exec::program) end_program_called: bool,
     reason: EndReason,
 }
 

@@ -41,7 +41,7 @@ pub(in crate::exec) struct Entry {
     /// Closing statement.
     pub(in crate::exec) end: Option<EntryId>,
     /// Innermost structure around it.
-    pub(in crate::exec) parent: Option<EntryId>,
+    pub(in crate::exec::program) parent: Option<EntryId>,
 }
 
 impl Entry {
@@ -57,7 +57,7 @@ impl Entry {
 pub(in crate::exec) struct LabelPlace {
     pub(in crate::exec) position: Position,
     /// Innermost structure around it.
-    pub(in crate::exec) parent: Option<EntryId>,
+    pub(in crate::exec::program) parent: Option<EntryId>,
 }
 
 /// A main program or local subroutine.
@@ -75,7 +75,7 @@ pub(in crate::exec) struct Section {
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Index {
     entries: Entries,
-    pub(in crate::exec) sections: Vec<Section>,
+    pub(in crate::exec::program) sections: Vec<Section>,
     labels: Labels,
     /// First local subroutine of each name.
     locals: BTreeMap<Arc<str>, usize>,

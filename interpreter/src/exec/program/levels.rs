@@ -138,8 +138,8 @@ impl Executor {
         }
         self.contouring_at_end();
         self.area_at_end();
-        self.decoder.banding_ends();
-        self.decoder.contour_line_ends();
+        self.decoder.motion.measuring.banding_ends(&mut self.decoder.report);
+        self.decoder.motion.contour_line.end(&mut self.decoder.report);
         self.external_at_end();
         self.end(EndReason::Finished);
     }

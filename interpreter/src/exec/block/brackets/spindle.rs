@@ -3,7 +3,9 @@
 //! Source: TF5200 programming manual (programming in spindle-specific syntax; programmable spindle override); TF5200
 //! feedforward control (spindles); 21422, 21738, 21867.
 
-use super::{function, once, value_of_function};
+mod item;
+
+use super::{function, once};
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::modes::{limited_weight, weight_ratio};
@@ -15,75 +17,16 @@ use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
 use crate::machine::Acknowledged;
-use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Bracket, Group, Item, ItemKind, Span};
+pub(super) use item::is_internal;
+use item::{SpindleItem, tool_limits};
 use std::mem::discriminant;
-
-/// Prefixes of further words of spindle brackets in the manual. Source: TF5200 programming manual, programming in
-/// spindle-specific syntax.
-const OTHER_WORDS: &[&str] = &[
-    "CALLAX",
-    "PUTAX",
-    "SYNC",
-    "LINK",
-    "FEED_LINK",
-    "TRANS",
-    "MC_",
-    "G112",
-    "G131",
-    "G132",
-    "G133",
-    "G134",
-    "G230",
-    "G231",
-    "G233",
-];
 
 arguments! {
     /// Keys of `S[OVERRIDE ..]`.
     struct SpindleOverrideArguments {
         speed: Number "SPEED_FACT" in between(0.1, 200.0), "%", "";
     }
-}
-
-/// M functions of the control, which cannot be functions of an axis or spindle (21192). M0 and M1 can.
-pub(super) fn is_internal(word: &str) -> bool {
-    let number = word.get(1..).and_then(|digits| digits.parse().ok());
-    is_function(word, 'M') && matches!(number, Some(2..=5 | 17 | 19 | 29 | 30))
-}
-
-/// `G01`, `M30`: a letter and a number.
-fn is_function(word: &str, letter: char) -> bool {
-    let digits = word.strip_prefix([letter, letter.to_ascii_lowercase()]);
-    digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()))
-}
-
-/// Meaning of one item of a spindle bracket.
-enum SpindleItem {
-    /// M3, M4, M5, M19.
-    Turn(u32),
-    /// REV=, SPEED=.
-    Speed(f64),
-    /// POS=.
-    Position(f64),
-    /// G130=.
-    Acceleration(f64),
-    /// G135, G137.
-    Feedforward(bool),
-    /// G136=.
-    Weight(f64),
-    /// M or H function of the user, with its value.
-    Function(Function, Option<f64>),
-    /// G167.
-    FullOverride,
-    /// G74.
-    Home,
-}
-
-/// `GET_DYNAMIC_DATA` (false) and `DEFAULT_DYNAMIC_DATA`.
-fn tool_limits(item: &Item) -> Option<(bool, Span)> {
-    let ItemKind::Flag(word) = &item.kind else { return None };
-    let default = word.is("DEFAULT_DYNAMIC_DATA");
-    (default || word.is("GET_DYNAMIC_DATA")).then_some((default, item.span))
 }
 
 impl Decoder {
@@ -116,7 +59,7 @@ impl Decoder {
         let mut items = Vec::new();
         let mut unknown = None;
         for item in &group.items {
-            match self.spindle_item(item) {
+            match SpindleItem::read(self, item) {
                 _ if matches!(item.kind, ItemKind::Missing) => {}
                 Ok(known) => items.push((known, item.span)),
                 Err(fault) => unknown = unknown.or(Some(fault)),
@@ -230,7 +173,8 @@ impl Decoder {
         };
         of_words
             || words.brackets_before(bracket).any(|other| {
-                let mut items = other.group.items.iter().filter_map(|i| self.spindle_item(i).ok());
+                let mut items =
+                    other.group.items.iter().filter_map(|i| SpindleItem::read(self, i).ok());
                 self.motion.spindle_of_name(other.name.as_str(), &self.machine.channel)
                     == Some(spindle)
                     && items.any(|other| same(&other))
@@ -270,67 +214,12 @@ impl Decoder {
             return false;
         };
         bracket.group.items.iter().any(|item| {
-            let until = match self.spindle_item(item) {
+            let until = match SpindleItem::read(self, item) {
                 Ok(SpindleItem::Turn(number)) => waits.of_m(number),
                 Ok(SpindleItem::Speed(_)) => waits.speed,
                 _ => None,
             };
             until == Some(Acknowledged::AfterMotion)
-        })
-    }
-
-    fn spindle_item(&self, item: &Item) -> Outcome<SpindleItem> {
-        let unknown = |shown: &str| {
-            let text = format!("unknown word `{shown}` in a spindle bracket");
-            Fault::new(Condition::SpindleToken, text, item.span)
-        };
-        if let Some((function, _)) = function(item) {
-            return Ok(SpindleItem::Function(function, value_of_function(self, item)?));
-        }
-        let (word, value) = match &item.kind {
-            ItemKind::Flag(word) => match word.split_number() {
-                Some((name, number))
-                    if ["REV", "SPEED", "POS"].iter().any(|n| name.eq_ignore_ascii_case(n)) =>
-                {
-                    (name.to_ascii_uppercase(), Some(number))
-                }
-                _ => (word.text.to_ascii_uppercase(), None),
-            },
-            ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
-                (key.text.to_ascii_uppercase(), Some(self.number(expr)?))
-            }
-            ItemKind::Pair { key, .. } => return Err(unknown(&key.text)),
-            ItemKind::Value(_) | ItemKind::Target { .. } | ItemKind::Missing => {
-                return Err(unknown("value"));
-            }
-        };
-        Ok(match (word.as_str(), value) {
-            ("M3" | "M03", None) => SpindleItem::Turn(3),
-            ("M4" | "M04", None) => SpindleItem::Turn(4),
-            ("M5" | "M05", None) => SpindleItem::Turn(5),
-            ("M19", None) => SpindleItem::Turn(19),
-            ("REV" | "SPEED", Some(x)) => SpindleItem::Speed(x),
-            ("POS", Some(x)) => SpindleItem::Position(x),
-            ("G135", None) => SpindleItem::Feedforward(true),
-            ("G137", None) => SpindleItem::Feedforward(false),
-            ("G136", Some(x)) => SpindleItem::Weight(x),
-            ("G130", Some(x)) => SpindleItem::Acceleration(x),
-            // an external override has no effect on spindles
-            ("G167", None) => SpindleItem::FullOverride,
-            ("G74", None) => SpindleItem::Home,
-            (other, _) if OTHER_WORDS.iter().any(|w| other.starts_with(w)) => {
-                let name = format!("{other} in a spindle bracket");
-                return Err(Fault::unsupported(name, item.span));
-            }
-            (other, _) if is_internal(other) => {
-                let text = format!("{other} in a spindle bracket: it controls the program");
-                return Err(Fault::new(Condition::InternalFunction, text, item.span));
-            }
-            (other, _) if is_function(other, 'G') => {
-                let text = format!("{other} is not a spindle function");
-                return Err(Fault::new(Condition::SpindleCommand, text, item.span));
-            }
-            (other, _) => return Err(unknown(other)),
         })
     }
 
@@ -363,7 +252,9 @@ impl Decoder {
                     );
                 }
             }
-            SpindleItem::Function(function, value) => self.call_function(function, value),
+            SpindleItem::Function(function, value) => {
+                self.motion.call(function, value, &self.machine.channel, &mut self.contour);
+            }
             SpindleItem::FullOverride => {}
             SpindleItem::Home => {
                 let text = "G74: the spindle is treated as homed at its position and does not turn";

@@ -72,6 +72,20 @@ impl Geometry {
         }
         Ok(())
     }
+
+    /// G20 to G23: mirrors the first and the second main axis.
+    fn mirror(&mut self, first: bool, second: bool) {
+        for (main, mirrored) in [(0, first), (1, second)] {
+            if let Some(axis) = self.coordinates.main_axis(main) {
+                self.coordinates.set_mirrored(axis, mirrored);
+            }
+        }
+        if !first && !second {
+            for axis in 0..self.coordinates.target().len() {
+                self.coordinates.set_mirrored(axis, false);
+            }
+        }
+    }
 }
 
 impl Decoder {
@@ -95,7 +109,8 @@ impl Decoder {
                     self.geometry.coordinates.select_zero_group(group, true);
                 }),
                 Act::Mirror(first, second) => {
-                    self.mirror(first, second);
+                    self.modal.mirrored = [first, second];
+                    self.geometry.mirror(first, second);
                     Ok(())
                 }
                 Act::RotateOff => {
@@ -337,20 +352,6 @@ impl Decoder {
             self.geometry.coordinates.set_preset(*axis, before + value_mm);
         }
         Ok(())
-    }
-
-    fn mirror(&mut self, first: bool, second: bool) {
-        self.modal.mirrored = [first, second];
-        for (main, mirrored) in [(0, first), (1, second)] {
-            if let Some(axis) = self.geometry.coordinates.main_axis(main) {
-                self.geometry.coordinates.set_mirrored(axis, mirrored);
-            }
-        }
-        if !first && !second {
-            for axis in 0..self.machine.axes.len() {
-                self.geometry.coordinates.set_mirrored(axis, false);
-            }
-        }
     }
 
     fn rotate(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {

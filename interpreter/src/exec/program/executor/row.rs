@@ -60,11 +60,16 @@ impl Executor {
             return None;
         }
         let decoder = &self.decoder;
-        let take = |word| decoder.straight_word(&word, words);
+        let take = |word| words.add(decoder, &word);
         let (frame, next) = self.files.plain_line(file, at, take)?;
         words.span = frame.span;
         let number = frame.number;
-        decoder.moves_straight(words).then_some(Ahead { number, file, at, next })
+        decoder.modal.moves_straight(words, &decoder.machine.channel).then_some(Ahead {
+            number,
+            file,
+            at,
+            next,
+        })
     }
 
     /// Counts the block and makes it the current one; false if the program ends before it.

@@ -1,10 +1,13 @@
 //! Executes one block after the other: fetching, conditions, loops and the effects of a block.
 
+mod commands;
+
 use super::budget::Verdict;
 use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::din::{After, CallAfter, Then};
 use crate::exec::fault::Fault;
+use crate::exec::motion::straight::StraightWords;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
 use crate::exec::program::state::Closing;
@@ -12,7 +15,7 @@ use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::exec::values::number::whole;
 use crate::source::Position;
 use crate::syntax::Parser;
-use crate::syntax::ast::{Block, BlockNumber, Body, Command, Span};
+use crate::syntax::ast::{Block, BlockNumber, Body, Span};
 use std::sync::Arc;
 
 /// Number of messages and functions between two motions up to which the path does not stop.
@@ -64,7 +67,8 @@ impl Executor {
         match fetched {
             Fetched::Plain => {
                 let plain = self.files.plain();
-                let (number, words) = (plain.frame.number, self.decoder.straight_words(plain));
+                let (number, words) =
+                    (plain.frame.number, StraightWords::read(&self.decoder, plain));
                 self.source_of(file, at, number);
                 match words {
                     Some(words) => self.decoder.straight_motion(&words, None, None),
@@ -325,81 +329,6 @@ impl Executor {
                 }
                 self.after(after);
             }
-        }
-    }
-
-    fn command(&mut self, command: &Command, entry: Option<EntryId>) {
-        let declarations = self.levels.last().is_some_and(|l| l.declarations);
-        if command.is("VAR") || command.is("ENDVAR") {
-            let begins = command.is("VAR");
-            if begins == declarations {
-                let text = if begins { "#VAR inside #VAR" } else { "#ENDVAR without #VAR" };
-                self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
-            }
-            if let Some(level) = self.levels.last_mut() {
-                level.declarations = begins;
-            }
-            return;
-        }
-        let conditional = command.is("IF") || command.is("ELSE") || command.is("ENDIF");
-        if conditional || command.is("COMMENT BEGIN") || command.is("COMMENT END") {
-            if let (Some(entry), true) = (entry, command.is("IF")) {
-                self.conditional(command, entry);
-            }
-            return;
-        }
-        if command.is("OPTIONAL EXECUTION") {
-            self.optional_execution(command);
-        }
-        self.decoder.report.location = self.here(command.span);
-        let skips = self.levels.iter().any(|level| level.optional.is_some());
-        if skips && command.is("FLUSH WAIT") {
-            let text = "#FLUSH WAIT between #OPTIONAL EXECUTION ON and OFF";
-            let fault = Fault::new(Condition::FlushInOptional, text, command.span);
-            self.decoder.report.note(fault);
-            return;
-        }
-        let outcome = self.decoder.execute_command(command);
-        self.decoder.report.keep(outcome);
-    }
-
-    /// `#OPTIONAL EXECUTION ON` and `OFF` must be on the same level; otherwise 21720 (255794059).
-    fn optional_execution(&mut self, command: &Command) {
-        let (on, here) = (command.on, (self.position, command.span));
-        let Some(level) = self.levels.last_mut() else { return };
-        match on {
-            Some(true) => level.optional = Some(here),
-            Some(false) if level.optional.take().is_none() => {
-                let text = "#OPTIONAL EXECUTION OFF without ON on the same program level";
-                let fault = Fault::new(Condition::OptionalNotOpen, text, command.span);
-                self.decoder.report.note(fault);
-            }
-            _ => {}
-        }
-    }
-
-    /// `#IF`: the branch that is not taken is ignored.
-    fn conditional(&mut self, command: &Command, id: EntryId) {
-        if self.levels.last().is_some_and(|level| level.index.entry(id).end.is_none()) {
-            let text = "#IF without #ENDIF";
-            self.decoder.report.note(Fault::new(Condition::ConditionalOpen, text, command.span));
-        }
-        let condition = if let [condition] = &command.arguments[..] {
-            let outcome = self.decoder.condition(condition);
-            self.decoder.report.keep(outcome).unwrap_or(false)
-        } else {
-            let text = "#IF needs one condition";
-            self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
-            false
-        };
-        if condition {
-            return;
-        }
-        let Some(level) = self.levels.last() else { return };
-        let next = level.index.entry(id).next.map(|next| level.index.entry(next).position);
-        match next {
-            Some(next) => self.jump_behind(next),
-            None => self.skip_to_level_end(),
         }
     }
 

@@ -1,0 +1,132 @@
+//! Tapping: G63, G331 and G332, whose spindle turns in step with the path.
+
+use crate::diag::Condition;
+use crate::exec::block::modal::PathMode;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::spindles::Turning;
+use crate::exec::step::{Event, SpindleState, Sync};
+use crate::machine::Axis;
+use crate::syntax::ast::Span;
+use kontur_filters::kernel::Kernel;
+use kontur_motion::block::Feed;
+use kontur_motion::path::Path;
+use std::sync::Arc;
+
+/// Highest speed in rev/min.
+const SPEED_MAX: f64 = 1e6;
+
+impl Decoder {
+    pub(super) fn tap(&mut self, path: Path, span: Span) -> Outcome<()> {
+        let rpm = self.motion.threads.tapping_rpm.unwrap_or(self.motion.spindles[0].rpm);
+        if rpm.abs() > SPEED_MAX {
+            let text = format!("spindle speed {rpm} is outside 0 to {SPEED_MAX} rev/min");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        if rpm.abs() <= 0.0 {
+            let text = "tapping with the spindle speed 0";
+            return Err(Fault::new(Condition::SpindleSpeedZero, text, span));
+        }
+        let (coupling, feed_mm_s) = self.tapping(&path, rpm, span)?;
+        let Some(spindle) = self.motion.spindles[0].index else { return Ok(()) };
+        // the spindle must follow and so limits the path
+        let limits = self.machine.spindles[spindle].dynamics();
+        let mut dynamics = (*self.motion.dynamics(&self.machine, &self.modal, false)).clone();
+        let ratio = self.motion.spindles[0].acceleration_ratio / coupling.deg_per_path_mm;
+        let least = |a: Option<f64>, b: f64| Some(a.map_or(b, |a| a.min(b)));
+        let slope = &limits.feed;
+        let vector = &mut dynamics.vector;
+        vector.vel_mm_s = least(vector.vel_mm_s, limits.v_max_mm_s / coupling.deg_per_path_mm);
+        vector.acc_mm_s2 = least(vector.acc_mm_s2, slope.acc_mm_s2 * ratio);
+        vector.dec_mm_s2 = least(vector.dec_mm_s2, slope.dec_mm_s2 * ratio);
+        let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics));
+        let plane = self.in_plane(span)?;
+        if self.report.failed() && !self.checking {
+            return Ok(());
+        }
+        if let Some(text) = self.apart_from_spindle(&block.path, spindle, feed_mm_s, rpm) {
+            self.report.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
+        }
+        self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
+        let Coupling { axis, deg_per_mm, .. } = coupling;
+        self.contour.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
+        self.send(block, plane, None, span);
+        self.contour.event(Event::SpindleFollows { spindle, way: None });
+        self.motion.spindles[0].turning = Turning::Stopped;
+        self.motion.spindles[0].runs = false;
+        self.sync(Sync::Stop);
+        Ok(())
+    }
+
+    /// Differences that keep an axis and its spindle from being at the same point of the thread: filters, following error.
+    fn apart_from_spindle(
+        &self,
+        path: &Path,
+        spindle: usize,
+        feed_mm_s: f64,
+        rpm: f64,
+    ) -> Option<String> {
+        let (cycle, turning) = (self.machine.cycle, &self.machine.spindles[spindle]);
+        let of_spindle = self.shaping.setup.spindles.get(spindle)?.kernel.as_deref();
+        let ms = |kernel: Option<&Kernel>, axis: &Axis| {
+            let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
+            (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
+        };
+        let main = &self.motion.spindles[0];
+        let spindle_lag_s = turning.lag_s(6.0 * rpm, main.feedforward, main.weight_ratio);
+        let feedforward = &self.motion.feedforward;
+        let way_mm = |i: usize| path.end()[i] - path.start()[i];
+        (0..self.machine.axes.len()).filter(|i| way_mm(*i).abs() > 0.0).find_map(|i| {
+            let axis = &self.machine.axes[i];
+            let kernel = self.shaping.setup.axes[i].kernel.as_deref();
+            let [own, of_other] = [ms(kernel, axis), ms(of_spindle, turning)];
+            let (name, other) = (axis.name(), turning.name());
+            if kernel != of_spindle || (own - of_other).abs() > 1e-6 {
+                return Some(format!(
+                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not synchronous in the thread"
+                ));
+            }
+            let speed_mm_s = feed_mm_s * way_mm(i) / path.length();
+            let lag_s = axis.lag_s(speed_mm_s, feedforward.on, feedforward.weight_ratios[i]);
+            ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
+                format!(
+                    "tapping while {name} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",
+                    1e3 * lag_s,
+                    1e3 * spindle_lag_s
+                )
+            })
+        })
+    }
+
+    /// The coupling of the spindle to the path, and the path velocity.
+    fn tapping(&mut self, path: &Path, rpm: f64, span: Span) -> Outcome<(Coupling, f64)> {
+        let way = |axis: usize| path.end()[axis] - path.start()[axis];
+        let longest =
+            (0..path.start().len()).max_by(|a, b| way(*a).abs().total_cmp(&way(*b).abs()));
+        let longest = longest.unwrap_or(0);
+        let (deg_per_path_mm, sense, feed_mm_s) = if self.modal.path == PathMode::Tapping {
+            let Feed::PathVelocity(feed_mm_s) = self.feed_of(path, span)? else {
+                return Err(Fault::unsupported("tapping without G94", span));
+            };
+            (rpm.abs() * 6.0 / feed_mm_s, rpm.signum(), feed_mm_s)
+        } else {
+            let (axis, pitch_mm) =
+                self.motion.threads.pitch(&self.geometry.coordinates, path, span)?;
+            let per_path_mm = 360.0 * way(axis).abs() / (pitch_mm.abs() * path.length());
+            let back = if self.modal.path == PathMode::TapBack { -1.0 } else { 1.0 };
+            (per_path_mm, pitch_mm.signum() * back, rpm.abs() * 6.0 / per_path_mm)
+        };
+        let deg_per_mm = sense * deg_per_path_mm * path.length() / way(longest);
+        Ok((Coupling { axis: longest, deg_per_mm, deg_per_path_mm }, feed_mm_s))
+    }
+}
+
+/// Coupling of the spindle to a straight path.
+struct Coupling {
+    /// The longest main axis, along which the distance is measured.
+    axis: usize,
+    /// Degrees per mm along this axis, signed by the sense of rotation.
+    deg_per_mm: f64,
+    /// Degrees per mm of path, unsigned.
+    deg_per_path_mm: f64,
+}
