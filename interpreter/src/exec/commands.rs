@@ -190,6 +190,7 @@ const ROWS: &[Row] = &[
     areas::CONTROL_AREA,
     unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),
+    unsupported("MILLCONT"),
     off_only("SEGMENTATION"),
     manual::SET_JOG,
     unsupported("MIRROR"),

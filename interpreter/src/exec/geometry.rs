@@ -46,6 +46,8 @@ pub(super) struct Geometry {
     pub(super) last_system: u32,
     /// Whether `#TRAFO` or `#RTCP` is on.
     pub(super) transformation_on: bool,
+    /// `#PTP` is active.
+    pub(super) direct_on: bool,
     pub(super) tools: Tools,
 }
 
@@ -71,6 +73,7 @@ impl Geometry {
             last_arc: LastArc::default(),
             last_system: 1,
             transformation_on: false,
+            direct_on: false,
             tools: Tools { table: machine.tools.clone(), ..Tools::default() },
         }
     }

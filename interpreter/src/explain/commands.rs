@@ -54,7 +54,7 @@ const COMMANDS: &[Command] = &[
     row(&["G115", "G116", "G117"], "G116", "look-ahead off, every transition is a stop, complete look-ahead", "", "", "G117", &["20151", "P-STUP-00070"]),
     row(&["G127", "G128"], "G127 X..   G128=..", "weight of the maximum speed in percent, per axis or for all", "", "", "G128=50", &["P-AXIS-00212"]),
     row(&["G129"], "G129=..", "percent of the rapid speed", "", "", "G129=50", &["P-AXIS-00209"]),
-    row(&["G130", "G131"], "G130 X..   G131=..", "percent of the feed accelerations, per axis or for all", "", "relative to the list value, not to the previous weight; above P-AXIS-00292: 50130", "G131=80", &["50130", "P-AXIS-00292", "P-CHAN-00001"]),
+    row(&["G130", "G131"], "G130 X..   G131=..", "percent of the feed accelerations, per axis or for all", "", "relative to the list value, not to the previous weight; above P-AXIS-00292: 50130, and 120033 for the deceleration", "G131=80", &["50130", "120033", "P-AXIS-00292", "P-CHAN-00001"]),
     row(&["G132", "G133"], "G132 X..   G133=..", "percent of the feed ramp times, per axis or for all", "", "not below P-AXIS-00293", "G133=150", &["P-AXIS-00293", "P-CHAN-00073"]),
     row(&["G134"], "G134=..", "percent of the geometric ramp time", "", "", "G134=200", &["P-AXIS-00199"]),
     row(&["G230", "G231"], "G230 X..   G231=..", "percent of the rapid acceleration, per axis or for all", "", "", "G231=80", &["50130", "P-AXIS-00004"]),

@@ -240,6 +240,12 @@ fn check_together(
         None
     } else if kind_of(parameters) == AxisKind::Spindle && mode & bits::MODULO == 0 {
         Some((Condition::SpindleMode, "is not valid for a spindle", mode & !0x3 | bits::MODULO))
+    } else if mode & bits::C_AXIS != 0 && mode & bits::MODULO == 0 {
+        Some((
+            Condition::CAxisWithoutModulo,
+            "is that of a C axis but not of a modulo axis",
+            mode | bits::MODULO,
+        ))
     } else if mode < 0x40 && [0x1, 0x2, 0x4].iter().all(|bit| mode & bit == 0) {
         Some((Condition::AxisMode, "is unknown", if is_linear { 0x1 } else { 0x4 }))
     } else {

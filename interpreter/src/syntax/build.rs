@@ -112,6 +112,11 @@ impl<'a> Builder<'a> {
                 self.explain_junk(span);
             }
         }
+        // it is refused by its name, and no bracket of an axis
+        words.retain(|word| {
+            !matches!(&word.kind, WordKind::Bracket(bracket)
+                if bracket.name == super::ast::Name::new(problem::FORMATTED_TEXT))
+        });
         if !words.is_empty() {
             block.body = Body::Words(words);
         }

@@ -41,7 +41,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(20747), "", Error, ProgramAbort, 3, 1, "too many subroutine files", ""),
     documented(Vendor(21141), "", Error, ProgramAbort, 3, 1, "command not allowed in a manual block", ""),
     documented(Vendor(21218), "", Error, ProgramAbort, 3, 1, "variable type not available", "V.L where the configuration does not permit it"),
-    documented(Vendor(21372), "", Error, ProgramAbort, 3, 1, "logical axis number unknown or invalid", ""),
     documented(Vendor(21777), "", Error, ProgramAbort, 3, 1, "keyword index outside the data format", ""),
     documented(Vendor(22145), "", Error, JobAbort, 3, 1, "key twice (#DIAGNOSIS)", ""),
     documented(Vendor(50544), "", Error, FeedHold, 1, 0, "vendor-internal slope diagnosis", ""),

@@ -1,5 +1,6 @@
 //! Modal state: settings that stay active until another word of their group replaces them.
 
+use super::groups;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::fault::{Fault, Outcome};
 use crate::machine::{Axis, Channel};
@@ -289,6 +290,12 @@ impl Modal {
                 | (25, 165)
                 | (32, 140)
                 | (21, _) => {}
+                (group, g) if groups::row(*g).is_none() => {
+                    let text = format!("prog_start.g_gruppe[{group}].nr {g} is no G function");
+                    let d =
+                        Diagnostic::new(Condition::PresetFunction, text).parameter("P-CHAN-00063");
+                    unknown.push(d);
+                }
                 (group, g) => {
                     let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
                     let d = Diagnostic::new(Condition::Fallback, text).parameter("P-CHAN-00063");

@@ -49,8 +49,8 @@ impl Modal {
 }
 
 impl Decoder {
-    /// Sets a weight; 50130 if it exceeds the limits of the lists, 120028, 120030, 120032 or 120034 if an acceleration would
-    /// become 0.
+    /// Sets a weight; 50130, 120033, 120037 or 120038 if it exceeds the limits of the lists, 120028, 120030, 120032 or 120034
+    /// if an acceleration would become 0.
     pub(in crate::exec) fn set_weight(
         &mut self,
         weight: Weight,
@@ -62,9 +62,16 @@ impl Decoder {
         self.motion.weights.set(weight, axis, ratio);
         self.motion.dynamics_changed();
         for (axis, condition) in self.motion.limited_weights(&self.machine, &self.modal) {
-            let zero = condition != Condition::DynamicsLimited;
+            let (zero, cause) = match condition {
+                Condition::DynamicsLimited => (false, weight),
+                Condition::DecelerationTooLarge => (false, Weight::Acceleration),
+                Condition::DecelerationRampUp | Condition::DecelerationRampDown => {
+                    (false, Weight::Ramp)
+                }
+                _ => (true, Weight::Acceleration),
+            };
             // the same result of an earlier word was reported there
-            let earlier = (ratio - 1.0).abs() < 1e-12 || (zero && weight != Weight::Acceleration);
+            let earlier = (ratio - 1.0).abs() < 1e-12 || weight != cause;
             if earlier && before.contains(&(axis, condition)) {
                 continue;
             }

@@ -205,7 +205,7 @@ fn exchanged(decoder: &mut Decoder) {
 /// The path stops; a Vibration Guard of the program is switched off.
 ///
 /// # Errors
-/// 20535 under G63, 20684 while a coordinate system is active.
+/// 20535 under G63, 20684 while a coordinate system is active, 20683 while a kinematic transformation is.
 fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
     if decoder.modal.path.is_tapping() {
         let text = "an axis exchange during tapping";
@@ -214,6 +214,10 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
     if decoder.geometry.coordinates.systems() > 0 {
         let text = "an axis exchange while a coordinate system is active";
         return Err(Fault::new(Condition::ExchangeInSystem, text, span));
+    }
+    if decoder.geometry.transformation_on {
+        let text = "an axis exchange while a kinematic transformation is active";
+        return Err(Fault::new(Condition::ExchangeInTransformation, text, span));
     }
     decoder.sync(Sync::FlushWait);
     if decoder.shaping.guard_on == Some(true) {
@@ -269,12 +273,13 @@ pub(super) fn logical_number(number: f64, span: Span) -> Outcome<u32> {
     })
 }
 
-/// `AXNR=`: the axis of the channel with a logical number; 20797 if there is none.
+/// `AXNR=`: the axis of the channel with a logical number; 21372 if there is none (254401419).
 pub(super) fn of_logical_number(decoder: &Decoder, number: f64, span: Span) -> Outcome<usize> {
     let number = logical_number(number, span)?;
     let axis = decoder.machine.axes.iter().position(|axis| axis.number() == number);
     axis.ok_or_else(|| {
         let text = format!("no axis of the channel has the logical number {number}");
-        Fault::new(Condition::AxisNameUnknown, text, span).hint(decoder.names.hint())
+        Fault::new(Condition::LogicalNumberUnknown, text, span)
+            .with(|d| d.value(ValueKind::Wrong, number, "-"))
     })
 }

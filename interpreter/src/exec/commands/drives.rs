@@ -95,7 +95,7 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// The named spindle; `None` for an axis. 20797 if neither exists.
+/// The named spindle; `None` for an axis. 20797 if the name is unknown, 21372 if the number is.
 fn driven(
     decoder: &Decoder,
     call: &Call<'_>,

@@ -5,6 +5,7 @@
 
 use super::keys::arguments;
 use super::misc::may_flush;
+use super::refused::numbers_of;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::modal::Compensation;
@@ -371,6 +372,16 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
         let text = "#PTP while tool radius compensation is active";
         return Err(Fault::new(Condition::DirectWithCompensation, text, call.span()));
     }
+    if call.name == "TRAFO" && decoder.geometry.direct_on && call.command.on != Some(false) {
+        let text = "#TRAFO ON while #PTP is active";
+        return Err(Fault::new(Condition::TransformationInDirect, text, call.span()));
+    }
+    if call.name == "ORI MODE" {
+        orientation_has_direction(decoder, call)?;
+    }
+    if call.name == "PTP" {
+        decoder.geometry.direct_on = call.command.on != Some(false);
+    }
     if ["TRAFO", "RTCP"].contains(&call.name) {
         decoder.geometry.transformation_on = call.command.on != Some(false);
     }
@@ -385,4 +396,14 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     let hint = "use --identity-trafo to treat transformations as the identity";
     Err(Fault::unsupported(call.title(), call.span()).hint(hint))
+}
+
+/// 21514 if the components of the vector are all 0 (255001995).
+fn orientation_has_direction(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    let components = numbers_of(decoder, call, ["U", "V", "W"]);
+    if components.len() < 3 || components.iter().any(|c| *c != 0.0) {
+        return Ok(());
+    }
+    let text = "#ORI MODE: the vector U, V, W is 0";
+    Err(Fault::new(Condition::OrientationZero, text, call.span()))
 }

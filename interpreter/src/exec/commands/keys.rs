@@ -50,7 +50,8 @@ macro_rules! arguments {
                 },)*
             ];
 
-            /// Reads the bracket. Unknown keys are 21220, a repeated key is 21887; both are reported and skipped.
+            /// Reads the bracket. Unknown keys are 21220, a repeated key is 21887, a second bracket is 21692; they are reported
+            /// and skipped.
             ///
             /// # Errors
             /// The first key with a number outside its range.
@@ -351,6 +352,10 @@ fn read(
                 _ => return Err(incomplete(title, key, item.span)),
             };
             Ok(Some((key.name, written)))
+        }
+        ItemKind::Value(ItemValue::List(_)) => {
+            let text = format!("{title}: a second opening bracket");
+            Err(Fault::new(Condition::BracketTwice, text, item.span))
         }
         ItemKind::Value(_) | ItemKind::Target { .. } => {
             let text = format!("{title}: a value without a key");

@@ -1,6 +1,6 @@
 //! `#MSG`, `#ADD` and `#ERROR`.
 //!
-//! Source: TF5200 programming manual; 21232 for an unknown format.
+//! Source: TF5200 programming manual; 21232 for an unknown format, 21710 (255759243).
 
 use super::keys::arguments;
 use super::range::between;
@@ -32,7 +32,11 @@ pub(super) const MSG: Row = Row::run("MSG", message)
 fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut receiver = RECEIVERS[0].to_owned();
     let mut save = false;
-    for word in call.rest {
+    for (i, word) in call.rest.iter().enumerate() {
+        if call.rest[..i].iter().any(|other| other.is(&word.text)) {
+            let text = format!("#MSG: {} twice", word.text);
+            return Err(Fault::new(Condition::MessageWordTwice, text, word.span));
+        }
         if RECEIVERS.iter().any(|r| word.is(r)) {
             receiver = word.text.to_string();
         } else if !MODES.iter().any(|m| word.is(m)) {

@@ -1,6 +1,6 @@
 //! Refused commands: errors that the diagnosis manual defines for them are reported instead of the refusal.
 //!
-//! Source: TF5200 diagnosis, 21089 (253417867), 21158 (253618059), 21235 (253879179), 21236 (253883531), 21349 (254314379),
+//! Source: TF5200 diagnosis, 21089 (253417867), 21157 (253613707), 21158 (253618059), 21235 (253879179), 21236 (253883531), 21349 (254314379),
 //! 21410 (254562443), 21453 (254732171), 21872 (256368523), 22003 (480451723), 22128 and 22129 (real-time loops 791893515),
 //! 22158 (real-time loops 793352331), 22181 (991397515).
 
@@ -9,13 +9,15 @@ use crate::diag::Condition;
 use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
-use crate::syntax::ast::{Command, Ident, ItemKind, ItemValue};
+use crate::syntax::ast::{Command, Ident, Item, ItemKind, ItemValue};
 
 /// IDs for a repeated key.
 const KEY_TWICE: &[(&str, Condition)] = &[
+    ("COLL", Condition::CollisionKeyTwice),
     ("FACE", Condition::FaceKeyTwice),
     ("IDENT", Condition::IdentKeyTwice),
     ("MCS TO WCS", Condition::ConversionTwice),
+    ("MILLCONT", Condition::MillingContourKeyTwice),
     ("SINGLE STEP", Condition::SingleStepTwice),
     ("TGC", Condition::HeightKeyTwice),
     ("TOOL DEF", Condition::ToolKeyTwice),
@@ -42,11 +44,23 @@ pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
         let text = "#RT CYCLE DEF without ID";
         return Fault::new(Condition::CycleWithoutId, text, call.span());
     }
+    let reads = call.rest.iter().any(|word| word.is("RD"));
+    if call.name == "IDENT"
+        && let Some(syn) = call.rest.iter().find(|word| reads && word.is("SYN"))
+    {
+        let text = "#IDENT RD takes no SYN";
+        return Fault::new(Condition::SynNotAllowed, text, syn.span);
+    }
     if call.name == "COMMAND"
         && let Some(word) = call.rest.iter().find(|word| word.is("RD"))
     {
         let text = "#COMMAND RD: procedures of drives cannot be read";
         return Fault::new(Condition::CommandRead, text, word.span);
+    }
+    if call.name == "CAX"
+        && let Some(fault) = not_of_main_spindle(decoder, call)
+    {
+        return fault;
     }
     if call.name == "GET WCS POSLIMIT"
         && let Some(fault) = direction_zero(decoder, call)
@@ -56,21 +70,37 @@ pub(super) fn refused(decoder: &mut Decoder, call: &Call<'_>) -> Box<Fault> {
     real_time_loop(decoder, call).unwrap_or_else(|| Fault::unsupported(call.title(), call.span()))
 }
 
+/// 21175 for `#CAX [S2, C]` (253670283).
+fn not_of_main_spindle(decoder: &Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
+    let items = &call.command.groups.first()?.items;
+    let [Item { kind: ItemKind::Flag(name), .. }, _] = &items[..] else { return None };
+    // the main spindle is the first one
+    let spindle = decoder.motion.spindle_of_name(&name.text, &decoder.machine.channel)?;
+    let is_other = spindle > 0;
+    let text = format!("#CAX: {} is not the main spindle", name.text);
+    is_other.then(|| Fault::new(Condition::RotaryAxisOfMainSpindle, text, name.span))
+}
+
 /// 21410 if VC1, VC2 and VC3 are all 0.
 fn direction_zero(decoder: &Decoder, call: &Call<'_>) -> Option<Box<Fault>> {
-    let components = call.command.groups.iter().flat_map(|group| &group.items);
-    let components = components.filter_map(|item| match &item.kind {
+    let components = numbers_of(decoder, call, ["VC1", "VC2", "VC3"]);
+    let text = "#GET WCS POSLIMIT: the direction VC1, VC2, VC3 is 0";
+    (components.len() == 3 && components.iter().all(|c| *c == 0.0))
+        .then(|| Fault::new(Condition::DirectionZero, text, call.span()))
+}
+
+/// Values of the keys with these names, as far as they are numbers.
+pub(super) fn numbers_of(decoder: &Decoder, call: &Call<'_>, names: [&str; 3]) -> Vec<f64> {
+    let items = call.command.groups.iter().flat_map(|group| &group.items);
+    let of_name = items.filter_map(|item| match &item.kind {
         ItemKind::Pair { key, value: ItemValue::Expr(value) }
-            if ["VC1", "VC2", "VC3"].iter().any(|name| key.is(name)) =>
+            if names.iter().any(|name| key.is(name)) =>
         {
             decoder.number(value).ok()
         }
         _ => None,
     });
-    let components: Vec<f64> = components.collect();
-    let text = "#GET WCS POSLIMIT: the direction VC1, VC2, VC3 is 0";
-    (components.len() == 3 && components.iter().all(|c| *c == 0.0))
-        .then(|| Fault::new(Condition::DirectionZero, text, call.span()))
+    of_name.collect()
 }
 
 /// Errors in the position of `#RT WHILE` or `#RT ENDWHILE`.

@@ -7,7 +7,7 @@
 //! Assumptions (the pages are silent): the path stops where a group is switched on or off, because otherwise the slave would
 //! jump to the speed of its master; the path respects the limits of the slave in addition to those of the master.
 //!
-//! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579, 207139467); 20169, 20457, 20467 to 20469,
+//! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579, 207139467); 20169, 20457, 20467 to 20470,
 //! 20472, 20545, 21283 to 21285, 21312, 21481.
 //!
 //! [`Independent::way`]: super::state::Independent::way
@@ -215,6 +215,11 @@ impl Decoder {
                 }
             }))
         };
+        if self.motion.manual[pair.slave] {
+            let text =
+                format!("axis {} is in manual mode (G201): it cannot be a slave", slave.name());
+            return of(Condition::SlaveInManualMode, pair.slave, text, None);
+        }
         if self.geometry.coordinates.main_index(pair.slave).is_some() {
             let text = format!("axis {} is a main axis and cannot be a slave", slave.name());
             return of(Condition::SlaveIsMainAxis, pair.slave, text, None);

@@ -1,6 +1,7 @@
 //! Dynamic limits of the axes under the weights of the program.
 //!
-//! Every weight refers to the list, never to the previous weight. Values above the limits of the list are capped, with 50130.
+//! Every weight refers to the list, never to the previous weight. Values above the limits of the list are capped, with 50130, 120033,
+//! 120037 or 120038.
 //!
 //! An acceleration weighted to 0 becomes the smallest one that the lists allow; the program continues.
 //!
@@ -103,7 +104,13 @@ impl Capped {
     }
 
     /// `value * ratio`, at most `cap` and at least the lowest acceleration; sets `zero` if the result would be 0.
-    fn acceleration(&mut self, value: f64, ratio: f64, cap: f64, zero: Option<Condition>) -> f64 {
+    fn acceleration(
+        &mut self,
+        value: f64,
+        ratio: f64,
+        cap: f64,
+        (limited, zero): (Condition, Option<Condition>),
+    ) -> f64 {
         let least = ACCELERATION_MIN.min(value);
         if value * ratio < least {
             if let Some(zero) = zero {
@@ -111,30 +118,38 @@ impl Capped {
             }
             return least;
         }
-        self.at_most(value, ratio, cap)
+        self.at_most(value, ratio, cap, limited)
     }
 
     /// `value * ratio`, at most `cap`.
-    fn at_most(&mut self, value: f64, ratio: f64, cap: f64) -> f64 {
+    fn at_most(&mut self, value: f64, ratio: f64, cap: f64, limited: Condition) -> f64 {
         let scaled = value * ratio;
         // a list value above the cap is not caused by the program
         let cap = cap.max(value.min(scaled));
         if scaled > cap {
-            self.cut(Condition::DynamicsLimited);
+            self.cut(limited);
         }
         scaled.min(cap)
     }
 
     /// `value * ratio`, at least `floor`.
-    fn at_least(&mut self, value: f64, ratio: f64, floor: f64) -> f64 {
+    fn at_least(&mut self, value: f64, ratio: f64, floor: f64, limited: Condition) -> f64 {
         let scaled = value * ratio;
         let floor = floor.min(value.max(scaled));
         if scaled < floor {
-            self.cut(Condition::DynamicsLimited);
+            self.cut(limited);
         }
         scaled.max(floor)
     }
 }
+
+/// Conditions of the ramp times of the feed, in the order of the list; the pages of the first two are not known.
+const RAMPS: [Condition; 4] = [
+    Condition::DynamicsLimited,
+    Condition::DynamicsLimited,
+    Condition::DecelerationRampUp,
+    Condition::DecelerationRampDown,
+];
 
 /// Lowest weighted rapid velocity in mm/s. Source: TF5200 programming manual, G129: 0 gives 1 um/s.
 const RAPID_MIN_MM_S: f64 = 0.001;
@@ -162,27 +177,31 @@ fn weighted(
     let acc =
         |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
     let a_max = d.a_max_mm_s2;
-    let (rapid, limited) = (w.rapid_acceleration, Some(Condition::DynamicsLimited));
-    d.feed.acc_mm_s2 = capped.acceleration(d.feed.acc_mm_s2, acc(1), a_cap, smooth[0]);
-    d.feed.dec_mm_s2 = capped.acceleration(d.feed.dec_mm_s2, acc(2), a_cap, smooth[1]);
+    let limited = Condition::DynamicsLimited;
+    let (rapid, both) = (w.rapid_acceleration, (limited, Some(limited)));
+    let braking = if stepped { limited } else { Condition::DecelerationTooLarge };
+    d.feed.acc_mm_s2 = capped.acceleration(d.feed.acc_mm_s2, acc(1), a_cap, (limited, smooth[0]));
+    d.feed.dec_mm_s2 = capped.acceleration(d.feed.dec_mm_s2, acc(2), a_cap, (braking, smooth[1]));
     for (i, stage) in stages.into_iter().enumerate() {
+        let stage = (limited, stage);
         let (up, down) = (d.step_feed.acc_mm_s2[i], d.step_feed.dec_mm_s2[i]);
         d.step_feed.acc_mm_s2[i] = capped.acceleration(up, acc(1), a_cap, stage);
         d.step_feed.dec_mm_s2[i] = capped.acceleration(down, acc(2), a_cap, stage);
         let (up, down) = (d.step_rapid.acc_mm_s2[i], d.step_rapid.dec_mm_s2[i]);
-        d.step_rapid.acc_mm_s2[i] = capped.acceleration(up, rapid, a_max, limited);
-        d.step_rapid.dec_mm_s2[i] = capped.acceleration(down, rapid, a_max, limited);
+        d.step_rapid.acc_mm_s2[i] = capped.acceleration(up, rapid, a_max, both);
+        d.step_rapid.dec_mm_s2[i] = capped.acceleration(down, rapid, a_max, both);
     }
-    d.rapid.acc_mm_s2 = capped.acceleration(d.rapid.acc_mm_s2, rapid, a_max, limited);
-    for (k, ramp) in (1..).zip(&mut d.feed.ramps_s) {
+    d.rapid.acc_mm_s2 = capped.acceleration(d.rapid.acc_mm_s2, rapid, a_max, both);
+    for ((k, ramp), condition) in (1..).zip(&mut d.feed.ramps_s).zip(RAMPS) {
         let ratio = if ramps == 0 || ramps == k { w.ramp } else { 1.0 };
-        *ramp = capped.at_least(*ramp, ratio, floor);
+        *ramp = capped.at_least(*ramp, ratio, floor, condition);
     }
-    d.rapid.ramp_s = capped.at_least(d.rapid.ramp_s, all.rapid_ramp, axis.tr_min_s());
+    d.rapid.ramp_s = capped.at_least(d.rapid.ramp_s, all.rapid_ramp, axis.tr_min_s(), limited);
     d.tr_geom_s *= all.geometric_ramp;
-    d.v_max_mm_s = capped.at_most(d.v_max_mm_s, w.velocity, d.v_max_mm_s);
-    d.v_rapid_mm_s =
-        capped.at_most(d.v_rapid_mm_s, all.rapid_velocity, d.v_max_mm_s).max(RAPID_MIN_MM_S);
+    d.v_max_mm_s = capped.at_most(d.v_max_mm_s, w.velocity, d.v_max_mm_s, limited);
+    d.v_rapid_mm_s = capped
+        .at_most(d.v_rapid_mm_s, all.rapid_velocity, d.v_max_mm_s, limited)
+        .max(RAPID_MIN_MM_S);
     d.v_rapid_mm_s = d.v_rapid_mm_s.min(d.v_max_mm_s);
     (d, capped.conditions)
 }

@@ -4,7 +4,7 @@
 //! without that motion: its coordinates of the axis are shifted by the distances that the axis has travelled independently
 //! ([`Independent::way`]), so that they stay continuous. The simulation adds the shift to the path.
 //!
-//! Source: TF5200 programming manual, independent axes; 21068.
+//! Source: TF5200 programming manual, independent axes; 21068, 21071.
 
 use super::state::Function;
 use crate::diag::Condition;
@@ -185,6 +185,7 @@ impl Decoder {
             }
             return Ok(());
         };
+        self.moves_untransformed(axis, span)?;
         let speed = match (words.rapid, words.speed) {
             (Some(true), None) => IndependentSpeed::Rapid,
             (Some(false), Some((speed, _))) => speed,
@@ -229,6 +230,19 @@ impl Decoder {
         };
         list.push(axis);
         Ok(())
+    }
+
+    /// 21071 for a main axis while a coordinate system or a transformation is active (253361291).
+    fn moves_untransformed(&self, axis: usize, span: Span) -> Outcome<()> {
+        let geometry = &self.geometry;
+        let is_active = geometry.coordinates.systems() > 0 || geometry.transformation_on;
+        if !is_active || geometry.coordinates.main_index(axis).is_none() {
+            return Ok(());
+        }
+        let (number, name) = (self.machine.axes[axis].number(), self.names.name(axis).to_owned());
+        let text = format!("{name} takes part in a transformation: it cannot move independently");
+        Err(Fault::new(Condition::IndependentInTransformation, text, span)
+            .with(|d| d.axis(number, name)))
     }
 
     /// Stops the path until these axes have arrived.

@@ -6,6 +6,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::state::MotionState;
 use crate::exec::names::AxisNames;
+use crate::exec::values::number::LARGEST_MM;
 use crate::machine::{Machine, is_outside};
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
@@ -57,6 +58,25 @@ impl Limits<'_> {
             None => return None,
         };
         Some(self.fault(axis, what, x, limits, place()))
+    }
+
+    /// 90134 if a motion with calculated ends between `low` and `high` leaves the data format of positions (261939083).
+    fn outside_format(&self, axis: usize, low: f64, high: f64, span: Span) -> Option<Box<Fault>> {
+        let x = if -low > high { low } else { high };
+        if x.abs() <= LARGEST_MM {
+            return None;
+        }
+        let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
+        let text =
+            format!("axis {name}: the compensated position {x:.4} is outside the data format");
+        Some(Fault::new(Condition::CompensatedOutsideFormat, text, span).with(|d| {
+            let d = d.axis(number, name).value(ValueKind::Wrong, x * 1e4, "0.1um");
+            d.value(ValueKind::LowerLimit, -LARGEST_MM * 1e4, "0.1um").value(
+                ValueKind::UpperLimit,
+                LARGEST_MM * 1e4,
+                "0.1um",
+            )
+        }))
     }
 
     fn fault(
@@ -121,10 +141,14 @@ impl Decoder {
         let driven = self.contour.take_driven();
         let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
             extents_mm.iter().enumerate().flat_map(|(axis, (low, high))| {
-                let slaves = self.limits().slaves_outside(axis, *low, *high, *span);
-                let own = self.limits().outside(axis, *low, *high, None, || *span);
+                let limits = self.limits();
+                if let Some(fault) = limits.outside_format(axis, *low, *high, *span) {
+                    return vec![*fault.in_block(*source)];
+                }
+                let slaves = limits.slaves_outside(axis, *low, *high, *span);
+                let own = limits.outside(axis, *low, *high, None, || *span);
                 let all = own.map(|fault| *fault).into_iter().chain(slaves);
-                all.map(|fault| *Box::new(fault).in_block(*source))
+                all.map(|fault| *Box::new(fault).in_block(*source)).collect()
             })
         });
         let mut faults: Vec<Fault> = faults.collect();

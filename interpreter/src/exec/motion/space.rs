@@ -66,7 +66,8 @@ impl Decoder {
         span: Span,
     ) -> Outcome<Path> {
         if self.modal.compensation != Compensation::Off {
-            return Err(Fault::unsupported("G303 with tool radius compensation", span));
+            let text = "an arc in space while tool radius compensation is active";
+            return Err(Fault::new(Condition::SpaceArcWithCompensation, text, span));
         }
         if self.contour.compensates() {
             let text =

@@ -4,7 +4,7 @@
 
 use super::functions;
 use super::number::{as_number, bits, finite, is_true, whole};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
@@ -132,7 +132,12 @@ fn apply(
         BinaryOp::Divide | BinaryOp::Modulo if b == 0.0 => {
             let text = "division by zero";
             return Err(Fault::new(Condition::DivisionByZero, text, right_span)
-                .with(|d| d.value(crate::diag::ValueKind::Current, b, "-")));
+                .with(|d| d.value(ValueKind::Current, b, "-")));
+        }
+        BinaryOp::Divide if (a / b).is_infinite() && a.is_finite() => {
+            let text = format!("{a} / {b} is above the range of REAL64");
+            return Err(Fault::new(Condition::QuotientTooLarge, text, span)
+                .with(|d| d.value(ValueKind::Current, a, "-").value(ValueKind::Current, b, "-")));
         }
         BinaryOp::Divide => a / b,
         BinaryOp::Modulo => a % b,

@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, arithmetic expressions. Assumption: a condition is true if the absolute value is
 //! at least 0.5.
 
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::syntax::ast::Span;
@@ -61,6 +61,12 @@ pub(in crate::exec) fn bits(x: f64, span: Span) -> Outcome<u32> {
     } else if cut < 0.0 && cut >= f64::from(i32::MIN) {
         Ok(cut as i32 as u32)
     } else {
-        Err(Fault::new(Condition::Range, format!("{x} does not fit in 32 bits"), span))
+        Err(Fault::new(Condition::LogicalTerm, format!("{x} does not fit in 32 bits"), span).with(
+            |d| {
+                d.value(ValueKind::Wrong, x, "-")
+                    .value(ValueKind::LowerLimit, f64::from(i32::MIN), "-")
+                    .value(ValueKind::UpperLimit, u32::MAX, "-")
+            },
+        ))
     }
 }

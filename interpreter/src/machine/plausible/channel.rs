@@ -3,7 +3,7 @@
 use super::finish;
 use crate::diag::{Condition, Diagnostic, ValueKind};
 use crate::machine::parameters::{Parameters, Setting};
-use crate::machine::table::param::whole;
+use crate::machine::table::param::{Optional, Param, whole};
 use crate::machine::table::{Indices, channel, with_indices};
 use crate::machine::value::Value;
 
@@ -13,7 +13,42 @@ pub(in crate::machine) fn check(parameters: &mut Parameters, diagnostics: &mut V
     check_presets(parameters, diagnostics);
     check_rapid_override(parameters, diagnostics);
     check_several_words(parameters, diagnostics);
+    check_durations(parameters, diagnostics);
     check_synchronisation(parameters, diagnostics);
+}
+
+/// The synchronisation of functions, and their durations.
+const DURATIONS: [(Param<Optional>, Param<Optional>); 7] = [
+    (channel::M_SYNCHRONISATION, channel::M_DURATION),
+    (channel::H_SYNCHRONISATION, channel::H_DURATION),
+    (channel::SPINDLE_M3_SYNCHRONISATION, channel::SPINDLE_M3_DURATION),
+    (channel::SPINDLE_M4_SYNCHRONISATION, channel::SPINDLE_M4_DURATION),
+    (channel::SPINDLE_M5_SYNCHRONISATION, channel::SPINDLE_M5_DURATION),
+    (channel::SPINDLE_M19_SYNCHRONISATION, channel::SPINDLE_M19_DURATION),
+    (channel::SPINDLE_SPEED_SYNCHRONISATION, channel::SPINDLE_SPEED_DURATION),
+];
+
+/// 20760: functions with MOS have no duration. Source: TF5200 diagnosis 252456075.
+fn check_durations(parameters: &mut Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let without_acknowledgement = parameters.settings().filter_map(|(i, setting)| {
+        let mut rows = DURATIONS.iter();
+        let (_, duration) =
+            rows.find(|(synchronisation, _)| synchronisation.place().row.key == setting.row.key)?;
+        let bits = setting.value.number().and_then(whole)?;
+        let place = duration.at(i[0]).place();
+        let us = parameters.listed(duration.at(i[0])).filter(|us| *us > 0.0)?;
+        (bits == channel::WITHOUT_ACKNOWLEDGEMENT).then_some((place, us))
+    });
+    for (place, us) in without_acknowledgement.collect::<Vec<_>>() {
+        let text = format!("{place}: nothing waits for a function with MOS, 0 is used");
+        let at = parameters.set_by(place).and_then(|setting| setting.at.clone());
+        let diagnostic = Diagnostic::new(Condition::DurationWithoutSync, text)
+            .value(ValueKind::Wrong, us, "us")
+            .value(ValueKind::Corrected, 0.0, "us")
+            .corrected(0.0);
+        parameters.set(place.row, place.indices, Value::Number(0.0), at.clone());
+        diagnostics.push(finish(diagnostic, place.row, at, None));
+    }
 }
 
 /// Group of G135, G136 and G137 (P-CHAN-00063).
@@ -94,18 +129,9 @@ fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnost
     let simulated = channel::BEFORE_MOTION | channel::DURING_MOTION | channel::BEHIND_MOTION;
     // edge banding has separate messages
     let waiting = simulated | channel::ELSEWHERE & !channel::AT_SIGNAL;
-    let durations = [
-        (channel::M_SYNCHRONISATION, channel::M_DURATION),
-        (channel::H_SYNCHRONISATION, channel::H_DURATION),
-        (channel::SPINDLE_M3_SYNCHRONISATION, channel::SPINDLE_M3_DURATION),
-        (channel::SPINDLE_M4_SYNCHRONISATION, channel::SPINDLE_M4_DURATION),
-        (channel::SPINDLE_M5_SYNCHRONISATION, channel::SPINDLE_M5_DURATION),
-        (channel::SPINDLE_M19_SYNCHRONISATION, channel::SPINDLE_M19_DURATION),
-        (channel::SPINDLE_SPEED_SYNCHRONISATION, channel::SPINDLE_SPEED_DURATION),
-    ];
     // a declared duration is waited for, or listed in the summary
     let is_missing = |(i, setting): &(Indices, &Setting)| {
-        let mut rows = durations.iter();
+        let mut rows = DURATIONS.iter();
         let row =
             rows.find(|(synchronisation, _)| synchronisation.place().row.key == setting.row.key);
         row.is_some_and(|(_, duration)| {

@@ -27,6 +27,9 @@ pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
     ("MET_MOS", 0x1),
 ];
 
+/// MOS: nothing is acknowledged.
+pub(crate) const WITHOUT_ACKNOWLEDGEMENT: u32 = 0x1;
+
 /// Bits of [`SYNCHRONISATION`] for which the path waits before the motion of the block: MVS_SVS.
 pub(crate) const BEFORE_MOTION: u32 = 0x2;
 

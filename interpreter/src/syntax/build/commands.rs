@@ -44,7 +44,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Groups of a command; 20186, 20675, 20880, 21252 if commas between their items are required but missing.
+    /// Groups of a command; 20186, 20675, 20876, 20880, 21252 if commas between their items are required but missing.
     fn command_group(&mut self, pair: Pair<'_, Rule>, command: &Command) -> Group {
         let of = |names: &[&str]| names.iter().any(|name| command.is(name));
         let needs = if of(&["GET CMDPOS", "GET ACTPOS", "SET IPO SOLLPOS"]) {
@@ -55,6 +55,8 @@ impl Builder<'_> {
             Some((Condition::ExchangeNumber, "axis number and axis index"))
         } else if of(&["CAX"]) {
             Some((Condition::SpindleAxisComma, "spindle and axis"))
+        } else if of(&["FACE", "CYL"]) {
+            Some((Condition::BehindCommandAxis, "two axes"))
         } else {
             None
         };
@@ -68,8 +70,10 @@ impl Builder<'_> {
         }
         // `[X 1 0]` looks like a key with its value: 21251, when the command is carried out
         let keyed = matches!(group.items.first(), Some(Item { kind: ItemKind::Pair { .. }, .. }));
-        let exchange = matches!(needs, Some((Condition::ExchangeNumber, _)));
-        let needs = needs.filter(|_| commas + 1 < group.items.len() && !(exchange && keyed));
+        // keys with values are separated by blanks
+        let with_keys =
+            matches!(needs, Some((Condition::ExchangeNumber | Condition::BehindCommandAxis, _)));
+        let needs = needs.filter(|_| commas + 1 < group.items.len() && !(with_keys && keyed));
         if let Some((condition, what)) = needs {
             let text = format!("a comma is missing between {what}");
             self.report(Problem::new(condition, group.span, text));

@@ -17,6 +17,7 @@ macro_rules! commands {
     SignalParameterTwice = Vendor 21059: Error ProgramAbort 3 1, "signal parameter given twice", cause "#SIGNAL [ID=44 P[0]=200 P[0]=944]", hint "remove one of the two, or raise the index";
     IndependentRedundant = Vendor 21067: Error ProgramAbort 3 1, "word repeated in the bracket of an independent axis", cause "Z[INDP_SYN POS50 POS40 G01 FEED100 G90]", hint "remove one of the two";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax error in the bracket of an independent axis";
+    IndependentInTransformation = Vendor 21071: Error ProgramAbort 3 1, "independent axis that takes part in an active transformation", cause "X[INDP_SYN ..] under #CS ON or #TRAFO ON", hint "switch the system or the transformation off before it";
     CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of the coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two nonzero numbers: [Y=X, -1, 1] mirrors";
     IdentKeyTwice = Vendor 21089: Error ProgramAbort 3 1, "key of #IDENT given twice", cause "#IDENT WR [AX=X AX=Y ..]", hint "remove one of the two";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of the coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
@@ -24,8 +25,10 @@ macro_rules! commands {
     SignalCountTwice = Vendor 21120: Error ProgramAbort 3 1, "COUNT of a signal given twice", cause "#SIGNAL [ID=1 COUNT=2 COUNT=3]", hint "remove one of the two";
     MostOverride = Vendor 21128: Warning None 1 2, "maximum override of the channel outside its range, limited", hint "write 0 to 2000 (0.1 %)", parameter "P-CHAN-00056";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "the limit of centre coordinates is 214748.3647 mm";
+    SynNotAllowed = Vendor 21157: Error ProgramAbort 3 1, "SYN where it is not allowed", cause "#IDENT RD SYN [..]", hint "only #IDENT WR, #COMMAND WR and #COMMAND WAIT take SYN";
     CommandRead = Vendor 21158: Error ProgramAbort 3 1, "#COMMAND attempts to read a drive procedure", cause "#COMMAND RD [..]", hint "procedures can only be written: #COMMAND WR";
     TimerNumber = Vendor 21167: Error ProgramAbort 3 1, "timer number outside 0 to 127", hint "use a timer number from 0 to 127";
+    RotaryAxisOfMainSpindle = Vendor 21175: Error ProgramAbort 3 1, "#CAX of a spindle that is not the main spindle", cause "#CAX [S2, C]", hint "write #MAIN SPINDLE [S2] before it";
     FunctionOfIndependent = Vendor 21179: Error ProgramAbort 3 1, "M function of an axis in a block where that axis moves independently", cause "M31 X[INDP_SYN ..] with m_default_outp_ax_name[31] X", hint "write them in separate blocks", parameter "P-CHAN-00039";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after other words in its block", cause "N10 X100 [NAME] Y200", hint "write the label first in its block: N10 [NAME] X100 Y200";
     InternalFunction = Vendor 21192: Error ProgramAbort 3 1, "M function of the control in the bracket of an axis or spindle", cause "X[M30]", hint "write it outside the bracket: M2, M17, M29 and M30 control the program, M3, M4, M5, M19 and M40 to M45 spindles";
@@ -69,9 +72,11 @@ macro_rules! commands {
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "remove G05";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
     SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "selection mode changed while G238 is in effect", cause "G139 between G41 and G40", hint "write G40 first";
+    CollisionKeyTwice = Vendor 21338: Error ProgramAbort 3 1, "key of #COLL twice", hint "leave one of the two out";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "remove SYN: parameters can only be read without synchronisation";
     HeightKeyTwice = Vendor 21349: Error ProgramAbort 3 1, "key of #TGC given twice", cause "#TGC ON [OPMODE=1 OPMODE=2]", hint "remove one of the two";
     AreaAxis = Vendor 21363: Error ProgramAbort 3 1, "axis not allowed in the contour of a control area", cause "Z in G17", hint "the contour lies in the first two main axes of the plane, MIN_EXCUR and MAX_EXCUR bound the third";
+    LogicalNumberUnknown = Vendor 21372: Error ProgramAbort 3 1, "logical axis number unknown", cause "#DRIVE WR SYN [AXNR=77 ..]", hint "write the logical number of an axis of the machine (P-AXIS-00016)";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword given twice in L CYCLE [..]", hint "remove one of the two";
     CycleInThread = Vendor 21380: Error ProgramAbort 3 1, "cycle called while a thread is being cut", cause "G63, then L CYCLE [..]", hint "write G01 before the call";
     CycleWhileModal = Vendor 21381: Error ProgramAbort 3 1, "cycle called while a modal cycle is active", hint "write #DISABLE MODAL CYCLE before the call";
@@ -112,6 +117,7 @@ macro_rules! commands {
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write the closing statement before the end of the subroutine";
     ChannelInitTwice = Vendor 21507: Error ProgramAbort 3 1, "#CHANNEL INIT with two position types", cause "#CHANNEL INIT [CMDPOS CMDPOS]", hint "write one of CMDPOS and ACTPOS, once";
     BehindAddition = Vendor 21509: Error ProgramAbort 3 1, "NC command after #ADD", cause "Z33 #ADD[\"text\"] X11", hint "write #ADD at the end of the block";
+    OrientationZero = Vendor 21514: Error ProgramAbort 3 1, "orientation vector of length 0", cause "#ORI MODE [.. U=0 V=0 W=0]", hint "give the vector a direction";
     DirectWithCompensation = Vendor 21525: Error ProgramAbort 3 1, "#PTP with active tool radius compensation", hint "switch the compensation off with G40 first";
     TimerTwice = Vendor 21537: Error ProgramAbort 3 1, "word given twice in #TIMER", cause "#TIMER START STOP, #TIMER START [ID=1 ID=2]", hint "write one of START, STOP, READ and CLEAR, and one ID";
     ThreadOffsetTwice = Vendor 21540: Error ProgramAbort 3 1, "offset angle of a thread twice in one block", hint "remove one of the two";
@@ -120,6 +126,7 @@ macro_rules! commands {
     TextPosition = Vendor 21545: Error ProgramAbort 3 1, "position outside the text in a text function", cause "DELETE[\"Hello world!\", 7, 100]: the text comes first, then the count, then the position", hint "write a position from 1 to LEN[..], for INSERT from 0";
     MFunctionWithoutSpindle = Vendor 21548: Error ProgramAbort 3 1, "spindle M function in a channel without a spindle", cause "M3, M4, M5, M19 with spdl_anzahl 0", hint "name a spindle in the channel list: spdl_anzahl, spindel[0]";
     SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "add P[i] to the #SIGNAL";
+    TransformationInDirect = Vendor 21552: Error ProgramAbort 3 1, "#TRAFO ON while #PTP is active", hint "write #TRAFO ON before #PTP ON, or #PTP OFF before it";
     CompensationModulo = Vendor 21555: Error ProgramAbort 3 1, "tool radius compensation with a modulo axis", cause "G41 while a main axis of the plane is a modulo axis (P-AXIS-00015)", hint "use another plane, or an axis that is not modulo";
     SystemOfModuloAxis = Vendor 21556: Error ProgramAbort 3 1, "coordinate system with a modulo axis", cause "#CS ON while a main axis is a modulo axis (P-AXIS-00015)", hint "the main axes of a coordinate system must not be modulo axes";
     LiftTwice = Vendor 21558: Error ProgramAbort 3 1, "lifting started twice", cause "Z[LIFT_START ..] twice", hint "write Z[LIFT_END] between them";
@@ -134,7 +141,9 @@ macro_rules! commands {
     NegativeLimitTooHigh = Vendor 21649: Error ProgramAbort 3 1, "negative software limit not below the positive one", cause "G98 X600 with the positive limit 500", hint "raise the positive limit first, with G99";
     PositiveLimitAboveList = Vendor 21650: Warning None 1 1, "positive software limit above the limit of the axis list, limited", cause "G99 with P-CHAN-00498 = 1", hint "P-AXIS-00178 is the highest limit allowed", parameter "P-CHAN-00498";
     SkipLevelRange = Vendor 21655: Error ProgramAbort 3 1, "block skip level outside 1 to 10", cause "/11 X1", hint "use a level from 1 to 10; / alone means level 1";
+    BracketTwice = Vendor 21692: Error ProgramAbort 3 1, "opening bracket twice in a command", cause "#TIMER START [[ID=1]]", hint "leave one of the two out";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE given twice, or keys that exclude each other", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
+    MessageWordTwice = Vendor 21710: Error ProgramAbort 3 1, "word of #MSG twice", cause "#MSG SYN SYN [\"text\"]", hint "leave one of the two out";
     InsertionsOff = Vendor 21718: Error ProgramAbort 3 1, "chamfer or rounding programmed although the channel list disables them", cause "disable_chamfers_roundings 1", hint "set P-CHAN-00273 to 0", parameter "P-CHAN-00273";
     OptionalOpen = Vendor 21719: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION ON without OFF before the end of its program", hint "write #OPTIONAL EXECUTION OFF before the end";
     OptionalNotOpen = Vendor 21720: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION OFF without ON on the same program level", hint "write ON and OFF in the same program";
@@ -152,6 +161,7 @@ macro_rules! commands {
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
     FaceKeyTwice = Vendor 21872: Error ProgramAbort 3 1, "key of #FACE given twice", hint "remove one of the two";
     PositiveLimitTooLow = Vendor 21878: Error ProgramAbort 3 1, "positive software limit not above the negative one", cause "G99 X-600 with the negative limit -500", hint "lower the negative limit first, with G98";
+    QuotientTooLarge = Vendor 21883: Error ProgramAbort 3 1, "result of a division too large", cause "a divisor near 0", hint "limit the divisor before the division";
     CommandKeyTwice = Vendor 21887: Error ProgramAbort 3 0, "key given twice in one command", cause "#VIB GUARD ON [FREQ=40 FREQ=50]", hint "remove one of the two";
     BlockKeyTwice = Vendor 21891: Error ProgramAbort 3 1, "key of a contour line, chamfer or rounding given twice in one block", cause "X10 #RND=1 #RND=2", hint "remove one of the two";
     ContourLineParallel = Vendor 21892: Error ProgramAbort 3 1, "equal or opposite angles of two contour lines", cause "#ANG=60, then #ANG=60 X30 Y40", hint "give the second line another angle";
@@ -169,6 +179,8 @@ macro_rules! commands {
     FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two must not be used together", hint "use one of the two in a program; the OFF forms count too";
     GuardMode = Vendor 22062: Error ProgramAbort 3 1, "Vibration Guard mode not allowed", cause "MODE outside 1…4", hint "write a mode from 1 to 4";
     FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "use the keys HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
+    SpaceArcWithCompensation = Vendor 22081: Error ProgramAbort 3 1, "arc in space with tool radius compensation", cause "G303 between G41 and G40", hint "write G40 and a straight motion before it";
+    MillingContourKeyTwice = Vendor 22102: Error ProgramAbort 3 1, "key of #MILLCONT twice", cause "#MILLCONT CALC [ID=1 ID=2]", hint "leave one of the two out";
     LoopInSpline = Vendor 22128: Error ProgramAbort 3 1, "#RT WHILE in a spline", cause "G151 before it", hint "write G150 before #RT WHILE";
     LoopEndInSpline = Vendor 22129: Error ProgramAbort 3 1, "#RT ENDWHILE in a spline", cause "G151 before it", hint "write G150 before #RT ENDWHILE";
     CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "invalid character in an implicit call", cause "G80 [..]", hint "separate the values with commas: G80 [1, 2, , 4]";

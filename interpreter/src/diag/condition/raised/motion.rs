@@ -59,6 +59,7 @@ macro_rules! motion {
     FlushAfterCompensation = Vendor 90050: Error ProgramAbort 3 1, "channel flush between G40 and the motion that leads away from the contour", cause "G40, then #FLUSH", hint "write a straight motion with G40 or after it";
     InsideCornerTooNear = Vendor 90123: Error ProgramAbort 6 1, "contour of G238 nearer to its selection point than the tool radius", hint "start at another corner, or use a smaller tool";
     InsideCornerRadius = Vendor 90127: Error ProgramAbort 3 1, "tool radius changed within the contour of G238", hint "change the tool before G41 or after G40";
+    CompensatedOutsideFormat = Vendor 90134: Error ProgramAbort 6 1, "compensated position outside the data format", cause "lines of a contour that meet at a very acute angle", hint "positions reach up to 214748.3647 mm or deg; insert a short block at the corner";
     WearSelectedInArc = Vendor 90183: Error ProgramAbort 3 1, "tool radius compensation starting with an arc during online tool compensation", cause "#OTC ON, then G41 with an arc (G237)", hint "start with a line, or write #OTC OFF before it";
     SpaceArcAfterCompensation = Vendor 90193: Error ProgramAbort 3 1, "arc in space after G40", cause "G40, then G303", hint "write a straight motion with G40 or after it";
         }

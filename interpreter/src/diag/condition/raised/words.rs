@@ -137,6 +137,7 @@ macro_rules! words {
     SlaveIsMainAxis = Vendor 20467: Error ProgramAbort 3 1, "slave of a coupling is a main axis", cause "#ENABLE AX LINK [1] after #SET AX LINK [1, Y=X]", hint "use a slave axis with the index 3 or above: #CALL AX [C,3,3] assigns such an index";
     CoupledTypes = Vendor 20468: Error ProgramAbort 3 1, "coupled axes of different types", cause "a linear axis and a rotary one", hint "couple axes of the same type (P-AXIS-00018)";
     CoupledModes = Vendor 20469: Error ProgramAbort 3 1, "coupled axes of different modes", cause "a modulo axis and an axis that is not modulo", hint "couple axes of the same mode (P-AXIS-00015)";
+    SlaveInManualMode = Vendor 20470: Error ProgramAbort 3 1, "coupling of a slave that is in manual mode", cause "G201 of the slave, then #ENABLE AX LINK", hint "end manual mode of the slave first: G202 #ACHSE[..]";
     CouplingGroupActive = Vendor 20472: Error ProgramAbort 3 1, "coupling group changed while it is switched on", cause "#SET AX LINK [1, ..] after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
     MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis after the =";
     SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "remove one of the two couplings";
@@ -180,9 +181,11 @@ macro_rules! words {
     MacroCommand = Vendor 20644: Error ProgramAbort 3 1, "other words beside a macro whose command must be alone in its block", cause "\"M\" G01 X10 with \"M\"=\"#FLUSH WAIT\"", hint "write the macro in a separate block";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
     FunctionInSystem = Vendor 20663: Error ProgramAbort 3 1, "G function not allowed in a coordinate system", cause "#CS ON, then G98 X-500", hint "write it before #CS ON or after #CS OFF";
+    FunctionInTransformation = Vendor 20664: Error ProgramAbort 3 1, "G function that is not allowed under a kinematic transformation", cause "#TRAFO ON, then G98 X-500", hint "write it before #TRAFO ON, or #TRAFO OFF before it";
     LengthWithCompensation = Vendor 20671: Error ProgramAbort 3 1, "tool length compensation selected while tool radius compensation is active", cause "#TLC ON between G41 or G42 and G40", hint "write #TLC ON before G41 or after G40";
     CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in a #CS command", hint "write #CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c] or #CS OFF [ALL]";
     SystemAngle = Vendor 20676: Error ProgramAbort 3 1, "angle of a coordinate system outside -360 to 360 deg", cause "#CS ON [0,0,0,0,0,450]", hint "subtract full turns from the angle";
+    ExchangeInTransformation = Vendor 20683: Error ProgramAbort 3 1, "axis exchange while a kinematic transformation is active", cause "#TRAFO ON and then #PUT AX [X]", hint "write #TRAFO OFF before it";
     ExchangeInSystem = Vendor 20684: Error ProgramAbort 3 1, "axis exchange while a coordinate system is active", cause "#CS ON [..] and then #PUT AX [X]", hint "write #CS OFF before it";
     DwellOtherAxes = Vendor 20685: Warning None 1 1, "G04 with additional axes", hint "write the time after the first main axis, the motion in a separate block";
     KinematicsWhileActive = Vendor 20687: Error ProgramAbort 3 1, "kinematics changed under an active transformation", cause "#KIN ID under #TRAFO ON", hint "write #TRAFO OFF before #KIN ID";
@@ -198,6 +201,7 @@ macro_rules! words {
     SplineParameter = Vendor 20746: Error ProgramAbort 3 1, "parameter of a spline outside the data format", cause "#AKIMA STARTVECTOR X1e30", hint "write the direction with smaller components";
     TimeRange = Vendor 20751: Error ProgramAbort 3 1, "time of #TIME out of range", hint "write the time in seconds";
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "write the time in seconds";
+    DurationWithoutSync = Vendor 20760: Warning None 1 2, "duration of a function that nothing waits for, set to 0", cause "m_prozess_zeit of a function whose synchronisation is MOS", hint "set the duration to 0, or choose another synchronisation", parameter "P-CHAN-00041";
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "remove one of the two";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "remove one of the two";
     MeasuringFunction = Vendor 20772: Error ProgramAbort 3 1, "G function does not fit the measuring type", cause "G106 without type 3", hint "select the type of the function with #MEAS MODE [3]", parameter "P-CHAN-00057";
@@ -207,6 +211,8 @@ macro_rules! words {
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis name in a command", hint "write the name of an axis of the channel";
     InsertionTooLarge = Vendor 20800: Error ProgramAbort 3 1, "size of a chamfer or rounding outside the data format", cause "G301 I94967296", hint "the limit of sizes is 214748.3647 mm";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
+    HomingOrder = Vendor 20816: Error ProgramAbort 3 1, "order of G74 outside the data format", cause "G74 X99999999999", hint "the numbers of G74 are the order of the axes: G74 X1 Y2";
+    PresetFunction = Vendor 20819: Warning None 1 2, "start value of a G group that is no G function, left out", cause "prog_start.g_gruppe[8].nr 77", hint "write a G function of the group, or -1", parameter "P-CHAN-00063";
     CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "store at most five systems, with numbers greater than 0";
     NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
     ActiveSystemDefined = Vendor 20825: Error ProgramAbort 3 1, "active coordinate system redefined", cause "#CS ON [1][..] while system 1 is active", hint "write #CS OFF before it, or use another number";
@@ -215,6 +221,7 @@ macro_rules! words {
     LabelTooLarge = Vendor 20838: Error ProgramAbort 3 1, "label number outside the data format", cause "$GOTO N99999999999", hint "use a label number up to 4294967295";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "$GOTO is not followed by a label", hint "write $GOTO N20 or $GOTO [NAME]";
     BlockNumberTwice = Vendor 20841: Error ProgramAbort 3 1, "block number twice in one block", cause "N100 N100: X1", hint "remove one of the two; N100: is both number and label";
+    LabelBlockNumber = Vendor 20842: Error ProgramAbort 3 1, "block number before a label outside the data format", cause "N99999999999 [LABEL] X2", hint "block numbers reach up to 4294967295";
     DwellTwice = Vendor 20844: Error ProgramAbort 3 1, "dwell time twice in one block", cause "G04 2 G04 3", hint "remove one of the two";
     OverrideSwitchTwice = Vendor 20846: Error ProgramAbort 3 1, "G166 twice in one block", hint "remove one of the two";
     ValueOutOfType = Vendor 20847: Error ProgramAbort 3 1, "value outside the range of its variable", cause "256 written to a UNS08", hint "declare the variable with a wider type, or check the value before it is written";
@@ -223,6 +230,7 @@ macro_rules! words {
     ToolIdFormat = Vendor 20863: Error ProgramAbort 3 1, "tool ID outside the data format", cause "#TOOL DATA [-1]", hint "write a whole number from 0 to 2147483647";
     ExistArgument = Vendor 20868: Error ProgramAbort 3 1, "EXIST without the name of a parameter or variable", hint "write EXIST[P1] or EXIST[V.P.NAME]";
     CommandAxisUnknown = Vendor 20875: Error ProgramAbort 3 1, "unknown axis in #FACE or #CYL", cause "#CYL [X, J] on a machine without a J axis", hint "name axes of the channel";
+    BehindCommandAxis = Vendor 20876: Error ProgramAbort 3 1, "text after the name of an axis in #CYL, #FACE or #CAX", cause "#FACE [X C]", hint "write commas between the axes: #FACE [X, C]";
     SpindleAxisComma = Vendor 20880: Error ProgramAbort 3 1, "comma missing in #CAX", cause "#CAX[S C]", hint "write #CAX[S,C]";
     TwoCAxes = Vendor 20885: Error ProgramAbort 3 1, "both axes of #FACE are C axes", cause "#FACE [C, B]", hint "name one linear axis", parameter "P-AXIS-00015";
     NoCAxis = Vendor 20886: Error ProgramAbort 3 1, "no C axis among the axes of #CYL or #FACE", cause "#CYL [Z, X, X60]", hint "set kenngr.achs_mode to 0x204 in the axis list of the C axis", parameter "P-AXIS-00015";
@@ -252,6 +260,7 @@ macro_rules! words {
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "use up to 4 dimensions";
     TwoDecelerations = Vendor 20977: Error ProgramAbort 3 1, "two of G09/G900/G901", hint "one of G09, G900, G901 per block";
+    LogicalTerm = Vendor 20978: Error ProgramAbort 3 1, "term of a logical operation outside the data format", cause "P1 = 99999999999 & 1", hint "logical operations take 32 bits: -2147483648 to 4294967295";
     RadiusArray = Vendor 20981: Error ProgramAbort 3 1, "array of R parameters", cause "#VAR R20[3] = [1,2,3]", hint "declare P or V.P variables: R is a radius";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before it";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "set the direction with M3 or M4, write REV and SPEED as positive values";

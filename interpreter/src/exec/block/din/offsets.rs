@@ -9,7 +9,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::report::Report;
-use crate::exec::values::number::LARGEST_MM;
+use crate::exec::values::number::{LARGEST_MM, whole};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
@@ -261,6 +261,14 @@ impl Decoder {
             let text = "G74 while a coupling group is switched on";
             return Err(Fault::new(Condition::HomingWithCouplings, text, g.span));
         }
+        // Assumption: 252647563 prints no limits; these are those of other orders (UNS16)
+        if let Some((_, order, at)) =
+            words.axes.iter().find(|(_, order, _)| whole(*order, 0, u32::from(u16::MAX)).is_none())
+        {
+            let text = format!("G74: the order {order} is none of the whole numbers 0 to 65535");
+            return Err(Fault::new(Condition::HomingOrder, text, *at)
+                .with(|d| d.value(ValueKind::Wrong, *order, "-")));
+        }
         // page 208164107
         if let Some(m) = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19 | 40..=45)) {
             let text = format!("M{:02} in the block of G74", m.number);
@@ -283,6 +291,10 @@ impl Decoder {
             let text =
                 format!("G{} in a coordinate system: the limits apply to axes", g.row.number);
             return Err(Fault::new(Condition::FunctionInSystem, text, g.span));
+        }
+        if self.geometry.transformation_on {
+            let text = format!("G{} under a kinematic transformation", g.row.number);
+            return Err(Fault::new(Condition::FunctionInTransformation, text, g.span));
         }
         for (i, (axis, value, span)) in words.axes.iter().enumerate() {
             let absolute = words.is_absolute(i, self.modal.absolute);

@@ -235,6 +235,15 @@ impl Builder<'_> {
             self.report(raw, at, digits, d);
             return;
         }
+        let (before, digits) = number_before(&raw.text[..at]);
+        if matches!(label, LabelKind::Name(_))
+            && before.parse().is_ok_and(|number: f64| number > LABEL_MAX as f64)
+        {
+            let text = format!("the block number before the label is above {LABEL_MAX}");
+            let d = Diagnostic::new(Condition::LabelBlockNumber, text);
+            self.report(raw, digits, before.len(), d);
+            return;
+        }
         if self.index.labels.get(section, &label).is_some() {
             let shown = match &label {
                 LabelKind::Number(n) => format!("N{n}:"),
@@ -396,4 +405,11 @@ pub(in crate::exec) fn build(
     builder.close(reader.position().offset);
     builder.decide_remarks();
     Ok((builder.index, builder.diagnostics))
+}
+
+/// The digits at the end of a text, and their position.
+fn number_before(text: &str) -> (&str, usize) {
+    let text = text.trim_ascii_end();
+    let at = text.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    (&text[at..], at)
 }

@@ -1,0 +1,7 @@
+; check: exit 1
+; error 22081 at 5:1
+V.G.WZ_AKT.R=1
+G42 G01 X10 F1000
+G303 I50 J50 K50 X100 Y0 Z100
+G40 G01 X0
+M30

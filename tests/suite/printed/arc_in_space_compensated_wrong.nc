@@ -1,0 +1,8 @@
+; check: exit 1
+; page 560182283 diagnosis 22081, wrong
+; error 22081 at 6:1
+N05 V.G.WZ_AKT.R=1
+N10 G42 G01 X2 Y2 F1000
+N50 G303 I50 J50 K50 X100 Y0 Z100
+N100 G40 G01 X0
+M30
