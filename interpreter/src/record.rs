@@ -96,11 +96,11 @@ pub enum Rest {
     ExactStop,
     /// The set positions of the axes have not arrived yet: `#FLUSH WAIT`, independent axes, a change of filters.
     Flush,
-    /// A thread waits until its spindle is at rest, or passes its mark.
+    /// A spindle that is waited for is not at rest, at the mark of a thread or at its position yet.
     Spindle,
-    /// End of the program: the axes are not in position yet.
+    /// End of the program: every axis has been moved to its target, but not every one is in position yet.
     Arrival,
-    /// Feedhold or override 0.
+    /// Feedhold or override 0, of the path or of the independent axes that it waits for.
     Held,
 }
 

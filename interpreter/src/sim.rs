@@ -206,7 +206,8 @@ impl Simulation {
 
     /// Results that are not part of any record; complete when there are no more cycles.
     pub(crate) fn totals(&self) -> Totals {
-        let (blocks, ideal_duration_s) = self.progress.up_to(self.record.path.s_mm);
+        let (blocks, ideal_duration_s) =
+            self.progress.up_to(self.record.path.s_mm, &self.smoothing.changed);
         Totals { blocks, ideal_duration_s, ..self.totals.clone() }
     }
 
@@ -291,7 +292,7 @@ impl Simulation {
                         self.never_arrives(chain, lacks);
                         return false;
                     }
-                    wait.count();
+                    wait.begin_cycle(parts, k);
                     self.planner.hold(SpeedLimit::Stop);
                     break;
                 }

@@ -89,6 +89,44 @@ fn a_file_that_the_check_did_not_see() {
     assert!(!stops.contains("\"file\":\"\""), "{stops}");
 }
 
+/// Path / feed, also where curves and splines shorten the path, and wherever a run is stopped.
+#[test]
+fn the_ideal_time_is_that_of_the_path() {
+    let corners = "G01 X10 F600\nY10\nX0\nY0";
+    for text in [
+        format!("{corners}\nM30\n"),
+        format!("#CONTOUR MODE [DIST PRE_DIST=4 POST_DIST=4]\nG261\n{corners}\nG260\nM30\n"),
+        format!("#HSC ON [BSPLINE PATH_DEV=0.5]\n{corners}\n#HSC OFF\n{corners}\nM30\n"),
+        format!("G02 X5 Y5 R5 F600\n{corners}\nM30\n"),
+    ] {
+        for limit in ["0.7", "1.234", "2.9", "100"] {
+            let folder = Folder::new(&[("part.nc", &text)]);
+            let part = folder.path("part.nc");
+            let done = command(["run", &part, "--summary", "json", "--max-time", limit]);
+            let summary: Value = serde_json::from_str(&done.out).unwrap();
+            let path_mm = summary["path_length_mm"].as_f64().unwrap();
+            near(&summary["ideal_duration_s"], path_mm / 10.0, 1e-6);
+        }
+    }
+}
+
+/// The program waits for the position controllers only after the last motion of any axis or spindle; until then it
+/// waits for that motion, which a feedhold can hold.
+#[test]
+fn arrival_begins_after_the_last_motion() {
+    let summary = |text: &str| Folder::new(&[("part.nc", text)]).summary(&[]);
+    let alone = summary("G01 Y10 F600\nM30\n")["arrival_s"].as_f64().unwrap();
+    let axis = "Y[INDP_ASYN G90 G01 FEED=600 POS=10]\nG01 X1 F3000\nM30\n";
+    near(&summary(axis)["arrival_s"], alone, 2e-3);
+    let spindle = "S[M19 POS=90 REV100]\nG01 X1 F600\nM30\n";
+    assert!(summary(spindle)["arrival_s"].as_f64().unwrap() < alone + 2e-3);
+    let folder = Folder::new(&[("part.nc", axis), ("hold.csv", "t_s,feedhold\n0.3,1\n0.6,0\n")]);
+    let held = folder.summary(&["--input", &folder.path("hold.csv")]);
+    near(&held["arrival_s"], alone, 2e-3);
+    // from the hold to the release, without the braking
+    near(&held["held_s"], 0.3, 0.05);
+}
+
 /// G04 is a dwell, not a stop; the ideal time includes the rapid blocks: 60 m/min on `xyz`.
 #[test]
 fn dwells_and_rapids() {

@@ -330,7 +330,7 @@ fn the_tip_names_the_span_of_a_bucket() {
     let page = look(&browser, &["N10 G00 Y10\nN20 G01 X10 F60\nN30 G00 Y0\nN40 M30\n"], &[]);
     let tip = page["tip"].as_str().unwrap();
     let numbers: Vec<f64> = tip.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-    assert!(tip.starts_with("t = ") && tip.contains("positions in their middle"), "{tip}");
+    assert!(tip.starts_with("t = ") && tip.contains("positions at the midpoint"), "{tip}");
     let [from, to] = [numbers[0], numbers[1]];
     let cycles = page["cycles"][0].as_f64().unwrap() / page["buckets"][0].as_f64().unwrap();
     assert!(

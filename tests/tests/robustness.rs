@@ -136,7 +136,7 @@ fn amplitudes_that_cannot_be() {
     };
     let above = sweep("X_lag_mm@600..700");
     assert_eq!(above.exit, Exit::Usage);
-    assert!(above.err.contains("shows up to 500 Hz"), "{}", above.err);
+    assert!(above.err.contains("allows frequencies up to 500 Hz"), "{}", above.err);
     let late = sweep("X_lag_mm@1..2@5..6");
     assert_eq!(late.exit, Exit::Finished);
     assert!(

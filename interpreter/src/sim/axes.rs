@@ -57,7 +57,8 @@ impl Simulation {
     pub(super) fn enter_blocks(&mut self, seq: u64, s_mm: f64, k: u64) {
         while self.underway.front().is_some_and(|u| u.seq <= seq) {
             if let Some(block) = self.underway.pop_front() {
-                self.progress.begin(block.programmed, s_mm);
+                let changed = &mut self.smoothing.changed;
+                self.progress.begin(block.programmed, s_mm, changed);
                 self.current = block.source;
                 self.motion = block.motion;
                 for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {

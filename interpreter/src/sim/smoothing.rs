@@ -1,5 +1,6 @@
 //! Between program and planner: short blocks become splines, corners become curves.
 
+use super::totals::Changed;
 use crate::diag::Condition;
 use crate::exec::SourceRef;
 use kontur_filters::time::CycleTime;
@@ -16,13 +17,15 @@ pub(super) struct Smoothing {
     contouring: Contouring,
     /// Places already reported: condition, file, line.
     said: BTreeSet<(Condition, u32, u32)>,
+    /// The motions that did not pass unchanged.
+    pub(super) changed: Changed,
 }
 
 impl Smoothing {
     /// Empty stages.
     pub(super) fn new(cycle: CycleTime) -> Self {
         let (splining, contouring) = (Splining::new(cycle), Contouring::new(cycle));
-        Self { splining, contouring, said: BTreeSet::new() }
+        Self { splining, contouring, said: BTreeSet::new(), changed: Changed::default() }
     }
 
     /// Takes a programmed motion; final blocks go to the planner.
@@ -31,8 +34,10 @@ impl Smoothing {
             planner.push(block);
             return;
         }
+        self.changed.begin(block.seq);
         for block in self.splining.push(*block, planner.has_kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
+                self.changed.add(&block);
                 planner.push(block);
             }
         }
@@ -42,10 +47,12 @@ impl Smoothing {
     pub(super) fn flush(&mut self, planner: &mut Planner) {
         for block in self.splining.flush(planner.has_kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
+                self.changed.add(&block);
                 planner.push(block);
             }
         }
         for block in self.contouring.flush() {
+            self.changed.add(&block);
             planner.push(block);
         }
     }

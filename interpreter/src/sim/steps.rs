@@ -72,7 +72,7 @@ impl Simulation {
             self.pull();
             return;
         };
-        self.progress.complete(self.executor.blocks());
+        self.progress.complete(self.executor.blocks(), &mut self.smoothing.changed);
         self.waits_at = source;
         let k = self.planner.setpoint().k;
         for event in events {

@@ -5,7 +5,7 @@ use crate::exec::{Event, ShapingSettings, ShapingSetup, SourceRef};
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{Block, Feed};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 /// An exact stop of one axis that reached its window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +49,8 @@ impl Stops {
 /// A programmed motion, with the values that count towards the totals.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Programmed {
+    /// Number of its block; `None`: no motion.
+    seq: Option<u64>,
     length_mm: f64,
     ideal_s: f64,
     /// Blocks of the program up to it.
@@ -65,7 +67,48 @@ impl Programmed {
             Feed::Rapid => slowest_s(block, |axis| axis.v_rapid_mm_s),
             Feed::ShareOfMaximum(share) => slowest_s(block, |axis| share * axis.v_max_mm_s),
         };
-        Self { length_mm, ideal_s, blocks }
+        Self { seq: Some(block.seq), length_mm, ideal_s, blocks }
+    }
+}
+
+/// What becomes of motions that are changed between program and planner: curves are shorter than their corners.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Changed {
+    /// Sums over the parts of each motion, in order; zero if nothing is left of it.
+    motions: VecDeque<Programmed>,
+}
+
+impl Changed {
+    /// A motion that may be changed.
+    pub(super) fn begin(&mut self, seq: u64) {
+        self.motions.push_back(Programmed { seq: Some(seq), ..Programmed::default() });
+    }
+
+    /// A part that goes to the planner.
+    pub(super) fn add(&mut self, part: &Block) {
+        let Programmed { seq, length_mm, ideal_s, .. } = Programmed::new(part, 0);
+        let last = self.motions.iter_mut().rev().find(|motion| motion.seq == seq);
+        if let Some(motion) = last {
+            motion.length_mm += length_mm;
+            motion.ideal_s += ideal_s;
+        }
+    }
+
+    /// The motion as it is driven; earlier ones are dropped.
+    fn driven(&mut self, motion: Programmed) -> Programmed {
+        while self.motions.front().is_some_and(|first| first.seq < motion.seq) {
+            self.motions.pop_front();
+        }
+        self.as_driven(motion)
+    }
+
+    fn as_driven(&self, motion: Programmed) -> Programmed {
+        match self.motions.front().filter(|first| first.seq == motion.seq) {
+            Some(Programmed { length_mm, ideal_s, .. }) => {
+                Programmed { length_mm: *length_mm, ideal_s: *ideal_s, ..motion }
+            }
+            None => motion,
+        }
     }
 }
 
@@ -83,21 +126,23 @@ pub(super) struct Progress {
 impl Progress {
     /// Begins a motion after the cycle with a path length; earlier ones are complete. A motion that continues another
     /// one begins at its end, within the next cycle.
-    pub(super) fn begin(&mut self, motion: Programmed, s_mm: f64) {
-        self.from_mm = s_mm.max(self.from_mm + self.current.length_mm);
-        self.complete(self.current.blocks);
+    pub(super) fn begin(&mut self, motion: Programmed, s_mm: f64, changed: &mut Changed) {
+        let before = changed.driven(self.current);
+        self.from_mm = s_mm.max(self.from_mm + before.length_mm);
+        self.complete(self.current.blocks, changed);
         self.current = motion;
     }
 
     /// Marks this number of blocks of the program as executed.
-    pub(super) fn complete(&mut self, blocks: u64) {
-        self.done_s += self.current.ideal_s;
+    pub(super) fn complete(&mut self, blocks: u64, changed: &mut Changed) {
+        self.done_s += changed.driven(self.current).ideal_s;
         self.current = Programmed { blocks, ..Programmed::default() };
     }
 
     /// Blocks, and the ideal time in s, up to a path length.
-    pub(super) fn up_to(&self, s_mm: f64) -> (u64, f64) {
+    pub(super) fn up_to(&self, s_mm: f64, changed: &Changed) -> (u64, f64) {
         let Self { done_s, current, from_mm } = self;
+        let current = changed.as_driven(*current);
         let share = (s_mm - from_mm) / current.length_mm;
         let part_s = if share > 0.0 { current.ideal_s * share.min(1.0) } else { 0.0 };
         (current.blocks, done_s + part_s)

@@ -73,6 +73,8 @@ pub(super) struct Wait {
     until: Until,
     action: Action,
     patience: Patience,
+    /// The reason why the path rests in the cycle that has been begun.
+    rest: Rest,
 }
 
 /// The mark of a spindle at which a thread begins.
@@ -110,34 +112,32 @@ impl Wait {
             }
             Sync::MachineData { .. } => (Until::Flushed, Action::MachineData),
         };
-        Self { until, action, patience: Patience::default() }
+        Self::new(until, action)
+    }
+
+    fn new(until: Until, action: Action) -> Self {
+        Self { until, action, patience: Patience::default(), rest: Rest::Flush }
     }
 
     /// One cycle of rest, so that the trace shows the change even where the program ends.
     pub(super) fn for_a_cycle() -> Self {
-        let until = Until::Cycles(1, Rest::Flush);
-        Self { until, action: Action::None, patience: Patience::default() }
+        Self::new(Until::Cycles(1, Rest::Flush), Action::None)
     }
 
     /// Wait at a halt of the path until the axes are in their windows.
     pub(super) fn for_halt() -> Self {
-        Self {
-            until: Until::InPosition { alone: false },
-            action: Action::Halted,
-            patience: Patience::default(),
-        }
+        Self::new(Until::InPosition { alone: false }, Action::Halted)
     }
 
     /// Wait for the duration in s of the function called at a halt.
     pub(super) fn before_resuming(seconds: f64, cycle: CycleTime) -> Self {
         let until = Until::Cycles((seconds / cycle.seconds()).round() as u64, Rest::Technology);
-        Self { until, action: Action::Resume, patience: Patience::default() }
+        Self::new(until, Action::Resume)
     }
 
     /// Wait at the end of the program until every axis has arrived.
     pub(super) fn for_end(reason: EndReason) -> Self {
-        let action = Action::End(reason);
-        Self { until: Until::AllInPosition, action, patience: Patience::default() }
+        Self::new(Until::AllInPosition, Action::End(reason))
     }
 
     /// Ends the oscillations of the axes it waits for; returns those for which neither the program nor its end requires
@@ -277,21 +277,34 @@ impl Wait {
         }
     }
 
-    /// The reason why the path rests.
-    pub(super) fn rest(&self) -> Rest {
+    /// The reason why the path rests in the cycle that has been begun.
+    pub(super) const fn rest(&self) -> Rest {
+        self.rest
+    }
+
+    /// Begins the cycle after cycle `k`.
+    pub(super) fn begin_cycle(&mut self, parts: Parts<'_>, k: u64) {
+        self.rest = self.reason(parts, k);
+        if let Until::Cycles(n, _) = &mut self.until {
+            *n = n.saturating_sub(1);
+        }
+    }
+
+    /// While an independent axis or a spindle is still on its way to a position, no position controller is waited for.
+    fn reason(&self, parts: Parts<'_>, k: u64) -> Rest {
+        if self.is_held(parts.independent, k) {
+            return Rest::Held;
+        }
         match self.until {
             Until::Cycles(_, rest) => rest,
             Until::Spindle(..) => Rest::Spindle,
             Until::Now | Until::Flushed | Until::Arrived(_) => Rest::Flush,
+            Until::InPosition { .. } | Until::AllInPosition if self.under_way(parts) => {
+                let axes = parts.independent.any_moving();
+                if axes { Rest::Flush } else { Rest::Spindle }
+            }
             Until::AllInPosition if matches!(self.action, Action::End(_)) => Rest::Arrival,
             Until::InPosition { .. } | Until::AllInPosition => Rest::ExactStop,
-        }
-    }
-
-    /// Counts one cycle.
-    pub(super) fn count(&mut self) {
-        if let Until::Cycles(n, _) = &mut self.until {
-            *n = n.saturating_sub(1);
         }
     }
 

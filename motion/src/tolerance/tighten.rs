@@ -3,7 +3,7 @@
 use super::Trial;
 use super::demands::{Demands, hurry, turns};
 use super::findings::Findings;
-use super::view::View;
+use super::view::{Mark, View};
 use crate::axis::AxisVec;
 use crate::overshoot::gentle;
 use crate::queue::{Queued, Stretch};
@@ -46,18 +46,20 @@ impl View<'_> {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
         let mut soften = vec![None; demands.feed.len()];
-        for mark in marks {
+        for (m, mark) in marks.iter().enumerate() {
             let Some(b) = mark.boundary else { continue };
             let excess = findings.corner[b];
             if excess <= 0.0 {
                 continue;
             }
+            let own = |mark: &Mark| mark.queued.block.tolerance.ax_dev_mm;
+            let before = m.checked_sub(1).and_then(|before| own(&marks[before]));
+            let tolerance = own(mark).or(before).unwrap_or(0.0);
             let swings = trial.kernels.overshoot
                 && demands.stop[b]
                     .is_some_and(|dwell| dwell == full || !self.rest_at(mark, dwell).keeps(full));
             if swings {
                 // the remaining excess is the overshoot of the stop itself
-                let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
                 if b > 0 {
                     note(&mut soften[b - 1], excess, tolerance);
                 }
@@ -91,10 +93,10 @@ impl View<'_> {
             let stays = demands.tried[b].is_some_and(|e| excess > WITHOUT_EFFECT * e);
             demands.repeats[b] = if stays { demands.repeats[b] + 1 } else { 0 };
             demands.tried[b] = Some(excess);
-            let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
             let step = (excess + AIM * tolerance) / slope;
             let lowered = now - step * f64::from(hurry(demands.repeats[b]));
-            if lowered > 0.03 * now {
+            // at a harmless speed the accelerations next to the corner are the cause
+            if lowered > (0.03 * now).max(harmless(trial, tolerance)) {
                 demands.cap[b] = demands.cap[b].min(lowered);
             } else {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(0));

@@ -39,7 +39,10 @@ fn a_value_that_the_program_sets_itself_is_told() {
     let own = format!("#VIB GUARD ON [MODE=1 FREQ=30]\n{SQUARE}");
     let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
     assert_eq!(rows[0][1..], rows[1][1..]);
-    assert!(err.contains("*.vib_guard.freq: every value gives the same in these columns"), "{err}");
+    assert!(
+        err.contains("*.vib_guard.freq: all values give the same results in these columns"),
+        "{err}"
+    );
     // in every row as well
     assert!(rows.iter().all(|row| row.last().unwrap() == "*.vib_guard.freq"), "{rows:?}");
 }
@@ -70,7 +73,7 @@ fn numbers_in_a_program_vary() {
 fn values_of_a_program_vary() {
     let with = |value: &str| format!("#VIB GUARD ON [MODE=1 FREQ={value}]\n{SQUARE}");
     let (rows, err) = sweep(&with("V.E.HZ"), &["V.E.HZ=20,40"]);
-    assert!(!err.contains("every value"), "{err}");
+    assert!(!err.contains("all values"), "{err}");
     for (row, hz) in rows.iter().zip(["20", "40"]) {
         let (fixed, _) = sweep(&with(hz), &["X.vib_guard.freq=33"]);
         assert_eq!(row[1..], fixed[0][1..]);
@@ -105,12 +108,13 @@ fn shards_together_are_the_sweep() {
                 _ => &["*.vib_guard.freq", "V.E.A"],
             };
             for key in expected {
-                let said =
-                    format!("{key}: in this part every value gives the same in these columns");
+                let said = format!(
+                    "{key}: in this part all values give the same results in these columns"
+                );
                 assert!(done.err.contains(&said), "{}", done.err);
             }
             let noted = part.lines().all(|row| row.ends_with(&format!(",{}", expected.join(" "))));
-            assert!(noted && expected.is_empty() != done.err.contains("every value"), "{part}");
+            assert!(noted && expected.is_empty() != done.err.contains("all values"), "{part}");
             all[i] = part.to_owned();
         }
         assert_eq!(known(&all.concat()), known(rows), "{parts} parts");
