@@ -48,7 +48,7 @@ pub struct Args {
 pub enum Command {
     /// Run a program: setpoints per axis and cycle, and a summary.
     Run(RunArgs),
-    /// Parse and decode programs without motion; shows all diagnostics.
+    /// Parse and decode programs without motion; shows all diagnostics, up to 20 errors.
     Check(CheckArgs),
     /// Compare two traces, or a trace and a fresh run; exit code 1 if they differ.
     Diff(DiffArgs),

@@ -13,12 +13,21 @@ use crate::args::ExplainArgs;
 use crate::console::Console;
 use crate::{Error, Exit};
 
-/// Explains the term formed by the words (`#VIB GUARD` is two words in a shell).
+/// Explains every word or, if none of them is known by itself, the term formed by all of them: `#VIB GUARD` is two
+/// words in a shell.
 ///
 /// # Errors
-/// [`Error::Usage`] if it is unknown, with similar words.
+/// [`Error::Usage`] if one is unknown, with similar words.
 pub fn explain(args: &ExplainArgs, console: &mut Console) -> Result<Exit, Error> {
-    console.print(&text(&args.thing.join(" "))?)?;
+    let term = args.thing.join(" ");
+    let is_command = term.starts_with(['#', '$']);
+    let pages: Vec<_> = args.thing.iter().map(|word| text(word)).collect();
+    if is_command || pages.iter().all(Result::is_err) {
+        console.print(&text(&term)?)?;
+        return Ok(Exit::Finished);
+    }
+    let pages = pages.into_iter().collect::<Result<Vec<_>, _>>()?;
+    console.print(&pages.join("\n"))?;
     Ok(Exit::Finished)
 }
 

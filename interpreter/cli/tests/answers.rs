@@ -11,6 +11,14 @@ fn explain_knows_ids_and_commands() {
     assert!(out.contains("70082") && out.contains("class 5"), "{out}");
     let (exit, out, _) = f.call(&["explain", "#VIB", "GUARD"]);
     assert_eq!((exit, out.contains("AX_DEV")), (Exit::Finished, true), "{out}");
+    // a page for each word, or none
+    let (exit, out, _) = f.call(&["explain", "22060", "P-AXIS-00013", "G1"]);
+    assert_eq!(exit, Exit::Finished);
+    let pages = [&["22060"][..], &["P-AXIS-00013"], &["G1"]];
+    let pages = pages.map(|word| f.call(&[&["explain"][..], word].concat()).1);
+    assert_eq!(out, pages.join("\n"));
+    let (exit, out, err) = f.call(&["explain", "G1", "zzz"]);
+    assert!(exit == Exit::Usage && out.is_empty() && err.contains("`zzz`"), "{err}");
     let (exit, _, err) = f.call(&["explain", "#VIB GARD"]);
     assert_eq!(exit, Exit::Usage);
     assert!(err.contains("did you mean #VIB GUARD"), "{err}");

@@ -81,7 +81,9 @@ impl FromStr for Shard {
         });
         let valid = |shard: &Self| (1..=shard.parts).contains(&shard.part);
         numbers.filter(valid).ok_or_else(|| {
-            format!("`{text}`: two whole numbers are expected, e.g. 3/20 for the third of 20 parts")
+            format!(
+                "`{text}`: write PART/PARTS with a part from 1 to the number of parts, e.g. 3/20"
+            )
         })
     }
 }
