@@ -103,7 +103,7 @@ impl Changed {
     }
 
     fn as_driven(&self, motion: Programmed) -> Programmed {
-        match self.motions.front().filter(|first| first.seq == motion.seq) {
+        match self.motions.iter().find(|changed| changed.seq == motion.seq) {
             Some(Programmed { length_mm, ideal_s, .. }) => {
                 Programmed { length_mm: *length_mm, ideal_s: *ideal_s, ..motion }
             }
