@@ -72,7 +72,9 @@ def test_what_makes_no_difference_is_named(command, small_chunks):
     keys = ["X.vib_guard.freq", "X,Y.getriebe[0].kv"]
     words = [f"--vary={key}={values}" for key, values in zip(keys, ["20,30", "2000,3000"])]
     said = command("sweep", SQUARE, *words)
-    with pytest.warns(UserWarning, match="all values give the same results in these columns") as warned:
+    with pytest.warns(
+        UserWarning, match="all values give the same results in these columns"
+    ) as warned:
         table = kontur.sweep(SQUARE, dict(zip(keys, [[20, 30], [2000, 3000]])))
     assert [str(w.message) for w in warned] == [
         line.removeprefix("note: ") for line in said.stderr.splitlines() if "all values" in line
