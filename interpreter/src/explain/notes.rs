@@ -32,7 +32,7 @@ const NOTES: &[Note] = &[
     Note("P-AXIS-00357", "PT1 and PT2: at least one cycle; TIME_DELAY: below 6 cycles; HSC: one to 200 cycles. LOWPASS, HIGHPASS, BANDPASS, BANDSTOP and ALLPASS do not use it. Outside: 50663", "5000", &["50663", "P-AXIS-00204"]),
     Note("P-AXIS-00389", "acts on the additive velocity (ADD_VEL) only", "1500", &["P-AXIS-00223", "70349", "K-0075"]),
     Note("P-AXIS-00390", "acts on the additive acceleration (ADD_ACC) only", "1500", &["P-AXIS-00223", "70348", "K-0075"]),
-    Note("P-AXIS-00391", "a value a thousand times too large is usually kg cm2 entered as kg m2 (K-0024)", "0.000048", &["P-AXIS-00392", "K-0024"]),
+    Note("P-AXIS-00391", "a value ten thousand times too large is usually kg cm2 entered as kg m2 (K-0024)", "0.000048", &["P-AXIS-00392", "K-0024"]),
     Note("P-AXIS-00392", "0 gives no torque output", "0.45", &["P-AXIS-00325", "P-AXIS-00326"]),
     Note("P-AXIS-00395", "with 0 a speed command is always output; at most the exact-stop window (110528); only effective with position control in the CNC", "20", &["P-AXIS-00236", "P-AXIS-00320", "110528"]),
     Note("P-AXIS-00440", "raise it if a band-stop filter overshoots", "", &["50118", "P-AXIS-00439"]),
