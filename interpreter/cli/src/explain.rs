@@ -13,22 +13,28 @@ use crate::args::ExplainArgs;
 use crate::console::Console;
 use crate::{Error, Exit};
 
-/// Explains every word or, if none of them is known by itself, the term formed by all of them: `#VIB GUARD` is two
-/// words in a shell.
+/// Explains the term formed by the words (`#VIB GUARD` and `L CYCLE` are two words in a shell) or, if there is no such
+/// term, every word.
 ///
 /// # Errors
-/// [`Error::Usage`] if one is unknown, with similar words.
+/// [`Error::Usage`] if it, or one of the words, is unknown, with similar words.
 pub fn explain(args: &ExplainArgs, console: &mut Console) -> Result<Exit, Error> {
     let term = args.thing.join(" ");
-    let is_command = term.starts_with(['#', '$']);
+    let whole = text(&term);
     let pages: Vec<_> = args.thing.iter().map(|word| text(word)).collect();
-    if is_command || pages.iter().all(Result::is_err) {
-        console.print(&text(&term)?)?;
-        return Ok(Exit::Finished);
-    }
-    let pages = pages.into_iter().collect::<Result<Vec<_>, _>>()?;
-    console.print(&pages.join("\n"))?;
+    let is_term = term.starts_with(['#', '$'])
+        || pages.iter().all(Result::is_err)
+        || whole.as_ref().is_ok_and(|page| is_title(page, &term));
+    let page =
+        if is_term { whole? } else { pages.into_iter().collect::<Result<Vec<_>, _>>()?.join("\n") };
+    console.print(&page)?;
     Ok(Exit::Finished)
+}
+
+/// Whether the first line of a page, a list of names, contains a term: the page of `G1` answers `G1 X10`, too.
+fn is_title(page: &str, term: &str) -> bool {
+    let names = page.lines().next().unwrap_or_default().split(", ");
+    names.into_iter().any(|name| name.eq_ignore_ascii_case(term))
 }
 
 /// The explanation of a term.

@@ -11,6 +11,10 @@ fn explain_knows_ids_and_commands() {
     assert!(out.contains("70082") && out.contains("class 5"), "{out}");
     let (exit, out, _) = f.call(&["explain", "#VIB", "GUARD"]);
     assert_eq!((exit, out.contains("AX_DEV")), (Exit::Finished, true), "{out}");
+    for term in [&["L", "CYCLE"][..], &["L", "SEQUENCE"], &["#SLOPE", "[TYPE=HSC]"]] {
+        let (exit, out, _) = f.call(&[&["explain"][..], term].concat());
+        assert!(exit == Exit::Finished && out.contains(term[0]), "{term:?}: {out}");
+    }
     // a page for each word, or none
     let (exit, out, _) = f.call(&["explain", "22060", "P-AXIS-00013", "G1"]);
     assert_eq!(exit, Exit::Finished);

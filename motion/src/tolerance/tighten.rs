@@ -3,7 +3,7 @@
 use super::Trial;
 use super::demands::{Demands, hurry, turns};
 use super::findings::Findings;
-use super::view::{Mark, View};
+use super::view::View;
 use crate::axis::AxisVec;
 use crate::overshoot::gentle;
 use crate::queue::{Queued, Stretch};
@@ -52,9 +52,10 @@ impl View<'_> {
             if excess <= 0.0 {
                 continue;
             }
-            let own = |mark: &Mark| mark.queued.block.tolerance.ax_dev_mm;
-            let before = m.checked_sub(1).and_then(|before| own(&marks[before]));
-            let tolerance = own(mark).or(before).unwrap_or(0.0);
+            let before = m.checked_sub(1).map(|before| &marks[before]);
+            let tolerances = [Some(mark), before].into_iter().flatten();
+            let tolerances = tolerances.filter_map(|mark| mark.queued.block.tolerance.ax_dev_mm);
+            let tolerance = tolerances.min_by(f64::total_cmp).unwrap_or(0.0);
             let swings = trial.kernels.overshoot
                 && demands.stop[b]
                     .is_some_and(|dwell| dwell == full || !self.rest_at(mark, dwell).keeps(full));

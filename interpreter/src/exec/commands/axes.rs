@@ -105,14 +105,7 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
 
 /// `#SET AX [name, number, index, options]..`: replaces the set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    let axes = 0..decoder.machine.axes.len();
-    decoder.motion.couplings.moves_no_coupled(
-        axes,
-        &decoder.machine,
-        Condition::CoupledAxisSorted,
-        call.span(),
-    )?;
-    exchange(decoder, call.span())?;
+    exchange_all(decoder, call.span())?;
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
@@ -126,14 +119,7 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    let axes = 0..decoder.machine.axes.len();
-    decoder.motion.couplings.moves_no_coupled(
-        axes,
-        &decoder.machine,
-        Condition::CoupledAxisSorted,
-        call.span(),
-    )?;
-    exchange(decoder, call.span())?;
+    exchange_all(decoder, call.span())?;
     match call.rest {
         [word] if word.is("DEFAULT") => {
             full_feedforward_of_all(decoder);
@@ -200,6 +186,14 @@ fn exchanged(decoder: &mut Decoder) {
     if !decoder.motion.feed_axes_named {
         default_feed_group(decoder);
     }
+}
+
+/// As [`exchange`], for a command that arranges all axes anew: none of them may be coupled (21312).
+fn exchange_all(decoder: &mut Decoder, span: Span) -> Outcome<()> {
+    let axes = 0..decoder.machine.axes.len();
+    let condition = Condition::CoupledAxisSorted;
+    decoder.motion.couplings.moves_no_coupled(axes, &decoder.machine, condition, span)?;
+    exchange(decoder, span)
 }
 
 /// The path stops; a Vibration Guard of the program is switched off.

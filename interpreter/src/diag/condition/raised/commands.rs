@@ -17,7 +17,7 @@ macro_rules! commands {
     SignalParameterTwice = Vendor 21059: Error ProgramAbort 3 1, "signal parameter given twice", cause "#SIGNAL [ID=44 P[0]=200 P[0]=944]", hint "remove one of the two, or raise the index";
     IndependentRedundant = Vendor 21067: Error ProgramAbort 3 1, "word repeated in the bracket of an independent axis", cause "Z[INDP_SYN POS50 POS40 G01 FEED100 G90]", hint "remove one of the two";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax error in the bracket of an independent axis";
-    IndependentInTransformation = Vendor 21071: Error ProgramAbort 3 1, "independent axis that takes part in an active transformation", cause "X[INDP_SYN ..] under #CS ON or #TRAFO ON", hint "switch the system or the transformation off before it";
+    IndependentInTransformation = Vendor 21071: Error ProgramAbort 3 1, "independent axis takes part in an active transformation", cause "X[INDP_SYN ..] under #CS ON or #TRAFO ON", hint "switch the system or the transformation off before it";
     CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of the coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two nonzero numbers: [Y=X, -1, 1] mirrors";
     IdentKeyTwice = Vendor 21089: Error ProgramAbort 3 1, "key of #IDENT given twice", cause "#IDENT WR [AX=X AX=Y ..]", hint "remove one of the two";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of the coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
@@ -72,7 +72,7 @@ macro_rules! commands {
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "remove G05";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
     SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "selection mode changed while G238 is in effect", cause "G139 between G41 and G40", hint "write G40 first";
-    CollisionKeyTwice = Vendor 21338: Error ProgramAbort 3 1, "key of #COLL twice", hint "leave one of the two out";
+    CollisionKeyTwice = Vendor 21338: Error ProgramAbort 3 1, "key of #COLL given twice", hint "remove one of the two";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "remove SYN: parameters can only be read without synchronisation";
     HeightKeyTwice = Vendor 21349: Error ProgramAbort 3 1, "key of #TGC given twice", cause "#TGC ON [OPMODE=1 OPMODE=2]", hint "remove one of the two";
     AreaAxis = Vendor 21363: Error ProgramAbort 3 1, "axis not allowed in the contour of a control area", cause "Z in G17", hint "the contour lies in the first two main axes of the plane, MIN_EXCUR and MAX_EXCUR bound the third";
@@ -141,9 +141,9 @@ macro_rules! commands {
     NegativeLimitTooHigh = Vendor 21649: Error ProgramAbort 3 1, "negative software limit not below the positive one", cause "G98 X600 with the positive limit 500", hint "raise the positive limit first, with G99";
     PositiveLimitAboveList = Vendor 21650: Warning None 1 1, "positive software limit above the limit of the axis list, limited", cause "G99 with P-CHAN-00498 = 1", hint "P-AXIS-00178 is the highest limit allowed", parameter "P-CHAN-00498";
     SkipLevelRange = Vendor 21655: Error ProgramAbort 3 1, "block skip level outside 1 to 10", cause "/11 X1", hint "use a level from 1 to 10; / alone means level 1";
-    BracketTwice = Vendor 21692: Error ProgramAbort 3 1, "opening bracket twice in a command", cause "#TIMER START [[ID=1]]", hint "leave one of the two out";
+    BracketTwice = Vendor 21692: Error ProgramAbort 3 1, "opening bracket twice in a command", cause "#TIMER START [[ID=1]]", hint "remove one of the two";
     SequenceTwice = Vendor 21696: Error ProgramAbort 3 1, "key of L SEQUENCE given twice, or keys that exclude each other", cause "L SEQUENCE [N10 N20 N30]", hint "L SEQUENCE [NAME=.. N10 N50]";
-    MessageWordTwice = Vendor 21710: Error ProgramAbort 3 1, "word of #MSG twice", cause "#MSG SYN SYN [\"text\"]", hint "leave one of the two out";
+    MessageWordTwice = Vendor 21710: Error ProgramAbort 3 1, "word of #MSG given twice", cause "#MSG SYN SYN [\"text\"]", hint "remove one of the two";
     InsertionsOff = Vendor 21718: Error ProgramAbort 3 1, "chamfer or rounding programmed although the channel list disables them", cause "disable_chamfers_roundings 1", hint "set P-CHAN-00273 to 0", parameter "P-CHAN-00273";
     OptionalOpen = Vendor 21719: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION ON without OFF before the end of its program", hint "write #OPTIONAL EXECUTION OFF before the end";
     OptionalNotOpen = Vendor 21720: Error ProgramAbort 3 1, "#OPTIONAL EXECUTION OFF without ON on the same program level", hint "write ON and OFF in the same program";
@@ -180,7 +180,7 @@ macro_rules! commands {
     GuardMode = Vendor 22062: Error ProgramAbort 3 1, "Vibration Guard mode not allowed", cause "MODE outside 1…4", hint "write a mode from 1 to 4";
     FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "use the keys HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
     SpaceArcWithCompensation = Vendor 22081: Error ProgramAbort 3 1, "arc in space with tool radius compensation", cause "G303 between G41 and G40", hint "write G40 and a straight motion before it";
-    MillingContourKeyTwice = Vendor 22102: Error ProgramAbort 3 1, "key of #MILLCONT twice", cause "#MILLCONT CALC [ID=1 ID=2]", hint "leave one of the two out";
+    MillingContourKeyTwice = Vendor 22102: Error ProgramAbort 3 1, "key of #MILLCONT given twice", cause "#MILLCONT CALC [ID=1 ID=2]", hint "remove one of the two";
     LoopInSpline = Vendor 22128: Error ProgramAbort 3 1, "#RT WHILE in a spline", cause "G151 before it", hint "write G150 before #RT WHILE";
     LoopEndInSpline = Vendor 22129: Error ProgramAbort 3 1, "#RT ENDWHILE in a spline", cause "G151 before it", hint "write G150 before #RT ENDWHILE";
     CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "invalid character in an implicit call", cause "G80 [..]", hint "separate the values with commas: G80 [1, 2, , 4]";

@@ -35,7 +35,7 @@ macro_rules! lists {
     SecondHsc = Vendor 110500: Warning None 1 2, "more than one HSC filter on an axis, the surplus one is off", cause "P-AXIS-00153", hint "keep only one HSC filter";
     HscNotFirst = Vendor 110501: Warning None 1 2, "HSC filter must be filter[0], filter off", cause "P-AXIS-00153", hint "configure it as filter[0]";
     DeadBand = Vendor 110528: Warning None 1 2, "dead band of the position controller above the window, limited", cause "P-AXIS-00395, P-AXIS-00236", hint "write a dead band up to getriebe[i].window";
-    CAxisWithoutModulo = Vendor 110565: Warning None 1 2, "C axis that is no modulo axis, corrected", cause "kenngr.achs_mode 0x200", hint "write 0x204", parameter "P-AXIS-00015";
+    CAxisWithoutModulo = Vendor 110565: Warning None 1 2, "C axis is not a modulo axis, corrected", cause "kenngr.achs_mode 0x200", hint "write 0x204", parameter "P-AXIS-00015";
     GearRatio = Vendor 110579: Warning None 1 2, "output revolutions of the gear ratio are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more";
     WithoutDelayNeedsVelocityOnly = Vendor 110624: Warning None 1 2, "feedforward without delay combined with acceleration or jerk feedforward, these are switched off", cause "P-AXIS-00566, P-AXIS-00223", hint "allow velocity feedforward only (P-AXIS-00223 VEL), or drop feedforward_without_delay";
     WeightMode = Vendor 120020: Error ProgramAbort 6 0, "unknown mode of the ramp-time weights", cause "#SET SLOPE PROFIL [1,7,0]", hint "write 0 (all) or 1 to 4 (one of the ramp times)";
@@ -44,8 +44,8 @@ macro_rules! lists {
     AccelerationZero = Vendor 120032: Warning None 1 2, "acceleration weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00001";
     DecelerationTooLarge = Vendor 120033: Warning None 1 2, "weighted deceleration above its limit, limited", cause "G131=1000, G130 X1000", hint "lower the weight", parameter "P-AXIS-00002";
     DecelerationZero = Vendor 120034: Warning None 1 2, "deceleration weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00002";
-    DecelerationRampUp = Vendor 120037: Warning None 1 2, "weighted ramp time of a growing deceleration below the least one, limited", cause "G133=1, G132 X1", hint "raise the weight, or lower the least ramp time of the axis list (P-AXIS-00293)", parameter "P-AXIS-00198";
-    DecelerationRampDown = Vendor 120038: Warning None 1 2, "weighted ramp time of a falling deceleration below the least one, limited", cause "G133=1, G132 X1", hint "raise the weight, or lower the least ramp time of the axis list (P-AXIS-00293)", parameter "P-AXIS-00197";
+    DecelerationRampUp = Vendor 120037: Warning None 1 2, "weighted ramp time of a growing deceleration below the minimum, limited", cause "G133=1, G132 X1", hint "raise the weight, or lower the minimum ramp time of the axis list (P-AXIS-00293)", parameter "P-AXIS-00198";
+    DecelerationRampDown = Vendor 120038: Warning None 1 2, "weighted ramp time of a falling deceleration below the minimum, limited", cause "G133=1, G132 X1", hint "raise the weight, or lower the minimum ramp time of the axis list (P-AXIS-00293)", parameter "P-AXIS-00197";
     SplineTransition = Vendor 120097: Error ProgramAbort 6 0, "unknown transition type of an Akima spline", cause "#SET ASPLINE MODE [9, 1]", hint "write 1 (automatic), 2 (tangential) or 3 (by a vector)";
     SplineEndTangent = Vendor 120100: Error ProgramAbort 6 0, "end tangent of an Akima spline has no direction", cause "#AKIMA ENDVECTOR X0 Y0", hint "write a component other than 0";
     FlushInSpline = Vendor 120102: Error ProgramAbort 3 0, "channel flush while a spline is active", cause "#FLUSH WAIT after #HSC ON [BSPLINE]", hint "write #HSC OFF before it";

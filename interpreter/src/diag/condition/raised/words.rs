@@ -181,7 +181,7 @@ macro_rules! words {
     MacroCommand = Vendor 20644: Error ProgramAbort 3 1, "other words beside a macro whose command must be alone in its block", cause "\"M\" G01 X10 with \"M\"=\"#FLUSH WAIT\"", hint "write the macro in a separate block";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
     FunctionInSystem = Vendor 20663: Error ProgramAbort 3 1, "G function not allowed in a coordinate system", cause "#CS ON, then G98 X-500", hint "write it before #CS ON or after #CS OFF";
-    FunctionInTransformation = Vendor 20664: Error ProgramAbort 3 1, "G function that is not allowed under a kinematic transformation", cause "#TRAFO ON, then G98 X-500", hint "write it before #TRAFO ON, or #TRAFO OFF before it";
+    FunctionInTransformation = Vendor 20664: Error ProgramAbort 3 1, "G function not allowed under a kinematic transformation", cause "#TRAFO ON, then G98 X-500", hint "write it before #TRAFO ON, or #TRAFO OFF before it";
     LengthWithCompensation = Vendor 20671: Error ProgramAbort 3 1, "tool length compensation selected while tool radius compensation is active", cause "#TLC ON between G41 or G42 and G40", hint "write #TLC ON before G41 or after G40";
     CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in a #CS command", hint "write #CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c] or #CS OFF [ALL]";
     SystemAngle = Vendor 20676: Error ProgramAbort 3 1, "angle of a coordinate system outside -360 to 360 deg", cause "#CS ON [0,0,0,0,0,450]", hint "subtract full turns from the angle";
@@ -212,7 +212,7 @@ macro_rules! words {
     InsertionTooLarge = Vendor 20800: Error ProgramAbort 3 1, "size of a chamfer or rounding outside the data format", cause "G301 I94967296", hint "the limit of sizes is 214748.3647 mm";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
     HomingOrder = Vendor 20816: Error ProgramAbort 3 1, "order of G74 outside the data format", cause "G74 X99999999999", hint "the numbers of G74 are the order of the axes: G74 X1 Y2";
-    PresetFunction = Vendor 20819: Warning None 1 2, "start value of a G group that is no G function, left out", cause "prog_start.g_gruppe[8].nr 77", hint "write a G function of the group, or -1", parameter "P-CHAN-00063";
+    PresetFunction = Vendor 20819: Warning None 1 2, "start value of a G group that is not a G function, ignored", cause "prog_start.g_gruppe[8].nr 77", hint "write a G function of the group, or -1", parameter "P-CHAN-00063";
     CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "store at most five systems, with numbers greater than 0";
     NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
     ActiveSystemDefined = Vendor 20825: Error ProgramAbort 3 1, "active coordinate system redefined", cause "#CS ON [1][..] while system 1 is active", hint "write #CS OFF before it, or use another number";
@@ -221,7 +221,7 @@ macro_rules! words {
     LabelTooLarge = Vendor 20838: Error ProgramAbort 3 1, "label number outside the data format", cause "$GOTO N99999999999", hint "use a label number up to 4294967295";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "$GOTO is not followed by a label", hint "write $GOTO N20 or $GOTO [NAME]";
     BlockNumberTwice = Vendor 20841: Error ProgramAbort 3 1, "block number twice in one block", cause "N100 N100: X1", hint "remove one of the two; N100: is both number and label";
-    LabelBlockNumber = Vendor 20842: Error ProgramAbort 3 1, "block number before a label outside the data format", cause "N99999999999 [LABEL] X2", hint "block numbers reach up to 4294967295";
+    LabelBlockNumber = Vendor 20842: Error ProgramAbort 3 1, "block number before a label outside the data format", cause "N99999999999 [LABEL] X2", hint "the maximum block number is 4294967295";
     DwellTwice = Vendor 20844: Error ProgramAbort 3 1, "dwell time twice in one block", cause "G04 2 G04 3", hint "remove one of the two";
     OverrideSwitchTwice = Vendor 20846: Error ProgramAbort 3 1, "G166 twice in one block", hint "remove one of the two";
     ValueOutOfType = Vendor 20847: Error ProgramAbort 3 1, "value outside the range of its variable", cause "256 written to a UNS08", hint "declare the variable with a wider type, or check the value before it is written";
