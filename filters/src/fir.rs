@@ -63,6 +63,9 @@ pub struct FirConfig {
 }
 
 impl FirConfig {
+    /// Lowest cut-off frequency in Hz (P-AXIS-00585).
+    pub const MIN_FREQ_HZ: f64 = 1.0;
+
     /// A configuration of this kind with the vendor's defaults: no order yet.
     pub const fn new(kind: FirKind) -> Self {
         Self { kind, order: 0, order_time_us: 0, share_ratio: 1.0, fcut_hz: 30.0, quality: 1.0 }
@@ -87,8 +90,14 @@ impl FirConfig {
         let max_order = if self.kind == FirKind::TimeDelay { MAX_DELAY_ORDER } else { MAX_ORDER };
         let order = order(self.order, self.order_time_us, max_order, cycle, &mut issues);
         let max_hz = 0.5 / cycle.seconds();
-        if self.kind == FirKind::WindowedSinc && !(1.0..max_hz).contains(&self.fcut_hz) {
-            issues.push(FilterIssue::Frequency { f_hz: self.fcut_hz, min_hz: 1.0, max_hz });
+        if self.kind == FirKind::WindowedSinc
+            && !(Self::MIN_FREQ_HZ..max_hz).contains(&self.fcut_hz)
+        {
+            issues.push(FilterIssue::Frequency {
+                f_hz: self.fcut_hz,
+                min_hz: Self::MIN_FREQ_HZ,
+                max_hz,
+            });
         }
         if self.kind == FirKind::Gauss && !(self.quality > 0.0 && self.quality <= 1.0) {
             issues.push(FilterIssue::Quality { quality: self.quality, range: "above 0 to 1" });

@@ -49,3 +49,4 @@ pub mod shaping;
 pub mod stage;
 pub mod time;
 pub mod vib_guard;
+mod vibration;

@@ -19,6 +19,7 @@
 use crate::kernel::{Kernel, Tap};
 use crate::stage::Stage;
 use crate::time::CycleTime;
+use crate::vibration::damped_ratio;
 use nalgebra::Complex;
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
@@ -172,7 +173,7 @@ pub fn step_response(stage: &mut impl Stage, cycles: usize) -> Vec<f64> {
 /// `V = exp(-z w tn) sqrt(C^2 + S^2)` with `C, S = sum A_i exp(z w t_i) cos, sin(w sqrt(1 - z^2) t_i)`.
 pub fn residual_vibration_ratio(impulses: &[Impulse], freq_hz: f64, damping: f64) -> f64 {
     let w = 2.0 * PI * freq_hz;
-    let damped = w * ((1.0 - damping) * (1.0 + damping)).sqrt();
+    let damped = w * damped_ratio(damping);
     let last = impulses.iter().map(|impulse| impulse.time_s).fold(0.0, f64::max);
     let (mut cosine, mut sine) = (0.0, 0.0);
     for &Impulse { time_s, amplitude } in impulses {

@@ -23,6 +23,7 @@
 use crate::kernel::{Kernel, Tap};
 use crate::response::Impulse;
 use crate::time::CycleTime;
+use crate::vibration::damped_ratio;
 use std::f64::consts::PI;
 
 /// Settings of `vib_guard.*` in an axis list or of `#VIB GUARD` for one axis.
@@ -131,7 +132,7 @@ impl VibGuardSettings {
         let usable = self.freq_hz.is_finite()
             && self.freq_hz >= Self::MIN_FREQ_HZ
             && (0.0..=Self::MAX_DAMPING).contains(&self.damping);
-        let root = ((1.0 - self.damping) * (1.0 + self.damping)).sqrt();
+        let root = damped_ratio(self.damping);
         let k = libm::exp(-self.damping * PI / root);
         let amplitudes = match self.mode {
             1 => vec![1.0, k],
@@ -163,7 +164,7 @@ impl VibGuardSettings {
         if self.damping > Self::MAX_DAMPING {
             return None;
         }
-        let root = ((1.0 - self.damping) * (1.0 + self.damping)).sqrt();
+        let root = damped_ratio(self.damping);
         let half_period_cycles = 1e6 / (2.0 * self.freq_hz * f64::from(cycle.us()) * root);
         if half_period_cycles > f64::from(Self::MAX_TAPS) {
             return None;

@@ -338,7 +338,7 @@ fn message(entry: &'static condition::Row) -> Explanation {
         title,
         meaning: entry.meaning.to_owned(),
         facts,
-        notes: notes::of_message(entry.id),
+        notes: Some(entry.note).filter(|n| !n.is_empty()).map(str::to_owned).into_iter().collect(),
         example: None,
         related,
     }

@@ -41,6 +41,7 @@ pub mod value;
 
 pub use axis::Axis;
 pub use channel::couplings::DefaultCoupling;
+pub(crate) use channel::couplings::PAIRS_MAX;
 pub use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
 pub(crate) use inert::instead_of;
@@ -52,8 +53,10 @@ pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
+pub(crate) use tools::INCH_MM;
 pub use tools::{SpindleLimits, Tool, ToolKind, ZeroOffsets};
 
+use kontur_filters::control::monitor::ExactStopConfig;
 use kontur_filters::time::CycleTime;
 use std::collections::BTreeMap;
 
@@ -78,12 +81,10 @@ pub struct Machine {
     pub zero_offsets: ZeroOffsets,
 }
 
-/// Half of the increment of 0.1 um (0.0001 deg) in which positions and limits are given. A position closer to a limit
-/// counts as being at it, for instance after a thousand incremental steps.
-const HALF_INCREMENT_MM: f64 = 0.5e-4;
-
-/// Whether a position in mm (deg) is outside software limits.
+/// Whether a position in mm (deg) is outside software limits. A position closer to a limit than half of the increment in
+/// which both are given counts as being at it, for instance after a thousand incremental steps.
 pub(crate) fn is_outside(position_mm: f64, (least_mm, most_mm): (f64, f64)) -> bool {
+    const HALF_INCREMENT_MM: f64 = ExactStopConfig::HALF_INCREMENT_MM;
     !(least_mm - HALF_INCREMENT_MM..=most_mm + HALF_INCREMENT_MM).contains(&position_mm)
 }
 

@@ -301,7 +301,7 @@ impl Simulation {
                         && !self.independent.any_moving()
                         && self.spindles.iter().all(Spindle::rests)
                         && self.chains.iter().all(AxisChain::settled);
-                    let axes_stand = self.chains.iter().all(AxisChain::stands);
+                    let axes_stand = self.chains.iter().all(AxisChain::is_at_rest);
                     if stopping.is_over(set_rests, axes_stand, self.cycle) {
                         self.phase = Phase::Done;
                         return false;

@@ -19,6 +19,7 @@
 //! assert!((damping_of_decrement(2_f64.ln()) - 0.1097).abs() < 1e-4);
 //! ```
 
+use crate::vibration::damped_ratio;
 use std::f64::consts::PI;
 
 /// The damping ratio of a logarithmic decrement `ln(A1 / A2)` of successive maxima.
@@ -66,7 +67,7 @@ impl Decay {
             return None;
         }
         let damped_hz = 0.5 * rate_hz / half_period;
-        let freq_hz = damped_hz / ((1.0 - damping) * (1.0 + damping)).sqrt();
+        let freq_hz = damped_hz / damped_ratio(damping);
         Some(Self { freq_hz, damping, extremes: tail.len() })
     }
 }

@@ -16,6 +16,7 @@
 //! ```
 
 use crate::time::CycleTime;
+use crate::vibration::damped_ratio;
 use std::f64::consts::TAU;
 
 /// The mass, described by the deflection `q` of its spring in mm: `q'' + 2 D w q' + w^2 q = -a`, with the acceleration `a` of the foot.
@@ -45,7 +46,7 @@ impl SpringMass {
             return None;
         }
         let w = TAU * freq_hz;
-        let damped_w = w * ((1.0 - damping) * (1.0 + damping)).sqrt();
+        let damped_w = w * damped_ratio(damping);
         let (sin, cos) = libm::sincos(damped_w * cycle.seconds());
         let decay = libm::exp(-damping * w * cycle.seconds());
         Some(Self { w, damped_w, damping, decay, sin, cos, q: 0.0, v: 0.0 })

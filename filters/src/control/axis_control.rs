@@ -276,7 +276,7 @@ impl AxisControl {
     }
 
     /// Whether the motor is slower than `speed_mm_s`, or the plant is held after it diverged.
-    pub fn stands(&self, speed_mm_s: f64) -> bool {
+    pub fn is_at_rest(&self, speed_mm_s: f64) -> bool {
         self.diverged || self.plant.measured().motor_mm_s.abs() <= speed_mm_s
     }
 

@@ -239,7 +239,7 @@ fn what_shows_the_load_twice() {
             AxisControlConfig { increment_mm, ..AxisControlConfig::new(500.0, 1e4, 1e6) };
         config.plant.model = model;
         let axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
-        let at_rest = axis.stands(0.0);
+        let at_rest = axis.is_at_rest(0.0);
         (axis.shows_load_twice(), at_rest)
     };
     let rigid = PlantModel::FirstOrder { time_constant_s: 0.005 };

@@ -52,6 +52,7 @@ const PROGRAMMED: Row = Row {
     cause: "",
     hint: Some("the program raises it itself, with #ERROR"),
     parameter: None,
+    note: "",
 };
 
 /// The row of an ID; numbers without a row are those of `#ERROR`.

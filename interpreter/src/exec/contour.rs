@@ -16,13 +16,14 @@ use self::contouring::{Contouring, Hsc};
 use self::insertion::{Inserted, Insertion};
 use self::interim::Interim;
 use super::fault::{Fault, Outcome};
-use super::geometry::arc::Point;
+use super::geometry::point::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
+pub(super) use feed_course::{PIECES_MAX, STEP};
 pub(super) use motion::{
     Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, local_ends, programmed_time_s,
 };
@@ -62,7 +63,7 @@ pub(super) struct Contour {
 
 impl Contour {
     /// `#OTC`: from here on the simulation needs the position of the tool at the contour.
-    pub(super) fn tell_engagement(&mut self) {
+    pub(super) fn report_engagement(&mut self) {
         self.tells_engagement = true;
     }
 

@@ -9,6 +9,7 @@ pub(super) mod coordinates;
 pub(super) mod frame;
 pub(super) mod modulo;
 pub(super) mod planar;
+pub(super) mod point;
 pub(super) mod scale;
 pub(super) mod tools;
 

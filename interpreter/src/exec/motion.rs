@@ -269,7 +269,7 @@ impl Decoder {
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
         let feed = self.feed_of(&path, at)?;
         let end_velocity_mm_s = match words.end_feed {
-            Some(end) => self.modal.end_velocity(end, feed, &self.machine.channel)?,
+            Some(end) => self.modal.end_velocity(end, feed, &self.machine, &path)?,
             None => None,
         };
         let rapid = feed == Feed::Rapid;
@@ -287,7 +287,7 @@ impl Decoder {
         if rounds {
             self.motion.contouring_fits(&self.geometry.coordinates, span)?;
         }
-        let course = self.feed_course(words, feed, rounds, span)?;
+        let course = self.feed_course(words, &path, feed, rounds, span)?;
         let shaped = rounds
             || self.contour.hsc.contour().is_some()
             || self.contour.hsc.spline().is_some()

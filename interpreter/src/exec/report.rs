@@ -20,6 +20,9 @@ pub(super) struct Report {
     said: BTreeSet<String>,
 }
 
+/// Key of the report that a block has no feed; an F word allows the next one.
+pub(super) const NO_FEED: &str = "no feed";
+
 impl Report {
     /// Adds a condition of the current block.
     pub(super) fn note(&mut self, fault: Box<Fault>) {

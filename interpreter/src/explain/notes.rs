@@ -1,7 +1,5 @@
 //! Remarks, recommendations and examples that do not fit into a row of the parameter table.
 
-use crate::diag::Id;
-
 /// ID, remark, example value (empty: from the row), related terms.
 struct Note(&'static str, &'static str, &'static str, &'static [&'static str]);
 
@@ -79,37 +77,6 @@ pub(super) fn example(id: &str) -> Option<&'static str> {
 /// Related terms.
 pub(super) fn related(id: &str) -> Vec<String> {
     note(id).map(|n| n.3).unwrap_or_default().iter().map(|s| (*s).to_owned()).collect()
-}
-
-/// Remarks on messages.
-pub(super) fn of_message(id: Id) -> Vec<String> {
-    let text = match id {
-        Id::Vendor(22060) => {
-            "OFF forms and subroutines also count; a branch that is never decoded does not"
-        }
-        Id::Vendor(110579) => {
-            "raised for P-AXIS-00512 = 0, as stated in two manuals; one page of the diagnosis manual prints 110580"
-        }
-        Id::Vendor(110580) => {
-            "printed on one page of the diagnosis manual for P-AXIS-00512 = 0; raised here is 110579"
-        }
-        Id::Vendor(110122) => {
-            "the feedforward manual allows a numerator of 0, so P-AXIS-00228 = 0 is a valid weight here; \
-             P-AXIS-00514 = 0 raises it"
-        }
-        Id::Vendor(110380) => {
-            "the feedforward manual allows a numerator of 0, so P-AXIS-00225 = 0 is a valid weight here"
-        }
-        Id::Vendor(70600) => {
-            "set Improved Position Control in the gantry master; its slaves use the same values"
-        }
-        Id::Vendor(70082) => {
-            "recommended: limit 10..200 ms, window at least three times the lag at standstill"
-        }
-        Id::Vendor(70081) => "older manuals; 70082 is raised here",
-        _ => return Vec::new(),
-    };
-    vec![text.to_owned()]
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::diag::{Condition, Diagnostic};
 use std::collections::BTreeMap;
 
 /// mm in one inch.
-const INCH_MM: f64 = 25.4;
+pub(crate) const INCH_MM: f64 = 25.4;
 
 /// Purpose of a tool (P-TOOL-00001).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -94,7 +94,7 @@ impl Simulation {
     /// Applies the external wear; K-0138 if it exceeds what the tool permits.
     pub(super) fn take_wear(&mut self, k: u64) {
         let wear_mm = self.inputs.wear_mm;
-        if self.wear.take_outside(wear_mm) && self.inputs.tells_wear_limit() {
+        if self.wear.take_outside(wear_mm) && self.inputs.reports_wear_limit() {
             let text = format!("wear_mm {wear_mm} exceeds the limit of the tool, limited");
             let mut d = Diagnostic::new(Condition::WearLimited, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));

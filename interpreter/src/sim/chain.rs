@@ -214,8 +214,8 @@ impl AxisChain {
     }
 
     /// Whether the axis is at rest, not only its set position.
-    pub(crate) fn stands(&self) -> bool {
-        self.control.stands(STANDSTILL_MM_S)
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.control.is_at_rest(STANDSTILL_MM_S)
     }
 
     /// Announces a stop of the path with this axis at `target_mm`, which arms the exact-stop timer.

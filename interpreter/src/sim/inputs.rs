@@ -246,7 +246,7 @@ impl Inputs {
                 notes.extend(signal.without_effect(machine));
             }
             if matches!(signal, Signal::Override | Signal::RapidOverride) {
-                notes.extend(self.tells_largest_override(value / 100.0, machine));
+                notes.extend(self.largest_override_report(value / 100.0, machine));
             }
             match signal {
                 Signal::Override => self.feed_ratio = limited(value / 100.0),
@@ -269,13 +269,13 @@ impl Inputs {
     }
 
     /// Whether the limit of the external wear has not been reported yet; true once.
-    pub(super) fn tells_wear_limit(&mut self) -> bool {
+    pub(super) fn reports_wear_limit(&mut self) -> bool {
         self.told.insert(Condition::WearLimited)
     }
 
     /// The message, once, that an override is limited (P-CHAN-00056), or would be on a control without an entry in its
     /// list.
-    fn tells_largest_override(&mut self, ratio: f64, machine: &Machine) -> Option<Diagnostic> {
+    fn largest_override_report(&mut self, ratio: f64, machine: &Machine) -> Option<Diagnostic> {
         let listed = machine.channel.most_override;
         if ratio <= listed.unwrap_or(1.0) || !self.told.insert(Condition::OverrideLimited) {
             return None;

@@ -34,10 +34,10 @@ impl Probing {
     /// Actual positions at the signal of this cycle, if there is one.
     fn latched(&self, inputs: &Inputs, now_mm: &[f64], lag_mm: &[f64]) -> Option<AxisVec> {
         if !self.stops.is_empty() {
-            let stands = |(axis, most): &(usize, f64)| {
+            let at_rest = |(axis, most): &(usize, f64)| {
                 lag_mm.get(*axis).is_some_and(|lag| lag.abs() > *most)
             };
-            return self.stops.iter().any(stands).then(|| AxisVec::from_slice(now_mm));
+            return self.stops.iter().any(at_rest).then(|| AxisVec::from_slice(now_mm));
         }
         signal(inputs, &self.before_mm, now_mm)
     }

@@ -58,8 +58,8 @@ impl Simulation {
     pub(super) fn look_for_hold(&mut self) {
         self.is_held = false;
         let setpoint = self.planner.setpoint();
-        let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
-        if !stands || !self.planner.is_held() {
+        let at_rest = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
+        if !at_rest || !self.planner.is_held() {
             return;
         }
         if self.drop_rest_of_run() {

@@ -92,8 +92,8 @@ impl LinePath {
             let direction = &self.direction[..n];
             for i in 0..n {
                 // an axis that does not move keeps its exact bits
-                let stands = start[i].to_bits() == end[i].to_bits();
-                out[i] = if stands { start[i] } else { start[i] + s * direction[i] };
+                let at_rest = start[i].to_bits() == end[i].to_bits();
+                out[i] = if at_rest { start[i] } else { start[i] + s * direction[i] };
             }
         }
     }

@@ -25,7 +25,7 @@ pub struct ExactStopConfig {
 
 impl ExactStopConfig {
     /// Half of the vendor's position increment of 0.1 um (0.0001 deg).
-    pub(crate) const HALF_INCREMENT_MM: f64 = 0.5e-4;
+    pub const HALF_INCREMENT_MM: f64 = 0.5e-4;
 }
 
 impl Default for ExactStopConfig {

@@ -92,8 +92,8 @@ impl Delays {
             candidate.changes += usize::from(!first && !later.repeats);
             candidate.compared += 1;
             // where both are constant the result of the previous rows holds, which makes a long standstill cheap
-            let stands = !first && earlier.repeats && later.repeats;
-            if stands {
+            let at_rest = !first && earlier.repeats && later.repeats;
+            if at_rest {
                 return true;
             }
             let Some(texts) = earlier.cells.as_ref().and_then(|earlier| equal(earlier, cells))

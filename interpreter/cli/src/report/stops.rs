@@ -66,8 +66,8 @@ impl Stops {
         let rests = cycle.path.v_mm_s.abs() < REST_MM_S;
         for (i, (facts, watch)) in axes.iter().zip(&mut self.watched).enumerate() {
             let set = of(i, Quantity::Set);
-            let stands = watch.set.replace(set).is_none_or(|x| x.to_bits() == set.to_bits());
-            if stands && watch.moving && rests && (set - of(i, Quantity::Ipo)).abs() < ARRIVED_MM {
+            let at_rest = watch.set.replace(set).is_none_or(|x| x.to_bits() == set.to_bits());
+            if at_rest && watch.moving && rests && (set - of(i, Quantity::Ipo)).abs() < ARRIVED_MM {
                 watch.moving = false;
                 if facts.spindle || self.found.len() >= MOST {
                     continue;
@@ -84,7 +84,7 @@ impl Stops {
                 stop.t2 = Some(cycle.k);
                 watch.open = None;
             }
-            if !stands {
+            if !at_rest {
                 (watch.moving, watch.open) = (true, None);
             }
         }

@@ -181,7 +181,7 @@ def run(
 
     Raises :class:`ProgramError` for a program that is refused or aborted, :class:`ListsError`, :class:`InputsError` and
     :class:`UsageError` for what it is run with, ``OSError`` for a file that cannot be read, and ``MemoryError`` for more
-    than 2 GiB of columns (then choose ``signals``, ``decimate``, or go on in parts with :meth:`Simulation.run_until`).
+    than 2 GiB of columns (then choose ``signals``, ``decimate``, or continue in parts with :meth:`Simulation.run_until`).
     """
     simulation = start(
         program, machine=machine, settings=settings, signals=signals, decimate=decimate, **options

@@ -31,7 +31,13 @@ const fn documented(
         cause,
         hint: Option::None,
         parameter: Option::None,
+        note: "",
     }
+}
+
+/// A row with a remark.
+const fn noted(row: Row, note: &'static str) -> Row {
+    Row { note, ..row }
 }
 
 /// The rows, ordered by ID.
@@ -50,7 +56,7 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(50694), "", Error, FeedHold, 7, 0, "setpoint outside the number range", ""),
     documented(Vendor(50974), "", Error, ControlledStop, 6, 0, "setpoint outside the valid range", ""),
     documented(Vendor(70023), "", Error, AbruptStop, 6, 11, "direction monitoring tripped", "wrong sign of command or encoder"),
-    documented(Vendor(70081), "", Error, ControlledStop, 6, 11, "exact-stop window not reached in time (older manual, see 70082)", "P-AXIS-00151"),
+    noted(documented(Vendor(70081), "", Error, ControlledStop, 6, 11, "exact-stop window not reached in time (older manual, see 70082)", "P-AXIS-00151"), "older manuals; 70082 is raised here"),
     documented(Vendor(70099), "", Error, AbruptStop, 6, 11, "setpoint jump at enable too large", "00108"),
     documented(Vendor(70195), "", Error, ControlledStop, 6, 11, "software limit cannot be kept (setpoint monitoring)", "00520/00521, braking with 00003"),
     documented(Vendor(70269), "", Error, AbruptStop, 7, 11, "no command velocity in the telegram", "00320"),
@@ -63,10 +69,10 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(110119), "", Warning, None, 1, 2, "parameter is 0, set to its minimum", "P-AXIS-00023"),
     documented(Vendor(110228), "", Error, JobAbort, 7, 2, "axis number in the list is not that of the axis, list rejected", "P-AXIS-00016"),
     documented(Vendor(110329), "", Warning, None, 1, 2, "timeout smaller than the window time, corrected", "P-AXIS-00290, P-AXIS-00291"),
-    documented(Vendor(110380), "", Warning, None, 1, 2, "numerator of the acceleration feedforward is 0", "P-AXIS-00225"),
+    noted(documented(Vendor(110380), "", Warning, None, 1, 2, "numerator of the acceleration feedforward is 0", "P-AXIS-00225"), "the feedforward manual allows a numerator of 0, so P-AXIS-00225 = 0 is a valid weight here"),
     documented(Vendor(110558), "", Warning, None, 1, 2, "parameter is 0, corrected", "P-AXIS-00469"),
     documented(Vendor(110573), "", Warning, None, 1, 2, "parameter above its maximum, limited", "P-AXIS-00497"),
-    documented(Vendor(110580), "", Warning, None, 1, 2, "gear ratio: output revolutions are 0 (printed on one page; 110579 is raised)", "P-AXIS-00512"),
+    noted(documented(Vendor(110580), "", Warning, None, 1, 2, "gear ratio: output revolutions are 0 (printed on one page; 110579 is raised)", "P-AXIS-00512"), "printed on one page of the diagnosis manual for P-AXIS-00512 = 0; raised here is 110579"),
     documented(Vendor(110700), "", Warning, None, 1, 2, "invalid value, function off", "P-AXIS-00584"),
     documented(Vendor(120146), "", Warning, None, 1, 0, "tangential transition with AUTO_VEL", ""),
     documented(Vendor(120393), "", Error, ProgramAbort, 6, 0, "order of the block length filter invalid", "#HSC[...]"),

@@ -20,14 +20,15 @@ use crate::diag::id::{
 /// Makes the conditions from their rows. A row has the form
 ///
 /// ```text
-/// Condition = Vendor 20008: SEVERITY REACTION REMEDY ROOT, "meaning", cause "..", hint "..", parameter "..";
+/// Condition = Vendor 20008: SEVERITY REACTION REMEDY ROOT, "meaning", cause "..", hint "..", parameter "..", note "..";
 /// Condition = Kontur 9 "K-RANGE": ...
 /// ```
 macro_rules! conditions {
     ([] $(
         $condition:ident = $space:ident $number:literal $($name:literal)?:
         $severity:ident $reaction:ident $remedy:literal $root:literal,
-        $meaning:literal $(, cause $cause:literal)? $(, hint $hint:literal)? $(, parameter $parameter:literal)?;
+        $meaning:literal $(, cause $cause:literal)? $(, hint $hint:literal)? $(, parameter $parameter:literal)?
+        $(, note $note:literal)?;
     )*) => {
         /// A condition that is raised; its row contains all its constant properties.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,6 +53,7 @@ macro_rules! conditions {
                 cause: first([$($cause)?]),
                 hint: optional([$($hint)?]),
                 parameter: optional([$($parameter)?]),
+                note: first([$($note)?]),
             },)*
         ];
     };

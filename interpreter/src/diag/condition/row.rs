@@ -72,6 +72,8 @@ pub struct Row {
     pub hint: Option<&'static str>,
     /// Parameter concerned, if it is always the same one.
     pub parameter: Option<&'static str>,
+    /// Remark for `explain`, such as where the documents disagree; empty if there is none.
+    pub note: &'static str,
 }
 
 impl Row {

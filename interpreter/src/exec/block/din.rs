@@ -15,7 +15,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::addition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::report::Report;
+use crate::exec::report::{NO_FEED, Report};
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_behind;
@@ -77,7 +77,7 @@ impl Modal {
             let text = format!("F{value} is outside 0 to {most}");
             return Err(Fault::new(Condition::Range, text, span));
         }
-        report.unsay("20008");
+        report.unsay(NO_FEED);
         let word = FeedWord { value, inch: self.inch };
         self.feeds[self.feed_type as usize] = Some(word);
         Ok(())

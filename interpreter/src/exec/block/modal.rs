@@ -3,7 +3,7 @@
 use super::groups;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::fault::{Fault, Outcome};
-use crate::machine::{Axis, Channel};
+use crate::machine::{Axis, Channel, INCH_MM};
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Slope, SlopeKind};
 
@@ -186,12 +186,12 @@ pub(in crate::exec) struct Modal {
 impl Modal {
     /// Millimetres per unit of length in the program.
     pub(in crate::exec) fn unit_mm(&self) -> f64 {
-        if self.inch { 25.4 } else { 1.0 }
+        if self.inch { INCH_MM } else { 1.0 }
     }
 
     /// Factor from programmed values of an axis to mm (deg).
     pub(in crate::exec) fn axis_unit(&self, axis: &Axis) -> f64 {
-        if self.inch && axis.is_linear() { 25.4 } else { 1.0 }
+        if self.inch && axis.is_linear() { INCH_MM } else { 1.0 }
     }
 
     /// Unit of tolerance words in mm (P-CHAN-00439).

@@ -61,20 +61,14 @@ impl Decoder {
         let before = self.motion.limited_weights(&self.machine, &self.modal);
         self.motion.weights.set(weight, axis, ratio);
         self.motion.dynamics_changed();
-        for (axis, condition) in self.motion.limited_weights(&self.machine, &self.modal) {
-            let (zero, cause) = match condition {
-                Condition::DynamicsLimited => (false, weight),
-                Condition::DecelerationTooLarge => (false, Weight::Acceleration),
-                Condition::DecelerationRampUp | Condition::DecelerationRampDown => {
-                    (false, Weight::Ramp)
-                }
-                _ => (true, Weight::Acceleration),
-            };
+        for (axis, cut) in self.motion.limited_weights(&self.machine, &self.modal) {
             // the same result of an earlier word was reported there
-            let earlier = (ratio - 1.0).abs() < 1e-12 || weight != cause;
-            if earlier && before.contains(&(axis, condition)) {
+            let earlier =
+                (ratio - 1.0).abs() < 1e-12 || cut.weight().is_some_and(|cause| cause != weight);
+            if earlier && before.contains(&(axis, cut)) {
                 continue;
             }
+            let zero = cut.is_zero();
             let name = self.names.name(axis).to_owned();
             let number = self.machine.axes[axis].number();
             let ramp = matches!(weight, Weight::Ramp | Weight::RapidRamp);
@@ -90,7 +84,7 @@ impl Decoder {
                     "axis {name}: the weight of {percent} % {is} the limit of the axis list, it is limited"
                 )
             };
-            let fault = Fault::new(condition, text, span)
+            let fault = Fault::new(cut.condition(), text, span)
                 .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"));
             let hint = "raise the weight, or lower the minimum ramp time in the axis list (P-AXIS-00293, P-AXIS-00201 for rapid)";
             self.report.note(match (ramp, low) {

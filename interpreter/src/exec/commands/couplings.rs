@@ -11,10 +11,8 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::coupling::Pair;
 use crate::exec::values::number::whole;
+use crate::machine::PAIRS_MAX;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
-
-/// Maximum number of pairs of a group. Source: TF5200 channel parameters, synchro_data (149192587).
-const PAIRS_MAX: usize = 15;
 
 /// Row of `#SET AX LINK`.
 pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
@@ -119,11 +117,11 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if pairs.is_empty() {
         return Err(wrong(call.span()));
     }
-    if let Some(more) = pairs.get(PAIRS_MAX) {
+    if let Some(more) = pairs.get(PAIRS_MAX as usize) {
         let text = format!("coupling group {group} has more than {PAIRS_MAX} pairs");
         return Err(Fault::new(Condition::CouplingPairs, text, more.span).with(|d| {
             let d = d.value(ValueKind::Wrong, pairs.len() as f64, "-");
-            d.value(ValueKind::UpperLimit, PAIRS_MAX as f64, "-")
+            d.value(ValueKind::UpperLimit, f64::from(PAIRS_MAX), "-")
         }));
     }
     let mut known: Vec<Pair> = Vec::new();

@@ -5,8 +5,8 @@
 //! it is a warning here, once per program.
 
 use super::compensation::Item;
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, intersections, norm, sub};
+use crate::exec::geometry::planar::{Side, intersections};
+use crate::exec::geometry::point::{Point, norm, sub};
 use crate::exec::step::SourceRef;
 use rstar::{AABB, RTree, RTreeObject};
 use std::collections::VecDeque;

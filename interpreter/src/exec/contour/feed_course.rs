@@ -13,11 +13,11 @@ use super::compensation::Item;
 use super::motion::{Corner, CornerFeed, FeedCourse, Motion};
 use kontur_motion::block::{Block, Feed};
 
-/// Ratio of the feed rates of two consecutive pieces.
-const STEP: f64 = 1.01;
+/// Ratio of the speeds of two consecutive pieces of a motion whose speed changes along it (G13, G193, G95, G96).
+pub(in crate::exec) const STEP: f64 = 1.01;
 
-/// Maximum number of pieces of one motion: a range of feed rates of 1 to 20,000; for a larger range the pieces are coarser.
-const PIECES_MAX: f64 = 1000.0;
+/// Maximum number of pieces of one motion: a speed range of 1 to 20,000; for a larger range the pieces are coarser.
+pub(in crate::exec) const PIECES_MAX: u32 = 1000;
 
 /// The part of a motion with a changing feed rate.
 struct Change {
@@ -57,7 +57,8 @@ impl Change {
     /// Ends and feed rates of the pieces.
     fn pieces(&self) -> Vec<(f64, f64)> {
         let ratio = self.feed[1] / self.feed[0];
-        let count = (libm::log(ratio).abs() / libm::log(STEP)).ceil().min(PIECES_MAX) as u32;
+        let count =
+            (libm::log(ratio).abs() / libm::log(STEP)).ceil().min(f64::from(PIECES_MAX)) as u32;
         let v = |k: u32| self.feed[0] * libm::pow(ratio, f64::from(k) / f64::from(count));
         let end = |k: u32| if k == count { self.at[1] } else { self.place(v(k)) };
         (1..=count).map(|k| (end(k), v(k - 1).min(v(k)))).collect()

@@ -11,8 +11,8 @@
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
+use crate::exec::geometry::planar::{Side, cut, intersections, swept};
+use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
 use kontur_motion::block::Feed;

@@ -2,6 +2,7 @@
 //!
 //! Source: TF5200 programming manual, circular interpolation, G161 to G165; P-CHAN-00059, 00060, 00171, 00172.
 
+use super::point::{Point, cross, dot, norm, sub};
 use crate::machine::ArcCentre;
 use std::f64::consts::TAU;
 
@@ -10,9 +11,6 @@ const SAME_MM: f64 = 5e-5;
 
 /// Distance by which half a chord may exceed a radius that was rounded to the smallest increment.
 const RADIUS_ROUNDING_MM: f64 = 1e-4;
-
-/// A point in the plane, first and second axis in mm.
-pub(in crate::exec) type Point = [f64; 2];
 
 /// Centre and swept angle of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,19 +37,9 @@ pub(in crate::exec) enum ArcError {
     RadiiDiffer { start: f64, end: f64, limit: f64 },
 }
 
-fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn norm(a: Point) -> f64 {
-    libm::hypot(a[0], a[1])
-}
-
 /// Angle from `from` to `to` in the sense of rotation, magnitude in (0, 2 pi], signed.
 fn sweep(from: Point, to: Point, counter_clockwise: bool) -> f64 {
-    let cross = from[0] * to[1] - from[1] * to[0];
-    let dot = from[0] * to[0] + from[1] * to[1];
-    let angle = libm::atan2(cross, dot);
+    let angle = libm::atan2(cross(from, to), dot(from, to));
     if counter_clockwise {
         if angle > 0.0 { angle } else { angle + TAU }
     } else if angle < 0.0 {

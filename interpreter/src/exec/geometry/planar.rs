@@ -1,6 +1,6 @@
 //! Lines and arcs in a plane of two axes: tangents, parallels, intersections, trimming.
 
-use super::arc::Point;
+use super::point::{Point, cross, dot, norm, sub};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 
@@ -12,22 +12,6 @@ pub(in crate::exec) enum Side {
 }
 
 pub(in crate::exec) const TURN: f64 = std::f64::consts::TAU;
-
-pub(in crate::exec) fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(in crate::exec) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(in crate::exec) fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub(in crate::exec) fn norm(a: Point) -> f64 {
-    libm::hypot(a[0], a[1])
-}
 
 fn polar(centre: Point, radius: f64, rad: f64) -> Point {
     [centre[0] + radius * libm::cos(rad), centre[1] + radius * libm::sin(rad)]

@@ -13,6 +13,7 @@ use crate::diag::{Condition, ValueKind, rounded};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::PathMode;
+use crate::exec::contour::{PIECES_MAX, STEP};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
@@ -22,12 +23,6 @@ use crate::machine::Machine;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
-
-/// Ratio of the speeds of two consecutive pieces of a motion under G95 and G96.
-const STEP: f64 = 1.01;
-
-/// Maximum number of pieces of one motion: a speed range of 1 to 20,000.
-const PIECES_MAX: usize = 1000;
 
 impl MotionState {
     /// Refuses functions that depend on the speed of the main spindle while an override changes it: the pages do not state
@@ -146,7 +141,7 @@ impl Decoder {
         }
         self.motion.spindles[0].rpm = cutting.rpm(radius);
         self.motion.cutting.speed = Some(cutting);
-        self.tell_cutting_speed();
+        self.report_cutting_speed();
         Ok(())
     }
 
@@ -191,7 +186,7 @@ impl Decoder {
     }
 
     /// Passes the state to the simulation.
-    fn tell_cutting_speed(&mut self) {
+    fn report_cutting_speed(&mut self) {
         let Some(mut cutting) = self.motion.cutting.speed else { return };
         cutting.centre_mm = self.geometry.coordinates.turning_centre(cutting.axis);
         self.motion.cutting.speed = Some(cutting);
@@ -211,7 +206,7 @@ impl Decoder {
             cutting.held_mm = rapid.then(|| start[axis]);
         }
         if changes || (self.geometry.coordinates.turning_centre(axis) - known).abs() > 1e-9 {
-            self.tell_cutting_speed();
+            self.report_cutting_speed();
         }
     }
 }

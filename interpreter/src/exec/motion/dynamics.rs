@@ -90,16 +90,79 @@ impl Weights {
 /// Assumption: the lowest value of the lists (range of P-AXIS-00001, 00002, 00004); the vendor prints no number.
 const ACCELERATION_MIN: f64 = 1.0;
 
+/// Why a limit of an axis differs from the one that its weight requests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Cut {
+    /// Beyond a limit of the axis list for which no page prints an ID of its own.
+    Limited,
+    /// The deceleration exceeds the largest one of the axis.
+    Deceleration,
+    /// The ramp time at the beginning of a deceleration is below the shortest one.
+    BrakingRampUp,
+    /// The ramp time at the end of a deceleration is below the shortest one.
+    BrakingRampDown,
+    /// The acceleration would become 0.
+    ZeroAcceleration,
+    /// The deceleration would become 0.
+    ZeroDeceleration,
+    /// The value of the first stage of STEP would become 0.
+    ZeroFirstStage,
+    /// The value of the second stage of STEP would become 0.
+    ZeroSecondStage,
+}
+
+impl Cut {
+    /// The condition to report.
+    pub(in crate::exec) const fn condition(self) -> Condition {
+        match self {
+            Self::Limited => Condition::DynamicsLimited,
+            Self::Deceleration => Condition::DecelerationTooLarge,
+            Self::BrakingRampUp => Condition::DecelerationRampUp,
+            Self::BrakingRampDown => Condition::DecelerationRampDown,
+            Self::ZeroAcceleration => Condition::AccelerationZero,
+            Self::ZeroDeceleration => Condition::DecelerationZero,
+            Self::ZeroFirstStage => Condition::FirstStageZero,
+            Self::ZeroSecondStage => Condition::SecondStageZero,
+        }
+    }
+
+    /// Whether the value would become 0.
+    pub(in crate::exec) const fn is_zero(self) -> bool {
+        match self {
+            Self::ZeroAcceleration
+            | Self::ZeroDeceleration
+            | Self::ZeroFirstStage
+            | Self::ZeroSecondStage => true,
+            Self::Limited | Self::Deceleration | Self::BrakingRampUp | Self::BrakingRampDown => {
+                false
+            }
+        }
+    }
+
+    /// The only weight that can cause it; `None` if several can.
+    pub(in crate::exec) const fn weight(self) -> Option<Weight> {
+        match self {
+            Self::Limited => None,
+            Self::BrakingRampUp | Self::BrakingRampDown => Some(Weight::Ramp),
+            Self::Deceleration
+            | Self::ZeroAcceleration
+            | Self::ZeroDeceleration
+            | Self::ZeroFirstStage
+            | Self::ZeroSecondStage => Some(Weight::Acceleration),
+        }
+    }
+}
+
 /// Scales values and records when a limit applies.
 #[derive(Default)]
 struct Capped {
-    conditions: Vec<Condition>,
+    cuts: Vec<Cut>,
 }
 
 impl Capped {
-    fn cut(&mut self, by: Condition) {
-        if !self.conditions.contains(&by) {
-            self.conditions.push(by);
+    fn cut(&mut self, by: Cut) {
+        if !self.cuts.contains(&by) {
+            self.cuts.push(by);
         }
     }
 
@@ -109,7 +172,7 @@ impl Capped {
         value: f64,
         ratio: f64,
         cap: f64,
-        (limited, zero): (Condition, Option<Condition>),
+        (limited, zero): (Cut, Option<Cut>),
     ) -> f64 {
         let least = ACCELERATION_MIN.min(value);
         if value * ratio < least {
@@ -122,7 +185,7 @@ impl Capped {
     }
 
     /// `value * ratio`, at most `cap`.
-    fn at_most(&mut self, value: f64, ratio: f64, cap: f64, limited: Condition) -> f64 {
+    fn at_most(&mut self, value: f64, ratio: f64, cap: f64, limited: Cut) -> f64 {
         let scaled = value * ratio;
         // a list value above the cap is not caused by the program
         let cap = cap.max(value.min(scaled));
@@ -133,7 +196,7 @@ impl Capped {
     }
 
     /// `value * ratio`, at least `floor`.
-    fn at_least(&mut self, value: f64, ratio: f64, floor: f64, limited: Condition) -> f64 {
+    fn at_least(&mut self, value: f64, ratio: f64, floor: f64, limited: Cut) -> f64 {
         let scaled = value * ratio;
         let floor = floor.min(value.max(scaled));
         if scaled < floor {
@@ -143,13 +206,8 @@ impl Capped {
     }
 }
 
-/// Conditions of the ramp times of the feed, in the order of the list; the pages of the first two are not known.
-const RAMPS: [Condition; 4] = [
-    Condition::DynamicsLimited,
-    Condition::DynamicsLimited,
-    Condition::DecelerationRampUp,
-    Condition::DecelerationRampDown,
-];
+/// Cuts of the ramp times of the feed, in the order of the list; the pages of the first two are not known.
+const RAMPS: [Cut; 4] = [Cut::Limited, Cut::Limited, Cut::BrakingRampUp, Cut::BrakingRampDown];
 
 /// Lowest weighted rapid velocity in mm/s. Source: TF5200 programming manual, G129: 0 gives 1 um/s.
 const RAPID_MIN_MM_S: f64 = 0.001;
@@ -161,15 +219,13 @@ fn weighted(
     all: &Weights,
     modal: &Modal,
     channel: &Channel,
-) -> (AxisDynamics, Vec<Condition>) {
+) -> (AxisDynamics, Vec<Cut>) {
     let mut d = axis.dynamics();
     let mut capped = Capped::default();
     // the active profile decides which value becomes 0
     let stepped = modal.slope.kind == SlopeKind::Step;
-    let stages =
-        [Condition::FirstStageZero, Condition::SecondStageZero].map(|c| stepped.then_some(c));
-    let smooth =
-        [Condition::AccelerationZero, Condition::DecelerationZero].map(|c| (!stepped).then_some(c));
+    let stages = [Cut::ZeroFirstStage, Cut::ZeroSecondStage].map(|c| stepped.then_some(c));
+    let smooth = [Cut::ZeroAcceleration, Cut::ZeroDeceleration].map(|c| (!stepped).then_some(c));
     let (a_cap, floor) = (axis.a_w_max_mm_s2(), axis.tr_w_min_s());
     // P-CHAN-00001, P-CHAN-00073: selective weights apply to the older command
     let (accelerations, ramps) =
@@ -177,9 +233,9 @@ fn weighted(
     let acc =
         |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
     let a_max = d.a_max_mm_s2;
-    let limited = Condition::DynamicsLimited;
+    let limited = Cut::Limited;
     let (rapid, both) = (w.rapid_acceleration, (limited, Some(limited)));
-    let braking = if stepped { limited } else { Condition::DecelerationTooLarge };
+    let braking = if stepped { limited } else { Cut::Deceleration };
     d.feed.acc_mm_s2 = capped.acceleration(d.feed.acc_mm_s2, acc(1), a_cap, (limited, smooth[0]));
     d.feed.dec_mm_s2 = capped.acceleration(d.feed.dec_mm_s2, acc(2), a_cap, (braking, smooth[1]));
     for (i, stage) in stages.into_iter().enumerate() {
@@ -192,9 +248,9 @@ fn weighted(
         d.step_rapid.dec_mm_s2[i] = capped.acceleration(down, rapid, a_max, both);
     }
     d.rapid.acc_mm_s2 = capped.acceleration(d.rapid.acc_mm_s2, rapid, a_max, both);
-    for ((k, ramp), condition) in (1..).zip(&mut d.feed.ramps_s).zip(RAMPS) {
+    for ((k, ramp), cut) in (1..).zip(&mut d.feed.ramps_s).zip(RAMPS) {
         let ratio = if ramps == 0 || ramps == k { w.ramp } else { 1.0 };
-        *ramp = capped.at_least(*ramp, ratio, floor, condition);
+        *ramp = capped.at_least(*ramp, ratio, floor, cut);
     }
     d.rapid.ramp_s = capped.at_least(d.rapid.ramp_s, all.rapid_ramp, axis.tr_min_s(), limited);
     d.tr_geom_s *= all.geometric_ramp;
@@ -203,7 +259,7 @@ fn weighted(
         .at_most(d.v_rapid_mm_s, all.rapid_velocity, d.v_max_mm_s, limited)
         .max(RAPID_MIN_MM_S);
     d.v_rapid_mm_s = d.v_rapid_mm_s.min(d.v_max_mm_s);
-    (d, capped.conditions)
+    (d, capped.cuts)
 }
 
 /// Limits of the channel, and the axes with a limited weight, with the corresponding conditions.
@@ -212,14 +268,14 @@ pub(in crate::exec) fn channel_dynamics(
     weights: &Weights,
     modal: &Modal,
     vector: VectorLimits,
-) -> (ChannelDynamics, Vec<(usize, Condition)>) {
+) -> (ChannelDynamics, Vec<(usize, Cut)>) {
     let channel = &machine.channel;
     let mut capped = Vec::new();
     let mut axes = Vec::with_capacity(machine.axes.len());
     for (i, axis) in machine.axes.iter().enumerate() {
-        let (dynamics, conditions) = weighted(axis, weights.axes[i], weights, modal, channel);
+        let (dynamics, cuts) = weighted(axis, weights.axes[i], weights, modal, channel);
         axes.push(dynamics);
-        capped.extend(conditions.into_iter().map(|condition| (i, condition)));
+        capped.extend(cuts.into_iter().map(|cut| (i, cut)));
     }
     let dynamics = ChannelDynamics {
         axes,

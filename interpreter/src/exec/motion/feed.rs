@@ -2,12 +2,12 @@
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Placed;
-use crate::exec::block::modal::{FeedType, Modal, PathMode};
+use crate::exec::block::modal::{FeedType, FeedWord, Modal, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
-use crate::exec::report::Report;
-use crate::machine::{Channel, Machine};
+use crate::exec::report::{NO_FEED, Report};
+use crate::machine::{INCH_MM, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
@@ -16,17 +16,18 @@ use kontur_motion::path::Path;
 impl Modal {
     /// G95 at a spindle speed in rev/min.
     pub(super) fn feed_per_revolution(&self, machine: &Machine, path: &Path, rpm: f64) -> Feed {
-        let word = self.feed();
-        let inch = word.is_some_and(|word| word.inch) && feed_is_linear(machine, path);
-        let unit_mm = if inch { 25.4 } else { 1.0 };
-        per_revolution(word.map_or(0.0, |word| word.value) * unit_mm, rpm)
+        per_revolution(
+            self.feed().map_or(0.0, |word| word.value * word.unit_mm(machine, path)),
+            rpm,
+        )
     }
 
     pub(super) fn end_velocity(
         &self,
         (value, span): Placed,
         feed: Feed,
-        channel: &Channel,
+        machine: &Machine,
+        path: &Path,
     ) -> Outcome<Option<f64>> {
         let Feed::PathVelocity(v) = feed else {
             let text = "E is only valid with G94 and not in rapid traverse";
@@ -40,7 +41,8 @@ impl Modal {
             return Err(Fault::new(Condition::Syntax, text, span)
                 .hint("numbers cannot have an exponent in this dialect: write 0.00001 for 1e-05"));
         }
-        Ok(Some((value * self.feed_unit_mm_s(channel)).min(v)))
+        let word = FeedWord { value, inch: self.inch };
+        Ok(Some(word.per_minute(machine, path).min(v)))
     }
 }
 
@@ -54,18 +56,18 @@ impl Decoder {
             return Ok(feed);
         }
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
-            let key = "20008".to_owned();
             let text = match self.modal.feed() {
                 Some(_) => "the feed is 0: value of the last F word",
                 None => "the feed is 0: no F word has been programmed",
             };
-            self.report.note_once(&key, Fault::new(Condition::FeedZero, text, span));
+            self.report.note_once(NO_FEED, Fault::new(Condition::FeedZero, text, span));
             // the block is skipped, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
         if self.contour.hsc.feed_type(self.modal.feed_type) != self.modal.feed_type {
             let text = "G93 in a B-spline: F is taken in mm/min";
-            self.report.note_once("120847", Fault::new(Condition::TimeInSpline, text, span));
+            self.report
+                .note_once("G93 in a B-spline", Fault::new(Condition::TimeInSpline, text, span));
         }
         let main = &self.motion.spindles[0];
         if self.modal.feed_type == FeedType::PerRevolution
@@ -77,8 +79,7 @@ impl Decoder {
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
             self.report.note_once("G95 at rest", fault);
         }
-        let unit_mm = if word.inch && feed_is_linear(&self.machine, path) { 25.4 } else { 1.0 };
-        self.feed_from(word.value, unit_mm, span)
+        self.feed_from(word.value, word.unit_mm(&self.machine, path), span)
     }
 
     /// Feed rate for a value above 0 with the active feed type; the unit of a distance in mm is given.
@@ -125,10 +126,17 @@ pub(super) fn check_time(block: &Block, span: Span, report: &mut Report) {
     }
 }
 
-/// Whether not only rotary axes move.
-fn feed_is_linear(machine: &Machine, path: &Path) -> bool {
-    !path.is_straight()
-        || (0..path.start().len()).any(|i| {
-            machine.axes[i].is_linear() && path.start()[i].to_bits() != path.end()[i].to_bits()
-        })
+impl FeedWord {
+    /// The speed of G94 on this path in mm/s (deg/s).
+    pub(super) fn per_minute(self, machine: &Machine, path: &Path) -> f64 {
+        self.value * (self.unit_mm(machine, path) * machine.channel.feed_unit_mm_min / 60.0)
+    }
+
+    /// Unit of length in mm on this path: 1 if only rotary axes move.
+    pub(super) fn unit_mm(self, machine: &Machine, path: &Path) -> f64 {
+        let moves = |i: usize| path.start()[i].to_bits() != path.end()[i].to_bits();
+        let is_linear = !path.is_straight()
+            || (0..path.start().len()).any(|i| machine.axes[i].is_linear() && moves(i));
+        if self.inch && is_linear { INCH_MM } else { 1.0 }
+    }
 }

@@ -8,15 +8,17 @@ use crate::exec::block::modal::{Compensation, FeedType};
 use crate::exec::contour::FeedCourse;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::machine::Channel;
+use crate::machine::Machine;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Feed, SlopeKind};
+use kontur_motion::path::Path;
 
 impl MotionState {
     /// Interpolates from the previous F word to that of the block.
     fn interpolated_feed(
         &self,
-        channel: &Channel,
+        machine: &Machine,
+        path: &Path,
         name: &str,
         over_path: bool,
         span: Span,
@@ -25,10 +27,8 @@ impl MotionState {
             let text = format!("{name}: no earlier F word to start the change of the feed from");
             return Err(Fault::new(Condition::FeedZero, text, span));
         };
-        let unit_mm = if from.inch { 25.4 } else { 1.0 };
-        let mm_s = from.value * unit_mm * channel.feed_unit_mm_min / 60.0;
         let course = if over_path { FeedCourse::OverPath } else { FeedCourse::OverTime };
-        Ok(Some(course(mm_s)))
+        Ok(Some(course(from.per_minute(machine, path))))
     }
 }
 
@@ -37,6 +37,7 @@ impl Decoder {
     pub(super) fn feed_course(
         &mut self,
         words: &Words<'_>,
+        path: &Path,
         feed: Feed,
         rounds: bool,
         span: Span,
@@ -79,7 +80,7 @@ impl Decoder {
             "tool radius compensation"
         } else {
             return if interpolated.is_some() {
-                self.motion.interpolated_feed(&self.machine.channel, &name, over_path, span)
+                self.motion.interpolated_feed(&self.machine, path, &name, over_path, span)
             } else {
                 Ok(corner.map(FeedCourse::Corner))
             };

@@ -120,8 +120,8 @@ impl Decoder {
         span: Span,
     ) {
         for axis in 0..self.geometry.limits_mm.len() {
-            let stands = path.start()[axis].to_bits() == path.end()[axis].to_bits();
-            if path.is_straight() && stands {
+            let at_rest = path.start()[axis].to_bits() == path.end()[axis].to_bits();
+            if path.is_straight() && at_rest {
                 continue;
             }
             let Some((low, high)) = path.extent(axis) else { return };

@@ -11,10 +11,9 @@ use self::coupling::Couplings;
 use self::cutting::Cutting;
 use self::measuring::Measuring;
 use self::wear::OnlineCompensation;
-use super::dynamics::{Weights, channel_dynamics};
+use super::dynamics::{Cut, Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
-use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
@@ -146,12 +145,12 @@ impl MotionState {
         self.dynamics = [None, None];
     }
 
-    /// Axes with weights beyond the limits of the lists, and the corresponding conditions.
+    /// Axes whose limits differ from those that their weights request, and why.
     pub(in crate::exec) fn limited_weights(
         &self,
         machine: &Machine,
         modal: &Modal,
-    ) -> Vec<(usize, Condition)> {
+    ) -> Vec<(usize, Cut)> {
         channel_dynamics(machine, &self.weights, modal, self.vector[0]).1
     }
 }

@@ -44,7 +44,7 @@ impl Decoder {
             from_outside,
             acceleration_ratio: wear.acceleration_ratio,
         };
-        self.contour.tell_engagement();
+        self.contour.report_engagement();
         self.contour.event(Event::Wear(Some(setting)));
         Ok(())
     }

@@ -102,3 +102,31 @@ fn the_feed_is_interpolated_over_path_and_time() {
     let up = text.replace("F400", "F2000");
     follow(&pieces(&up, 50.0, 90.0), 50.0, 90.0, |s| v * (1.0 + s / 40.0));
 }
+
+/// The unit of length has no effect on a path of rotary axes alone: F is in deg/min there, and so are E and the F word from
+/// which G193 and G293 start.
+#[test]
+fn inches_do_not_scale_the_feed_of_rotary_axes() {
+    let speeds = |unit: &str, axis: &str, rest: &str| {
+        let text = format!("{unit}\n#SLOPE [TYPE=STEP]\nG91 G01 {axis}9 F600\n{rest}\nM30\n")
+            .replace("AXIS", axis);
+        let run = super::run_on(&["Z.kenngr.achs_typ=2"], &text);
+        assert!(run.ids().is_empty(), "{:?}", run.ids());
+        let of = |b: &&kontur_motion::block::Block| (b.feed, b.end_velocity_mm_s);
+        run.blocks().iter().map(of).collect::<Vec<_>>()
+    };
+    for rest in ["G193 AXIS9 F300", "G293 AXIS9 F300", "AXIS9 E60"] {
+        assert_eq!(speeds("G70", "Z", rest), speeds("G71", "Z", rest), "{rest}");
+        // a linear axis moves 25.4 times as fast
+        for ((inch, end), (mm, end_mm)) in
+            speeds("G70", "X", rest).into_iter().zip(speeds("G71", "X", rest))
+        {
+            let (Feed::PathVelocity(inch), Feed::PathVelocity(mm)) = (inch, mm) else {
+                panic!("{inch:?} {mm:?}")
+            };
+            assert!((inch - 25.4 * mm).abs() < 1e-9 * inch, "{rest}: {inch} {mm}");
+            let ends = end.zip(end_mm).is_none_or(|(a, b)| (a - 25.4 * b).abs() < 1e-9 * a);
+            assert!(ends && end.is_some() == end_mm.is_some(), "{rest}");
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::machine::table::channel as of;
 use crate::machine::table::param::{Param, Whole};
 
 /// Largest number of pairs in a group. Source: TF5200 channel parameters, synchro_data (149192587).
-const PAIRS_MAX: u32 = 15;
+pub(crate) const PAIRS_MAX: u32 = 15;
 
 /// A pair by the logical numbers of its axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

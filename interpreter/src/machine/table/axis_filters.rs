@@ -2,6 +2,7 @@
 
 use super::param::{Number, Param, Switch, Whole, parameters};
 use super::row::{Bound, Raw, axis};
+use kontur_filters::fir::FirConfig;
 
 /// Prototypes (P-AXIS-00153).
 const PROTOTYPES: &[(&str, u32)] =
@@ -45,7 +46,7 @@ parameters! {
     axis("P-AXIS-00573", "filter_fir.enable", Raw::Boolean, "FIR filter on")
         .default(0.0).source("TF5200 FIR filter"), as FIR_ENABLE: Switch;
     axis("P-AXIS-00585", "filter_fir.fcut", Raw::Real64, "cut-off frequency, windowed sinc only (FCUT)")
-        .range(Bound::At(1.0), Bound::None).default(30.0).unit("Hz", "Hz").at_setup().source("TF5200 FIR filter"), as FIR_FREQUENCY: Number;
+        .range(Bound::At(FirConfig::MIN_FREQ_HZ), Bound::None).default(30.0).unit("Hz", "Hz").at_setup().source("TF5200 FIR filter"), as FIR_FREQUENCY: Number;
     axis("P-AXIS-00586", "filter_fir.type", Raw::Uns32, "0 none 1 moving average 2 Gauss 3 windowed sinc 4 delay")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).at_setup().source("TF5200 FIR filter"), as FIR_TYPE: Whole;
     axis("P-AXIS-00587", "filter_fir.order", Raw::Uns32, "order, 0 = off")

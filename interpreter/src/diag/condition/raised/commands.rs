@@ -176,7 +176,7 @@ macro_rules! commands {
     CycleWithoutId = Vendor 22003: Error ProgramAbort 3 1, "#RT CYCLE DEF without ID", hint "write ID=.. in its bracket";
     StretchFactor = Vendor 22007: Warning None 1 1, "STRETCH_FACTOR outside its range", cause "#TRC [STRETCH_FACTOR=10]", hint "write 1 to 9 tool radii";
     SeveralCalls = Vendor 22008: Error ProgramAbort 3 1, "several implicit calls at one block end", hint "write the second call in a separate block";
-    FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two must not be used together", hint "use one of the two in a program; the OFF forms count too";
+    FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two must not be used together", hint "use one of the two in a program; the OFF forms count too", note "OFF forms and subroutines also count; a branch that is never decoded does not";
     GuardMode = Vendor 22062: Error ProgramAbort 3 1, "Vibration Guard mode not allowed", cause "MODE outside 1…4", hint "write a mode from 1 to 4";
     FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "use the keys HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
     SpaceArcWithCompensation = Vendor 22081: Error ProgramAbort 3 1, "arc in space with tool radius compensation", cause "G303 between G41 and G40", hint "write G40 and a straight motion before it";

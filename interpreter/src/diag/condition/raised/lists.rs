@@ -14,7 +14,7 @@ macro_rules! lists {
     FeedDecelerationZero = Vendor 110102: Warning None 1 2, "deceleration is 0, default used", hint "write the feed deceleration in mm/s2", parameter "P-AXIS-00002";
     SoftwareLimitRange = Vendor 110110: Warning None 1 2, "software limits leave no travel, corrected", cause "P-AXIS-00177, P-AXIS-00178", hint "write kenngr.swe_neg below kenngr.swe_pos";
     OverrideRange = Vendor 110111: Warning None 1 2, "maximum override below the minimum override, limited", cause "P-AXIS-00109", hint "write 1 to 2000 (0.1 %)";
-    FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more";
+    FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more", note "the feedforward manual allows a numerator of 0, so P-AXIS-00228 = 0 is a valid weight here; P-AXIS-00514 = 0 raises it";
     FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
     GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
     FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "use LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2 or HSC_MEAN";
@@ -36,7 +36,7 @@ macro_rules! lists {
     HscNotFirst = Vendor 110501: Warning None 1 2, "HSC filter must be filter[0], filter off", cause "P-AXIS-00153", hint "configure it as filter[0]";
     DeadBand = Vendor 110528: Warning None 1 2, "dead band of the position controller above the window, limited", cause "P-AXIS-00395, P-AXIS-00236", hint "write a dead band up to getriebe[i].window";
     CAxisWithoutModulo = Vendor 110565: Warning None 1 2, "C axis is not a modulo axis, corrected", cause "kenngr.achs_mode 0x200", hint "write 0x204", parameter "P-AXIS-00015";
-    GearRatio = Vendor 110579: Warning None 1 2, "output revolutions of the gear ratio are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more";
+    GearRatio = Vendor 110579: Warning None 1 2, "output revolutions of the gear ratio are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more", note "raised for P-AXIS-00512 = 0, as stated in two manuals; one page of the diagnosis manual prints 110580";
     WithoutDelayNeedsVelocityOnly = Vendor 110624: Warning None 1 2, "feedforward without delay combined with acceleration or jerk feedforward, these are switched off", cause "P-AXIS-00566, P-AXIS-00223", hint "allow velocity feedforward only (P-AXIS-00223 VEL), or drop feedforward_without_delay";
     WeightMode = Vendor 120020: Error ProgramAbort 6 0, "unknown mode of the ramp-time weights", cause "#SET SLOPE PROFIL [1,7,0]", hint "write 0 (all) or 1 to 4 (one of the ramp times)";
     FirstStageZero = Vendor 120028: Warning None 1 2, "acceleration of stage 1 weighted to 0, limited to the minimum", cause "G131=0, G130 X0", hint "write a weight above 0", parameter "P-AXIS-00011";

@@ -2,8 +2,8 @@
 
 use super::item::Item;
 use crate::exec::contour::motion::Motion;
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Curve, Side, cross, dot, intersections, norm, sub};
+use crate::exec::geometry::planar::{Curve, Side, intersections};
+use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use smallvec::SmallVec;

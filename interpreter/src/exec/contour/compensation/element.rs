@@ -7,8 +7,8 @@ use super::tangential::{self, Touch};
 use crate::diag::Condition;
 use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, cross, dot, sub};
+use crate::exec::geometry::planar::Side;
+use crate::exec::geometry::point::{Point, cross, dot, sub};
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, Path};
 

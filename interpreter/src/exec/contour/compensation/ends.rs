@@ -1,7 +1,7 @@
 //! Motions with ends moved within the plane.
 
 use crate::exec::contour::motion::Motion;
-use crate::exec::geometry::arc::Point;
+use crate::exec::geometry::point::Point;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
 

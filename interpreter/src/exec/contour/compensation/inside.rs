@@ -13,8 +13,8 @@ use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::Fault;
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, cross, dot, norm, sub};
+use crate::exec::geometry::planar::Side;
+use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
 use crate::syntax::ast::Span;
 
 /// Maximum number of blocks of a contour. Assumption: the vendor prints no number.

@@ -13,8 +13,8 @@ use super::item::{Fallible, Item, too_tight};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
 use crate::exec::contour::motion::Motion;
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, cross, sub};
+use crate::exec::geometry::planar::Side;
+use crate::exec::geometry::point::{Point, cross, sub};
 use kontur_motion::axis::AxisVec;
 
 /// Direction of an element where a point is on its normal.

@@ -11,8 +11,7 @@ use super::item::Fallible;
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::Fault;
-use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{cross, dot, norm, sub};
+use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
 use kontur_motion::path::{ArcPath, ArcShape, Path};
 
 /// Sine of the angle between chord and tangent below which the arc is a line.

@@ -8,10 +8,10 @@ use crate::exec::program::index::keyword::Keyword;
 use crate::source::RawBlock;
 
 /// Maximum nesting of control statements. Assumption: the vendor prints no number for 20211.
-const NESTING_MAX: usize = 64;
+const STATEMENTS_MAX: usize = 64;
 
 /// Nesting at which reading of the file stops; up to this depth, each fault is reported.
-const NESTING_READ: usize = 4 * NESTING_MAX;
+const NESTING_READ: usize = 4 * STATEMENTS_MAX;
 
 impl Builder<'_> {
     pub(super) fn control(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
@@ -91,8 +91,8 @@ impl Builder<'_> {
         depth: usize,
         condition: Condition,
     ) {
-        if depth > NESTING_MAX {
-            let text = format!("control statements nested more than {NESTING_MAX} deep");
+        if depth > STATEMENTS_MAX {
+            let text = format!("control statements nested more than {STATEMENTS_MAX} deep");
             let d = Diagnostic::new(condition, text);
             self.report(raw, head.at, word(&head.rest[1..]).len() + 1, d);
             self.gives_up |= depth > NESTING_READ;
