@@ -45,6 +45,7 @@ use super::{
 use crate::time::CycleTime;
 pub use config::{AxisControlConfig, Encoder};
 use given::Given;
+use std::sync::Arc;
 
 /// External influences on an axis; none by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -111,7 +112,8 @@ pub struct ControlOutput {
 /// One axis downstream of its set position.
 #[derive(Clone, Debug)]
 pub struct AxisControl {
-    config: AxisControlConfig,
+    /// Shared with the saved states of the axis.
+    config: Arc<AxisControlConfig>,
     cycle: CycleTime,
     cycle_s: f64,
     /// Scale of the speed command and of the feedforward.
@@ -170,7 +172,7 @@ impl AxisControl {
                 config.feedforward_format.counts_per_mm_s(cycle.seconds()),
             ),
             unstable_mm: Self::DIVERGED * config.lag.lag_max_mm.max(theoretical_mm),
-            config,
+            config: Arc::new(config),
             cycle,
             cycle_s: cycle.seconds(),
             set_mm: 0.0,
@@ -218,7 +220,7 @@ impl AxisControl {
     }
 
     /// The configuration in use.
-    pub const fn config(&self) -> &AxisControlConfig {
+    pub fn config(&self) -> &AxisControlConfig {
         &self.config
     }
 
@@ -292,7 +294,7 @@ impl AxisControl {
     /// 70601 while the set position moves; the old parameters stay.
     pub fn change_ipc(&mut self, ipc: IpcConfig) -> Result<(), Fault> {
         self.ipc.change(&ipc, self.config.position.v_max_mm_s, self.cycle, self.moving)?;
-        self.config.ipc = ipc;
+        Arc::make_mut(&mut self.config).ipc = ipc;
         self.still_cycles = 0;
         Ok(())
     }

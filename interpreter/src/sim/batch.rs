@@ -245,7 +245,7 @@ impl Simulation {
         {
             column.clear();
             column.push(*now);
-            column.extend((1..count).map(|_| spindle.step(&[], *cycle)));
+            spindle.turn(count - 1, *cycle, column);
         }
     }
 }

@@ -231,6 +231,17 @@ impl Spindle {
         self.position_deg
     }
 
+    /// Appends the set positions of the next cycles of a spindle that [turns freely](Self::turns_freely).
+    pub(super) fn turn(&mut self, cycles: usize, cycle: CycleTime, column: &mut Vec<f64>) {
+        let end = column.len() + cycles;
+        while column.len() < end {
+            let deg = self.step(&[], cycle);
+            // at rest another step adds 0, which changes nothing but the sign of a zero, once
+            let left = if self.is_as_told() && self.rests() { end - column.len() } else { 1 };
+            column.extend(std::iter::repeat_n(deg, left));
+        }
+    }
+
     /// One cycle of the motion from rest to an angle.
     ///
     /// Source: TF5200 spindle, positioning: in the programmed direction, otherwise in that of the previous rotation,
@@ -265,5 +276,43 @@ impl Spindle {
             self.position_deg = p.from_deg + p.sense * state.s_mm;
             self.turning = Turning::at(if p.arrived { 0.0 } else { p.sense * state.v_mm_s });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Spindle, SpindleMotion};
+    use crate::job::MachineLists;
+    use kontur_filters::time::CycleTime;
+
+    /// Cycles in a row give the angles of single cycles bit for bit, at rest, on the way to a speed, at it, on a reversal
+    /// and until the spindle rests again; also from the angle -0.
+    #[test]
+    fn cycles_in_a_row_are_single_cycles() {
+        let (machine, _) = MachineLists::default().load().unwrap();
+        let mut single = Spindle::new(&machine.spindles[0].dynamics());
+        single.position_deg = -0.0;
+        let mut in_a_row = single.clone();
+        let commands = [
+            SpindleMotion::Stop,
+            SpindleMotion::Clockwise { rpm: 600.0 },
+            SpindleMotion::CounterClockwise { rpm: 300.0 },
+            SpindleMotion::CounterClockwise { rpm: 0.0 },
+            SpindleMotion::Stop,
+        ];
+        let cycle = CycleTime::DEFAULT;
+        let mut seen = Vec::new();
+        for command in commands {
+            single.command(command);
+            in_a_row.command(command);
+            for count in [1, 8, 255, 255, 4000] {
+                let mut column = Vec::new();
+                in_a_row.turn(count, cycle, &mut column);
+                let alone = (0..count).map(|_| single.step(&[], cycle).to_bits());
+                assert!(column.iter().map(|deg| deg.to_bits()).eq(alone), "{command:?} {count}");
+            }
+            seen.push(single.rests());
+        }
+        assert_eq!(seen, [true, false, false, true, true]);
     }
 }
