@@ -43,7 +43,6 @@ use crate::syntax::ast::{Command, Ident, Span};
 pub(super) use messages::addition;
 pub(crate) use row::Row;
 use row::{Act, Call};
-pub(super) use slope::{slope_of_number, slope_type};
 
 const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) -> Row {
     Row::run(name, f)

@@ -5,6 +5,7 @@ pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
 mod feed_course;
+mod guarded;
 pub(super) mod insertion;
 mod interim;
 mod motion;
@@ -24,6 +25,7 @@ use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
 pub(super) use feed_course::{PIECES_MAX, STEP};
+pub(super) use guarded::{Guarded, violated};
 pub(super) use motion::{
     Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, local_ends, programmed_time_s,
 };

@@ -19,6 +19,7 @@ pub(super) mod overrides;
 mod plane;
 mod scaling;
 mod set_position;
+pub(super) mod slope;
 mod space;
 pub(super) mod spindles;
 pub(super) mod state;

@@ -3,7 +3,7 @@
 mod event;
 
 pub(crate) use event::{
-    Approach, BandingRun, CuttingSpeed, Event, SpindleMotion, WearSetting, WornPart,
+    Approach, BandingRun, CuttingSpeed, Event, SpindleMotion, TimerAct, WearSetting, WornPart,
 };
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;

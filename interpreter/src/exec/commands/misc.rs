@@ -9,8 +9,8 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::TimerAct;
 use crate::exec::step::{Event, Sync};
-use crate::exec::values::timers::TimerAct;
 use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
 
 /// Row of `#FLUSH`.

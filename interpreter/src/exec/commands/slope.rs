@@ -8,27 +8,9 @@ use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::slope::{slope_of_number, slope_type};
 use crate::exec::values::number::whole;
 use crate::syntax::ast::{Item, ItemKind, ItemValue};
-use kontur_motion::block::SlopeKind;
-
-/// Types in the order of P-CHAN-00071.
-const TYPES: [(&str, SlopeKind); 4] = [
-    ("STEP", SlopeKind::Step),
-    ("TRAPEZ", SlopeKind::Trapez),
-    ("SIN2", SlopeKind::Sin2),
-    ("HSC", SlopeKind::Hsc),
-];
-
-/// Slope type for a word.
-pub(in crate::exec) fn slope_type(name: &str) -> Option<SlopeKind> {
-    TYPES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
-}
-
-/// Slope type for a number, as in P-CHAN-00071.
-pub(in crate::exec) fn slope_of_number(number: u32) -> Option<SlopeKind> {
-    TYPES.get(number as usize).map(|(_, kind)| *kind)
-}
 
 fn default(decoder: &mut Decoder) {
     decoder.modal.slope.kind = decoder.machine.channel.slope;
@@ -116,7 +98,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::TokenUnknown, text, item.span));
     }
     let value = number(decoder, item)?;
-    let Some(i) = whole(value, 0, 3) else {
+    let Some(kind) = whole(value, 0, 3).and_then(slope_of_number) else {
         let text = format!("slope profile {value} does not exist");
         return Err(Fault::new(Condition::Range, text, item.span)
             .with(|d| {
@@ -145,7 +127,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         }
     }
-    decoder.modal.slope.kind = TYPES[i as usize].1;
+    decoder.modal.slope.kind = kind;
     set_old(decoder, true);
     Ok(())
 }

@@ -8,7 +8,8 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::state::wear::{WEAR_UNIT, WearSource};
+use crate::exec::geometry::tools::WEAR_UNIT;
+use crate::exec::motion::state::wear::WearSource;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 

@@ -1,7 +1,7 @@
 //! A programmed motion as it passes through the stages of the contour.
 
+use super::guarded::Guarded;
 use crate::exec::block::modal::Selection;
-use crate::exec::motion::state::areas::Watch;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -31,7 +31,7 @@ pub(in crate::exec) struct Motion {
     /// Whether it leads to a point of an Akima spline.
     pub(in crate::exec) akima: bool,
     /// The control areas that it must not violate.
-    pub(in crate::exec) watch: Option<Arc<Watch>>,
+    pub(in crate::exec) watch: Option<Arc<Guarded>>,
     /// The block, for conditions.
     pub(in crate::exec) span: Span,
 }

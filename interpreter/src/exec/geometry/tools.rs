@@ -5,6 +5,9 @@
 pub(in crate::exec) use crate::machine::Tool;
 use std::collections::BTreeMap;
 
+/// mm of wear per mm of travel for one unit of WEAR_CONST: 0.1 um per metre.
+pub(in crate::exec) const WEAR_UNIT: f64 = 1e-7;
+
 /// Tool table and selection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::exec) struct Tools {

@@ -14,12 +14,13 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
 use crate::exec::block::modal::{Compensation, Modal, PathMode};
+use crate::exec::contour::{Guarded, violated};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::area::{Area, Base, Violation, overlaps};
 use crate::exec::geometry::coordinates::Coordinates;
-use crate::exec::motion::state::areas::{Areas, Draft, Heading, Watch, violated};
+use crate::exec::motion::state::areas::{Areas, Draft, Heading};
 use crate::exec::names::AxisNames;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -73,13 +74,13 @@ impl Areas {
         geometry: &Geometry,
         way: &AxisVec,
         names: &AxisNames,
-    ) -> Option<Arc<Watch>> {
+    ) -> Option<Arc<Guarded>> {
         if self.active.is_empty() {
             return None;
         }
         let offsets_mm = geometry.tip(way);
         let areas = self.active.clone();
-        let watch = Watch { areas, offsets_mm, names: names.all() };
+        let watch = Guarded { areas, offsets_mm, names: names.all() };
         // shared by consecutive motions
         if self.watch.as_deref() != Some(&watch) {
             self.watch = Some(Arc::new(watch));

@@ -6,6 +6,7 @@
 //!
 //! Source: TF5200 programming manual, independent axes; 21068, 21071.
 
+use super::slope::{slope_of_number, slope_type};
 use super::state::Function;
 use crate::diag::Condition;
 use crate::exec::block::collected::Words as BlockWords;
@@ -61,7 +62,7 @@ impl Words {
                     words.value(key, value, item.span, unit_mm_s)?;
                 }
                 ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("SLOPE_TYPE") => {
-                    let Some(kind) = crate::exec::commands::slope_type(&name.text) else {
+                    let Some(kind) = slope_type(&name.text) else {
                         let text = format!("unknown slope type {}", name.text);
                         return Err(wrong(text, name.span));
                     };
@@ -120,7 +121,7 @@ impl Words {
         }
         if key.is("SLOPE_PROFIL") {
             let number = crate::exec::values::number::whole(value, 0, 3);
-            let kind = number.and_then(crate::exec::commands::slope_of_number);
+            let kind = number.and_then(slope_of_number);
             let kind = kind.ok_or_else(|| wrong("use a slope type from 0 to 3", span))?;
             return once(&mut self.slope, kind, "the slope", span);
         }

@@ -1,7 +1,6 @@
 //! Events: what acts at the begin of a step, without a motion of its own.
 
 use super::{IndependentMotion, OscillatingMotion, SourceRef};
-use crate::exec::values::timers::TimerAct;
 use crate::machine::SpindleLimits;
 use kontur_motion::axis::AxisVec;
 
@@ -236,4 +235,17 @@ pub(crate) struct WearSetting {
     pub(crate) most_mm: f64,
     /// Share of the acceleration limit of the axes that is used to follow a change.
     pub(crate) acceleration_ratio: f64,
+}
+
+/// Operation on a timer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TimerAct {
+    /// Starts the timer.
+    Start,
+    /// Stops the timer.
+    Stop,
+    /// Copies its count to `V.G.TIMER`.
+    Read,
+    /// Stops it and sets it to 0; `V.G.TIMER` is unchanged.
+    Clear,
 }

@@ -2,20 +2,8 @@
 //!
 //! Source: TF5200 programming manual, time measurement.
 
+use crate::exec::step::TimerAct;
 use std::collections::BTreeMap;
-
-/// Operation on a timer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum TimerAct {
-    /// Starts the timer.
-    Start,
-    /// Stops the timer.
-    Stop,
-    /// Copies its count to `V.G.TIMER`.
-    Read,
-    /// Stops it and sets it to 0; `V.G.TIMER` is unchanged.
-    Clear,
-}
 
 /// One timer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,13 +2,10 @@
 //!
 //! Source: TF5200 workspace monitoring (291148299); 120484.
 
-use crate::diag::{Condition, ValueKind};
-use crate::exec::fault::Fault;
-use crate::exec::geometry::area::{Area, Purpose, Violation};
-use crate::exec::step::SourceRef;
+use crate::exec::contour::Guarded;
+use crate::exec::geometry::area::{Area, Purpose};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::path::Path;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -20,7 +17,7 @@ pub(in crate::exec) struct Areas {
     pub(in crate::exec::motion) active: Vec<Arc<Area>>,
     pub(in crate::exec::motion) draft: Option<Box<Draft>>,
     /// State shared by consecutive motions.
-    pub(in crate::exec::motion) watch: Option<Arc<Watch>>,
+    pub(in crate::exec::motion) watch: Option<Arc<Guarded>>,
 }
 
 /// Parameters at the start of a definition.
@@ -50,16 +47,6 @@ pub(in crate::exec::motion) struct Draft {
     pub(in crate::exec::motion) circle: Option<([usize; 2], [f64; 2], f64)>,
 }
 
-/// The areas that a motion is checked against.
-#[derive(Debug, PartialEq)]
-pub(in crate::exec) struct Watch {
-    pub(in crate::exec::motion) areas: Vec<Arc<Area>>,
-    /// Offset from the path to the tip of the tool.
-    pub(in crate::exec::motion) offsets_mm: AxisVec,
-    /// Names of the axes.
-    pub(in crate::exec::motion) names: Vec<String>,
-}
-
 impl Areas {
     /// Whether there is neither a definition nor an active area, so that motions need no treatment.
     pub(in crate::exec) fn are_idle(&self) -> bool {
@@ -79,44 +66,4 @@ impl Areas {
     pub(in crate::exec::motion) fn is_active(&self, number: u32) -> bool {
         self.active.iter().any(|area| area.number == number)
     }
-}
-
-impl Watch {
-    /// The areas that a motion violates.
-    pub(in crate::exec) fn fault(
-        &self,
-        path: &Path,
-        source: SourceRef,
-        span: Span,
-    ) -> Option<Fault> {
-        let (area, violation) = self.areas.iter().find_map(|area| {
-            let violation = area.violation(path, &self.offsets_mm)?;
-            Some((area, violation))
-        })?;
-        Some(*violated(area, violation, &self.names, span).in_block(source))
-    }
-}
-
-/// 120484, K-0147.
-pub(in crate::exec::motion) fn violated(
-    area: &Area,
-    violation: Violation,
-    names: &[String],
-    span: Span,
-) -> Box<Fault> {
-    let condition = match (area.purpose, violation.at_end) {
-        (Purpose::Workspace, true) => Condition::OutsideWorkspace,
-        _ => Condition::AreaViolated,
-    };
-    let place: Vec<String> = area
-        .axes
-        .iter()
-        .zip(violation.point_mm)
-        .map(|(axis, x)| format!("{}{}", names[*axis], (x * 1e4).round() / 1e4))
-        .collect();
-    let text = match area.purpose {
-        Purpose::Workspace => format!("{} is outside workspace {}", place.join(" "), area.number),
-        Purpose::Protection => format!("{} is in protection area {}", place.join(" "), area.number),
-    };
-    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Current, area.number, "-"))
 }

@@ -2,9 +2,6 @@
 //!
 //! Source: TF5200 online tool compensation (213641867).
 
-/// mm of wear per mm of travel for one unit of WEAR_CONST: 0.1 um per metre.
-pub(in crate::exec) const WEAR_UNIT: f64 = 1e-7;
-
 /// Source of the wear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum WearSource {

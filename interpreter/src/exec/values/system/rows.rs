@@ -7,7 +7,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::geometry::tools::Tool;
-use crate::exec::motion::state::wear::WEAR_UNIT;
+use crate::exec::geometry::tools::WEAR_UNIT;
 use crate::exec::options::Value;
 
 /// One readable variable: its name with `*` for an axis name or index.

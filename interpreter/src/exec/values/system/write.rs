@@ -6,7 +6,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::geometry::tools::Tool;
-use crate::exec::motion::state::wear::WEAR_UNIT;
+use crate::exec::geometry::tools::WEAR_UNIT;
 use crate::exec::options::Value;
 use crate::exec::program::state::Calls;
 use crate::exec::report::Report;
