@@ -25,6 +25,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::Threads;
+use crate::exec::names::AxisNames;
 use crate::exec::report::Report;
 use crate::exec::step::{SpindleState, Sync};
 use crate::syntax::ast::{ItemKind, Span};
@@ -53,7 +54,13 @@ fn direction_of(path: &Path) -> AxisVec {
 
 impl Threads {
     /// The pitch of a path: that of its longest main axis with a pitch.
-    fn pitch(&self, coordinates: &Coordinates, path: &Path, span: Span) -> Outcome<(usize, f64)> {
+    fn pitch(
+        &self,
+        coordinates: &Coordinates,
+        names: &AxisNames,
+        path: &Path,
+        span: Span,
+    ) -> Outcome<(usize, f64)> {
         let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
         let mut best: Option<(usize, f64)> = None;
         let pitches = self.pitch_mm.iter().enumerate();
@@ -71,7 +78,18 @@ impl Threads {
             }
         }
         best.ok_or_else(|| {
-            let text = "the thread has no pitch for the axes it moves: I, J or K in mm/rev";
+            // the centre words of the moved axes, by their names in the channel
+            let wanted: Vec<String> = ["I", "J", "K"]
+                .iter()
+                .enumerate()
+                .filter_map(|(main, word)| Some((coordinates.main_axis(main)?, word)))
+                .filter(|(axis, _)| way(*axis) > 0.0)
+                .map(|(axis, word)| format!("{word} for {}", names.name(axis)))
+                .collect();
+            let text = match &wanted[..] {
+                [] => "a thread moves at least one main axis".to_owned(),
+                wanted => format!("the thread has no pitch: {} in mm/rev", wanted.join(" or ")),
+            };
             Fault::new(Condition::ThreadPitch, text, span)
         })
     }
@@ -200,7 +218,7 @@ impl Decoder {
             self.end_thread();
         }
         let (axis, pitch_mm) =
-            self.motion.threads.pitch(&self.geometry.coordinates, &path, span)?;
+            self.motion.threads.pitch(&self.geometry.coordinates, &self.names, &path, span)?;
         if pitch_mm < 0.0 {
             let text = "the pitch of G33 must not have a sign: M03 and M04 set the direction";
             return Err(Fault::new(Condition::ThreadPitch, text, span));

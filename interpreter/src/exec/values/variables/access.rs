@@ -177,7 +177,14 @@ impl Variables {
         report: &mut Report,
     ) -> Outcome<()> {
         let removed = match target {
-            Target::Parameter(index, _) => self.parameters_mut().remove(index),
+            Target::Parameter(index, _) => {
+                let gone = self.parameters_mut().remove(index);
+                if gone.is_none() {
+                    let text = format!("P{index} does not exist");
+                    return Err(Fault::new(Condition::DeletedUnknown, text, span));
+                }
+                gone
+            }
             Target::Own(class, name, _) => {
                 let gone = self.table(*class).and_then(|table| table.remove(&**name));
                 if gone.is_none() {
