@@ -47,7 +47,10 @@ pub(super) fn recognise(masked: &str) -> Option<Problem> {
         return Some(Problem::new(Condition::ForeignProgram, span, text).hint(hint));
     }
     let found = klartext(masked)
+        .or_else(|| label(masked))
         .or_else(|| o_word(masked))
+        .or_else(|| synchronous_action(masked))
+        .or_else(|| decimal_m(masked))
         .or_else(|| sinumerik(masked))
         .or_else(|| arithmetic_parameter(masked))
         .or_else(|| subprogram(masked))
@@ -106,6 +109,52 @@ fn klartext(masked: &str) -> Option<Found> {
     let at = masked.len() - rest.len();
     let length = rest.find(second)? + second.len();
     Some(Found { at, length, control: HEIDENHAIN, meaning: "a statement in Klartext" })
+}
+
+/// `LBL 1`, `CALL LBL 1`: labels of Klartext without a number before them.
+fn label(masked: &str) -> Option<Found> {
+    let words = |(at, word): &(usize, &str)| {
+        word.eq_ignore_ascii_case("LBL")
+            && masked[at + word.len()..]
+                .trim_ascii_start()
+                .starts_with(|c: char| c.is_ascii_digit())
+    };
+    let mut at = 0;
+    let places = masked.split(' ').map(|word| {
+        let place = (at, word);
+        at += word.len() + 1;
+        place
+    });
+    let (at, word) = { places }.find(words)?;
+    let (control, meaning) = (HEIDENHAIN, "a label in Klartext");
+    Some(Found { at, length: word.len(), control, meaning })
+}
+
+/// `M862.3`: M numbers of this dialect are integers.
+fn decimal_m(masked: &str) -> Option<Found> {
+    let (at, rest) = content(masked);
+    let number = rest.strip_prefix(['M', 'm'])?;
+    let whole = number.bytes().take_while(u8::is_ascii_digit).count();
+    let tenths = number[whole..].strip_prefix('.')?;
+    let tenths = tenths.bytes().take_while(u8::is_ascii_digit).count();
+    (whole > 0 && tenths > 0).then_some(Found {
+        at,
+        length: 2 + whole + tenths,
+        control: "a 3D printer",
+        meaning: "an M function with a decimal point",
+    })
+}
+
+/// `WHEN $AA_IM[X] > 1 DO ..`: synchronous actions.
+fn synchronous_action(masked: &str) -> Option<Found> {
+    const CONDITIONS: [&str; 4] = ["WHEN", "WHENEVER", "FROM", "EVERY"];
+    let (at, rest) = content(masked);
+    let mut words = rest.split_ascii_whitespace();
+    let first = words.next()?;
+    CONDITIONS.iter().find(|word| word.eq_ignore_ascii_case(first))?;
+    words.find(|word| word.eq_ignore_ascii_case("DO"))?;
+    let (control, meaning) = (SINUMERIK, "a synchronous action");
+    Some(Found { at, length: first.len(), control, meaning })
 }
 
 /// `o100 sub`, `o<name> call`.

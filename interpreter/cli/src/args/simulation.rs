@@ -114,7 +114,8 @@ fn position(text: &str) -> Result<(String, f64), String> {
 /// A skip level.
 fn skip_level(text: &str) -> Result<u8, String> {
     let level = text.trim().parse().ok().filter(|level| (1..=10).contains(level));
-    level.ok_or_else(|| format!("`{text}`: levels from 1 to 10 separated by commas expected, 1,2,3"))
+    level
+        .ok_or_else(|| format!("`{text}`: levels from 1 to 10 separated by commas expected, 1,2,3"))
 }
 
 /// A finite number above zero.

@@ -121,6 +121,16 @@ impl Decoder {
                 );
                 return Err(Fault::new(Condition::ThreadPitch, text, *at));
             }
+            if let (Some(cut), PathMode::TapBack) = (self.motion.threads.pitch_mm[main], mode)
+                && (cut - pitch_mm).abs() > 0.0
+            {
+                // 413715595: the tool leaves the thread that it has cut
+                let text = format!(
+                    "the pitch {pitch} of G332 must be that of G331, {}",
+                    cut / self.modal.unit_mm()
+                );
+                return Err(Fault::new(Condition::ThreadPitch, text, *at));
+            }
             self.motion.threads.pitch_mm[main] = Some(pitch_mm);
         }
         let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else {

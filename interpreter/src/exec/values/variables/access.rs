@@ -181,7 +181,8 @@ impl Variables {
                 let gone = self.parameters_mut().remove(index);
                 if gone.is_none() {
                     let text = format!("P{index} does not exist");
-                    return Err(Fault::new(Condition::DeletedUnknown, text, span));
+                    let hint = format!("EXIST[P{index}] checks whether it exists");
+                    return Err(Fault::new(Condition::DeletedUnknown, text, span).hint(hint));
                 }
                 gone
             }
