@@ -279,6 +279,15 @@ mod tests {
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(file.metadata().unwrap().permissions().mode() & 0o777, 0o640);
         write(&[("/dev/null".as_ref(), b"x")]).unwrap();
+        // the file that a link names is made, next to the link
+        let waiting = folder.path().join("c");
+        symlink("later", &waiting).unwrap();
+        write(&[(&waiting, b"made")]).unwrap();
+        assert!(waiting.symlink_metadata().unwrap().is_symlink());
+        assert_eq!(fs::read(folder.path().join("later")).unwrap(), b"made");
+        let lost = folder.path().join("d");
+        symlink("/no/such/folder/file", &lost).unwrap();
+        assert!(write(&[(&lost, b"x")]).is_err());
     }
 
     #[test]

@@ -401,6 +401,10 @@ mod tests {
             ("N10 M98 P1000 L2", "`M98 P1000`", "Fanuc"),
             ("12 L X+10 Y+5 R0 FMAX M3", "`L`", "Heidenhain"),
             ("13 CC X+0 Y+0", "`CC`", "Heidenhain"),
+            ("LBL 1", "`LBL`", "Heidenhain"),
+            ("L P7 CALL LBL 1", "`LBL`", "Heidenhain"),
+            ("N10 M862.3 P    ", "`M862.3`", "3D printer"),
+            ("N5 WHEN TRUE DO $AA=1", "`WHEN`", "Sinumerik"),
         ] {
             let text = said(block).unwrap_or_default();
             assert!(text.contains(word) && text.contains(control), "{block}: {text}");
@@ -426,6 +430,9 @@ mod tests {
             "V.P.ROT 5",
             "[ROT",
             "M98 X",
+            "LBL X",
+            "WHEN X",
+            "M8. X",
         ] {
             assert_eq!(said(block), None, "{block}");
         }
