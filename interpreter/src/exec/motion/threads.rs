@@ -155,14 +155,17 @@ impl Decoder {
         }
     }
 
-    /// G63 drives the spindle in every block until the next G function of its group.
+    /// Tapping drives the spindle in every block until the next G function of its group.
     ///
     /// # Errors
-    /// 21000: M3, M4, M5 or M19 of the main spindle while G63 is active.
+    /// 21000: M3, M4, M5 or M19 of the main spindle while G63, G331 or G332 is active (208104203, 413715595).
     pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
-        if self.modal.path_mode(words) != PathMode::Tapping {
-            return Ok(());
-        }
+        let name = match self.modal.path_mode(words) {
+            PathMode::Tapping => "G63",
+            PathMode::TapBack => "G332",
+            mode if mode.is_tapping() => "G331",
+            _ => return Ok(()),
+        };
         let brackets = words.brackets.iter();
         let main = brackets.filter(|b| {
             self.motion.spindle_of_name(b.name.as_str(), &self.machine.channel) == Some(0)
@@ -175,7 +178,7 @@ impl Decoder {
         let mut functions = words.m.iter().map(|m| (m.number, m.span)).chain(bracketed);
         match functions.find(|(number, _)| matches!(number, 3..=5 | 19)) {
             Some((number, span)) => {
-                let text = format!("M{number:02} while G63 turns the spindle");
+                let text = format!("M{number:02} while {name} turns the spindle");
                 Err(Fault::new(Condition::TappingSpindleFunction, text, span))
             }
             None => Ok(()),
