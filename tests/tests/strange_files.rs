@@ -152,23 +152,6 @@ fn text_that_is_no_program_is_not_shown() {
 }
 
 #[test]
-fn a_program_in_utf16_is_one_message() {
-    let program = "%M\nG01 X1 F100\nM30\n";
-    let bytes = |mark: &[u8], order: fn(u16) -> [u8; 2]| -> Vec<u8> {
-        mark.iter().copied().chain(program.encode_utf16().flat_map(order)).collect()
-    };
-    let f = Folder::new()
-        .with("le.nc", bytes(&[], u16::to_le_bytes))
-        .with("be.nc", bytes(&[], u16::to_be_bytes))
-        .with("mark.nc", bytes(&[0xFE, 0xFF], u16::to_be_bytes));
-    for name in ["@le.nc", "@be.nc", "@mark.nc"] {
-        let said = f.call(&["check", name]);
-        assert_eq!(said.err.matches("error").count(), 1, "{name}: {}", said.err);
-        assert!(said.err.contains("UTF-16"), "{name}: {}", said.err);
-    }
-}
-
-#[test]
 fn tables_of_another_form_are_refused_in_plain_words() {
     let trace = "t_s,line,X_set_mm\n0,1,0.5\n0.001,1,0.5\n";
     let utf16: Vec<u8> =

@@ -252,7 +252,7 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         let axis = machine.axes.iter().position(|a| a.name().eq_ignore_ascii_case(name));
         if let Some((low, high)) = axis.and_then(|axis| machine.limits_without(axis, *mm)) {
             return Err(OpenError::Usage(format!(
-                "--start: {name}={} is outside the limits of the axis, {low} to {high} (P-AXIS-00177, P-AXIS-00178)",
+                "--start: {name}{} is outside the limits of the axis, {low} to {high} (P-AXIS-00177, P-AXIS-00178)",
                 short(*mm)
             )));
         }

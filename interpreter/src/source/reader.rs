@@ -272,11 +272,6 @@ impl BlockReader {
                 let text = "the text is UTF-16; save it as UTF-8";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
-            // without a byte order mark: every other byte of its ASCII characters is 0
-            [0, 1..=255, ..] | [1..=255, 0, ..] => {
-                let text = "the text is UTF-16 without a byte order mark; save it as UTF-8";
-                return Err(io::Error::new(io::ErrorKind::InvalidData, text));
-            }
             ref text if text.starts_with(BOM) => self.at = BOM.len(),
             _ => {}
         }

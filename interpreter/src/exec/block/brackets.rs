@@ -185,7 +185,10 @@ impl Decoder {
                     return Err(Fault::new(Condition::InternalFunction, text, *span));
                 }
                 let name = self.names.name(axis);
-                let is_function = matches!(word.text.as_bytes().first(), Some(b'G' | b'g'));
+                let is_function = matches!(
+                    word.text.as_bytes(),
+                    [b'G' | b'g', ..] | [b'M' | b'm', b'C' | b'c', b'_', ..]
+                );
                 if !REFUSED.iter().any(|known| word.is(known)) && !is_function {
                     let text = format!("{name}[{}]: not a function of an axis", word.text);
                     return Err(Fault::new(Condition::AxisFunctionMissing, text, *span));
