@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 /// Highest order of FIR and HSC filters. Source: P-AXIS-00587, 00140.
 pub const MAX_ORDER: u32 = 200;
 /// Highest order of the pure delay. Source: P-AXIS-00587.
-pub(crate) const MAX_DELAY_ORDER: u32 = 100;
+pub const MAX_DELAY_ORDER: u32 = 100;
 
 /// Shape of a FIR kernel. Source: P-AXIS-00586.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

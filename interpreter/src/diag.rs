@@ -162,6 +162,8 @@ pub struct Diagnostic {
     pub text: String,
     /// Position in a program or list.
     pub source: Option<Location>,
+    /// The blocks that called the subroutines or cycles it is in, the last call first.
+    pub calls: Vec<Location>,
     /// Cycle at which it happened, for conditions of the running machine.
     pub cycle: Option<u64>,
     /// The same in seconds of program time.
@@ -224,6 +226,7 @@ impl Diagnostic {
             axis: None,
             values: Vec::new(),
             correction: None,
+            calls: Vec::new(),
             parameter: row.parameter,
             hint: row.hint.map(str::to_owned),
             multiple_id: 0,
@@ -301,7 +304,7 @@ impl Serialize for Diagnostic {
             Id::Vendor(n) => (Some(n), None),
             Id::Kontur(_) => (None, Some(self.id.to_string())),
         };
-        let mut s = serializer.serialize_struct("Diagnostic", 17)?;
+        let mut s = serializer.serialize_struct("Diagnostic", 18)?;
         s.serialize_field("id", &vendor)?;
         s.serialize_field("kontur_id", &own)?;
         s.serialize_field("severity", &self.severity)?;
@@ -311,6 +314,7 @@ impl Serialize for Diagnostic {
         s.serialize_field("root", &row.root)?;
         s.serialize_field("multiple_id", &self.multiple_id)?;
         s.serialize_field("source", &self.source)?;
+        s.serialize_field("calls", &self.calls)?;
         s.serialize_field("cycle", &self.cycle)?;
         s.serialize_field("time_s", &self.time_s)?;
         s.serialize_field("channel", &1)?;

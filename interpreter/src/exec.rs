@@ -19,6 +19,7 @@ mod shaping;
 mod step;
 mod values;
 
+pub(crate) use block::dialect::unknown_g;
 pub(crate) use block::groups::unsupported as unsupported_function;
 pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value};
 pub use program::check::Checked;

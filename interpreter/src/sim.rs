@@ -151,6 +151,8 @@ pub(crate) struct Simulation {
     /// In a thread, the set positions of the path axes in the previous cycle as planned.
     planned: AxisVec,
     max_cycles: u64,
+    /// The limit as given, for its message.
+    max_time_s: f64,
     /// Position at which a fault has stopped each axis.
     frozen: Vec<Option<f64>>,
     messages: Messages,
@@ -334,7 +336,7 @@ impl Simulation {
         if self.planner.setpoint().k <= last || matches!(self.phase, Phase::Stopping(_)) {
             return false;
         }
-        let mut late = fault::out_of_time(last, self.cycle);
+        let mut late = fault::out_of_time(last, self.max_time_s, self.cycle);
         let waits = matches!(self.phase, Phase::Waiting(_));
         let block = if waits { self.waits_at } else { self.current };
         late.source = self.executor.locate(block);

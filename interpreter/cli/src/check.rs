@@ -29,7 +29,9 @@ struct Findings {
 impl Findings {
     /// Takes a diagnostic; false if it has been reported before.
     fn take(&mut self, found: &Diagnostic) -> bool {
-        let is_new = self.known.insert(serde_json::to_string(found).unwrap_or_default());
+        // a subroutine that several programs call has its messages once
+        let alone = Diagnostic { calls: Vec::new(), ..found.clone() };
+        let is_new = self.known.insert(serde_json::to_string(&alone).unwrap_or_default());
         if is_new {
             self.errors += usize::from(found.severity == Severity::Error);
             self.warnings += usize::from(found.severity == Severity::Warning);

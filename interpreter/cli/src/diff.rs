@@ -16,6 +16,7 @@ mod verdict;
 
 use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
+use crate::files::is_standard;
 use crate::{Error, Exit};
 use compare::Comparison;
 use serde::Serialize;
@@ -29,6 +30,10 @@ use verdict::Verdict;
 /// # Errors
 /// [`Error`] if a trace cannot be read or a program cannot be run.
 pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
+    if [&args.a, &args.b].into_iter().any(|path| is_standard(path)) {
+        let text = "diff compares files: `-`, the standard input, has no name to tell a trace from a program";
+        return Err(Error::Usage(text.to_owned()));
+    }
     let is_a = table::is_trace(&args.a)?;
     let mut open = |path: &Path, trace: bool, like: Option<&[String]>| {
         if trace {

@@ -239,6 +239,11 @@ fn folders(request: &Request) -> Result<(), OpenError> {
     }
 }
 
+/// A number with its exponent where its digits would fill the line.
+fn short(x: f64) -> String {
+    if x.abs() < 1e9 { x.to_string() } else { format!("{x:e}") }
+}
+
 fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
     for (i, (name, mm)) in request.start.iter().enumerate() {
         if request.start[..i].iter().any(|(other, _)| other.eq_ignore_ascii_case(name)) {
@@ -247,7 +252,8 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         let axis = machine.axes.iter().position(|a| a.name().eq_ignore_ascii_case(name));
         if let Some((low, high)) = axis.and_then(|axis| machine.limits_without(axis, *mm)) {
             return Err(OpenError::Usage(format!(
-                "--start: {name}{mm} is outside the limits of the axis, {low} to {high} (P-AXIS-00177, P-AXIS-00178)"
+                "--start: {name}{} is outside the limits of the axis, {low} to {high} (P-AXIS-00177, P-AXIS-00178)",
+                short(*mm)
             )));
         }
         if axis.is_none() {

@@ -11,6 +11,9 @@ use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// Links that are followed one after the other, as many as the system follows.
+const LINKS_MAX: usize = 40;
+
 /// A file to be written.
 #[derive(Debug)]
 pub(crate) struct Target {
@@ -30,6 +33,17 @@ enum Place {
     Between,
 }
 
+/// The file that a link names, even if it does not exist yet.
+fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // links may lead in a circle
+    for _ in 0..LINKS_MAX {
+        let Ok(next) = path.read_link() else { break };
+        path = path.parent().map_or_else(|| next.clone(), |folder| folder.join(&next));
+    }
+    path
+}
+
 impl Target {
     /// Begins a file.
     ///
@@ -37,7 +51,7 @@ impl Target {
     /// The system's; also if an existing file of this name must not be written.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         // a link is kept, and its target is replaced
-        let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let path = path.canonicalize().unwrap_or_else(|_| followed(path));
         let existing = match path.metadata() {
             Ok(metadata) if !metadata.is_file() => {
                 let file = OpenOptions::new().write(true).open(&path)?;
@@ -265,6 +279,15 @@ mod tests {
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(file.metadata().unwrap().permissions().mode() & 0o777, 0o640);
         write(&[("/dev/null".as_ref(), b"x")]).unwrap();
+        // the file that a link names is made, next to the link
+        let waiting = folder.path().join("c");
+        symlink("later", &waiting).unwrap();
+        write(&[(&waiting, b"made")]).unwrap();
+        assert!(waiting.symlink_metadata().unwrap().is_symlink());
+        assert_eq!(fs::read(folder.path().join("later")).unwrap(), b"made");
+        let lost = folder.path().join("d");
+        symlink("/no/such/folder/file", &lost).unwrap();
+        assert!(write(&[(&lost, b"x")]).is_err());
     }
 
     #[test]

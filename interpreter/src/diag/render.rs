@@ -91,6 +91,10 @@ fn notes(d: &Diagnostic) -> Vec<Message<'static>> {
     if !place.is_empty() {
         notes.push(note(place.join(", ")));
     }
+    for call in &d.calls {
+        let block = call.block.map_or_else(String::new, |number| format!(", block N{number}"));
+        notes.push(note(format!("called at {}:{}{block}", call.file, call.line)));
+    }
     if !d.values.is_empty() {
         let values: Vec<String> =
             d.values.iter().map(|v| value(v.kind, &v.value, v.unit)).collect();

@@ -237,6 +237,7 @@ const ROWS: &[Row] = &[
     tools::TOOL_REFRESH,
     unsupported("TOOL"),
     unsupported("TOOL DEF"),
+    unsupported("TOOL ORI CS"),
     ignored("TOOL LIFE DEF"),
     ignored("TOOL LIFE READ"),
     ignored("TOOL LIFE REMOVE"),

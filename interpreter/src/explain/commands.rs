@@ -3,7 +3,7 @@
 use super::explanation::{Explanation, Kind};
 use super::language::LANGUAGE;
 use super::row::{Command, row};
-use crate::exec::{commands, unsupported_function};
+use crate::exec::{commands, unknown_g, unsupported_function};
 
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]
@@ -36,6 +36,7 @@ const COMMANDS: &[Command] = &[
     row(&["G51", "G52"], "G51", "words of the face turning axis are diameters, radii", "", "the axis has the bit 0x40 of P-AXIS-00015; centres and radii of arcs are not diameters", "G52", &["20042", "P-AXIS-00058", "P-AXIS-00059"]),
     row(&["G150", "G151"], "G151", "Akima spline through the points of the following linear blocks off, on", "", "starts at the last point before it; stops, G00 and tool radius compensation are not allowed within it", "G150", &["#SPLINE", "#AKIMA TRANS"]),
     row(&["G167"], "G167 S1000", "spindle override 100 %", "no effect here: external overrides do not act on spindles", "", "G167", &["S"]),
+    row(&["#ACHSE"], "G201 #ACHSE [X, Y]", "the axes of G200, G201 or G202 of the same block", "", "20037 without one of them, 20038 for G201 without axes", "G201 #ACHSE [X]", &["20037", "20038", "#MANUAL LIMITS"]),
     row(&["G74"], "G74 X1 Y2", "homing: the axes are treated as homed at their positions", "the numbers give the order", "", "G74 X1 Y2", &["K-0111"]),
     row(&["G100", "G106"], "G100 X.. Y.. F.. [G106]", "measuring run: a straight line that ends where the probe signals; with G106 it continues to its target",
         "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis; V.A.MESS.X, V.A.MERF.X, V.A.MOFFS.X contain the measured values", "G100 X10 F500", &["#MEAS", "G101", "G310", "K-0133", "50052", "50059", "P-CHAN-00057", "P-AXIS-00118", "P-AXIS-00215"]),
@@ -112,8 +113,11 @@ fn state(wanted: &str) -> Option<Explanation> {
         (format!("#{name}"), format!("command of the control; here: {state}"))
     } else {
         let number: u32 = wanted.strip_prefix('G')?.parse().ok()?;
-        let what = unsupported_function(number)?;
-        (format!("G{number}"), format!("{what}; refused: not simulated"))
+        let state = match unsupported_function(number) {
+            Some(what) => format!("{what}; refused: not simulated"),
+            None => format!("not a function of this dialect (20131): {}", unknown_g(number)?),
+        };
+        (format!("G{number}"), state)
     };
     Some(Explanation {
         kind: Kind::Command,

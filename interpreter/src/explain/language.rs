@@ -7,6 +7,7 @@ use super::row::{Command, row};
 pub(super) const LANGUAGE: &[Command] = &[
     row(&["F"], "F..", "feed, in the unit of G93, G94, G95 or G194", "G94: mm/min (G70: inch/min), times P-CHAN-00108", "modal; each feed type keeps its own value", "G01 X10 F2000", &["G94", "20008", "P-CHAN-00099", "P-CHAN-00108"]),
     row(&["E"], "E..", "feed at the end of the block", "in the unit of F, only with G94, not above F", "", "G01 X10 F2000 E500", &["F", "G94"]),
+    row(&["/", "/1"], "/ ..   /1 ..   /10 ..", "skips the block while its skip level is active; / is /1", "levels 1 to 10, active with --skip", "", "/2 N20 G01 X10 F1000", &["N"]),
     row(&["S"], "S..   S[..]", "speed of the main spindle in rev/min; brackets contain several words of a spindle", "", "", "M03 S1200", &["M03", "M19", "G96"]),
     row(&["T"], "T..", "tool for the next change", "", "", "T5 M06", &["M06", "D"]),
     row(&["D"], "D..", "tool data: length, radius and offsets of axes; D0 deselects them", "", "the length takes effect with the next absolute word of its axis", "D1", &["G41", "K-0114", "V.G"]),

@@ -48,6 +48,18 @@ fn the_language_is_explained() {
     }
 }
 
+/// Words of other controls, variables without their axis, and what is written before a block.
+#[test]
+fn related_things_are_explained() {
+    for (thing, part) in
+        [("V.A.ABS", "without offsets"), ("#ACHSE", "G201"), ("G28", "G74"), ("/", "skip")]
+    {
+        let e = explain(thing).unwrap_or_else(|_| panic!("{thing}"));
+        assert!(e.to_string().contains(part), "{thing}: {e}");
+    }
+    assert!(explain("V.A").is_ok_and(|e| e.kind == Kind::Command));
+}
+
 #[test]
 fn parameters_of_the_function_manuals_are_known() {
     // every parameter named in the manuals of axis filters, Improved Position Control, feedforward, position

@@ -284,7 +284,7 @@ fn check_together(
 }
 
 /// K-0032: the sampling time in the list for the simulated drive (P-AXIS-00239 / P-AXIS-00238) differs from the cycle,
-/// which is used instead.
+/// which is used instead; K-0075 for a plant that has no such drive.
 pub(super) fn check_sampling(
     parameters: &Parameters,
     own: &Parameters,
@@ -296,7 +296,18 @@ pub(super) fn check_sampling(
     let [z, n] = sampling.map(|param| parameters.listed(param).unwrap_or_default());
     let Some(setting) = sampling.iter().find_map(|param| parameters.set_by(*param)) else { return };
     let model = own.get(kontur::PLANT_MODEL.at(axis.number));
-    if model.as_deref() != Some("SIMU") || (z / n - cycle.seconds()).abs() <= 1e-9 {
+    if model.as_deref() != Some("SIMU") {
+        if setting.is_changed() {
+            let text = format!(
+                "{}: only the plant SIMU has this sampling time (kontur.axis[{}].plant.model)",
+                setting.row.key, axis.number
+            );
+            let diagnostic = Diagnostic::new(Condition::ListNoEffect, text);
+            diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
+        }
+        return;
+    }
+    if (z / n - cycle.seconds()).abs() <= 1e-9 {
         return;
     }
     let text = format!(

@@ -232,9 +232,9 @@ pub(super) fn switch_while_moving() -> Diagnostic {
 }
 
 /// The program time is used up.
-pub(super) fn out_of_time(last: u64, cycle: CycleTime) -> Diagnostic {
+pub(super) fn out_of_time(last: u64, limit_s: f64, cycle: CycleTime) -> Diagnostic {
     let time_s = cycle.time_of(last);
-    let text = format!("program time exceeds {time_s} s: the run was stopped");
+    let text = format!("program time exceeds {limit_s} s: the run was stopped");
     let mut d = Diagnostic::new(Condition::Endless, text).hint("raise the limit with --max-time");
     d.cycle = Some(last);
     d.time_s = Some(time_s);

@@ -34,7 +34,8 @@ impl Simulation {
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
-        let max_cycles = cycles_in(options.max_time_s, cycle);
+        let max_time_s = options.max_time_s;
+        let max_cycles = cycles_in(max_time_s, cycle);
         let executor = Executor::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let start = executor.start_position();
@@ -88,6 +89,7 @@ impl Simulation {
             wear: Wear::default(),
             planned: start[..n].iter().copied().collect(),
             max_cycles,
+            max_time_s,
             messages: Messages { own: diagnostics, ..Messages::default() },
             progress: Progress::default(),
             machine,

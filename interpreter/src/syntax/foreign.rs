@@ -47,7 +47,10 @@ pub(super) fn recognise(masked: &str) -> Option<Problem> {
         return Some(Problem::new(Condition::ForeignProgram, span, text).hint(hint));
     }
     let found = klartext(masked)
+        .or_else(|| label(masked))
         .or_else(|| o_word(masked))
+        .or_else(|| synchronous_action(masked))
+        .or_else(|| decimal_m(masked))
         .or_else(|| sinumerik(masked))
         .or_else(|| arithmetic_parameter(masked))
         .or_else(|| subprogram(masked))
@@ -106,6 +109,52 @@ fn klartext(masked: &str) -> Option<Found> {
     let at = masked.len() - rest.len();
     let length = rest.find(second)? + second.len();
     Some(Found { at, length, control: HEIDENHAIN, meaning: "a statement in Klartext" })
+}
+
+/// `LBL 1`, `CALL LBL 1`: labels of Klartext without a number before them.
+fn label(masked: &str) -> Option<Found> {
+    let words = |(at, word): &(usize, &str)| {
+        word.eq_ignore_ascii_case("LBL")
+            && masked[at + word.len()..]
+                .trim_ascii_start()
+                .starts_with(|c: char| c.is_ascii_digit())
+    };
+    let mut at = 0;
+    let places = masked.split(' ').map(|word| {
+        let place = (at, word);
+        at += word.len() + 1;
+        place
+    });
+    let (at, word) = { places }.find(words)?;
+    let (control, meaning) = (HEIDENHAIN, "a label in Klartext");
+    Some(Found { at, length: word.len(), control, meaning })
+}
+
+/// `M862.3`: M numbers of this dialect are integers.
+fn decimal_m(masked: &str) -> Option<Found> {
+    let (at, rest) = content(masked);
+    let number = rest.strip_prefix(['M', 'm'])?;
+    let whole = number.bytes().take_while(u8::is_ascii_digit).count();
+    let tenths = number[whole..].strip_prefix('.')?;
+    let tenths = tenths.bytes().take_while(u8::is_ascii_digit).count();
+    (whole > 0 && tenths > 0).then_some(Found {
+        at,
+        length: 2 + whole + tenths,
+        control: "a 3D printer",
+        meaning: "an M function with a decimal point",
+    })
+}
+
+/// `WHEN $AA_IM[X] > 1 DO ..`: synchronous actions.
+fn synchronous_action(masked: &str) -> Option<Found> {
+    const CONDITIONS: [&str; 4] = ["WHEN", "WHENEVER", "FROM", "EVERY"];
+    let (at, rest) = content(masked);
+    let mut words = rest.split_ascii_whitespace();
+    let first = words.next()?;
+    CONDITIONS.iter().find(|word| word.eq_ignore_ascii_case(first))?;
+    words.find(|word| word.eq_ignore_ascii_case("DO"))?;
+    let (control, meaning) = (SINUMERIK, "a synchronous action");
+    Some(Found { at, length: first.len(), control, meaning })
 }
 
 /// `o100 sub`, `o<name> call`.
@@ -352,6 +401,10 @@ mod tests {
             ("N10 M98 P1000 L2", "`M98 P1000`", "Fanuc"),
             ("12 L X+10 Y+5 R0 FMAX M3", "`L`", "Heidenhain"),
             ("13 CC X+0 Y+0", "`CC`", "Heidenhain"),
+            ("LBL 1", "`LBL`", "Heidenhain"),
+            ("L P7 CALL LBL 1", "`LBL`", "Heidenhain"),
+            ("N10 M862.3 P    ", "`M862.3`", "3D printer"),
+            ("N5 WHEN TRUE DO $AA=1", "`WHEN`", "Sinumerik"),
         ] {
             let text = said(block).unwrap_or_default();
             assert!(text.contains(word) && text.contains(control), "{block}: {text}");
@@ -377,6 +430,9 @@ mod tests {
             "V.P.ROT 5",
             "[ROT",
             "M98 X",
+            "LBL X",
+            "WHEN X",
+            "M8. X",
         ] {
             assert_eq!(said(block), None, "{block}");
         }

@@ -50,7 +50,7 @@ pub struct SimulationArgs {
     pub start: Vec<(String, f64)>,
 
     /// Active skip levels, e.g. `1,3`
-    #[arg(long, value_name = "LEVELS", value_delimiter = ',', value_parser = clap::value_parser!(u8).range(1..=10))]
+    #[arg(long, value_name = "LEVELS", value_delimiter = ',', value_parser = skip_level)]
     pub skip: Vec<u8>,
 
     /// Stop after this program time in seconds
@@ -109,6 +109,13 @@ fn position(text: &str) -> Result<(String, f64), String> {
         return Err(format!("`{text}`: X10 or X=10 expected"));
     }
     Ok((name.trim().to_owned(), value))
+}
+
+/// A skip level.
+fn skip_level(text: &str) -> Result<u8, String> {
+    let level = text.trim().parse().ok().filter(|level| (1..=10).contains(level));
+    level
+        .ok_or_else(|| format!("`{text}`: levels from 1 to 10 separated by commas expected, 1,2,3"))
 }
 
 /// A finite number above zero.

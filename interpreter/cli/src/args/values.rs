@@ -35,8 +35,11 @@ impl Numbers {
             };
             let (last, step) = rest.split_once(':').unwrap_or((rest, "1"));
             let (first, last, step) = (number(first)?, number(last)?, number(step)?);
-            if !(step > 0.0 && last >= first) {
-                return Err(wrong());
+            if step <= 0.0 {
+                return Err(format!("`{part}`: the step after `:` must be above 0"));
+            }
+            if last < first {
+                return Err(format!("`{part}`: the first value must not be above the last one"));
             }
             if (last - first) / step >= most as f64 {
                 return Err(too_many());

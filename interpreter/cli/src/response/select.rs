@@ -7,7 +7,7 @@ use crate::args::values::Numbers;
 use crate::args::{FILTER_TYPES, PROTOTYPES, ResponseArgs};
 use crate::console::Console;
 use crate::table::number;
-use kontur_filters::fir::{FirConfig, FirKind};
+use kontur_filters::fir::{FirConfig, FirKind, MAX_DELAY_ORDER, MAX_ORDER};
 use kontur_filters::hsc::{HscConfig, HscKind};
 use kontur_filters::iir::transform::band_edges_hz;
 use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
@@ -181,11 +181,16 @@ impl Found<'_> {
                 _ => return Err(unknown("--fir", key, "ORDER, ORDER_TIME, SHARE, FCUT, QUALITY")),
             }
         }
-        let label = format!("FIR {}", text.replace(',', " "));
+        // the limits of the filter apply to the curve: its name states the order in use
+        let asked = format!("ORDER={}", config.order);
+        let most = if kind == FirKind::TimeDelay { MAX_DELAY_ORDER } else { MAX_ORDER };
+        let order = config.order.min(most);
+        let label = format!("FIR {}", text.replace(',', " ").to_ascii_uppercase());
+        let label = label.replace(&asked, &format!("ORDER={order}"));
         let (kernel, issues) = config.design(self.cycle);
         self.report(&label, &issues)?;
         if let Some(kernel) = kernel {
-            let order = (config.order > 0).then(|| f64::from(config.order));
+            let order = (order > 0).then(|| f64::from(order));
             self.kernel(label, kernel, None, order);
         }
         Ok(())

@@ -45,6 +45,10 @@ const OF_FUNCTIONS: &[&str] = &[
     "OFFSET",
 ];
 
+/// Functions of axes in the manual that are not built.
+const REFUSED: &[&str] =
+    &["LIFT", "LIFT_START", "LIFT_END", "SYNC", "DIST_CTRL", "GANTRY", "CALLAX", "PUTAX"];
+
 arguments! {
     /// Keys of `#OVERRIDE` and `X[OVERRIDE]`.
     pub(in crate::exec) struct OverrideArguments {
@@ -181,6 +185,14 @@ impl Decoder {
                     return Err(Fault::new(Condition::InternalFunction, text, *span));
                 }
                 let name = self.names.name(axis);
+                let is_function = matches!(
+                    word.text.as_bytes(),
+                    [b'G' | b'g', ..] | [b'M' | b'm', b'C' | b'c', b'_', ..]
+                );
+                if !REFUSED.iter().any(|known| word.is(known)) && !is_function {
+                    let text = format!("{name}[{}]: not a function of an axis", word.text);
+                    return Err(Fault::new(Condition::AxisFunctionMissing, text, *span));
+                }
                 Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
             }
             _ => {

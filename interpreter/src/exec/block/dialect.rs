@@ -20,7 +20,7 @@ pub(in crate::exec) fn is_foreign_word(id: Id) -> bool {
 }
 
 /// Hint for a G number that is not assigned here.
-pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
+pub(crate) fn unknown_g(number: u32) -> Option<&'static str> {
     Some(match number {
         28 | 30 => {
             "reference points of other controls do not exist here; use G74 for homing, G53 to cancel offsets"

@@ -165,6 +165,10 @@ impl Decoder {
             // for the main spindle, tapping and constant cutting speed process it
             if *i == 0 {
                 self.motion.threads.speed(taps.then_some(*speed));
+                if taps {
+                    // the S word is modal: it counts for M3 after the thread, the sign is that of the thread
+                    self.motion.spindles[0].rpm = speed.abs();
+                }
             }
             if *i != 0 {
                 let name = self.motion.spindles[*i].name.clone();

@@ -218,6 +218,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             };
             no_modulo_axes(decoder, call)?;
             turns_alike(decoder, call, &frame)?;
+            decoder.none_independent(&call.title(), call.span())?;
             decoder.geometry.coordinates.push_system(frame, number);
             Ok(())
         }
@@ -383,6 +384,9 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
         decoder.geometry.direct_on = call.command.on != Some(false);
     }
     if ["TRAFO", "RTCP"].contains(&call.name) {
+        if call.command.on != Some(false) {
+            decoder.none_independent(&call.title(), call.span())?;
+        }
         decoder.geometry.transformation_on = call.command.on != Some(false);
     }
     if call.command.on == Some(false) {

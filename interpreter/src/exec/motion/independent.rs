@@ -233,16 +233,31 @@ impl Decoder {
         Ok(())
     }
 
-    /// 21071 for a main axis while a coordinate system or a transformation is active (253361291).
-    fn moves_untransformed(&self, axis: usize, span: Span) -> Outcome<()> {
+    /// 21071 for a main axis that the active coordinate systems turn, or that a transformation moves.
+    ///
+    /// An axis that keeps its direction may move independently, under a transformation the third main axis alone
+    /// (253361291, 208635787, oscillation 15314437259).
+    pub(super) fn moves_untransformed(&self, axis: usize, span: Span) -> Outcome<()> {
         let geometry = &self.geometry;
-        let is_active = geometry.coordinates.systems() > 0 || geometry.transformation_on;
-        if !is_active || geometry.coordinates.main_index(axis).is_none() {
+        let Some(main) = geometry.coordinates.main_index(axis) else { return Ok(()) };
+        let is_free = !geometry.transformation_on || main == 2;
+        if is_free && geometry.coordinates.keeps_direction(main) {
             return Ok(());
         }
         let (number, name) = (self.machine.axes[axis].number(), self.names.name(axis).to_owned());
         let text = format!("{name} takes part in a transformation: it cannot move independently");
         Err(Fault::new(Condition::IndependentInTransformation, text, span)
+            .with(|d| d.axis(number, name)))
+    }
+
+    /// K-0150 for a main axis in independent motion when a coordinate system or a transformation is selected: it has to
+    /// end before (208635787).
+    pub(in crate::exec) fn none_independent(&self, title: &str, span: Span) -> Outcome<()> {
+        let is_main = |axis: &&usize| self.geometry.coordinates.main_index(**axis).is_some();
+        let Some(&axis) = self.motion.independent.open.iter().find(is_main) else { return Ok(()) };
+        let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
+        let text = format!("{title} while {name} moves independently or oscillates");
+        Err(Fault::new(Condition::IndependentBeforeSystem, text, span)
             .with(|d| d.axis(number, name)))
     }
 

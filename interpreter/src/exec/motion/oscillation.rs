@@ -4,7 +4,7 @@
 //! with OSC OFF, and with everything that waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end of
 //! the program.
 //!
-//! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.
+//! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 21071, 50593, 120470.
 //! Assumptions: the axis moves to its first position first; offsets apply only with INCL_OFFSETS, with their values in the
 //! block; the first position is EXCUR below ZERO_POS, the second one EXCUR above; FREQ and TIME refer to an oscillation without
 //! its dwells; the block after OSC OFF begins when the axis has stopped.
@@ -79,7 +79,10 @@ impl Decoder {
         self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
         self.motion.areas.moves_unwatched(axis, &self.names, span)?;
         match (keys.on.or(keys.osc_on), keys.off) {
-            (Some(_), None) => self.oscillation(axis, &keys, span),
+            (Some(_), None) => {
+                self.moves_untransformed(axis, span)?;
+                self.oscillation(axis, &keys, span)
+            }
             (None, Some(_)) => {
                 self.join(vec![axis]);
                 Ok(())

@@ -25,6 +25,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::Threads;
+use crate::exec::names::AxisNames;
 use crate::exec::report::Report;
 use crate::exec::step::{SpindleState, Sync};
 use crate::syntax::ast::{ItemKind, Span};
@@ -53,7 +54,13 @@ fn direction_of(path: &Path) -> AxisVec {
 
 impl Threads {
     /// The pitch of a path: that of its longest main axis with a pitch.
-    fn pitch(&self, coordinates: &Coordinates, path: &Path, span: Span) -> Outcome<(usize, f64)> {
+    fn pitch(
+        &self,
+        coordinates: &Coordinates,
+        names: &AxisNames,
+        path: &Path,
+        span: Span,
+    ) -> Outcome<(usize, f64)> {
         let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
         let mut best: Option<(usize, f64)> = None;
         let pitches = self.pitch_mm.iter().enumerate();
@@ -71,7 +78,18 @@ impl Threads {
             }
         }
         best.ok_or_else(|| {
-            let text = "the thread has no pitch for the axes it moves: I, J or K in mm/rev";
+            // the centre words of the moved axes, by their names in the channel
+            let wanted: Vec<String> = ["I", "J", "K"]
+                .iter()
+                .enumerate()
+                .filter_map(|(main, word)| Some((coordinates.main_axis(main)?, word)))
+                .filter(|(axis, _)| way(*axis) > 0.0)
+                .map(|(axis, word)| format!("{word} for {}", names.name(axis)))
+                .collect();
+            let text = match &wanted[..] {
+                [] => "a thread moves at least one main axis".to_owned(),
+                wanted => format!("the thread has no pitch: {} in mm/rev", wanted.join(" or ")),
+            };
             Fault::new(Condition::ThreadPitch, text, span)
         })
     }
@@ -103,6 +121,16 @@ impl Decoder {
                 );
                 return Err(Fault::new(Condition::ThreadPitch, text, *at));
             }
+            if let (Some(cut), PathMode::TapBack) = (self.motion.threads.pitch_mm[main], mode)
+                && (cut - pitch_mm).abs() > 0.0
+            {
+                // 413715595: the tool leaves the thread that it has cut
+                let text = format!(
+                    "the pitch {pitch} of G332 must be that of G331, {}",
+                    cut / self.modal.unit_mm()
+                );
+                return Err(Fault::new(Condition::ThreadPitch, text, *at));
+            }
             self.motion.threads.pitch_mm[main] = Some(pitch_mm);
         }
         let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else {
@@ -127,14 +155,17 @@ impl Decoder {
         }
     }
 
-    /// G63 drives the spindle in every block until the next G function of its group.
+    /// Tapping drives the spindle in every block until the next G function of its group.
     ///
     /// # Errors
-    /// 21000: M3, M4, M5 or M19 of the main spindle while G63 is active.
+    /// 21000: M3, M4, M5 or M19 of the main spindle while G63, G331 or G332 is active (208104203, 413715595).
     pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
-        if self.modal.path_mode(words) != PathMode::Tapping {
-            return Ok(());
-        }
+        let name = match self.modal.path_mode(words) {
+            PathMode::Tapping => "G63",
+            PathMode::TapBack => "G332",
+            mode if mode.is_tapping() => "G331",
+            _ => return Ok(()),
+        };
         let brackets = words.brackets.iter();
         let main = brackets.filter(|b| {
             self.motion.spindle_of_name(b.name.as_str(), &self.machine.channel) == Some(0)
@@ -147,7 +178,7 @@ impl Decoder {
         let mut functions = words.m.iter().map(|m| (m.number, m.span)).chain(bracketed);
         match functions.find(|(number, _)| matches!(number, 3..=5 | 19)) {
             Some((number, span)) => {
-                let text = format!("M{number:02} while G63 turns the spindle");
+                let text = format!("M{number:02} while {name} turns the spindle");
                 Err(Fault::new(Condition::TappingSpindleFunction, text, span))
             }
             None => Ok(()),
@@ -200,7 +231,7 @@ impl Decoder {
             self.end_thread();
         }
         let (axis, pitch_mm) =
-            self.motion.threads.pitch(&self.geometry.coordinates, &path, span)?;
+            self.motion.threads.pitch(&self.geometry.coordinates, &self.names, &path, span)?;
         if pitch_mm < 0.0 {
             let text = "the pitch of G33 must not have a sign: M03 and M04 set the direction";
             return Err(Fault::new(Condition::ThreadPitch, text, span));

@@ -193,7 +193,7 @@ impl Executor {
                     let text = format!("{}: a cycle takes @P1 to @P200", key.text);
                     Err(Fault::new(Condition::Range, text, key.span))
                 }
-                ItemKind::Pair { key, value } if key.text.starts_with('@') => {
+                ItemKind::Pair { key, value } if key.text.starts_with("@P") => {
                     match self.cycle_value(value) {
                         Ok(value) => {
                             if passed.insert(key.text[1..].into(), value).is_none() {
@@ -208,7 +208,8 @@ impl Executor {
                 }
                 _ => {
                     let text = "L CYCLE: NAME= or @P..= is expected";
-                    Err(Fault::new(Condition::TokenUnknown, text, item.span))
+                    Err(Fault::new(Condition::TokenUnknown, text, item.span)
+                        .hint("write L CYCLE [NAME=\"file\" @P1=..]; @X and @S are words inside the cycle"))
                 }
             };
             self.decoder.report.keep(outcome);

@@ -23,7 +23,8 @@ impl Executor {
             self.decoder.values.variables.enter_cycle(passed);
             Box::new(self.decoder.enter_cycle())
         });
-        if !self.levels.is_empty() {
+        let caller = (!self.levels.is_empty()).then_some(self.decoder.report.source);
+        if caller.is_some() {
             self.decoder.values.variables.enter_level();
         }
         self.levels.push(Level {
@@ -38,6 +39,7 @@ impl Executor {
             optional: None,
             cut: false,
             again: None,
+            caller,
             begin: Position::START,
             passes: 0,
             then: None,

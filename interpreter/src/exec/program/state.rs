@@ -4,6 +4,7 @@ use super::index::{EntryId, Index, Keyword, Labels};
 use super::info::ProgramInfo;
 use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
+use crate::exec::step::SourceRef;
 use crate::machine::Channel;
 use crate::source::Position;
 use crate::syntax::ast::{Place, Span};
@@ -33,6 +34,8 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec) cut: bool,
     /// Offsets of the first and last block that jumps back may execute again.
     pub(in crate::exec) again: Option<(u64, u64)>,
+    /// The block that called it; `None` for a program that no block called.
+    pub(in crate::exec) caller: Option<SourceRef>,
     /// How the block that called it leaves its own level afterwards.
     pub(in crate::exec) then: Option<Closing>,
 }

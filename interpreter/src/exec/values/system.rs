@@ -53,11 +53,19 @@ pub(crate) fn meaning_of(text: &str) -> Option<(String, &'static str)> {
         .split('.')
         .map(|segment| segment.split_once('[').map_or(segment, |(name, _)| name))
         .collect();
-    let is = |row: &&Row| {
-        let fits = |(pattern, s): (&&str, &&str)| matches!(*pattern, "*" | "s") || pattern == s;
-        row.name.len() == written.len() && row.name.iter().zip(&written).all(fits)
+    let fits = |(pattern, s): (&&str, &&str)| matches!(*pattern, "*" | "s") || pattern == s;
+    let is =
+        |row: &&Row| row.name.len() == written.len() && row.name.iter().zip(&written).all(fits);
+    // without its axis: V.A.ABS
+    let is_without_axis = |row: &&Row| {
+        row.name.split_last().is_some_and(|(last, front)| {
+            *last == "*" && front.len() == written.len() && front.iter().zip(&written).all(fits)
+        })
     };
-    ROWS.iter().find(is).map(|row| (row.title(), row.meaning))
+    ROWS.iter()
+        .find(is)
+        .or_else(|| ROWS.iter().find(is_without_axis))
+        .map(|row| (row.title(), row.meaning))
 }
 
 impl Path<'_> {

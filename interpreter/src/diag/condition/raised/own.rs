@@ -110,6 +110,7 @@ macro_rules! own {
     AreaViolated = Kontur 147 "K-AREA": Error ProgramAbort 3 1, "path enters a protection area or leaves a workspace (no vendor ID known)", cause "a motion while a control area is active (#CONTROL AREA ON)", hint "route the path around the area, or write #CONTROL AREA OFF [ID=..] before it";
     AreaWrong = Kontur 148 "K-AREA-WRONG": Error ProgramAbort 3 1, "control area cannot be defined or selected in this way (no vendor ID known)", cause "a contour that is not closed, an ID that is not defined or is active", hint "write #CONTROL AREA BEGIN [ID=1 WORK POLY MIN_EXCUR=-50 MAX_EXCUR=50], closed lines, #CONTROL AREA END";
     FirAndHsc = Kontur 149 "K-FIR-AND-HSC": Warning None 1 1, "FIR and HSC filter active for the same axis, HSC filter without effect", cause "both act before the standard filters; the documents do not describe their combined effect", hint "write #FILTER OFF before #FILTER ON [HSC], or the reverse";
+    IndependentBeforeSystem = Kontur 150 "K-INDEPENDENT-BEFORE-SYSTEM": Error ProgramAbort 3 1, "coordinate system or transformation selected while a main axis moves independently (no vendor ID known)", cause "Z[OSC ON ..] or Z[INDP_ASYN ..], then #CS ON", hint "end the motion first: Z[OSC OFF], #WAIT INDP ALL";
         }
     };
 }

@@ -65,6 +65,16 @@ impl Decoder {
                     }
                     continue;
                 }
+                "SUPPRESS OFFSETS" if words.axes.is_empty() => {
+                    // 207072907: not modal, together with the words of a motion
+                    let text =
+                        "#SUPPRESS OFFSETS without an axis word has no effect: it is not modal";
+                    let fault = Fault::new(Condition::Odd, text, *span).warning();
+                    self.report.note(
+                        fault.hint("write it in the block of the motion: #SUPPRESS OFFSETS X10"),
+                    );
+                    continue;
+                }
                 "PSET"
                 | "PRESET"
                 | "SUPPRESS OFFSETS"

@@ -220,6 +220,16 @@ impl Coordinates {
         self.systems.len()
     }
 
+    /// Whether a main axis keeps its direction in the active coordinate systems: they only shift it, or turn the others
+    /// about it.
+    pub(in crate::exec) fn keeps_direction(&self, main: usize) -> bool {
+        let systems = self.systems.iter().fold(Frame::IDENTITY, |f, layer| f.after(&layer.system));
+        let mut unit = [0.0; 3];
+        unit[main] = 1.0;
+        // turns about the axis and back again may leave rounding errors
+        systems.direction(unit).iter().zip(unit).all(|(a, b)| (a - b).abs() < 1e-12)
+    }
+
     /// Whether a stored system with this number is active.
     pub(in crate::exec) fn is_system_active(&self, number: u32) -> bool {
         let aside = self.suspended.as_ref().map_or(&[][..], |before| before.systems());

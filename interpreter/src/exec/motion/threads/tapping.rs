@@ -111,7 +111,7 @@ impl Decoder {
             (rpm.abs() * 6.0 / feed_mm_s, rpm.signum(), feed_mm_s)
         } else {
             let (axis, pitch_mm) =
-                self.motion.threads.pitch(&self.geometry.coordinates, path, span)?;
+                self.motion.threads.pitch(&self.geometry.coordinates, &self.names, path, span)?;
             let per_path_mm = 360.0 * way(axis).abs() / (pitch_mm.abs() * path.length());
             let back = if self.modal.path == PathMode::TapBack { -1.0 } else { 1.0 };
             (per_path_mm, pitch_mm.signum() * back, rpm.abs() * 6.0 / per_path_mm)

@@ -8,6 +8,9 @@ use crate::exec::step::{EndReason, SourceRef};
 use crate::source::Position;
 use crate::syntax::ast::Span;
 
+/// Number of calls that a message names: the depth of nesting is not limited by it.
+const CALLS_SHOWN: usize = 8;
+
 impl Executor {
     /// The diagnostic of a fault with its position.
     pub(super) fn placed(&mut self, fault: Fault) -> Diagnostic {
@@ -52,12 +55,27 @@ impl Executor {
         if let Some(location) = &mut diagnostic.source {
             location.block = location.block.or(self.decoder.report.source.block);
         }
+        if let Some(location) = &diagnostic.source {
+            diagnostic.calls = self.calls_of(location);
+        }
         let foreign = diagnostic.id == Condition::ForeignProgram.id();
         self.found.add(diagnostic, self.budget.blocks());
         if foreign {
             // the rest of such a program would repeat the same messages with other words
             self.end(EndReason::Aborted);
         }
+    }
+
+    /// The calls that led to a block of the present level, the last one first.
+    ///
+    /// A call that has itself a message is already on the level that it enters.
+    fn calls_of(&mut self, place: &Location) -> Vec<Location> {
+        let callers = self.levels.iter().rev().filter_map(|level| level.caller);
+        let callers: Vec<SourceRef> = callers.take(CALLS_SHOWN).collect();
+        let calls = callers.into_iter().filter_map(|call| self.place_in(call, Span::default()));
+        let calls: Vec<Location> = calls.collect();
+        let own = calls.iter().position(|c| (&c.file, c.line) == (&place.file, place.line));
+        calls.into_iter().skip(own.map_or(0, |own| own + 1)).collect()
     }
 
     /// Ends the program: motion already prepared is still executed.

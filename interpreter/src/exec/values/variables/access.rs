@@ -177,7 +177,15 @@ impl Variables {
         report: &mut Report,
     ) -> Outcome<()> {
         let removed = match target {
-            Target::Parameter(index, _) => self.parameters_mut().remove(index),
+            Target::Parameter(index, _) => {
+                let gone = self.parameters_mut().remove(index);
+                if gone.is_none() {
+                    let text = format!("P{index} does not exist");
+                    let hint = format!("EXIST[P{index}] checks whether it exists");
+                    return Err(Fault::new(Condition::DeletedUnknown, text, span).hint(hint));
+                }
+                gone
+            }
             Target::Own(class, name, _) => {
                 let gone = self.table(*class).and_then(|table| table.remove(&**name));
                 if gone.is_none() {
