@@ -32,8 +32,11 @@ mod blend;
 mod notice;
 mod rounding;
 
-use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed};
+use crate::block::{
+    Block, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed, SlopeKind,
+};
 use crate::limits::{PathExtremes, PathSpeeds};
+use crate::path::piece::section;
 use crate::path::{Path, PolyPath, PolyPiece};
 use crate::worth::{Part, Passage};
 use kontur_filters::time::CycleTime;
@@ -47,6 +50,11 @@ pub use notice::{NoContour, Notice};
 const SKIPPED: usize = 100;
 /// Pieces per half of the curve, each with its own speed (unless `CONST_VEL` is set).
 const PARTS: u32 = 4;
+/// Relative gain of speed in a half of a piece from which on the piece is divided: a block has one speed, that of its
+/// sharpest bend. Assumption: 4 % is worth two more blocks.
+const GAIN: f64 = 0.04;
+/// Number of times that a piece may be halved.
+const DIVISIONS: u32 = 2;
 /// A remainder of a block between two curves that is shorter than this share of the block counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -230,25 +238,37 @@ impl Contouring {
         }
         let parts = if settings.constant_velocity { 1 } else { PARTS };
         let feed_axes = from.dynamics.feed_axes.clone();
-        let timed = |(i, piece): (u32, PolyPiece)| {
+        let timed = |piece: PolyPiece, i: u32| {
             let (feed, feed_ratio) = halves[usize::from(i >= parts)];
             let path = Path::Curve(Box::new(PolyPath::through(vec![piece.clone()], &feed_axes)?));
-            let part = Block { path, feed, feed_ratio, ..block.clone() };
-            let speeds = PathSpeeds::of(&part, &PathExtremes::of(&part.path));
+            let block = Block { path, feed, feed_ratio, ..block.clone() };
+            let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
             let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
-            Some((piece, part, v))
+            let is_limited = v < speeds.programmed_mm_s * (1.0 - ROUNDING);
+            Some(Timed { piece, block, v, is_limited })
         };
-        let pieces: Vec<_> = (0..).zip(curve.blend.pieces(parts)).filter_map(timed).collect();
+        // where the acceleration is zero at every boundary, and with the ramps of SIN2, shorter blocks are not faster;
+        // under AX_DEV the planner divides what bends unevenly, and more blocks only take it longer
+        let gains = |b: &Block| b.slope.plans_across() && b.slope.kind != SlopeKind::Sin2;
+        let divided = !settings.constant_velocity && dev.is_none() && gains(from) && gains(to);
+        let divisions = if divided { DIVISIONS } else { 0 };
+        let mut pieces = Vec::new();
+        for (i, piece) in (0..).zip(curve.blend.pieces(parts)) {
+            if let Some(whole) = timed(piece, i) {
+                divide(whole, divisions, &|piece| timed(piece, i), &mut pieces);
+            }
+        }
         // neighbouring pieces with the same feed rate and the same permitted speed form one block
-        let groups = pieces.chunk_by(|(_, a, v), (_, b, w)| {
-            let same = settings.constant_velocity || (w - v).abs() <= 1e-9 * v;
+        let groups = pieces.chunk_by(|one, next| {
+            let same = settings.constant_velocity || (next.v - one.v).abs() <= 1e-9 * one.v;
+            let (a, b) = (&one.block, &next.block);
             same && (a.feed, a.feed_ratio) == (b.feed, b.feed_ratio)
         });
-        let joined = |group: &[(PolyPiece, Block, f64)]| {
-            let pieces = group.iter().map(|(piece, ..)| piece.clone()).collect();
+        let joined = |group: &[Timed]| {
+            let pieces = group.iter().map(|timed| timed.piece.clone()).collect();
             let path = Path::Curve(Box::new(PolyPath::through(pieces, &feed_axes)?));
-            let slowest = group.iter().map(|(.., v)| *v).fold(f64::INFINITY, f64::min);
-            Some((Block { path, ..group.first()?.1.clone() }, slowest))
+            let slowest = group.iter().map(|timed| timed.v).fold(f64::INFINITY, f64::min);
+            Some((Block { path, ..group.first()?.block.clone() }, slowest))
         };
         groups.filter_map(joined).collect()
     }
@@ -273,6 +293,36 @@ impl Contouring {
                 made
             }
         }
+    }
+}
+
+/// A piece of a curve as a block.
+struct Timed {
+    piece: PolyPiece,
+    block: Block,
+    /// Highest speed in mm/s.
+    v: f64,
+    /// Whether the curve is slower than the feed rate.
+    is_limited: bool,
+}
+
+/// Outputs a piece, or its parts where its bend limits the speed of one part less than that of the other: up to
+/// `divisions` halvings. `timed` makes a block of a part.
+fn divide(
+    whole: Timed,
+    divisions: u32,
+    timed: &impl Fn(PolyPiece) -> Option<Timed>,
+    out: &mut Vec<Timed>,
+) {
+    let half =
+        |from: f64| timed(whole.piece.iter().map(|c| section(c, from, from + 0.5)).collect());
+    let halves = (divisions > 0 && whole.is_limited).then(|| half(0.0).zip(half(0.5))).flatten();
+    match halves.filter(|(a, b)| a.v.max(b.v) > (1.0 + GAIN) * whole.v) {
+        Some((first, second)) => {
+            divide(first, divisions - 1, timed, out);
+            divide(second, divisions - 1, timed, out);
+        }
+        None => out.push(whole),
     }
 }
 

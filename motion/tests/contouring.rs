@@ -1,6 +1,7 @@
 //! Polynomial contouring: the curve compared with its closed forms and its neighbours; module `tolerance`: effects that
 //! a tolerance must not have.
 
+mod along;
 mod runs;
 mod tolerance;
 

@@ -203,8 +203,7 @@ impl ArcPath {
         let first = delta - turn * libm::floor(delta / turn);
         let mut best = (f64::INFINITY, 0.0);
         let mut candidate = |s: f64| {
-            let s = self.polish(point, s.clamp(0.0, self.length));
-            let d = self.distance2(point, s);
+            let (s, d) = self.polish(point, s.clamp(0.0, self.length));
             if d < best.0 {
                 best = (d, s);
             }
@@ -243,37 +242,70 @@ impl ArcPath {
         q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
     }
 
-    /// Newton's method on the derivative of the squared distance; keeps the old value if a step does not help.
-    fn polish(&self, point: &[f64], s: f64) -> f64 {
+    /// Newton's method on the derivative of the squared distance; keeps the old value if a step does not help. Returns
+    /// the path length and the squared distance there.
+    fn polish(&self, point: &[f64], s: f64) -> (f64, f64) {
         if self.linear.iter().all(|l| *l == 0.0)
             && self.radius_start.to_bits() == self.radius_end.to_bits()
         {
-            return s;
+            return (s, self.distance2(point, s));
         }
-        let n = point.len();
-        let (mut q, mut t, mut c) = (AxisVec::zeros(n), AxisVec::zeros(n), AxisVec::zeros(n));
-        let mut s = s;
+        let (mut s, mut here) = (s, self.approach(point, s));
         for _ in 0..20 {
-            self.position(s, &mut q);
-            self.tangent(s, &mut t);
-            self.curvature(s, &mut c);
-            let (mut first, mut second) = (0.0, 0.0);
-            for i in 0..n {
-                first += (q[i] - point[i]) * t[i];
-                second += t[i] * t[i] + (q[i] - point[i]) * c[i];
-            }
+            let [square, first, second] = here;
             if second <= 0.0 {
                 break;
             }
             let next = (s - first / second).clamp(0.0, self.length);
             if (next - s).abs() <= 1e-13 * self.length {
-                return next;
+                return (next, self.distance2(point, next));
             }
-            if self.distance2(point, next) > self.distance2(point, s) {
+            let there = self.approach(point, next);
+            if there[0] > square {
                 break;
             }
-            s = next;
+            (s, here) = (next, there);
         }
-        s
+        (s, here[0])
+    }
+
+    /// Squared distance of a point from the arc at `s`, and half its first and half its second derivative. The sine of
+    /// an angle costs more than all the rest, so position, tangent and curvature share it.
+    fn approach(&self, point: &[f64], s: f64) -> [f64; 3] {
+        let (radius, angle, rate) = self.polar(s);
+        let growth = (self.radius_end - self.radius_start) / self.length;
+        let (sin, cos) = libm::sincos(angle);
+        let [a, b] = self.shape.plane;
+        let mut out = [0.0; 3];
+        for (i, p) in point.iter().enumerate() {
+            let (position, tangent, curvature) = if i == a {
+                (
+                    self.shape.centre_mm[0] + radius * cos,
+                    growth * cos - radius * rate * sin,
+                    -radius * rate * rate * cos - 2.0 * growth * rate * sin,
+                )
+            } else if i == b {
+                (
+                    self.shape.centre_mm[1] + radius * sin,
+                    growth * sin + radius * rate * cos,
+                    -radius * rate * rate * sin + 2.0 * growth * rate * cos,
+                )
+            } else {
+                (self.start[i] + s * self.linear[i], self.linear[i], 0.0)
+            };
+            // the ends are met exactly
+            let position = if s <= 0.0 {
+                self.start[i]
+            } else if s >= self.length {
+                self.end[i]
+            } else {
+                position
+            };
+            let aside = position - p;
+            out[0] += aside * aside;
+            out[1] += aside * tangent;
+            out[2] += tangent * tangent + aside * curvature;
+        }
+        out
     }
 }
