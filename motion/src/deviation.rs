@@ -40,6 +40,17 @@ pub use meter::{Change, Meter};
 use smallvec::SmallVec;
 use std::ops::Range;
 
+/// A block whose tolerance could not be kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unkept {
+    /// Number of the block.
+    pub seq: u64,
+    /// Remaining deviation in mm.
+    pub deviation_mm: f64,
+    /// Tolerance in mm.
+    pub tolerance_mm: f64,
+}
+
 /// Largest number of parts into which the line between two set points is divided where the reach is in doubt.
 const PARTS: u32 = 8;
 

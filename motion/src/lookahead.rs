@@ -47,6 +47,7 @@ mod passing;
 mod stretch;
 
 use crate::cap::{Cap, SpeedLimit};
+use crate::profile::FLAT_MM_S2;
 use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::{Cell, connects_gently, jerk_steps, ride};
@@ -56,9 +57,6 @@ use stretch::{Stretch, Weakest, cells, most_exceeded};
 
 /// Relative difference of speeds that counts as rounding.
 pub(crate) const ROUNDING: f64 = 1e-7;
-
-/// Acceleration in mm/s2 that counts as zero.
-pub(crate) const FLAT_MM_S2: f64 = 1e-6;
 
 /// Blocks planned as one profile.
 #[derive(Clone, Debug)]

@@ -33,6 +33,13 @@ pub(crate) struct Segment {
     pub(crate) asked: Option<Asked>,
 }
 
+impl Segment {
+    /// The limits that its entry keeps.
+    pub(crate) fn limits(&self) -> (Cap, Option<Asked>) {
+        (self.cap, self.asked)
+    }
+}
+
 /// State in which the path enters its first segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start {

@@ -42,6 +42,7 @@ use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
 use crate::cap::{Cap, SpeedLimit};
 use crate::contour::Contour;
+use crate::deviation::Unkept;
 use crate::deviation::{Change, What};
 use crate::emergency::EmergencyBraking;
 use crate::junction::transition;
@@ -51,7 +52,7 @@ use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::timeline::{Moment, PathState, Timeline};
-use crate::tolerance::{Kernels, Monitor, Unkept};
+use crate::tolerance::{Kernels, Monitor};
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
 

@@ -49,3 +49,6 @@ pub use row::{Profile, State};
 pub use slope::SlopeLimits;
 pub use step::{StepAxis, StepLimits};
 pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};
+
+/// Acceleration in mm/s2 that counts as zero.
+pub(crate) const FLAT_MM_S2: f64 = 1e-6;

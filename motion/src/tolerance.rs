@@ -106,6 +106,7 @@ mod violation;
 
 use crate::axis::AxisVec;
 use crate::contour::Contour;
+use crate::deviation::Unkept;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Timeline};
 pub(crate) use demands::Demands;
@@ -123,17 +124,6 @@ const MARGIN_MM: f64 = 2e-7;
 const BORDER_CYCLES: f64 = 5.0;
 /// Raw setpoints kept, in kernel lengths: the set points of one length, and another length before a stretch.
 const HELD: usize = 3;
-
-/// A block whose tolerance could not be kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unkept {
-    /// Number of the block.
-    pub seq: u64,
-    /// Remaining deviation in mm.
-    pub deviation_mm: f64,
-    /// Tolerance in mm.
-    pub tolerance_mm: f64,
-}
 
 /// Result of the examination of a plan.
 #[derive(Debug)]

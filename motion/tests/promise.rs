@@ -16,9 +16,10 @@ use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
+use kontur_motion::deviation::Unkept;
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
-use kontur_motion::tolerance::{Kernels, Unkept};
+use kontur_motion::tolerance::Kernels;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 

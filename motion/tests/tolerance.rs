@@ -10,9 +10,10 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 use kontur_motion::deviation::Meter;
+use kontur_motion::deviation::Unkept;
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
-use kontur_motion::tolerance::{Kernels, Unkept};
+use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];

@@ -5,6 +5,7 @@
 
 mod addresses;
 pub(super) mod brackets;
+pub(super) mod choice;
 pub(super) mod collected;
 pub(super) mod dialect;
 pub(super) mod din;

@@ -8,14 +8,16 @@ mod feed_course;
 mod guarded;
 pub(super) mod insertion;
 mod interim;
+mod item;
 mod motion;
 mod output;
 
 use self::akima::{Akima, Curve};
-use self::compensation::{Compensator, Item, Rest};
+use self::compensation::Compensator;
 use self::contouring::{Contouring, Hsc};
 use self::insertion::{Inserted, Insertion};
 use self::interim::Interim;
+use self::item::{Item, Rest};
 use super::fault::{Fault, Outcome};
 use super::geometry::point::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};

@@ -32,9 +32,10 @@ pub(super) mod wear;
 
 use self::angles::ContourLine;
 use self::plane::InPlane;
+use super::block::choice::{Compensation, FeedType, PathMode};
 use super::block::collected::{GWord, Words};
 use super::block::groups::{Act, Group};
-use super::block::modal::{Compensation, FeedType, Modal, PathMode};
+use super::block::modal::Modal;
 use super::contour::FeedCourse;
 use super::contour::Motion;
 use super::contour::insertion::{Insertion, Kind};

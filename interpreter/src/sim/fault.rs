@@ -17,7 +17,7 @@ use kontur_filters::control::fault::Fault;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
 use kontur_motion::contouring::NoContour;
-use kontur_motion::tolerance::Unkept;
+use kontur_motion::deviation::Unkept;
 use text::{condition, order, per_s, text, thresholds};
 
 /// Number of cycles of standstill shown after the stop of a fault.

@@ -7,8 +7,8 @@ use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::SourceRef;
 use crate::record::{CycleRecord, Quantity, RowBuffer};
 use kontur_motion::axis::AxisVec;
+use kontur_motion::deviation::Unkept;
 use kontur_motion::deviation::{Change, Meter};
-use kontur_motion::tolerance::Unkept;
 
 /// Largest number of messages of the program that are kept until they are taken: a loop without motion raises millions
 /// at once.

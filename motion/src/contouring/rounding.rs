@@ -4,13 +4,12 @@ use super::blend::{Blend, End};
 use super::{Held, NoContour, is_feed};
 use crate::axis::AxisVec;
 use crate::block::{Block, ContourMode, ContourSettings};
+use crate::junction::TANGENT;
 use crate::path::{Path, piece};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Least tolerance and least corner distance in mm: the resolution of the vendor's lengths.
 const SMALLEST_MM: f64 = 1e-4;
-/// Direction changes below this are rounding of the program's numbers, as at kinks.
-const TANGENT: f64 = 1e-9;
 
 /// A curve that fits.
 pub(super) struct Curve {

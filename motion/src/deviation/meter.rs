@@ -1,9 +1,9 @@
 //! Measures the deviation of the output, separately from the planner.
 
+use super::Unkept;
 use super::gauge::{Gauge, loosest};
 use crate::axis::AxisVec;
 use crate::contour::{Contour, Passed};
-use crate::tolerance::Unkept;
 
 /// A change in a planner that affects the deviation of its output, see [`Meter::take`].
 #[derive(Clone, Debug)]

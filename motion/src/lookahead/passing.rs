@@ -22,9 +22,10 @@
 //! since their speed was determined with the present acceleration.
 
 use super::stretch::cells;
-use super::{FLAT_MM_S2, Span, Window, is_above};
+use super::{Span, Window, is_above};
 use crate::block::SlopeKind;
 use crate::cap::SpeedLimit;
+use crate::profile::FLAT_MM_S2;
 use crate::profile::{Infeasible, Profile, State};
 use crate::ride::Alone;
 

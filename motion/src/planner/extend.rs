@@ -2,12 +2,13 @@
 
 use super::Planner;
 use crate::cap::{Cap, SpeedLimit};
+use crate::deviation::Unkept;
 use crate::deviation::{Change, What};
-use crate::plan::{Start, last_blocks};
+use crate::plan::{Segment, Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, Seen, is_at};
-use crate::tolerance::{Demands, Trial, Unkept, Verdict};
+use crate::tolerance::{Demands, Trial, Verdict};
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -234,7 +235,7 @@ impl Planner {
             entry = now;
         }
         entry.stops |= self.plan.reserve.is_empty();
-        entry.hold_to(self.plan.pass(entry.blocks.len()));
+        entry.hold_to(self.plan.pass(entry.blocks.len()).iter().map(Segment::limits));
         self.append(entry, 0);
         if let Some(next) = self.plan.reserve.front() {
             // there may be a dwell in between
@@ -254,7 +255,7 @@ impl Planner {
         let mut segments = self.plan.pass(blocks).into_iter();
         for (entry, dwell) in entries.range_mut(..count).zip(dwells) {
             let own = segments.by_ref().take(entry.blocks.len());
-            entry.hold_to(own);
+            entry.hold_to(own.map(|segment| segment.limits()));
             self.enter(entry, dwell);
         }
         self.timeline.extend(entries.drain(..count));

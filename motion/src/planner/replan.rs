@@ -32,8 +32,9 @@ use crate::asked::Asked;
 use crate::block::SlopeKind::{Hsc, Trapez};
 use crate::cap::{Cap, SpeedLimit};
 use crate::deviation::What;
-use crate::lookahead::{FLAT_MM_S2, plan};
+use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
+use crate::profile::FLAT_MM_S2;
 use crate::profile::{Profile, SlopeLimits};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, SAME_LENGTH};
@@ -374,7 +375,7 @@ impl Planner {
             let stops = profile.end().v_mm_s <= 0.0;
             let Start { moment, s_mm, .. } = self.plan.start;
             let mut entry = Entry::along(moment, s_mm, profile, (why, why), &blocks, stops);
-            entry.hold_to(along);
+            entry.hold_to(along.iter().map(Segment::limits));
             self.append(entry, 0);
             rest = cut(rest, length);
         }

@@ -7,6 +7,7 @@
 //! connection everywhere, so the connection is within the limits too.
 
 use super::Block;
+use crate::profile::FLAT_MM_S2;
 use crate::profile::roots::enclosed_root;
 use crate::profile::{Phase, RampShape};
 
@@ -17,8 +18,6 @@ const MISS: f64 = 1e-7;
 /// Speed in mm/s that is used as the reference of a gap below it: where the fall comes to rest its speed may be
 /// rounding.
 const LEAST_MM_S: f64 = 1e-4;
-/// Acceleration in mm/s2 that counts as zero.
-const FLAT_MM_S2: f64 = 1e-6;
 /// Bisection steps for the moment at which the rise is left.
 const ROUNDS: u32 = 50;
 /// Accuracy of the moment at which both are closest, relative to the piece.

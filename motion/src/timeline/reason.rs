@@ -4,9 +4,10 @@
 //! not to those at the ends of the profile.
 
 use super::Entry;
+use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
-use crate::lookahead::{FLAT_MM_S2, ROUNDING};
-use crate::plan::Segment;
+use crate::lookahead::ROUNDING;
+use crate::profile::FLAT_MM_S2;
 use crate::profile::State;
 use smallvec::SmallVec;
 
@@ -27,9 +28,9 @@ pub(crate) fn is_at(v_mm_s: f64, limit: Cap) -> bool {
 }
 
 impl Entry {
-    /// Stores the limits of its blocks, once the entry is final.
-    pub(crate) fn hold_to(&mut self, segments: impl IntoIterator<Item = Segment>) {
-        self.caps = segments.into_iter().map(|s| (s.cap, s.asked)).collect();
+    /// Stores the limits of its blocks and what the tolerance asks of them, once the entry is final.
+    pub(crate) fn hold_to(&mut self, limits: impl IntoIterator<Item = (Cap, Option<Asked>)>) {
+        self.caps = limits.into_iter().collect();
         self.lows = if self.blocks.len() > 1 && self.profile.rises_after_a_fall() {
             (1..self.blocks.len()).filter_map(|i| self.low_before(i)).collect()
         } else {

@@ -4,13 +4,13 @@
 //! Most plans of a search fail by far, and then their location is enough. What this look misses is found when the last
 //! plans are measured.
 
-use super::Unkept;
 use super::harvest::Harvest;
 use super::ranges::chunks;
 use super::view::{Buffer, View};
 use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
 use crate::contour::WARY;
+use crate::deviation::Unkept;
 
 /// Set points examined per kernel length.
 const LOOKS: u32 = 128;

@@ -1,8 +1,8 @@
 //! The violations to be answered: the worst one of those that are close together.
 
-use super::Unkept;
 use super::view::View;
 use super::violation::{Record, Violation};
+use crate::deviation::Unkept;
 
 /// Receives violations in the order of their cycles, and forwards at most one per half kernel.
 pub(super) struct Harvest<'a, F> {

@@ -1,5 +1,6 @@
 //! Measures by how far the set path leaves the contour.
 
+use super::BORDER_CYCLES;
 use super::bound::Companion;
 use super::harvest::Harvest;
 use super::measure::SPACING;
@@ -7,8 +8,8 @@ use super::ranges::chunks;
 use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
-use super::{BORDER_CYCLES, Unkept};
 use crate::contour::Sight;
+use crate::deviation::Unkept;
 use crate::deviation::{Excursion, SetPath};
 
 /// Share of the tolerance from which on the length of a vector requires a check of the alternatives to it: below this

@@ -1,6 +1,5 @@
 //! Measures by how far the set path misses points of the contour.
 
-use super::Unkept;
 use super::bound::distance;
 use super::harvest::Harvest;
 use super::search::Suspects;
@@ -8,6 +7,7 @@ use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
+use crate::deviation::Unkept;
 use crate::deviation::{ALIKE, Excursion, SetPath};
 use smallvec::{SmallVec, smallvec};
 

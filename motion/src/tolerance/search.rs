@@ -3,13 +3,13 @@
 //! Set points can leave the contour only while the filters hold kinks or bends of the path, or at any time if the
 //! filters of the axes differ. A bound ([`super::bound`]) excludes most of these cycles.
 
-use super::Unkept;
 use super::bound::Companion;
 use super::ranges::{chunks, joined, within_of};
 use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
 use crate::contour::WARY;
+use crate::deviation::Unkept;
 use crate::timeline::{PathState, Reader};
 
 /// Relative difference of path increments per cycle up to which the speed counts as constant.

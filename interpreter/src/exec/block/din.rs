@@ -7,9 +7,10 @@ mod functions;
 mod insertions;
 mod offsets;
 
+use super::choice::{Compensation, FeedType, LookAhead, PathMode, Plane};
 use super::collected::{CycleCall, GWord, Placed, Words};
 use super::groups::{Act, Group};
-use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Modal, PathMode, Plane};
+use super::modal::{FeedWord, Modal};
 use super::modes::weight_ratio;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::addition;

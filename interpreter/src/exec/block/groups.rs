@@ -4,7 +4,7 @@
 
 mod group;
 
-use super::modal::{Compensation, Corners, FeedType, PathMode, Plane, Selection};
+use super::choice::{Compensation, Corners, FeedType, PathMode, Plane, Selection};
 use crate::exec::motion::dynamics::Weight;
 pub(in crate::exec) use group::Group;
 

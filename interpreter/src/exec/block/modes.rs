@@ -1,8 +1,9 @@
 //! Weights, feedforward, tools, rotation and tool radius compensation: words that change the motion of later blocks.
 
+use super::choice::{Compensation, Selection};
 use super::collected::{GWord, Placed, Words};
 use super::groups::{Act, Group};
-use super::modal::{Compensation, Modal, Selection};
+use super::modal::Modal;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

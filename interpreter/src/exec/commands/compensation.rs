@@ -6,7 +6,7 @@ use super::keys::arguments;
 use super::range::between;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::modal::Compensation;
+use crate::exec::block::choice::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::LARGEST_MM;

@@ -8,7 +8,7 @@ use super::misc::may_flush;
 use super::refused::numbers_of;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::modal::Compensation;
+use crate::exec::block::choice::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::SYSTEMS_MAX;

@@ -6,7 +6,7 @@
 
 use super::row::Call;
 use crate::diag::Condition;
-use crate::exec::block::modal::Compensation;
+use crate::exec::block::choice::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::syntax::ast::{Command, Ident, Item, ItemKind, ItemValue};

@@ -4,7 +4,7 @@
 //! detected there (source: TF5200 programming manual, limits of tool radius compensation), and the path is executed. Therefore
 //! it is a warning here, once per program.
 
-use super::compensation::Item;
+use super::item::Item;
 use crate::exec::geometry::planar::{Side, intersections};
 use crate::exec::geometry::point::{Point, norm, sub};
 use crate::exec::step::SourceRef;

@@ -16,14 +16,15 @@ mod active;
 mod corner;
 mod element;
 mod ends;
+mod failure;
 mod inside;
-mod item;
 mod radius;
 mod tangential;
 
 use super::bottleneck::{Cut, Watch};
+use super::item::{Item, Rest, vanished};
 use crate::diag::Condition;
-use crate::exec::block::modal::Selection;
+use crate::exec::block::choice::Selection;
 use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::planar::Side;
@@ -34,12 +35,10 @@ use active::Active;
 use corner::{above, straight_before};
 use element::{Element, moving_side, runs_back};
 use ends::line;
+use failure::Fallible;
 use inside::Closed;
-use item::{Fallible, vanished};
 
 use tangential::Touch;
-
-pub(in crate::exec) use item::{Item, Rest};
 
 /// The stage.
 #[derive(Debug, Default)]

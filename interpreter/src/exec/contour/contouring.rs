@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
 //! the spline.
 
-use crate::exec::block::modal::FeedType;
+use crate::exec::block::choice::FeedType;
 use kontur_motion::block::{ContourMode, ContourSettings, SplineSettings};
 
 /// Mode of `#CONTOUR MODE`.

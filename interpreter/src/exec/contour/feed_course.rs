@@ -9,7 +9,7 @@
 //! the path is as fast as its limits allow; elements inserted by the compensation end in the same way as the motion before
 //! them.
 
-use super::compensation::Item;
+use super::item::Item;
 use super::motion::{Corner, CornerFeed, FeedCourse, Motion};
 use kontur_motion::block::{Block, Feed};
 

@@ -1,7 +1,7 @@
 //! A programmed motion as it passes through the stages of the contour.
 
 use super::guarded::Guarded;
-use crate::exec::block::modal::Selection;
+use crate::exec::block::choice::Selection;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;

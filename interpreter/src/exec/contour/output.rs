@@ -3,7 +3,7 @@
 use super::{Contour, feed_course};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::Cut;
-use crate::exec::contour::compensation::{Item, Rest};
+use crate::exec::contour::item::{Item, Rest};
 use crate::exec::contour::motion::{Driven, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::step::{Event, Step};

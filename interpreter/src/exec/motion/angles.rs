@@ -7,9 +7,9 @@
 
 use super::state::ContourLines;
 use crate::diag::Condition;
+use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
-use crate::exec::block::modal::PathMode;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg};

@@ -2,9 +2,10 @@
 
 use super::plane::PlaneImage;
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::{Placed, Words};
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::modal::{Modal, PathMode};
+use crate::exec::block::modal::Modal;
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -11,9 +11,10 @@
 //! 21363, 21797, 50786, 120477, 120484, 120691, 120734, 120736, 120740, 120742, 120743.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::{Compensation, PathMode};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
-use crate::exec::block::modal::{Compensation, Modal, PathMode};
+use crate::exec::block::modal::Modal;
 use crate::exec::contour::{Guarded, violated};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

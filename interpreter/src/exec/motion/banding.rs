@@ -11,9 +11,9 @@
 
 use super::state::measuring::Measuring;
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::Compensation;
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::state::Function;

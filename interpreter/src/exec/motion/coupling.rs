@@ -15,7 +15,8 @@
 use super::state::MotionState;
 use super::state::coupling::{Couplings, Follower, Pair};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::modal::{Compensation, Modal};
+use crate::exec::block::choice::Compensation;
+use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;

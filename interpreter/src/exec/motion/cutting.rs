@@ -10,9 +10,9 @@
 //! P-AXIS-00015; 20633, 20642, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
+use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::modal::PathMode;
 use crate::exec::contour::{PIECES_MAX, STEP};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

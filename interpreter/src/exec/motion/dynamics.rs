@@ -9,7 +9,8 @@
 //! 120032, 120034.
 
 use crate::diag::Condition;
-use crate::exec::block::modal::{LookAhead, Modal};
+use crate::exec::block::choice::LookAhead;
+use crate::exec::block::modal::Modal;
 use crate::machine::{Axis, Channel, Machine};
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{ChannelDynamics, SlopeKind, VectorLimits};

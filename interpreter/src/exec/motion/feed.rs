@@ -1,8 +1,9 @@
 //! Feed rate and end velocity of a block.
 
 use crate::diag::Condition;
+use crate::exec::block::choice::{FeedType, PathMode};
 use crate::exec::block::collected::Placed;
-use crate::exec::block::modal::{FeedType, FeedWord, Modal, PathMode};
+use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;

@@ -2,9 +2,9 @@
 
 use super::state::MotionState;
 use crate::diag::Condition;
+use crate::exec::block::choice::{Compensation, FeedType};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
-use crate::exec::block::modal::{Compensation, FeedType};
 use crate::exec::contour::FeedCourse;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -10,9 +10,9 @@
 
 use super::state::measuring::{Measured, Pending};
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::{Compensation, PathMode};
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;

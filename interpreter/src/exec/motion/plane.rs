@@ -1,7 +1,7 @@
 //! The active plane of a motion: its axes, its orientation in space, and its tool radius compensation.
 
 use crate::diag::Condition;
-use crate::exec::block::modal::{Compensation, Corners};
+use crate::exec::block::choice::{Compensation, Corners};
 use crate::exec::contour::Compensated;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

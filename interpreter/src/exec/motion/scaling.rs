@@ -8,9 +8,9 @@
 //! positioning axes; what it shows only in pictures, or not at all, is refused.
 
 use crate::diag::Condition;
+use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::block::modal::PathMode;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;

@@ -4,8 +4,8 @@
 //! is that of the start.
 
 use crate::diag::Condition;
+use crate::exec::block::choice::Compensation;
 use crate::exec::block::collected::Words;
-use crate::exec::block::modal::Compensation;
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

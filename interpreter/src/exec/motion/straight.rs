@@ -6,7 +6,8 @@
 
 use super::InPlane;
 use super::state::Straight;
-use crate::exec::block::modal::{Compensation, FeedType, Modal, PathMode};
+use crate::exec::block::choice::{Compensation, FeedType, PathMode};
+use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;

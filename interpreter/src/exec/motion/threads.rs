@@ -18,9 +18,9 @@
 mod tapping;
 
 use crate::diag::{Condition, rounded};
+use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
-use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;

@@ -24,6 +24,9 @@ pub(super) use labels::Labels;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// Highest number of a label. Assumption: that of a block number of 32 bits; 20834 and 20838 print no limit.
+pub(in crate::exec::program) const LABEL_MAX: u64 = u32::MAX as u64;
+
 /// Index of an entry.
 pub(in crate::exec) type EntryId = u32;
 

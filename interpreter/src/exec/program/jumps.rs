@@ -10,7 +10,7 @@
 //! Source: TF5200 programming manual, `$GOTO` (206915851) and ends of subroutines (206781707).
 
 use super::executor::Executor;
-use super::index::{EntryId, Keyword, LabelPlace};
+use super::index::{EntryId, Keyword, LABEL_MAX, LabelPlace};
 use super::state::Frame;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
@@ -212,9 +212,6 @@ impl Executor {
         }
     }
 }
-
-/// Highest number of a label. Assumption: that of a block number of 32 bits; 20834 and 20838 print no limit.
-pub(in crate::exec::program) const LABEL_MAX: u64 = u32::MAX as u64;
 
 fn label_too_large(number: f64, span: Span) -> Box<Fault> {
     let text = format!("label N{number} is outside the data format");

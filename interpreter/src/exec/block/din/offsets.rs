@@ -1,9 +1,9 @@
 //! Tool offsets, zero offsets, presets, mirrors, rotations and software limits of a block.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::{Compensation, PathMode};
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{self, Act, Group};
-use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;

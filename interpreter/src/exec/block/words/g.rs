@@ -1,10 +1,10 @@
 //! G words: functions of the control, and subroutines configured for a number.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::Selection;
 use crate::exec::block::collected::{CycleCall, GWord, Words};
 use crate::exec::block::dialect;
 use crate::exec::block::groups::{self, Act, Group, Row, ValueRule};
-use crate::exec::block::modal::Selection;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{GValue, Span};

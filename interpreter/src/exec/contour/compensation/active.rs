@@ -2,9 +2,10 @@
 
 use super::corner::{above, corner_arc, inner_corner, straight, straight_corner};
 use super::element::{Element, emit_between};
-use super::item::{Fallible, Item, too_tight};
+use super::failure::{Fallible, too_tight};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
+use crate::exec::contour::item::Item;
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::Fault;
 use crate::exec::geometry::planar::Side;

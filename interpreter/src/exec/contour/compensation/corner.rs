@@ -1,6 +1,6 @@
 //! Geometry of the corners of a compensated contour.
 
-use super::item::Item;
+use crate::exec::contour::item::Item;
 use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::planar::{Curve, Side, intersections};
 use crate::exec::geometry::point::{Point, cross, dot, norm, sub};

@@ -2,9 +2,10 @@
 
 use super::corner::{side_sweep, trimmed};
 use super::ends::{ends, line};
-use super::item::{Fallible, Item, too_tight, vanished};
+use super::failure::{Fallible, too_tight};
 use super::tangential::{self, Touch};
 use crate::diag::Condition;
+use crate::exec::contour::item::{Item, vanished};
 use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::planar::Side;

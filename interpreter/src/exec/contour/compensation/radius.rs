@@ -9,9 +9,10 @@
 use super::active::{Active, Watched, at_contour};
 use super::corner::{above, inner_corner, straight, straight_before};
 use super::element::{Element, emit_between};
-use super::item::{Fallible, Item, too_tight};
+use super::failure::{Fallible, too_tight};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
+use crate::exec::contour::item::Item;
 use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::planar::Side;
 use crate::exec::geometry::point::{Point, cross, sub};

@@ -7,7 +7,7 @@
 //! Source: manual of the kernel, tangential selection and deselection of the tool radius compensation (207837451).
 
 use super::ends::{ends, line};
-use super::item::Fallible;
+use super::failure::Fallible;
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;
 use crate::exec::fault::Fault;

@@ -1,7 +1,7 @@
 //! Tapping: G63, G331 and G332, whose spindle turns in step with the path.
 
 use crate::diag::Condition;
-use crate::exec::block::modal::PathMode;
+use crate::exec::block::choice::PathMode;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;

@@ -2,6 +2,7 @@
 
 mod control;
 
+use super::LABEL_MAX;
 use super::head::{
     Head, SAYING, blank, ends_program, head, is_command, name_of, real_time_cycle, says_nothing,
     word,
@@ -10,7 +11,6 @@ use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
-use crate::exec::program::jumps::LABEL_MAX;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
 use std::collections::{BTreeMap, BTreeSet};
