@@ -40,6 +40,9 @@ use std::sync::Arc;
 /// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is not a pitch.
 const PITCH_MM: (f64, f64) = (1e-4, 1e4);
 
+/// Difference in mm below which two pitches count as equal: one may be given in inches.
+const PITCH_ROUNDING_MM: f64 = 1e-9;
+
 /// Fraction of the thread speed that must be reached: all of it, except for rounding.
 const SHORT: f64 = 1.0 - 1e-6;
 /// Cosine of the largest corner angle of a thread of several blocks.
@@ -122,11 +125,11 @@ impl Decoder {
                 return Err(Fault::new(Condition::ThreadPitch, text, *at));
             }
             if let (Some(cut), PathMode::TapBack) = (self.motion.threads.pitch_mm[main], mode)
-                && (cut - pitch_mm).abs() > 0.0
+                && (cut - pitch_mm).abs() > PITCH_ROUNDING_MM
             {
                 // 413715595: the tool leaves the thread that it has cut
                 let text = format!(
-                    "the pitch {pitch} of G332 must be that of G331, {}",
+                    "the pitch {pitch} of G332 must be that of the thread, {}",
                     cut / self.modal.unit_mm()
                 );
                 return Err(Fault::new(Condition::ThreadPitch, text, *at));
