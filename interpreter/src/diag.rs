@@ -182,6 +182,12 @@ pub struct Diagnostic {
     pub multiple_id: u32,
 }
 
+/// What a message may name as a parameter: the typed constants of the table, since an ID as text may be wrong.
+pub(crate) trait Named {
+    /// Its ID (`P-AXIS-00236`).
+    fn id(&self) -> Option<&'static str>;
+}
+
 /// Largest number of characters of a word that a message quotes.
 pub(crate) const QUOTED_MAX: usize = 80;
 
@@ -268,10 +274,10 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the parameter.
+    /// Names a parameter of the lists, if it has an ID (those of `kontur.lis` have none).
     #[must_use]
-    pub fn parameter(mut self, id: &'static str) -> Self {
-        self.parameter = Some(id);
+    pub(crate) fn parameter(mut self, parameter: impl Named) -> Self {
+        self.parameter = parameter.id();
         self
     }
 

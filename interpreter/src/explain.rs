@@ -21,10 +21,12 @@ mod words;
 pub use explanation::{Explanation, Kind};
 
 use crate::diag::condition;
-use crate::diag::{Condition, Id};
+use crate::diag::{Condition, Id, Named};
 use crate::machine::instead_of;
 use crate::machine::key::Key;
-use crate::machine::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
+use crate::machine::table::{
+    self, Bound, Correction, Default, ListKind, Raw, Row, axis_drive, axis_filters,
+};
 use crate::machine::value::{self, Value};
 use crate::suggest::edit_distance;
 
@@ -120,7 +122,7 @@ fn drives_here(row: &Row) -> &'static str {
         "Profidrive" if !row.key.is_empty() => "; here only with antr_typ 3",
         "Profidrive" => "",
         // the dead time delays every drive
-        "Simulation" if row.id != "P-AXIS-00194" => {
+        "Simulation" if row.id() != axis_drive::SIMU_DEAD_TIME.id() => {
             "; here only with the plant SIMU (kontur.axis[i].plant.model)"
         }
         _ => "; here for every simulated drive",
@@ -146,7 +148,13 @@ fn parameter(row: &'static Row) -> Explanation {
         facts.push(("key", "not read here: cannot be set in a list".to_owned()));
     } else {
         // the tables print STRING where a number is accepted too
-        let printed = ["P-AXIS-00153", "P-AXIS-00737", "P-AXIS-00738"].contains(&row.id);
+        let printed = [
+            axis_filters::PROTOTYPE,
+            axis_filters::ADDITIONAL_PROTOTYPE,
+            axis_filters::ADDITIONAL_TYPE,
+        ]
+        .iter()
+        .any(|param| param.id() == row.id());
         let name = if printed { "STRING (numbers accepted)" } else { row.raw.name() };
         facts.push(("type", name.to_owned()));
         facts.push(("range", range(row)));
@@ -223,7 +231,7 @@ fn range(row: &Row) -> String {
 }
 
 fn default(row: &Row) -> String {
-    if row.id == "P-AXIS-00204" {
+    if row.id() == axis_filters::TYPE.id() {
         return "LOWPASS 1 with the prototypes 1 to 3, HSC_MEAN 8 with the prototype HSC"
             .to_owned();
     }

@@ -163,15 +163,16 @@ impl Chain<'_> {
         self.override_list(&mut start_up, "start_up", overrides);
         if start_up.get(stup::LIST_FORMAT).as_deref() == Some("BINAER") {
             let message = "listen: binary lists are not read, export the lists as ASCII";
-            self.diagnostics
-                .push(Diagnostic::new(Condition::Unsupported, message).parameter("P-STUP-00008"));
+            self.diagnostics.push(
+                Diagnostic::new(Condition::Unsupported, message).parameter(stup::LIST_FORMAT),
+            );
             return None;
         }
         if start_up.get(stup::CHANNEL_COUNT).is_some_and(|n| n > 1.0) {
             let message = "kanal_anzahl: one channel is simulated, that of sda_mds[0]";
             let mut diagnostic = Diagnostic::new(Condition::Unsupported, message)
                 .severity(Severity::Warning)
-                .parameter("P-STUP-00001");
+                .parameter(stup::CHANNEL_COUNT);
             diagnostic.source = start_up.set_by(stup::CHANNEL_COUNT).and_then(|s| s.at.clone());
             self.diagnostics.push(diagnostic);
         }
@@ -187,7 +188,7 @@ impl Chain<'_> {
                 self.start_up
             );
             self.diagnostics
-                .push(Diagnostic::new(Condition::ListLink, message).parameter("P-STUP-00009"));
+                .push(Diagnostic::new(Condition::ListLink, message).parameter(stup::CHANNEL_LIST));
         }
         self.override_list(&mut channel, "channel", overrides);
         let defaults = self.read_named(&start_up, ListKind::Axis, stup::AXIS_DEFAULTS);
@@ -249,7 +250,7 @@ impl Chain<'_> {
             let message =
                 format!("{}: more axis lists than zahl_mds = {limit}, ignored", file.place());
             let mut diagnostic =
-                Diagnostic::new(Condition::ListCount, message).parameter("P-STUP-00014");
+                Diagnostic::new(Condition::ListCount, message).parameter(stup::AXIS_LIST_COUNT);
             diagnostic.source = start_up.set_by(file).and_then(|s| s.at.clone());
             self.diagnostics.push(diagnostic);
         }

@@ -11,7 +11,7 @@ use super::kind::AxisKind;
 use super::table::axis_filters::FilterKeys;
 use super::table::axis_guard;
 use super::table::param::Place;
-use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
+use crate::diag::{Condition, Diagnostic, Named, Severity, ValueKind};
 use kontur_filters::{
     issue::{Effect, FilterIssue},
     time::CycleTime,
@@ -27,11 +27,10 @@ pub(super) fn about(
     effect: &str,
 ) -> Diagnostic {
     let place = param.into();
-    let parameter = Some(place.row.id).filter(|id| !id.is_empty());
-    let named = parameter.map_or_else(|| place.to_string(), |id| format!("{place} ({id})"));
+    let named = place.id().map_or_else(|| place.to_string(), |id| format!("{place} ({id})"));
     let text = format!("{what}, axis {}, {named}: {effect}", axis.name());
-    let mut diagnostic = Diagnostic::new(condition, text).axis(axis.number(), axis.name());
-    diagnostic.parameter = parameter;
+    let mut diagnostic =
+        Diagnostic::new(condition, text).axis(axis.number(), axis.name()).parameter(place);
     diagnostic.source = axis.set_by(place).and_then(|setting| setting.at.clone());
     diagnostic
 }

@@ -314,7 +314,8 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             let message =
                 format!("{}: axis number {number} is already used by {}", list.file, first.file);
             let at = number_at(&list.parameters);
-            diagnostics.push(error(Condition::ListLink, message, at).parameter("P-AXIS-00016"));
+            diagnostics
+                .push(error(Condition::ListLink, message, at).parameter(axis_general::NUMBER));
         }
     }
     for (i, named) in names.named.iter().enumerate() {

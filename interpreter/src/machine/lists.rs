@@ -250,7 +250,7 @@ impl Reader<'_> {
                 entry.key(),
                 earlier.at.line
             );
-            self.say(parameter(Diagnostic::new(Condition::ListDuplicate, message), row).at(key_at));
+            self.say(Diagnostic::new(Condition::ListDuplicate, message).parameter(row).at(key_at));
         }
         self.order += 1;
         self.list.insert((row.key, indices), (self.order, entry));
@@ -311,11 +311,6 @@ fn structures(shapes: &[&str]) -> String {
     named.join(", ")
 }
 
-/// Adds the parameter of a row, if it has an ID.
-pub(super) fn parameter(diagnostic: Diagnostic, row: &Row) -> Diagnostic {
-    if row.id.is_empty() { diagnostic } else { diagnostic.parameter(row.id) }
-}
-
 /// 1001138 for a value that could not be read.
 pub(super) fn bad_value(
     row: &Row,
@@ -337,7 +332,7 @@ pub(super) fn bad_value(
     if written == "=" {
         diagnostic = diagnostic.hint("write key, blank and value, without an equals sign");
     }
-    parameter(diagnostic, row)
+    diagnostic.parameter(row)
 }
 
 /// The text of a list; reading it gives the same entries.

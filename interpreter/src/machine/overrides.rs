@@ -1,7 +1,6 @@
 //! Values by which the command line overrides the lists (`--set X.getriebe[0].kv=5000`).
 
 use super::key::Key;
-use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::{self, Indices, ListKind, Row, kontur};
 use super::value;
@@ -61,7 +60,8 @@ impl Override {
         let value = value::read(row.raw, &self.value).map_err(|bad| {
             let message = format!("{}: {}", self.key, bad.reason);
             Box::new(
-                parameter(Diagnostic::new(Condition::Setting, message), row)
+                Diagnostic::new(Condition::Setting, message)
+                    .parameter(row)
                     .at(self.location(&self.value)),
             )
         })?;

@@ -83,18 +83,18 @@ impl Parameters {
     }
 
     /// The value of a parameter in mm (deg), s and ratios.
-    pub(crate) fn get<K: Kind>(&self, param: Param<K>) -> K::Value {
+    pub(in crate::machine) fn get<K: Kind>(&self, param: Param<K>) -> K::Value {
         K::read(self, param.place())
     }
 
     /// The number of a parameter in the units of the list; `None` if neither list nor row has one.
-    pub(crate) fn listed(&self, at: impl Into<Place>) -> Option<f64> {
+    pub(in crate::machine) fn listed(&self, at: impl Into<Place>) -> Option<f64> {
         let at = at.into();
         self.of(at.row, at.indices)?.number()
     }
 
     /// The setting of a parameter, `None` if it is not set.
-    pub(crate) fn set_by(&self, at: impl Into<Place>) -> Option<&Setting> {
+    pub(in crate::machine) fn set_by(&self, at: impl Into<Place>) -> Option<&Setting> {
         let at = at.into();
         self.settings.get(&(at.row.key, at.indices))
     }

@@ -6,7 +6,6 @@
 pub(super) mod channel;
 
 use super::kind::{AxisKind, kind_of, mode as bits};
-use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place};
 use super::table::{
@@ -140,7 +139,7 @@ pub(super) fn finish(
         diagnostic = diagnostic.axis(axis.number, axis.name.clone());
     }
     diagnostic.source = at;
-    parameter(diagnostic, row)
+    diagnostic.parameter(row)
 }
 
 fn unit_of(parameters: &Parameters, row: &Row) -> &'static str {

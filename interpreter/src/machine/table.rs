@@ -12,22 +12,22 @@
 //! assert_eq!((kv.key, kv.list), ("getriebe[i].kv", ListKind::Axis));
 //! ```
 
-pub(super) mod axis_compensation;
-pub(super) mod axis_control;
-pub(super) mod axis_drive;
-pub(super) mod axis_dynamics;
-pub(super) mod axis_filters;
-pub(super) mod axis_general;
-pub(super) mod axis_guard;
-pub(super) mod channel;
+pub(crate) mod axis_compensation;
+pub(crate) mod axis_control;
+pub(crate) mod axis_drive;
+pub(crate) mod axis_dynamics;
+pub(crate) mod axis_filters;
+pub(crate) mod axis_general;
+pub(crate) mod axis_guard;
+pub(crate) mod channel;
 mod indices;
-pub(super) mod kontur;
+pub(crate) mod kontur;
 mod lookup;
 pub(crate) mod param;
 mod row;
-pub(super) mod start_up;
-pub(super) mod tool;
-pub(super) mod zero;
+pub(crate) mod start_up;
+pub(crate) mod tool;
+pub(crate) mod zero;
 
 pub use indices::Indices;
 pub(crate) use indices::with_indices;

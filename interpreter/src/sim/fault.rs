@@ -12,6 +12,7 @@ use super::inputs::SpeedChange;
 use super::{Phase, Simulation};
 use crate::diag::{Condition, Diagnostic, Reaction, Severity, ValueKind, rounded};
 use crate::exec::{SourceRef, SpindleMotion};
+use crate::machine::table::{axis_control, axis_filters};
 use crate::machine::{Axis, AxisKind, Machine};
 use kontur_filters::control::fault::Fault;
 use kontur_filters::control::plant::PlantError;
@@ -144,11 +145,15 @@ impl Simulation {
         let unit = axis.map_or("mm", Axis::unit);
         let Remaining { distance_mm, window_mm, filters } = lacks;
         let (window, parameter, help) = if filters {
-            ("the window of its filters", "P-AXIS-00351", "raise filter_position_window")
+            (
+                "the window of its filters",
+                axis_filters::SETTLED_WINDOW,
+                "raise filter_position_window",
+            )
         } else {
             (
                 "the exact-stop window",
-                "P-AXIS-00236",
+                axis_control::WINDOW,
                 "raise the window or the gain kv, or remove the force",
             )
         };

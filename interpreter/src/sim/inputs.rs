@@ -4,6 +4,7 @@
 //! its time; the path follows its contour unchanged up to that cycle and changes from there.
 
 use crate::diag::{Condition, Diagnostic, rounded};
+use crate::machine::table::{axis_drive, channel};
 use crate::machine::{Axis, Machine, RapidOverride};
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::control::plant::PlantModel;
@@ -82,7 +83,7 @@ impl Signal {
                 let text =
                     "rapid override without effect: one override applies to both feed and rapid";
                 let hint = "set channel.g00_override_mode to ACTIVE or MINIMUM_OF_G0_G1";
-                Some(warning(text.to_owned()).parameter("P-CHAN-00181").hint(hint))
+                Some(warning(text.to_owned()).parameter(channel::RAPID_OVERRIDE).hint(hint))
             }
             Self::Additional(i) => {
                 let of = |axis: &Axis| {
@@ -103,7 +104,7 @@ impl Signal {
                     let name = axis.name();
                     let text =
                         format!("axis {name} follows its set position: a force has no effect");
-                    warning(text).axis(axis.number(), name).parameter("P-AXIS-00096")
+                    warning(text).axis(axis.number(), name).parameter(axis_drive::SIMU_FOLLOWS)
                 })
             }
             _ => None,

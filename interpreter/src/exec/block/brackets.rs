@@ -16,6 +16,7 @@ use crate::exec::motion::state::{Function, MotionState};
 use crate::exec::names::AxisNames;
 use crate::exec::step::Event;
 use crate::machine::Channel;
+use crate::machine::table::channel as of;
 use crate::syntax::ast::{Bracket, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// Words that belong to the functions of an axis and must not precede them (21301).
@@ -144,7 +145,7 @@ impl Decoder {
                         m.number
                     );
                     return Err(Fault::new(Condition::FunctionOfIndependent, text, m.span)
-                        .with(|d| d.parameter("P-CHAN-00039")));
+                        .with(|d| d.parameter(of::M_OUTPUT)));
                 }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }

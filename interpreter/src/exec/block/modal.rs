@@ -4,6 +4,7 @@ use super::choice::{Compensation, Corners, FeedType, LookAhead, PathMode, Plane,
 use super::groups;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::fault::{Fault, Outcome};
+use crate::machine::table::channel as of;
 use crate::machine::{Axis, Channel, INCH_MM};
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Slope, SlopeKind};
@@ -181,13 +182,12 @@ impl Modal {
                 | (21, _) => {}
                 (group, g) if groups::row(*g).is_none() => {
                     let text = format!("prog_start.g_gruppe[{group}].nr {g} is no G function");
-                    let d =
-                        Diagnostic::new(Condition::PresetFunction, text).parameter("P-CHAN-00063");
+                    let d = Diagnostic::new(Condition::PresetFunction, text).parameter(of::G_GROUP);
                     unknown.push(d);
                 }
                 (group, g) => {
                     let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
-                    let d = Diagnostic::new(Condition::Fallback, text).parameter("P-CHAN-00063");
+                    let d = Diagnostic::new(Condition::Fallback, text).parameter(of::G_GROUP);
                     unknown.push(d);
                 }
             }

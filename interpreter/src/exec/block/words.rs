@@ -14,6 +14,7 @@ use crate::exec::options::Value;
 use crate::exec::report::Report;
 use crate::exec::values::{every_axis, system};
 use crate::machine::Channel;
+use crate::machine::table::channel as of;
 use crate::suggest;
 use crate::syntax::ast::{
     Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, PlaceKind, Span, Word, WordKind,
@@ -297,8 +298,14 @@ fn macro_fits(
     report: &mut Report,
 ) -> Outcome<()> {
     for (what, written, most, condition, parameter) in [
-        ("name", name, channel.macro_name_length, Condition::MacroNameLength, "P-CHAN-00511"),
-        ("text", text, channel.macro_text_length, Condition::Range, "P-CHAN-00512"),
+        (
+            "name",
+            name,
+            channel.macro_name_length,
+            Condition::MacroNameLength,
+            of::MACRO_NAME_LENGTH,
+        ),
+        ("text", text, channel.macro_text_length, Condition::Range, of::MACRO_TEXT_LENGTH),
     ] {
         let length = written.chars().count();
         if length > most as usize {

@@ -12,6 +12,7 @@ use crate::exec::report::Report;
 use crate::exec::shaping::ShapingState;
 use crate::exec::shaping::{Family, FilterKeys, GuardKeys};
 use crate::machine::issues;
+use crate::machine::table::{axis_filters, axis_guard};
 use crate::machine::{Axis, Machine};
 use crate::syntax::ast::Span;
 use kontur_filters::fir::MAX_ORDER;
@@ -70,12 +71,12 @@ impl ShapingState {
             Family::Filter => (
                 Condition::FilterWithListGuard,
                 "the list switches the Vibration Guard on",
-                "P-AXIS-00588",
+                axis_guard::ACTIVE.place(),
             ),
             Family::VibGuard => (
                 Condition::GuardWithListFilter,
                 "the list configures a filter type",
-                "P-AXIS-00586",
+                axis_filters::FIR_TYPE.place(),
             ),
         };
         let text = format!("{}: axis {}: {what}", family.command(), axis.name());
@@ -261,12 +262,15 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         if hsc { listed.hsc.is_some() } else { listed.fir.is_some() }
     });
     if !configured {
-        let (what, parameter) =
-            if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };
+        let (what, parameter) = if hsc {
+            ("an HSC filter", axis_filters::PROTOTYPE)
+        } else {
+            ("a filter type", axis_filters::FIR_TYPE)
+        };
         let text =
             format!("{}: {what} is not configured in any axis list: no effect", call.title());
         let fault = Fault::new(Condition::Odd, text, call.span()).warning();
-        decoder.report.note_once(parameter, fault.with(|d| d.parameter(parameter)));
+        decoder.report.note_once(what, fault.with(|d| d.parameter(parameter)));
     }
     if hsc {
         decoder.shaping.hsc = stored;

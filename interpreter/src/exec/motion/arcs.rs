@@ -14,6 +14,7 @@ use crate::exec::geometry::arc::{self, ArcError};
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::Channel;
+use crate::machine::table::channel as of;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
@@ -285,7 +286,7 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
                 "start point, end point and centre do not match: the centre would have to move by {shift:.6} mm, maximum: {limit:.6} mm"
             );
             Fault::new(Condition::ArcCentre, text, span)
-                .with(|d| d.parameter("P-CHAN-00059"))
+                .with(|d| d.parameter(of::CENTRE_SHIFT))
                 .hint("check G161 (I, J, K absolute) and G162 (relative to the start point)")
         }
         ArcError::RadiiDiffer { start, end, limit } => {
@@ -298,7 +299,7 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
                     .value(ValueKind::Limit, limit * 1e4, "0.1um")
                     .value(ValueKind::StartValue, start * 1e4, "0.1um")
                     .value(ValueKind::TargetValue, end * 1e4, "0.1um")
-                    .parameter("P-CHAN-00171")
+                    .parameter(of::RADIUS_DIFFERENCE)
             })
         }
     }

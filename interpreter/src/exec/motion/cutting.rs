@@ -20,6 +20,7 @@ use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::MotionState;
 use crate::exec::step::{CuttingSpeed, Event};
 use crate::machine::Machine;
+use crate::machine::table::axis_general;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
@@ -171,7 +172,8 @@ impl Decoder {
             let text = format!("G51 has no effect: axis {name} does not accept diameters");
             let hint = "enable diameters with kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059)";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
-            self.report.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
+            self.report
+                .note_once("G51", fault.with(|d| d.parameter(axis_general::DIAMETER_ABSOLUTE)));
         }
         self.modal.diameter = Some(axis);
         Ok(())

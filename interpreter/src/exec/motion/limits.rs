@@ -7,6 +7,7 @@ use crate::exec::fault::Fault;
 use crate::exec::motion::state::MotionState;
 use crate::exec::names::AxisNames;
 use crate::exec::values::number::LARGEST_MM;
+use crate::machine::table::axis_general;
 use crate::machine::{Machine, is_outside};
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
@@ -92,7 +93,7 @@ impl Limits<'_> {
         // increments have four decimals; digits beyond are rounding
         let shown = (x * 1e7).round() / 1e7;
         let text = format!("axis {name}: {what} {shown} is outside its limits {least} to {most}");
-        let limit = if x < least { "P-AXIS-00177" } else { "P-AXIS-00178" };
+        let limit = if x < least { axis_general::LOWER_LIMIT } else { axis_general::UPPER_LIMIT };
         let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {
             d.axis(number, name)
                 .value(ValueKind::Current, x * 1e4, "0.1um")

@@ -7,6 +7,8 @@ use super::state::{Function, MotionState};
 use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::step::{Event, SpindleState, Sync};
+use crate::machine::table::channel as of;
+use crate::machine::table::param::{Optional, Param};
 use crate::machine::{Acknowledged, Channel, SpindleMoment};
 
 impl MotionState {
@@ -69,7 +71,9 @@ impl MotionState {
             Function::Speed { spindle: i } => format!("S word of {}", spindle(i)),
         };
         let function = match declared {
-            Some((seconds, parameter)) => format!("{name} ({seconds} s each by {parameter})"),
+            Some((seconds, parameter)) => {
+                format!("{name} ({seconds} s each by {})", parameter.place().row.id)
+            }
             None => name,
         };
         contour.event(Event::Uncounted { function });
@@ -139,19 +143,19 @@ fn waited_for(channel: &Channel, function: Function) -> Option<(usize, SpindleMo
     Some((spindle, moment))
 }
 
-/// Duration in s, above 0, and where it is declared.
-fn declared(channel: &Channel, function: Function) -> Option<(f64, &'static str)> {
+/// Duration in s, above 0, and the parameter that declares it.
+fn declared(channel: &Channel, function: Function) -> Option<(f64, Param<Optional>)> {
     let listed =
         |spindle: usize| channel.spindle_durations_s.get(spindle).copied().unwrap_or_default();
     let (seconds, parameter) = match function {
-        Function::M(number) => (channel.m_durations_s.get(&number).copied(), "P-CHAN-00040"),
-        Function::H(number) => (channel.h_durations_s.get(&number).copied(), "P-CHAN-00026"),
-        Function::Tool => (None, ""),
-        Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, "P-CHAN-00044"),
-        Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, "P-CHAN-00046"),
-        Function::Spindle { spindle, m: 5 } => (listed(spindle).m5, "P-CHAN-00048"),
-        Function::Spindle { spindle, .. } => (listed(spindle).m19, "P-CHAN-00042"),
-        Function::Speed { spindle } => (listed(spindle).speed, "P-CHAN-00080"),
+        Function::M(number) => (channel.m_durations_s.get(&number).copied(), of::M_DURATION),
+        Function::H(number) => (channel.h_durations_s.get(&number).copied(), of::H_DURATION),
+        Function::Tool => return None,
+        Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, of::SPINDLE_M3_DURATION),
+        Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, of::SPINDLE_M4_DURATION),
+        Function::Spindle { spindle, m: 5 } => (listed(spindle).m5, of::SPINDLE_M5_DURATION),
+        Function::Spindle { spindle, .. } => (listed(spindle).m19, of::SPINDLE_M19_DURATION),
+        Function::Speed { spindle } => (listed(spindle).speed, of::SPINDLE_SPEED_DURATION),
     };
     seconds.filter(|s| *s > 0.0).map(|s| (s, parameter))
 }

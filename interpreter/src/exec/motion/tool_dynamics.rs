@@ -18,6 +18,7 @@ use crate::exec::motion::spindles::{Passed, Spindle, Turning};
 use crate::exec::motion::state::MotionState;
 use crate::exec::report::Report;
 use crate::exec::step::Event;
+use crate::machine::table::tool;
 use crate::machine::{Machine, SpindleLimits};
 use crate::syntax::ast::Span;
 
@@ -52,7 +53,7 @@ impl Spindle {
             return Err(Fault::new(Condition::ToolSpeed, text, span));
         }
         let text = format!("{text}: {} rev/min is used", rounded(used));
-        let parameter = |d: crate::diag::Diagnostic| d.parameter("P-TOOL-00014");
+        let parameter = |d: crate::diag::Diagnostic| d.parameter(tool::SPINDLE_MAX);
         report.note(Fault::new(Condition::SpindleLimit, text, span).with(parameter));
         Ok(())
     }

@@ -8,6 +8,8 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::CycleCall;
 use crate::exec::fault::Fault;
 use crate::exec::options::Value;
+use crate::machine::table::channel as of;
+use crate::machine::table::param::{Param, Text};
 use crate::suggest;
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
 use std::sync::Arc;
@@ -292,12 +294,7 @@ impl Executor {
     }
 
     /// A global subroutine named by a parameter.
-    pub(in crate::exec) fn call_of_list(
-        &mut self,
-        file: &str,
-        parameter: &'static str,
-        span: Span,
-    ) {
+    pub(in crate::exec) fn call_of_list(&mut self, file: &str, parameter: Param<Text>, span: Span) {
         let levels = self.levels.len();
         self.call_named(&Ident { text: file.into(), span }, false, None);
         if self.levels.len() == levels {
@@ -308,7 +305,7 @@ impl Executor {
     /// M06 with its program.
     pub(in crate::exec) fn tool_change(&mut self, span: Span) {
         if let Some(file) = self.decoder.calls.tool_change_file.clone() {
-            self.call_of_list(&file, "P-CHAN-00118", span);
+            self.call_of_list(&file, of::TOOL_CHANGE_PROGRAM, span);
         }
     }
 
@@ -318,7 +315,7 @@ impl Executor {
     /// again.
     pub(in crate::exec) fn tool_data(&mut self, span: Span) {
         if let Some(file) = self.decoder.calls.tool_data_file.clone() {
-            self.call_of_list(&file, "P-CHAN-00429", span);
+            self.call_of_list(&file, of::TOOL_DATA_PROGRAM, span);
         }
     }
 

@@ -17,6 +17,7 @@ use crate::exec::options::{GuardCommands, Options, SkipLevels};
 use crate::exec::step::TimerAct;
 use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step};
 use crate::machine::Machine;
+use crate::machine::table::channel as of;
 use crate::source::{Position, Sources};
 use crate::syntax::Parser;
 use crate::syntax::ast::Span;
@@ -150,7 +151,7 @@ impl Executor {
         self.position = index.sections[section].start;
         self.decoder.report.source.file = file_number(file);
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {
-            self.call_of_list(&name, "P-CHAN-00119", Span::default());
+            self.call_of_list(&name, of::START_PROGRAM, Span::default());
             // a list of the machine may name a program that exists only on its control
             self.decoder.report.amend(|d| {
                 if d.id != Condition::NoFile {

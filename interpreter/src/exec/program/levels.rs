@@ -5,6 +5,7 @@ use super::state::{Closing, Level, Passed, Target};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::fault::Fault;
 use crate::exec::step::EndReason;
+use crate::machine::table::channel as of;
 use crate::source::Position;
 use crate::syntax::ast::Span;
 use std::sync::Arc;
@@ -135,7 +136,7 @@ impl Executor {
                 main.frames.clear();
             }
             self.skip_to_level_end();
-            self.call_of_list(&name, "P-CHAN-00252", Span::default());
+            self.call_of_list(&name, of::END_PROGRAM, Span::default());
             return;
         }
         self.contouring_at_end();

@@ -1,7 +1,10 @@
 //! Parameters that the code reads, named and typed by their rows: a wrong name or type does not compile.
+//!
+//! Every room may name a constant in a message; its value is read in `machine` only.
 
 use super::indices::{Indices, with_indices};
 use super::row::{Default, Raw, Row};
+use crate::diag::Named;
 use std::marker::PhantomData;
 
 /// Rows of one family; `as NAME: KIND` gives a parameter the name and type by which the code reads it.
@@ -11,7 +14,7 @@ macro_rules! parameters {
         pub(super) const ROWS: &[super::row::Row] = &[$($row),*];
         $($(
             #[doc = concat!("`", stringify!($name), "` of its row.")]
-            pub(in crate::machine) const $name: super::param::Param<super::param::$kind> =
+            pub(crate) const $name: super::param::Param<super::param::$kind> =
                 super::param::Param::<super::param::$kind>::new(&$row);
         )?)*
     };
@@ -43,6 +46,24 @@ pub(crate) enum Text {}
 pub(crate) struct Place {
     pub(crate) row: &'static Row,
     pub(crate) indices: Indices,
+}
+
+impl Named for &Row {
+    fn id(&self) -> Option<&'static str> {
+        Some(self.id).filter(|id| !id.is_empty())
+    }
+}
+
+impl Named for Place {
+    fn id(&self) -> Option<&'static str> {
+        self.row.id()
+    }
+}
+
+impl<K> Named for Param<K> {
+    fn id(&self) -> Option<&'static str> {
+        self.place.id()
+    }
 }
 
 impl std::fmt::Display for Place {

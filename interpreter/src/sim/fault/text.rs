@@ -1,6 +1,8 @@
 //! Texts, conditions and limits of the faults of a controller.
 
 use crate::diag::{Condition, rounded};
+use crate::machine::table::axis_general as of;
+use crate::machine::table::param::{Number, Param};
 use kontur_filters::control::fault::{Derivative, Fault};
 
 /// A value and its limit, with as many digits as it takes to tell them apart.
@@ -92,11 +94,11 @@ pub(super) const fn condition(fault: &Fault, spindle: bool) -> Condition {
 }
 
 /// Parameters of the warning and of the error.
-pub(super) const fn thresholds(what: Derivative) -> (&'static str, &'static str) {
+pub(super) const fn thresholds(what: Derivative) -> (Param<Number>, Param<Number>) {
     match what {
-        Derivative::Velocity => ("P-AXIS-00439", "P-AXIS-00440"),
-        Derivative::Acceleration => ("P-AXIS-00441", "P-AXIS-00442"),
-        Derivative::Jerk => ("P-AXIS-00443", "P-AXIS-00444"),
+        Derivative::Velocity => (of::SPEED_WARNING, of::SPEED_ERROR),
+        Derivative::Acceleration => (of::ACC_WARNING, of::ACC_ERROR),
+        Derivative::Jerk => (of::JERK_WARNING, of::JERK_ERROR),
     }
 }
 

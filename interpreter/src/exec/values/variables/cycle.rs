@@ -6,6 +6,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::report::Report;
+use crate::machine::table::channel as of;
 use crate::syntax::ast::Span;
 
 impl Variables {
@@ -60,7 +61,7 @@ impl Variables {
             let fault = Fault::new(Condition::Odd, text, span)
                 .warning()
                 .hint(pass_it(&name))
-                .with(|d| d.parameter("P-CHAN-00463"));
+                .with(|d| d.parameter(of::CREATES_PARAMETERS));
             report.note_once(&format!("@{name}"), fault);
         }
     }
