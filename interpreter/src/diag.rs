@@ -185,7 +185,7 @@ pub struct Diagnostic {
 /// What a message may name as a parameter: the typed constants of the table, since an ID as text may be wrong.
 pub(crate) trait Named {
     /// Its ID (`P-AXIS-00236`).
-    fn id(&self) -> Option<&'static str>;
+    fn id(self) -> Option<&'static str>;
 }
 
 /// Largest number of characters of a word that a message quotes.

@@ -40,10 +40,12 @@ mod transmission;
 pub mod value;
 
 pub use axis::Axis;
-pub use channel::couplings::DefaultCoupling;
-pub(crate) use channel::couplings::PAIRS_MAX;
-pub use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
-pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
+pub use channel::Channel;
+pub(crate) use channel::DiagnosisMessages;
+pub(crate) use channel::couplings::{DefaultCoupling, PAIRS_MAX};
+pub(crate) use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
+pub(crate) use channel::path::ArcCentre;
+pub(crate) use channel::running::RapidOverride;
 pub(crate) use inert::instead_of;
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;

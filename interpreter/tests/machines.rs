@@ -3,7 +3,7 @@
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::{self, Default, ListKind};
 use kontur_interpreter::machine::value::Value;
-use kontur_interpreter::machine::{AxisKind, ListFiles, Machine, Override};
+use kontur_interpreter::machine::{AxisKind, ListFiles, Machine};
 use std::path::PathBuf;
 
 /// Files below `programs/machines`.
@@ -73,28 +73,6 @@ fn vendor_defaults_lists_every_printed_default() {
     assert!(listed > 140, "{listed}");
 }
 
-/// Page 149304587: F is in mm/min with 100 and in m/min with 0.1; -1 is 100 without a message, and no other value is a unit.
-#[test]
-fn the_feed_has_one_of_two_units() {
-    for (value, mm_min, said) in [
-        ("100", 1.0, &[][..]),
-        ("1.000000e-001", 1000.0, &[]),
-        ("-1", 1.0, &[]),
-        ("0", 1.0, &["K-0070"]),
-        ("-2", 1.0, &["K-0070"]),
-        ("0.05", 1.0, &["K-0070"]),
-        ("10", 1.0, &["K-0070"]),
-        ("99.9", 1.0, &["K-0070"]),
-        ("1000", 1.0, &["K-0070"]),
-    ] {
-        let setting = format!("channel.prog_start.feedrate_factor={value}");
-        let (machine, messages) = Machine::builtin(&[Override::parse(&setting).unwrap()]).unwrap();
-        let ids: Vec<String> = messages.iter().map(|d| d.id.to_string()).collect();
-        assert_eq!(ids, said, "{value}");
-        assert!((machine.channel.feed_unit_mm_min - mm_min).abs() < 1e-9, "{value}");
-    }
-}
-
 #[test]
 fn the_builtin_machine_is_the_one_on_disk() {
     let (builtin, _) = Machine::builtin(&[]).unwrap();
@@ -108,7 +86,6 @@ fn spindles_and_gantry_slaves_are_found() {
         machine.spindles.iter().map(|a| (a.name(), a.number())).collect();
     assert_eq!(spindles, [("S", 4), ("S2", 5)]);
     assert!(machine.spindles.iter().all(|a| a.kind() == AxisKind::Spindle && a.is_modulo()));
-    assert_eq!(machine.channel.main_spindle, Some(4));
     let (machine, _) = load("gantry");
     let slave = machine.axis("X2").unwrap();
     assert_eq!((slave.number(), slave.gantry_master()), (4, Some(1)));

@@ -67,7 +67,10 @@ impl Decoder {
             feedback: Feedback::default(),
             names: AxisNames::new(&machine.axes),
             report: Report::default(),
-            modal: Modal::start(machine.channel.slope, machine.channel.constant_ramp_time),
+            modal: Modal::start(
+                machine.channel.dynamics.slope,
+                machine.channel.dynamics.constant_ramp_time,
+            ),
             dialect: Seen::default(),
             values: Values::new(options.external),
             geometry: Geometry::new(&machine, start),
@@ -190,7 +193,7 @@ impl Decoder {
     /// Names of several characters that the parser must recognise.
     pub(super) fn long_names(&self) -> Vec<String> {
         let axes = self.names.in_channel().map(str::to_owned);
-        let main = [self.machine.channel.main_spindle_name.clone()];
+        let main = [self.machine.channel.spindles.main_name.clone()];
         axes.chain(self.motion.spindles.iter().map(|s| s.name.clone()))
             .chain(main)
             .filter(|n| n.len() > 1)

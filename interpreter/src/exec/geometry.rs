@@ -64,7 +64,7 @@ impl Geometry {
         }
         coordinates.use_zero_groups(
             offsets.has_g53,
-            machine.channel.offsets_in_systems,
+            machine.channel.offsets.in_systems,
             offsets.start_group,
         );
         Self {

@@ -199,10 +199,10 @@ impl Decoder {
 
     /// The axes settle at the end of a motion if G60, G360 or P-CHAN-00235 requires it.
     fn stop_exactly(&mut self, words: &Words<'_>) {
-        let after_rapid =
-            self.modal.path == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
+        let after_rapid = self.modal.path == PathMode::Rapid
+            && self.machine.channel.language.exact_stop_after_g00;
         if exact_stop_once(words).is_some() || self.modal.exact_stop || after_rapid {
-            self.sync(Sync::ExactStop { alone: self.machine.channel.stops_join });
+            self.sync(Sync::ExactStop { alone: self.machine.channel.independent.stops_join });
         }
     }
 

@@ -87,6 +87,16 @@ impl Parameters {
         K::read(self, param.place())
     }
 
+    /// The entries of an array that are set, with their first index.
+    pub(super) fn array<V>(
+        &self,
+        array: Param<impl Kind<Value = Option<V>>>,
+    ) -> impl Iterator<Item = (u32, V)> {
+        let key = array.place().row.key;
+        let set = self.settings().filter(move |(_, setting)| setting.row.key == key);
+        set.filter_map(move |(indices, _)| Some((indices[0], self.get(array.at(indices[0]))?)))
+    }
+
     /// The number of a parameter in the units of the list; `None` if neither list nor row has one.
     pub(in crate::machine) fn listed(&self, at: impl Into<Place>) -> Option<f64> {
         let at = at.into();

@@ -136,10 +136,13 @@ fn vendor_defaults_in_mm_and_s() {
     assert!(close(machine.axis("X").unwrap().tr_w_min_s(), 0.01));
     assert!(close(machine.axis("S").unwrap().kv_1_s(), 10.0));
     let c = &machine.channel;
-    assert_eq!((c.slope, c.feed_mm_s, c.look_ahead.blocks), (SlopeKind::Step, None, 120));
-    assert_eq!(c.transition_jerk, TransitionJerkMode::Coupled);
-    assert_eq!(c.feed_axes, [true, true]);
-    assert!(close(c.feed_unit_mm_min, 1.0) && close(c.arc_centre.radius_difference_mm, 0.005));
+    assert_eq!(
+        (c.dynamics.slope, c.feed.start_mm_s, c.look_ahead_blocks),
+        (SlopeKind::Step, None, 120)
+    );
+    assert_eq!(c.dynamics.transition_jerk, TransitionJerkMode::Coupled);
+    assert_eq!(c.feed.axes, [true, true]);
+    assert!(close(c.feed.unit_mm_min, 1.0) && close(c.arc_centre.radius_difference_mm, 0.005));
     assert!(close(c.arc_centre.shift_ratio, 0.05) && close(c.arc_centre.shift_mm, 2.0));
     assert!(close(c.arc_centre.radius_difference_ratio, 0.001));
 }
@@ -165,17 +168,20 @@ fn channel_values_are_converted() {
     let (machine, warnings) = files.load(&[]).unwrap();
     assert_eq!(warnings, []);
     let c = machine.channel;
-    assert_eq!((c.slope, c.look_ahead.blocks), (SlopeKind::Sin2, 500));
-    assert_eq!(c.transition_jerk, TransitionJerkMode::DirectJerk);
-    assert!(close(c.feed_mm_s.unwrap(), 50.0) && close(c.feed_unit_mm_min, 1000.0));
-    assert!(close(c.vector.vel_mm_s.unwrap(), 100.0) && close(c.vector.acc_mm_s2.unwrap(), 1500.0));
+    assert_eq!((c.dynamics.slope, c.look_ahead_blocks), (SlopeKind::Sin2, 500));
+    assert_eq!(c.dynamics.transition_jerk, TransitionJerkMode::DirectJerk);
+    assert!(close(c.feed.start_mm_s.unwrap(), 50.0) && close(c.feed.unit_mm_min, 1000.0));
+    assert!(
+        close(c.dynamics.vector.vel_mm_s.unwrap(), 100.0)
+            && close(c.dynamics.vector.acc_mm_s2.unwrap(), 1500.0)
+    );
     assert!(close(c.arc_centre.shift_mm, 0.01));
-    assert!(close(c.m_durations_s[&7], 0.5));
-    assert_eq!(c.g_groups[&14], 91);
-    let programs: Vec<_> = c.g8x_programs.iter().map(|(g, name)| (*g, name.as_str())).collect();
+    assert!(close(c.functions.m_durations_s[&7], 0.5));
+    assert_eq!(c.language.g_groups[&14], 91);
+    let programs: Vec<_> = c.programs.g8x.iter().map(|(g, name)| (*g, name.as_str())).collect();
     assert_eq!(programs, [(85, "drill.nc"), (839, "pattern.nc")]);
-    assert!(c.keep_p_parameters);
-    assert_eq!(c.feed_axes, [false, true]);
+    assert!(c.variables.keep_p_parameters);
+    assert_eq!(c.feed.axes, [false, true]);
 }
 
 #[test]
@@ -199,7 +205,7 @@ fn an_override_gives_the_bits_of_a_list_value() {
     // the listed twin warns about the repeated key; apart from that only the positions differ
     let (listed, _) = files.load(&[]).unwrap();
     assert_eq!(set.cycle, listed.cycle);
-    assert_eq!(set.channel.feed_mm_s, listed.channel.feed_mm_s);
+    assert_eq!(set.channel.feed.start_mm_s, listed.channel.feed.start_mm_s);
     for (a, b) in set.all_axes().zip(listed.all_axes()) {
         assert_eq!(a.dynamics(), b.dynamics());
         for key in ["getriebe[0].kv", "filter[0].fg_f0", "getriebe[0].dynamik.vb_max"] {
@@ -288,7 +294,7 @@ fn the_builtin_machine_loads_without_a_message() {
     assert_eq!(machine.name, "xyz");
     let names: Vec<(&str, u32)> = machine.all_axes().map(|a| (a.name(), a.number())).collect();
     assert_eq!(names, [("X", 1), ("Y", 2), ("Z", 3), ("S", 4)]);
-    assert_eq!(machine.channel.slope, SlopeKind::Trapez);
+    assert_eq!(machine.channel.dynamics.slope, SlopeKind::Trapez);
     let x = machine.axis("X").unwrap();
     assert!(close(x.kv_1_s(), 50.0) && close(x.get(kontur::TIME_CONSTANT), 0.005));
     assert_eq!(x.get(kontur::PLANT_MODEL).as_deref(), Some("PT1"));

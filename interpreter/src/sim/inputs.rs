@@ -79,7 +79,7 @@ impl Signal {
     fn without_effect(self, machine: &Machine) -> Option<Diagnostic> {
         let warning = |text: String| Diagnostic::new(Condition::InputNoEffect, text);
         match self {
-            Self::RapidOverride if machine.channel.rapid_override == RapidOverride::NotUsed => {
+            Self::RapidOverride if machine.channel.overrides.rapid == RapidOverride::NotUsed => {
                 let text =
                     "rapid override without effect: one override applies to both feed and rapid";
                 let hint = "set channel.g00_override_mode to ACTIVE or MINIMUM_OF_G0_G1";
@@ -238,7 +238,7 @@ impl Inputs {
         notes: &mut Vec<Diagnostic>,
     ) -> Result<bool, Box<Diagnostic>> {
         let mut any = false;
-        let limited = |ratio: f64| ratio.min(machine.channel.most_override.unwrap_or(ratio));
+        let limited = |ratio: f64| ratio.min(machine.channel.overrides.most.unwrap_or(ratio));
         while self.is_due(time_s, machine.cycle)
             && let Some(Change { signal, value, .. }) = self.next
         {
@@ -277,7 +277,7 @@ impl Inputs {
     /// The message, once, that an override is limited (P-CHAN-00056), or would be on a control without an entry in its
     /// list.
     fn largest_override_report(&mut self, ratio: f64, machine: &Machine) -> Option<Diagnostic> {
-        let listed = machine.channel.most_override;
+        let listed = machine.channel.overrides.most;
         if ratio <= listed.unwrap_or(1.0) || !self.told.insert(Condition::OverrideLimited) {
             return None;
         }

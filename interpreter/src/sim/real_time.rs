@@ -21,13 +21,13 @@ impl Simulation {
         self.steer_independent();
         self.take_wear(k);
         let channel = &self.machine.channel;
-        self.planner.set_override(self.inputs.ratios(channel.rapid_override));
+        self.planner.set_override(self.inputs.ratios(channel.overrides.rapid));
         self.hold_path();
     }
 
     /// Brakes the path because of feedhold or the probe signal, or lets it continue.
     pub(super) fn hold_path(&mut self) {
-        let own = self.machine.channel.own_feed_hold && self.inputs.feedhold;
+        let own = self.machine.channel.overrides.own_feed_hold && self.inputs.feedhold;
         let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
         let probed = self.probing.as_ref().is_some_and(Probing::holds);
         self.planner.feedhold(self.inputs.feedhold || probed, braking);
@@ -82,11 +82,11 @@ impl Simulation {
     /// Passes override and feedhold to the axes that move, or will move, independently of the path.
     fn steer_independent(&mut self) {
         let channel = &self.machine.channel;
-        let ratios = self.inputs.ratios(channel.rapid_override);
+        let ratios = self.inputs.ratios(channel.overrides.rapid);
         for (p, axis) in self.machine.axes.iter().enumerate() {
             let ratios = axis.independent_ratios(ratios);
             let held = self.inputs.feedhold && axis.holds_independent();
-            let steering = Steering { ratios, mode: channel.override_mode, held };
+            let steering = Steering { ratios, mode: channel.overrides.mode, held };
             self.independent.steer(p, steering);
         }
     }

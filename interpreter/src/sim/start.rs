@@ -51,7 +51,7 @@ impl Simulation {
                 Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
             }
         }
-        let window = machine.channel.look_ahead.blocks as usize;
+        let window = machine.channel.look_ahead_blocks as usize;
         let spindles: Vec<_> =
             machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
         let records = chains.iter().map(AxisChain::at_start).collect();
@@ -96,7 +96,7 @@ impl Simulation {
             cycle,
             executor,
         };
-        let mode = simulation.machine.channel.override_mode;
+        let mode = simulation.machine.channel.overrides.mode;
         simulation.planner.set_override_mode(mode);
         simulation.feedforward(false, &vec![1.0; n]);
         for spindle in 0..simulation.spindles.len() {

@@ -119,7 +119,8 @@ impl Decoder {
         }
         let value = self.number(value)?;
         // a direction of a modulo axis applies to a single word
-        let several = self.machine.channel.several_words && !self.machine.axes[axis].is_modulo();
+        let several =
+            self.machine.channel.language.several_words && !self.machine.axes[axis].is_modulo();
         if !several && block.axes.iter().any(|(a, _, _)| *a == axis) {
             return Err(self.names.twice(axis, span));
         }

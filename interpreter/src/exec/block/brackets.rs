@@ -135,7 +135,7 @@ impl Decoder {
                     return Err(self.names.twice(axis, group.span));
                 }
                 let name = self.names.name(axis);
-                let outputs = &self.machine.channel.m_outputs;
+                let outputs = &self.machine.channel.functions.m_outputs;
                 let of_axis = words.m.iter().find(|m| {
                     outputs.get(&m.number).is_some_and(|output| output.eq_ignore_ascii_case(name))
                 });

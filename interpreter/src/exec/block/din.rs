@@ -100,7 +100,7 @@ impl Decoder {
         self.dialect.guard(&words, &mut self.report);
         self.planes_and_units(&words);
         let takes_axes = axis_functions(&words, &mut self.report);
-        let at_once = self.machine.channel.tool_offsets_at_once;
+        let at_once = self.machine.channel.offsets.tools_at_once;
         let tool_before = at_once.then(|| self.geometry.coordinates.tool_offsets().clone());
         self.tools_and_offsets(&words, takes_axes);
         if let Some(before) = tool_before {

@@ -86,12 +86,12 @@ impl Modal {
 
     /// Unit of tolerance words in mm (P-CHAN-00439).
     pub(in crate::exec) fn tolerance_unit_mm(&self, channel: &Channel) -> f64 {
-        if channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
+        if channel.language.contouring_consider_inch { self.unit_mm() } else { 1.0 }
     }
 
     /// Unit of an F word with G94 in mm/s.
     pub(in crate::exec) fn feed_unit_mm_s(&self, channel: &Channel) -> f64 {
-        self.unit_mm() * channel.feed_unit_mm_min / 60.0
+        self.unit_mm() * channel.feed.unit_mm_min / 60.0
     }
 
     /// `R1`: the last radius programmed (R, `R1=`, G163), in the active unit (206014219).
@@ -146,13 +146,13 @@ impl Modal {
     /// Takes the start values of the channel list (P-CHAN-00054, 00063, 00099); reports those that are not simulated.
     pub(in crate::exec) fn presets(&mut self, channel: &Channel) -> Vec<Diagnostic> {
         let mut unknown = Vec::new();
-        self.inch = channel.inch;
-        if let Some(v) = channel.feed_mm_s {
-            let value = v * 60.0 / channel.feed_unit_mm_min;
+        self.inch = channel.language.inch;
+        if let Some(v) = channel.feed.start_mm_s {
+            let value = v * 60.0 / channel.feed.unit_mm_min;
             let per_minute = FeedType::PerMinute as usize;
             self.feeds[per_minute] = Some(FeedWord { value, inch: false });
         }
-        for (group, g) in &channel.g_groups {
+        for (group, g) in &channel.language.g_groups {
             match (group, g) {
                 (0, 0) => self.path = PathMode::Rapid,
                 (0, 2) => self.path = PathMode::Clockwise,

@@ -79,7 +79,7 @@ impl Decoder {
             }
         }
         // several words of an axis are possible in motions (P-CHAN-00148)
-        if self.machine.channel.several_words
+        if self.machine.channel.language.several_words
             && block.g.iter().any(|g| groups::takes_axes(g.row))
             && let Some(i) = (1..block.axes.len())
                 .find(|i| block.axes[..*i].iter().any(|(a, _, _)| *a == block.axes[*i].0))
@@ -88,7 +88,7 @@ impl Decoder {
             self.report.note(self.names.twice(axis, span));
         }
         if let (Some(_), Some((_, span)), true) =
-            (block.tool, block.tool_data, self.machine.channel.tool_data_with_tool)
+            (block.tool, block.tool_data, self.machine.channel.offsets.tool_data_with_tool)
         {
             let text = "D beside T, which also selects the tool data (P-CHAN-00014)";
             self.report.note(Fault::new(Condition::ToolDataTwice, text, span));
@@ -301,11 +301,11 @@ fn macro_fits(
         (
             "name",
             name,
-            channel.macro_name_length,
+            channel.macros.name_length,
             Condition::MacroNameLength,
             of::MACRO_NAME_LENGTH,
         ),
-        ("text", text, channel.macro_text_length, Condition::Range, of::MACRO_TEXT_LENGTH),
+        ("text", text, channel.macros.text_length, Condition::Range, of::MACRO_TEXT_LENGTH),
     ] {
         let length = written.chars().count();
         if length > most as usize {

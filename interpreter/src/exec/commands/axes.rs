@@ -152,7 +152,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     if named.is_empty() {
         decoder.motion.feed_axes_named = false;
         default_feed_group(decoder);
-        if !decoder.machine.channel.lists_feed_axes {
+        if !decoder.machine.channel.feed.lists_axes {
             let text = "#FGROUP without axes, and none in the list: the main axes are used";
             decoder.report.note(Fault::new(Condition::FeedGroupDefault, text, call.span()));
         }
@@ -172,8 +172,8 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
 /// The feed group of the channel list; if it has none, the main axes.
 fn default_feed_group(decoder: &mut Decoder) {
     let channel = &decoder.machine.channel;
-    decoder.motion.feed_axes = if channel.lists_feed_axes {
-        channel.feed_axes.clone()
+    decoder.motion.feed_axes = if channel.feed.lists_axes {
+        channel.feed.axes.clone()
     } else {
         let is_main = |axis| decoder.geometry.coordinates.main_index(axis).is_some();
         (0..decoder.machine.axes.len()).map(is_main).collect()

@@ -75,7 +75,7 @@ fn mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let items = call.command.groups.first().map_or(&[][..], |g| &g.items[..]);
     decoder.motion.measuring.kind = match items {
-        [] => decoder.machine.channel.measuring_type,
+        [] => decoder.machine.channel.measuring.kind,
         [item] => {
             let ItemKind::Value(ItemValue::Expr(expr)) = &item.kind else {
                 let text = "#MEAS MODE needs a number";

@@ -268,7 +268,7 @@ pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// `#INIT MACRO TAB`: the macros of the channel list are kept.
 pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.calls.macros.clone_from(&decoder.machine.channel.macros);
+    decoder.calls.macros.clone_from(&decoder.machine.channel.macros.listed);
     decoder.calls.macros_changed = true;
     Ok(())
 }

@@ -50,7 +50,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "#VECTOR LIMIT needs ON or OFF";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
-    let listed = decoder.machine.channel.vector;
+    let listed = decoder.machine.channel.dynamics.vector;
     match &call.command.tail[..] {
         [] => {}
         [word] if word.is("ALL") => {
@@ -87,7 +87,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let (x, _) = key?;
         Some(if on { x.map(|x| x * scale).or(listed) } else { None })
     };
-    let t = decoder.machine.channel.vector_time_s;
+    let t = decoder.machine.channel.dynamics.vector_time_s;
     let per_time2 = (t * t).recip();
     for (key, name) in [(keys.acc, "ACC"), (keys.dec, "DEC"), (keys.radial_acc, "RADIAL_ACC")] {
         let Some((Some(x), span)) = key else { continue };

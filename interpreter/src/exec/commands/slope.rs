@@ -13,7 +13,7 @@ use crate::exec::values::number::whole;
 use crate::syntax::ast::{Item, ItemKind, ItemValue};
 
 fn default(decoder: &mut Decoder) {
-    decoder.modal.slope.kind = decoder.machine.channel.slope;
+    decoder.modal.slope.kind = decoder.machine.channel.dynamics.slope;
     decoder.modal.slope.optimised = false;
     set_old(decoder, false);
 }

@@ -32,7 +32,7 @@ impl Modal {
         span: Span,
     ) -> [Option<Placed>; 2] {
         let written = plane.map(|main| words.centre[main]);
-        if !channel.modal_centres {
+        if !channel.language.modal_centres {
             return written;
         }
         let unit = self.unit_mm();
@@ -153,7 +153,7 @@ impl Decoder {
     fn feed_group_fits(&mut self, plane: [usize; 2], span: Span) -> Outcome<()> {
         let feed = &self.motion.feed_axes;
         // the group of the lists consists of the main axes, also after an axis exchange
-        if *feed == self.machine.channel.feed_axes {
+        if *feed == self.machine.channel.feed.axes {
             return Ok(());
         }
         let in_group = |axis: usize| feed.get(axis).copied().unwrap_or(false);

@@ -38,13 +38,13 @@ impl Measuring {
         channel: &Channel,
         report: &mut Report,
     ) -> Outcome<()> {
-        if on && channel.banding_over_blocks {
+        if on && channel.banding.over_blocks {
             return Err(Fault::unsupported(
                 "edge banding over several blocks (P-CHAN-00029)",
                 g.span,
             ));
         }
-        if on && channel.banding_rejects_rest {
+        if on && channel.banding.rejects_rest {
             return Err(Fault::unsupported(
                 "edge banding that skips the rest of its block (P-CHAN-00149)",
                 g.span,
@@ -68,7 +68,7 @@ impl Decoder {
     /// If edge banding is on and the block of the motion has an M function for it, the motion waits for the signal. Returns the
     /// position of that function in the program text.
     pub(in crate::exec) fn banding_run(&mut self, words: &Words<'_>) -> Outcome<Option<Span>> {
-        let at_signal = &self.machine.channel.m_at_signal;
+        let at_signal = &self.machine.channel.functions.m_at_signal;
         let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
         let Some(m) = functions.next() else { return Ok(None) };
         if let Some(second) = functions.next() {

@@ -162,7 +162,7 @@ impl Decoder {
             ("G51", Condition::NoFaceTurningAxis),
             span,
         )?;
-        if self.machine.channel.offsets_in_diameters {
+        if self.machine.channel.offsets.in_diameters {
             let what = "diameter programming with offsets in diameters (P-CHAN-00091)";
             return Err(Fault::unsupported(what, span));
         }

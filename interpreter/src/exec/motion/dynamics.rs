@@ -229,8 +229,11 @@ fn weighted(
     let smooth = [Cut::ZeroAcceleration, Cut::ZeroDeceleration].map(|c| (!stepped).then_some(c));
     let (a_cap, floor) = (axis.a_w_max_mm_s2(), axis.tr_w_min_s());
     // P-CHAN-00001, P-CHAN-00073: selective weights apply to the older command
-    let (accelerations, ramps) =
-        if modal.old_slope { (channel.acc_selection, channel.ramp_selection) } else { (0, 0) };
+    let (accelerations, ramps) = if modal.old_slope {
+        (channel.dynamics.acc_selection, channel.dynamics.ramp_selection)
+    } else {
+        (0, 0)
+    };
     let acc =
         |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
     let a_max = d.a_max_mm_s2;
@@ -280,13 +283,13 @@ pub(in crate::exec) fn channel_dynamics(
     }
     let dynamics = ChannelDynamics {
         axes,
-        feed_axes: channel.feed_axes.clone(),
-        limit_tangential_jerk: channel.limit_tangential_jerk,
-        transition_jerk: channel.transition_jerk,
-        curvature_estimate: channel.curvature_estimate,
+        feed_axes: channel.feed.axes.clone(),
+        limit_tangential_jerk: channel.dynamics.limit_tangential_jerk,
+        transition_jerk: channel.dynamics.transition_jerk,
+        curvature_estimate: channel.dynamics.curvature_estimate,
         vector,
-        vector_acc_on_arcs: channel.vector_acc_on_arcs,
-        curve_jerk: channel.curve_jerk,
+        vector_acc_on_arcs: channel.dynamics.vector_acc_on_arcs,
+        curve_jerk: channel.dynamics.curve_jerk,
         transition_velocity_min_mm_s: modal.transition_min_mm_s,
         stop_at_transitions: modal.look_ahead == LookAhead::StopAtTransitions,
     };

@@ -87,7 +87,7 @@ impl Decoder {
     pub(in crate::exec) fn feed_from(&self, value: f64, unit_mm: f64, span: Span) -> Outcome<Feed> {
         Ok(match self.contour.hsc.feed_type(self.modal.feed_type) {
             FeedType::PerMinute => {
-                Feed::PathVelocity(value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0)
+                Feed::PathVelocity(value * unit_mm * self.machine.channel.feed.unit_mm_min / 60.0)
             }
             FeedType::Time => Feed::Duration(value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(value / 100.0),
@@ -130,7 +130,7 @@ pub(super) fn check_time(block: &Block, span: Span, report: &mut Report) {
 impl FeedWord {
     /// The speed of G94 on this path in mm/s (deg/s).
     pub(super) fn per_minute(self, machine: &Machine, path: &Path) -> f64 {
-        self.value * (self.unit_mm(machine, path) * machine.channel.feed_unit_mm_min / 60.0)
+        self.value * (self.unit_mm(machine, path) * machine.channel.feed.unit_mm_min / 60.0)
     }
 
     /// Unit of length in mm on this path: 1 if only rotary axes move.

@@ -50,7 +50,7 @@ impl Words {
     /// The words of a bracket of an axis.
     fn read(decoder: &Decoder, axis: usize, items: &[Item]) -> Outcome<Self> {
         let mut words = Self::default();
-        let unit_mm_s = decoder.machine.channel.feed_unit_mm_min / 60.0
+        let unit_mm_s = decoder.machine.channel.feed.unit_mm_min / 60.0
             * decoder.modal.axis_unit(&decoder.machine.axes[axis]);
         let measuring = decoder.motion.measuring.kind;
         for item in items {
@@ -219,7 +219,7 @@ impl Decoder {
             }
         }
         self.motion.independent.way[axis] += target - start[axis];
-        let slope = words.slope.unwrap_or(self.machine.channel.slope);
+        let slope = words.slope.unwrap_or(self.machine.channel.dynamics.slope);
         let source = self.report.source;
         let motion =
             IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope, source };
@@ -296,7 +296,8 @@ impl Decoder {
 
     /// P-CHAN-00451 = 1: a block that names an axis in independent motion waits for it, even if the block does not move it.
     pub(super) fn join_named(&mut self, words: &BlockWords<'_>) {
-        if !self.machine.channel.joins_named || self.motion.independent.open.is_empty() {
+        if !self.machine.channel.independent.joins_named || self.motion.independent.open.is_empty()
+        {
             return;
         }
         let named = |axis: &usize| words.axes.iter().any(|(word, _, _)| word == axis);
@@ -322,7 +323,7 @@ impl Decoder {
             let text = "#WAIT INDP needs [axes] or ALL";
             return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
-        let in_windows = self.machine.channel.joins_in_windows;
+        let in_windows = self.machine.channel.independent.joins_in_windows;
         if in_windows {
             axes = (0..self.machine.axes.len()).collect();
         }

@@ -65,7 +65,7 @@ impl Decoder {
                 .motion
                 .measuring
                 .missing_is_error
-                .unwrap_or(self.machine.channel.missing_signal_is_error);
+                .unwrap_or(self.machine.channel.measuring.missing_signal_is_error);
         self.motion.measuring.pending = Some(Box::new(Pending {
             axes: words.axes.iter().map(|(axis, _, _)| *axis).collect(),
             target: axes.map(|axis| coordinates.programmed(axis)).collect(),

@@ -127,7 +127,7 @@ impl Decoder {
             None => 0.0,
         };
         let reversal_mm = [first, second].map(|position| position * unit + offset_mm);
-        let feed = self.machine.channel.feed_unit_mm_min / 60.0 * unit;
+        let feed = self.machine.channel.feed.unit_mm_min / 60.0 * unit;
         let speed = match (keys.feed, keys.frequency, keys.time) {
             (Some((f, _)), None, None) if f > 0.0 => IndependentSpeed::Feed(f * feed),
             (None, Some((f, _)), None) => IndependentSpeed::Time(0.5 / f),
@@ -164,7 +164,7 @@ impl Decoder {
             reversal_mm,
             rest_s: [rest(keys.first_rest), rest(keys.second_rest)],
             speed,
-            slope: self.machine.channel.slope,
+            slope: self.machine.channel.dynamics.slope,
             count: keys.count.map(|(n, _)| n as u32),
             source: self.report.source,
         };
@@ -182,7 +182,7 @@ fn limited_stroke(
     speed: IndependentSpeed,
 ) -> Option<String> {
     let (dynamics, cycle) = (machine.axes[axis].dynamics(), machine.cycle);
-    let slope = machine.channel.slope;
+    let slope = machine.channel.dynamics.slope;
     // the speed is above 0
     let way = IndependentMove::new(first, second, speed, slope, &dynamics, cycle).ok()?;
     let least_s = cycle.time_of(way.cycles());

@@ -151,7 +151,7 @@ impl Spindle {
 
     /// What the path waits for after functions of the spindle.
     pub(in crate::exec) fn waits(&self, channel: &Channel) -> SpindleWaits {
-        self.index.and_then(|i| channel.spindle_waits.get(i)).copied().unwrap_or_default()
+        self.index.and_then(|i| channel.functions.spindle_waits.get(i)).copied().unwrap_or_default()
     }
 
     /// Whether its S word takes effect after the motion of its block (MNS_SNS).
@@ -209,7 +209,7 @@ pub(super) fn of_lists(machine: &Machine) -> Vec<Spindle> {
 
 /// Index of the spindle selected by P-CHAN-00051, otherwise of the first one of the lists.
 pub(in crate::exec) fn listed_main(spindles: &[Spindle], machine: &Machine) -> usize {
-    let number = machine.channel.main_spindle;
+    let number = machine.channel.spindles.main;
     let listed = number.and_then(|main| machine.spindles.iter().position(|s| s.number() == main));
     spindles.iter().position(|s| s.index == Some(listed.unwrap_or(0))).unwrap_or(0)
 }

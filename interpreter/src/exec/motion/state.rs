@@ -86,7 +86,7 @@ impl MotionState {
         let n = machine.axes.len();
         Self {
             weights: Weights::new(n),
-            feed_axes: machine.channel.feed_axes.clone(),
+            feed_axes: machine.channel.feed.axes.clone(),
             feed_axes_named: false,
             vector: [VectorLimits::default(); 2],
             dynamics: [None, None],
@@ -135,7 +135,7 @@ impl MotionState {
 
     /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
     pub(in crate::exec) fn spindle_of_name(&self, name: &str, channel: &Channel) -> Option<usize> {
-        let main = name.eq_ignore_ascii_case(&channel.main_spindle_name);
+        let main = name.eq_ignore_ascii_case(&channel.spindles.main_name);
         let listed = self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
         if main { Some(0) } else { listed }
     }
@@ -291,8 +291,8 @@ impl Threads {
     /// The setting of the channel list.
     pub(in crate::exec) fn new(channel: &Channel) -> Self {
         let turning = TurningModes {
-            chain: channel.thread_chain,
-            ignore_override: channel.thread_ignores_override,
+            chain: channel.threads.chain,
+            ignore_override: channel.threads.ignore_override,
         };
         Self { turning, ..Self::default() }
     }

@@ -36,7 +36,7 @@ impl Modal {
     pub(in crate::exec) fn moves_straight(&self, words: &StraightWords, channel: &Channel) -> bool {
         let path_mode = words.path.unwrap_or(self.path);
         let feed = words.feed.map_or(self.feed().map(|word| word.value), |(f, _)| Some(f));
-        let stops = path_mode == PathMode::Rapid && channel.exact_stop_after_g00;
+        let stops = path_mode == PathMode::Rapid && channel.language.exact_stop_after_g00;
         let moves = match path_mode {
             PathMode::Rapid => !stops,
             PathMode::Linear => feed.is_some_and(|f| f > 0.0),

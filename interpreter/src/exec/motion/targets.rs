@@ -69,11 +69,11 @@ impl Decoder {
             return Err(Fault::new(Condition::CoordinateTooLarge, text, *at));
         }
         self.diameters_fit(words)?;
-        if self.machine.channel.several_words {
+        if self.machine.channel.language.several_words {
             targets = joined(targets);
         }
         targets.extend(self.motion.contour_line.targets.drain(..));
-        if !self.machine.channel.shortest_way {
+        if !self.machine.channel.language.shortest_way {
             turns_go_forward(&targets, words, &self.names)?;
         }
         self.geometry.turns_within_the_channel(&targets, words, &self.names)?;
@@ -89,7 +89,7 @@ impl Decoder {
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
                 let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
-                let turn = if self.machine.channel.shortest_way {
+                let turn = if self.machine.channel.language.shortest_way {
                     None
                 } else {
                     turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?

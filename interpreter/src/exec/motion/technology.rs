@@ -120,10 +120,11 @@ impl Decoder {
 
 /// The list entry of a function; `None` without an entry.
 fn acknowledged(channel: &Channel, function: Function) -> Option<Acknowledged> {
-    let listed = |spindle: usize| channel.spindle_waits.get(spindle).copied().unwrap_or_default();
+    let listed =
+        |spindle: usize| channel.functions.spindle_waits.get(spindle).copied().unwrap_or_default();
     match function {
-        Function::M(number) => channel.m_waits.get(&number).copied(),
-        Function::H(number) => channel.h_waits.get(&number).copied(),
+        Function::M(number) => channel.functions.m_waits.get(&number).copied(),
+        Function::H(number) => channel.functions.h_waits.get(&number).copied(),
         Function::Spindle { spindle, m } => listed(spindle).of_m(m),
         Function::Speed { spindle } => listed(spindle).speed,
         Function::Tool => None,
@@ -145,11 +146,16 @@ fn waited_for(channel: &Channel, function: Function) -> Option<(usize, SpindleMo
 
 /// Duration in s, above 0, and the parameter that declares it.
 fn declared(channel: &Channel, function: Function) -> Option<(f64, Param<Optional>)> {
-    let listed =
-        |spindle: usize| channel.spindle_durations_s.get(spindle).copied().unwrap_or_default();
+    let listed = |spindle: usize| {
+        channel.functions.spindle_durations_s.get(spindle).copied().unwrap_or_default()
+    };
     let (seconds, parameter) = match function {
-        Function::M(number) => (channel.m_durations_s.get(&number).copied(), of::M_DURATION),
-        Function::H(number) => (channel.h_durations_s.get(&number).copied(), of::H_DURATION),
+        Function::M(number) => {
+            (channel.functions.m_durations_s.get(&number).copied(), of::M_DURATION)
+        }
+        Function::H(number) => {
+            (channel.functions.h_durations_s.get(&number).copied(), of::H_DURATION)
+        }
         Function::Tool => return None,
         Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, of::SPINDLE_M3_DURATION),
         Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, of::SPINDLE_M4_DURATION),

@@ -150,7 +150,7 @@ impl Executor {
         self.push_level(Target { file, section }, None);
         self.position = index.sections[section].start;
         self.decoder.report.source.file = file_number(file);
-        if let Some(name) = self.decoder.machine.channel.start_program.clone() {
+        if let Some(name) = self.decoder.machine.channel.programs.start.clone() {
             self.call_of_list(&name, of::START_PROGRAM, Span::default());
             // a list of the machine may name a program that exists only on its control
             self.decoder.report.amend(|d| {

@@ -126,7 +126,7 @@ impl Executor {
     /// The main program is over: runs the program of P-CHAN-00252, once, before the end.
     fn finish(&mut self) {
         if let (Some(name), false) =
-            (self.decoder.machine.channel.end_program.clone(), self.end_program_called)
+            (self.decoder.machine.channel.programs.end.clone(), self.end_program_called)
         {
             self.end_program_called = true;
             while self.levels.len() > 1 {

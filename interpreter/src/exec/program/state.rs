@@ -141,11 +141,11 @@ impl Calls {
     /// State at program start, with the macros and subroutines of the channel list.
     pub(in crate::exec) fn new(channel: &Channel) -> Self {
         Self {
-            macros: channel.macros.clone(),
-            cycle_files: channel.g8x_programs.clone(),
-            tool_change_file: channel.tool_change_program.clone(),
-            tool_data_file: channel.tool_data_program.clone(),
-            cycle_changes_stay: channel.cycle_changes_stay,
+            macros: channel.macros.listed.clone(),
+            cycle_files: channel.programs.g8x.clone(),
+            tool_change_file: channel.programs.tool_change.clone(),
+            tool_data_file: channel.programs.tool_data.clone(),
+            cycle_changes_stay: channel.programs.cycle_changes_stay,
             ..Self::default()
         }
     }

@@ -10,11 +10,11 @@ pub(crate) const PAIRS_MAX: u32 = 15;
 
 /// A pair by the logical numbers of its axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DefaultCoupling {
+pub(crate) struct DefaultCoupling {
     /// Master axis (P-CHAN-00037).
-    pub master: u32,
+    pub(crate) master: u32,
     /// Slave axis (P-CHAN-00038).
-    pub slave: u32,
+    pub(crate) slave: u32,
 }
 
 /// The pairs of group 0; the reasons for those that are left out go to the diagnostics.

@@ -3,10 +3,14 @@
 use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Optional, Param, whole};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Number of spindles in a channel list.
+const SPINDLES: u32 = 16;
 
 /// Position relative to the motion of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpindleMoment {
+pub(crate) enum SpindleMoment {
     /// Before it.
     BeforeMotion,
     /// After it.
@@ -17,7 +21,7 @@ pub enum SpindleMoment {
 ///
 /// Source: TF5200 M and H functions 285997195, 286004619; P-CHAN-00041.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Acknowledged {
+pub(crate) enum Acknowledged {
     /// NO_SYNCH, MOS and purely informative kinds: the path does not wait.
     Never,
     /// MVS_SVS: before the motion of the block. Assumption: also the kinds whose place is not simulated (MVS_SLM,
@@ -30,7 +34,7 @@ pub enum Acknowledged {
 }
 
 impl Acknowledged {
-    pub(super) fn of(bits: u32) -> Self {
+    fn of(bits: u32) -> Self {
         let is = |kind: u32| bits & kind != 0;
         if is(of::BEFORE_MOTION) {
             Self::BeforeMotion
@@ -51,21 +55,21 @@ impl Acknowledged {
 ///
 /// Source: TF5200 channel parameters, spindle synchronisation (149163787, 287516299); M and H functions 286059787.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SpindleWaits {
+pub(crate) struct SpindleWaits {
     /// M03 (P-CHAN-00045).
-    pub m3: Option<Acknowledged>,
+    pub(crate) m3: Option<Acknowledged>,
     /// M04 (P-CHAN-00047).
-    pub m4: Option<Acknowledged>,
+    pub(crate) m4: Option<Acknowledged>,
     /// M05 (P-CHAN-00049).
-    pub m5: Option<Acknowledged>,
+    pub(crate) m5: Option<Acknowledged>,
     /// M19 (P-CHAN-00043).
-    pub m19: Option<Acknowledged>,
+    pub(crate) m19: Option<Acknowledged>,
     /// S word (P-CHAN-00081).
-    pub speed: Option<Acknowledged>,
+    pub(crate) speed: Option<Acknowledged>,
 }
 
 impl SpindleWaits {
-    pub(super) fn of(parameters: &Parameters, spindle: u32) -> Self {
+    fn of(parameters: &Parameters, spindle: u32) -> Self {
         let moment = |array: Param<Optional>| {
             let bits = parameters.get(array.at(spindle)).and_then(whole)?;
             let known = of::BEFORE_MOTION | of::DURING_MOTION | of::BEHIND_MOTION;
@@ -80,9 +84,7 @@ impl SpindleWaits {
             speed: moment(of::SPINDLE_SPEED_SYNCHRONISATION),
         }
     }
-}
 
-impl SpindleWaits {
     /// The entry of the list for an M function.
     pub(crate) fn of_m(self, number: u32) -> Option<Acknowledged> {
         match number {
@@ -96,21 +98,21 @@ impl SpindleWaits {
 
 /// Durations of the functions of a spindle in s, where the list states them above 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpindleDurations {
+pub(crate) struct SpindleDurations {
     /// M03 (P-CHAN-00044).
-    pub m3: Option<f64>,
+    pub(crate) m3: Option<f64>,
     /// M04 (P-CHAN-00046).
-    pub m4: Option<f64>,
+    pub(crate) m4: Option<f64>,
     /// M05 (P-CHAN-00048).
-    pub m5: Option<f64>,
+    pub(crate) m5: Option<f64>,
     /// M19 (P-CHAN-00042).
-    pub m19: Option<f64>,
+    pub(crate) m19: Option<f64>,
     /// S word (P-CHAN-00080).
-    pub speed: Option<f64>,
+    pub(crate) speed: Option<f64>,
 }
 
 impl SpindleDurations {
-    pub(super) fn of(parameters: &Parameters, spindle: u32) -> Self {
+    fn of(parameters: &Parameters, spindle: u32) -> Self {
         let declared = |array: Param<Optional>| {
             parameters.get(array.at(spindle)).filter(|duration_s| *duration_s > 0.0)
         };
@@ -120,6 +122,79 @@ impl SpindleDurations {
             m5: declared(of::SPINDLE_M5_DURATION),
             m19: declared(of::SPINDLE_M19_DURATION),
             speed: declared(of::SPINDLE_SPEED_DURATION),
+        }
+    }
+}
+
+/// M and H functions and those of the spindles.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FunctionEntries {
+    /// Durations of M functions in s (P-CHAN-00040).
+    pub(crate) m_durations_s: BTreeMap<u32, f64>,
+    /// Durations of H functions in s (P-CHAN-00026).
+    pub(crate) h_durations_s: BTreeMap<u32, f64>,
+    /// Axes and spindles to which M functions go (P-CHAN-00039).
+    pub(crate) m_outputs: BTreeMap<u32, Box<str>>,
+    /// When the path waits for M functions, where the list says so (P-CHAN-00041).
+    pub(crate) m_waits: BTreeMap<u32, Acknowledged>,
+    /// When the path waits for H functions, if the list states it (P-CHAN-00027).
+    pub(crate) h_waits: BTreeMap<u32, Acknowledged>,
+    /// M functions that wait for the signal of edge banding (P-CHAN-00041 with MNE_SNS).
+    pub(crate) m_at_signal: BTreeSet<u32>,
+    /// Durations of the functions of each spindle in s, in the order of the list.
+    pub(crate) spindle_durations_s: Vec<SpindleDurations>,
+    /// The functions of each spindle for which the path waits, in the order of the list.
+    pub(crate) spindle_waits: Vec<SpindleWaits>,
+}
+
+impl FunctionEntries {
+    pub(super) fn of(p: &Parameters) -> Self {
+        let waits = |array: Param<Optional>| -> BTreeMap<u32, Acknowledged> {
+            p.array(array)
+                .filter_map(|(i, bits)| Some((i, Acknowledged::of(whole(bits)?))))
+                .collect()
+        };
+        Self {
+            m_durations_s: p.array(of::M_DURATION).collect(),
+            h_durations_s: p.array(of::H_DURATION).collect(),
+            m_outputs: p
+                .array(of::M_OUTPUT)
+                .filter(|(_, name)| !name.is_empty())
+                .map(|(m, name)| (m, name.into()))
+                .collect(),
+            m_waits: waits(of::M_SYNCHRONISATION),
+            h_waits: waits(of::H_SYNCHRONISATION),
+            m_at_signal: p
+                .array(of::M_SYNCHRONISATION)
+                .filter_map(|(m, kind)| (whole(kind)? & of::AT_SIGNAL != 0).then_some(m))
+                .collect(),
+            spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
+            spindle_waits: (0..SPINDLES).map(|i| SpindleWaits::of(p, i)).collect(),
+        }
+    }
+}
+
+/// The spindles.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SpindleEntries {
+    /// Logical number of the main spindle (P-CHAN-00051), `None`: the first one.
+    pub(crate) main: Option<u32>,
+    /// Name that addresses the main spindle in the NC program (P-CHAN-00053).
+    pub(crate) main_name: String,
+    /// Spindles that the PLC turns (P-CHAN-00069).
+    pub(crate) of_plc: Vec<bool>,
+}
+
+impl SpindleEntries {
+    pub(super) fn of(p: &Parameters) -> Self {
+        Self {
+            main: Some(p.get(of::MAIN_SPINDLE)).filter(|n| *n != 0),
+            // a different first letter is replaced (20971)
+            main_name: p
+                .get(of::MAIN_SPINDLE_NAME)
+                .filter(|name| name.starts_with(['S', 's']))
+                .unwrap_or_else(|| "S".to_owned()),
+            of_plc: (0..SPINDLES).map(|i| p.get(of::PLC_SPINDLE.at(i))).collect(),
         }
     }
 }

@@ -1,13 +1,130 @@
-//! Values of the path that several parameters make up: slope, feed unit, vector limits, look-ahead.
+//! Dynamics and feed of the path at the start of a program, limits of arcs, and the size of the look-ahead.
 
-use super::LookAhead;
 use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Number, Param};
 use crate::machine::table::start_up as from;
-use kontur_motion::block::{SlopeKind, VectorLimits};
+use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 
-pub(super) fn slope(profile: u32) -> SlopeKind {
+/// Dynamics of the path: slope, weighted limits, transitions and `#VECTOR LIMIT`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PathEntries {
+    /// Slope at program start (P-CHAN-00071), default STEP.
+    pub(crate) slope: SlopeKind,
+    /// Constant ramp time instead of constant jerk (P-CHAN-00349).
+    pub(crate) constant_ramp_time: bool,
+    /// The ramp times weighted by G132 and G133 (P-CHAN-00073): 0 all, 1 to 4 one of `ramps_s`.
+    pub(crate) ramp_selection: u32,
+    /// The accelerations weighted by G130 and G131 (P-CHAN-00001): 0 both, 1 acceleration, 2 deceleration.
+    pub(crate) acc_selection: u32,
+    /// Limit the jerk at tangential transitions (P-CHAN-00009).
+    pub(crate) limit_tangential_jerk: bool,
+    /// Rule for the limits at transitions (P-CHAN-00117).
+    pub(crate) transition_jerk: TransitionJerkMode,
+    /// Extra limit between lines (P-CHAN-00245), 0 to 3.
+    pub(crate) curvature_estimate: u8,
+    /// The ramp time that limits the jerk on polynomials (P-CHAN-00110).
+    pub(crate) curve_jerk: CurveJerk,
+    /// Values of `#VECTOR LIMIT ON` until the program sets others (P-CHAN-00002, 00090, 00208, 00361).
+    pub(crate) vector: VectorLimits,
+    /// Unit of time in s of ACC, DEC, RADIAL_ACC and RADIAL_JERK in `#VECTOR LIMIT` (P-CHAN-00351): 60 or 1.
+    pub(crate) vector_time_s: f64,
+    /// The path acceleration limit also applies to arcs (P-CHAN-00350).
+    pub(crate) vector_acc_on_arcs: bool,
+}
+
+impl PathEntries {
+    pub(super) fn of(p: &Parameters) -> Self {
+        Self {
+            slope: slope(p.get(of::SLOPE)),
+            constant_ramp_time: p.get(of::CONSTANT_RAMP_TIME),
+            ramp_selection: p.get(of::RAMP_SELECTION),
+            acc_selection: p.get(of::ACC_SELECTION),
+            limit_tangential_jerk: p.get(of::LIMIT_TANGENTIAL_JERK),
+            transition_jerk: match p.get(of::TRANSITION_JERK) {
+                0 => TransitionJerkMode::Coupled,
+                1 => TransitionJerkMode::Independent,
+                _ => TransitionJerkMode::DirectJerk,
+            },
+            curvature_estimate: u8::try_from(p.get(of::CURVATURE_ESTIMATE)).unwrap_or(3),
+            curve_jerk: match p.get(of::CURVE_JERK) {
+                0 => CurveJerk::Unlimited,
+                2 => CurveJerk::Ramps,
+                _ => CurveJerk::Geometric,
+            },
+            vector: vector(p),
+            vector_time_s: vector_time_s(p),
+            vector_acc_on_arcs: p.get(of::PATH_ACC_ON_ARCS),
+        }
+    }
+}
+
+/// F words.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FeedEntries {
+    /// Feed rate before the first F word in mm/s (P-CHAN-00099), `None` = F must be programmed (20008).
+    pub(crate) start_mm_s: Option<f64>,
+    /// Length unit of an F word in mm/min (P-CHAN-00108 = 100: 1; 0.1: 1000).
+    pub(crate) unit_mm_min: f64,
+    /// Members of the feed group (P-CHAN-00011), one flag per path axis.
+    ///
+    /// Source: TF5200 channel parameters; if no axis is marked: the main axes, the first three at program start.
+    pub(crate) axes: Vec<bool>,
+    /// Whether the list marks members of the feed group; otherwise the group follows the main axes in an axis exchange
+    /// (149140491).
+    pub(crate) lists_axes: bool,
+}
+
+impl FeedEntries {
+    pub(super) fn of(p: &Parameters, mut axes: Vec<bool>) -> Self {
+        let lists_axes = axes.contains(&true);
+        if !lists_axes {
+            axes.iter_mut().take(3).for_each(|feed| *feed = true);
+        }
+        Self {
+            start_mm_s: Some(p.get(of::FEED)).filter(|f| *f > 0.0).map(|f| f / 60.0),
+            unit_mm_min: feed_unit(p.get(of::FEED_UNIT)),
+            axes,
+            lists_axes,
+        }
+    }
+}
+
+/// Limits of arcs whose centre and end point do not match.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ArcCentre {
+    /// G165: largest shift of the centre in mm (P-CHAN-00059), default 2.
+    pub(crate) shift_mm: f64,
+    /// G165: the same relative to the radius (P-CHAN-00060), default 0.05.
+    pub(crate) shift_ratio: f64,
+    /// G164: largest difference of start and end radius in mm (P-CHAN-00171), default 0.005.
+    pub(crate) radius_difference_mm: f64,
+    /// G164: the same relative to the radius (P-CHAN-00172), default 0.001.
+    pub(crate) radius_difference_ratio: f64,
+}
+
+impl ArcCentre {
+    pub(super) fn of(p: &Parameters) -> Self {
+        Self {
+            shift_mm: p.get(of::CENTRE_SHIFT),
+            shift_ratio: p.get(of::CENTRE_SHIFT_RATIO),
+            radius_difference_mm: p.get(of::RADIUS_DIFFERENCE),
+            radius_difference_ratio: p.get(of::RADIUS_DIFFERENCE_RATIO),
+        }
+    }
+}
+
+/// Number of blocks in the look-ahead of channel 0; P-STUP-00071 acts only with the function `_CUSTOM`.
+pub(super) fn look_ahead(start_up: &Parameters) -> u32 {
+    match start_up.get(from::LOOK_AHEAD).as_deref() {
+        Some("FCT_LOOK_AHEAD_LOW") => 30,
+        Some("FCT_LOOK_AHEAD_STANDARD") => 70,
+        Some("FCT_LOOK_AHEAD_CUSTOM") => start_up.get(from::LOOK_AHEAD_BLOCKS),
+        _ => 120,
+    }
+}
+
+fn slope(profile: u32) -> SlopeKind {
     match profile {
         1 => SlopeKind::Trapez,
         2 => SlopeKind::Sin2,
@@ -17,17 +134,17 @@ pub(super) fn slope(profile: u32) -> SlopeKind {
 }
 
 /// P-CHAN-00108: 100 is mm/min, 0.1 is m/min, -1 the same as 100.
-pub(super) fn feed_unit(factor: f64) -> f64 {
+fn feed_unit(factor: f64) -> f64 {
     if factor > 0.0 { 100.0 / factor } else { 1.0 }
 }
 
 /// Unit of time of the path accelerations in s; the default is mm/min2 (P-CHAN-00351).
-pub(super) fn vector_time_s(p: &Parameters) -> f64 {
+fn vector_time_s(p: &Parameters) -> f64 {
     if p.get(of::PATH_ACC_UNIT).as_deref() == Some("MM_S2") { 1.0 } else { 60.0 }
 }
 
 /// Start values of the path limits, in mm/s and mm/s2.
-pub(super) fn vector(p: &Parameters) -> VectorLimits {
+fn vector(p: &Parameters) -> VectorLimits {
     let t = vector_time_s(p);
     let acc = |param: Param<Number>| Some(p.get(param) / (t * t));
     VectorLimits {
@@ -37,15 +154,4 @@ pub(super) fn vector(p: &Parameters) -> VectorLimits {
         radial_acc_mm_s2: acc(of::PATH_RADIAL_ACC),
         ..VectorLimits::default()
     }
-}
-
-/// Size of the look-ahead of channel 0; P-STUP-00071 acts only with the function `_CUSTOM`.
-pub(super) fn look_ahead(start_up: &Parameters) -> LookAhead {
-    let blocks = match start_up.get(from::LOOK_AHEAD).as_deref() {
-        Some("FCT_LOOK_AHEAD_LOW") => 30,
-        Some("FCT_LOOK_AHEAD_STANDARD") => 70,
-        Some("FCT_LOOK_AHEAD_CUSTOM") => start_up.get(from::LOOK_AHEAD_BLOCKS),
-        _ => 120,
-    };
-    LookAhead { blocks }
 }

@@ -49,19 +49,19 @@ pub(crate) struct Place {
 }
 
 impl Named for &Row {
-    fn id(&self) -> Option<&'static str> {
+    fn id(self) -> Option<&'static str> {
         Some(self.id).filter(|id| !id.is_empty())
     }
 }
 
 impl Named for Place {
-    fn id(&self) -> Option<&'static str> {
+    fn id(self) -> Option<&'static str> {
         self.row.id()
     }
 }
 
 impl<K> Named for Param<K> {
-    fn id(&self) -> Option<&'static str> {
+    fn id(self) -> Option<&'static str> {
         self.place.id()
     }
 }

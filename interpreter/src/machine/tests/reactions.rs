@@ -243,3 +243,25 @@ fn default_couplings_keep_the_pairs_that_fit() {
         assert_eq!(warnings.len(), 2 - kept.len() - absent, "{written:?} {warnings:?}");
     }
 }
+
+/// Page 149304587: F is in mm/min with 100 and in m/min with 0.1; -1 is 100 without a message, and no other value is a unit.
+#[test]
+fn the_feed_has_one_of_two_units() {
+    for (value, mm_min, said) in [
+        ("100", 1.0, &[][..]),
+        ("1.000000e-001", 1000.0, &[]),
+        ("-1", 1.0, &[]),
+        ("0", 1.0, &["K-0070"]),
+        ("-2", 1.0, &["K-0070"]),
+        ("0.05", 1.0, &["K-0070"]),
+        ("10", 1.0, &["K-0070"]),
+        ("99.9", 1.0, &["K-0070"]),
+        ("1000", 1.0, &["K-0070"]),
+    ] {
+        let setting = format!("channel.prog_start.feedrate_factor={value}");
+        let (machine, messages) = Machine::builtin(&[Override::parse(&setting).unwrap()]).unwrap();
+        let ids: Vec<String> = messages.iter().map(|d| d.id.to_string()).collect();
+        assert_eq!(ids, said, "{value}");
+        assert!((machine.channel.feed.unit_mm_min - mm_min).abs() < 1e-9, "{value}");
+    }
+}

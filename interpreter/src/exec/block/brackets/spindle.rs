@@ -67,7 +67,7 @@ impl Decoder {
         }
         let of_plc = self.motion.spindles[spindle]
             .index
-            .and_then(|i| self.machine.channel.plc_spindles.get(i));
+            .and_then(|i| self.machine.channel.spindles.of_plc.get(i));
         let own = |i: &SpindleItem| {
             matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
         };
@@ -210,7 +210,8 @@ impl Decoder {
             return false;
         };
         let listed = self.motion.spindles[spindle].index;
-        let Some(waits) = listed.and_then(|i| self.machine.channel.spindle_waits.get(i)) else {
+        let Some(waits) = listed.and_then(|i| self.machine.channel.functions.spindle_waits.get(i))
+        else {
             return false;
         };
         bracket.group.items.iter().any(|item| {

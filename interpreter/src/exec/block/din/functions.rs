@@ -133,7 +133,9 @@ impl Decoder {
     }
 
     fn m_function(&mut self, m: &Code) {
-        if self.motion.measuring.banding && self.machine.channel.m_at_signal.contains(&m.number) {
+        if self.motion.measuring.banding
+            && self.machine.channel.functions.m_at_signal.contains(&m.number)
+        {
             // processed with the motion
             return;
         }
@@ -149,7 +151,7 @@ impl Decoder {
     /// MNS_SNS. Assumption: M5 without an entry in the list also takes effect after it.
     fn turn_main_spindle(&mut self, words: &Words<'_>, now: SpindleMoment) {
         let listed = self.motion.spindles[0].index.and_then(|i| {
-            let waits: Option<&SpindleWaits> = self.machine.channel.spindle_waits.get(i);
+            let waits: Option<&SpindleWaits> = self.machine.channel.functions.spindle_waits.get(i);
             waits.copied()
         });
         let acts = |number: u32| match listed.unwrap_or_default().of_m(number) {
@@ -235,6 +237,6 @@ impl Decoder {
 
 /// The D word, or the T word if it also selects tool data (P-CHAN-00014).
 fn tool_data_word(channel: &Channel, words: &Words<'_>) -> Option<Span> {
-    let with_tool = words.tool.filter(|_| channel.tool_data_with_tool);
+    let with_tool = words.tool.filter(|_| channel.offsets.tool_data_with_tool);
     words.tool_data.or(with_tool).map(|(_, span)| span)
 }

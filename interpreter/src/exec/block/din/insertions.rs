@@ -129,7 +129,7 @@ impl Decoder {
 /// P-CHAN-00273 = 1: omitted values are errors (256603531, 255785355). With `#SCALE` they are refused: its page shows only
 /// in pictures whether their sizes are scaled.
 fn insertions_are_on(geometry: &Geometry, channel: &Channel, words: &Words<'_>) -> Outcome<()> {
-    if !channel.no_chamfers && !geometry.scale.is_on() {
+    if !channel.language.no_chamfers && !geometry.scale.is_on() {
         return Ok(());
     }
     let names = ["ANG", "CHR", "CHF", "RND"];
@@ -140,7 +140,7 @@ fn insertions_are_on(geometry: &Geometry, channel: &Channel, words: &Words<'_>) 
     };
     match by_g.or_else(by_hash) {
         None => Ok(()),
-        Some((condition, span)) if channel.no_chamfers => {
+        Some((condition, span)) if channel.language.no_chamfers => {
             let text = "chamfers and roundings are switched off (P-CHAN-00273)";
             Err(Fault::new(condition, text, span))
         }

@@ -92,7 +92,7 @@ impl Decoder {
     pub(super) fn tools_and_offsets(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
         if let Some((number, span)) = words.tool {
             self.select_tool(number, span);
-            if self.machine.channel.tool_data_with_tool && words.tool_data.is_none() {
+            if self.machine.channel.offsets.tool_data_with_tool && words.tool_data.is_none() {
                 self.select_tool_data(number, span);
             }
         }
@@ -144,7 +144,7 @@ impl Decoder {
         words: &mut Words<'_>,
         takes_axes: Option<GWord>,
     ) {
-        let with_tool = words.tool.filter(|_| self.machine.channel.tool_data_with_tool);
+        let with_tool = words.tool.filter(|_| self.machine.channel.offsets.tool_data_with_tool);
         let Some((_, span)) = words.tool_data.or(with_tool) else { return };
         let now = self.geometry.coordinates.tool_offsets();
         let changed = (0..now.len()).filter(|axis| now[*axis].to_bits() != before[*axis].to_bits());
@@ -325,7 +325,9 @@ impl Decoder {
         let before = if positive { high } else { low };
         let mut limit = if absolute { value_mm } else { before + value_mm };
         let listed = self.machine.axes[axis].software_limits_mm();
-        if let (Some((lowest, highest)), true) = (listed, self.machine.channel.limits_bounded) {
+        if let (Some((lowest, highest)), true) =
+            (listed, self.machine.channel.offsets.limits_bounded)
+        {
             let bound = if positive { limit.min(highest) } else { limit.max(lowest) };
             if bound.to_bits() != limit.to_bits() {
                 let text = format!(

@@ -42,7 +42,7 @@ impl Decoder {
                 None => fault,
             });
         };
-        if self.machine.channel.several_dimensions
+        if self.machine.channel.language.several_dimensions
             && let Act::Absolute(absolute) = row.act
         {
             if block.dimensions.is_empty() {

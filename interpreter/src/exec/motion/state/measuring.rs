@@ -55,10 +55,10 @@ pub(in crate::exec) struct Measuring {
 impl Measuring {
     pub(in crate::exec) fn new(channel: &Channel, axes: usize) -> Self {
         Self {
-            kind: channel.measuring_type,
+            kind: channel.measuring.kind,
             missing_is_error: None,
             banding: false,
-            residual_path_mm: channel.residual_path_mm,
+            residual_path_mm: channel.banding.residual_path_mm,
             results: vec![Measured::default(); axes],
             feed: None,
             pending: None,

@@ -93,7 +93,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["G", "SATZ_NR"], meaning: "block number (N) of the current block (older name)", read: |d, _| number(d.calls.info.block_number as f64) },
     Row { name: &["G", "FEEDRATE"], meaning: "F word in force", read: |d, _| number(d.modal.feed().map_or(0.0, |f| f.value)) },
     Row { name: &["G", "FEEDRATE_MODE"], meaning: "G function of the feed type: 93, 94, 95, 194", read: |d, _| number(f64::from(d.modal.feed_type.g())) },
-    Row { name: &["G", "FEEDRATE_SCALE"], meaning: "unit of the F word in mm/min", read: |d, _| number(d.machine.channel.feed_unit_mm_min) },
+    Row { name: &["G", "FEEDRATE_SCALE"], meaning: "unit of the F word in mm/min", read: |d, _| number(d.machine.channel.feed.unit_mm_min) },
     Row { name: &["G", "MASS_MM"], meaning: "1 under G70 (inch)", read: |d, _| truth(d.modal.inch) },
     Row { name: &["G", "MASS_360"], meaning: "scaling of rotary axes; here 0", read: |_, _| number(0.0) },
     Row { name: &["G", "I"], meaning: "centre of the last arc along the first main axis", read: |d, _| centre(d, 0) },

@@ -25,7 +25,7 @@ impl Variables {
             Target::Parameter(index, subscripts) => match self.parameters().get(index) {
                 Some(variable) => variable.get(subscripts, Owner::Parameter, span),
                 None if !subscripts.is_empty() => Err(undeclared_array(*index, span)),
-                None if channel.keep_p_parameters => {
+                None if channel.variables.keep_p_parameters => {
                     let hint = "P-CHAN-00067 keeps parameters of earlier programs; here no earlier program has run";
                     Err(undefined_parameter(*index, span).hint(hint))
                 }
@@ -37,7 +37,7 @@ impl Variables {
             },
             Target::External(name) => self.read_external(name, span),
             Target::Cycle(name) => {
-                self.cycle_parameter(name, channel.creates_cycle_parameters, span)
+                self.cycle_parameter(name, channel.variables.creates_cycle_parameters, span)
             }
         }
     }
