@@ -47,7 +47,7 @@ use crate::diag::Condition;
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::MotionState;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed, SlopeKind};
 use kontur_motion::path::{LinePath, Path};
@@ -64,7 +64,7 @@ impl Modal {
         let late = self.late_braking && !early_once;
         if late && self.slope.kind == SlopeKind::Hsc {
             let text = "G901 has no effect with the slope HSC";
-            report.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
+            report.note_once(Subject::G(901), Fault::new(Condition::Ignored, text, span));
         }
         late
     }

@@ -3,7 +3,7 @@
 use super::collected::{Code, Words};
 use crate::diag::{Condition, Id};
 use crate::exec::fault::Fault;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::syntax::ast::Span;
 
 /// Whether an error is one that a file of another control repeats in every line: unassigned G functions (20131) and parameters
@@ -87,8 +87,8 @@ impl Seen {
             let known =
                 if matches!(g.row.number, 20 | 21) { self.unit_or_mirror } else { self.own };
             if let (false, Some(text)) = (known, g_function(g.row.number)) {
-                let key = format!("dialect G{}", g.row.number);
-                report.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
+                let fault = Fault::new(Condition::Dialect, text, g.span);
+                report.note_once(Subject::G(g.row.number), fault);
             }
         }
         // a negative one is a separate error
@@ -103,7 +103,7 @@ impl Seen {
                 "E is the feed at the end of the block in this dialect, not an extruder axis"
                     .to_owned()
             };
-            report.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
+            report.note_once("E", Fault::new(Condition::Dialect, text, span));
         }
     }
 }

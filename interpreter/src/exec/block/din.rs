@@ -16,7 +16,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::addition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::report::{NO_FEED, Report};
+use crate::exec::report::{Report, Subject};
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_behind;
@@ -78,7 +78,7 @@ impl Modal {
             let text = format!("F{value} is outside 0 to {most}");
             return Err(Fault::new(Condition::Range, text, span));
         }
-        report.unsay(NO_FEED);
+        report.unsay(Condition::FeedZero, Subject::Only);
         let word = FeedWord { value, inch: self.inch };
         self.feeds[self.feed_type as usize] = Some(word);
         Ok(())
@@ -274,7 +274,8 @@ impl Decoder {
                 self.modal.engagement_feed = on;
                 if on {
                     let text = "G11: arcs inserted at corners by the compensation keep the programmed feed";
-                    self.report.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
+                    self.report
+                        .note_once(Subject::G(11), Fault::new(Condition::Fallback, text, g.span));
                 }
             }
             Act::Banding(on) => {
@@ -297,7 +298,7 @@ impl Decoder {
                     let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
                     let fault = Fault::new(Condition::ListNoEffect, text, g.span)
                         .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
-                    self.report.note_once("G135", fault);
+                    self.report.note_once(Subject::G(135), fault);
                 }
                 self.motion.feedforward.on = on;
                 self.contour.event(self.motion.feedforward.event());
@@ -327,7 +328,8 @@ impl Decoder {
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));
                 }
                 let text = "G115: single functions of the look-ahead cannot be switched off";
-                self.report.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
+                self.report
+                    .note_once(Subject::G(115), Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
@@ -341,16 +343,16 @@ impl Decoder {
             }
             Act::Ignored(why) => {
                 let text = format!("G{:02} has no effect: {why}", g.row.number);
-                let key = format!("G{}", g.row.number);
-                self.report.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
+                let fault = Fault::new(Condition::Ignored, text, g.span);
+                self.report.note_once(Subject::G(g.row.number), fault);
             }
             Act::Simplified(how) => {
                 if g.row.number == 74 {
                     self.home(g, words)?;
                 }
                 let text = format!("G{}: {how}", g.row.number);
-                let key = format!("G{}", g.row.number);
-                self.report.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
+                let fault = Fault::new(Condition::Fallback, text, g.span);
+                self.report.note_once(Subject::G(g.row.number), fault);
             }
             _ => {}
         }

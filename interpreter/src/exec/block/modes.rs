@@ -9,7 +9,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::state::Function;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 
@@ -240,7 +240,8 @@ impl Decoder {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint =
                 "select tool data with D, or set the radius with V.G.WZ[n].R or V.G.WZ_AKT.R";
-            self.report.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
+            self.report
+                .note_once(Subject::G(41), Fault::new(Condition::NoTool, text, span).hint(hint));
         }
         let leaves = side == Compensation::Off && self.modal.compensation != Compensation::Off;
         if leaves && self.modal.selection == Selection::WithoutBlock {

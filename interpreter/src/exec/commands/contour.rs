@@ -204,7 +204,10 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     for (mode, key, span) in keys.of_another_mode() {
         let text = format!("#CONTOUR MODE: {mode} does not use {key}");
-        decoder.report.note_once(&text.clone(), Fault::new(Condition::Fallback, text, span));
+        decoder.report.note_once(
+            format!("{mode} {key}").as_str(),
+            Fault::new(Condition::Fallback, text, span),
+        );
     }
     if matches!(settings.mode, Mode::DistSoft | Mode::DistMaster) {
         let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";

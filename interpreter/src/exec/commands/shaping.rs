@@ -270,7 +270,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text =
             format!("{}: {what} is not configured in any axis list: no effect", call.title());
         let fault = Fault::new(Condition::Odd, text, call.span()).warning();
-        decoder.report.note_once(what, fault.with(|d| d.parameter(parameter)));
+        decoder.report.note_once(parameter.place().row.key, fault.with(|d| d.parameter(parameter)));
     }
     if hsc {
         decoder.shaping.hsc = stored;

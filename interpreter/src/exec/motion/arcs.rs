@@ -12,6 +12,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::arc::{self, ArcError};
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::report::Subject;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::Channel;
 use crate::machine::table::channel as of;
@@ -170,7 +171,7 @@ impl Decoder {
             return Ok(());
         }
         let text = "the axes of #FGROUP are not those of the arc: F applies in the plane";
-        self.report.note_once("feed group", Fault::new(Condition::FeedGroupOfArc, text, span));
+        self.report.note_once(Subject::Only, Fault::new(Condition::FeedGroupOfArc, text, span));
         Ok(())
     }
 

@@ -21,6 +21,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::names::AxisNames;
+use crate::exec::report::Subject;
 use crate::exec::step::{Event, Sync};
 use crate::machine::Machine;
 use crate::syntax::ast::Span;
@@ -162,7 +163,7 @@ impl Decoder {
         }
         if pairs.iter().any(|pair| pair.is_gantry) {
             let text = "the actual positions of gantry couplings are not monitored";
-            self.report.note_once("gantry", Fault::new(Condition::Ignored, text, span));
+            self.report.note_once(Subject::Gantry, Fault::new(Condition::Ignored, text, span));
         }
         self.motion.couplings.active.push((group, followers));
         self.motion.couplings.last = group;

@@ -18,6 +18,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::MotionState;
+use crate::exec::report::Subject;
 use crate::exec::step::{CuttingSpeed, Event};
 use crate::machine::Machine;
 use crate::machine::table::axis_general;
@@ -172,8 +173,10 @@ impl Decoder {
             let text = format!("G51 has no effect: axis {name} does not accept diameters");
             let hint = "enable diameters with kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059)";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
-            self.report
-                .note_once("G51", fault.with(|d| d.parameter(axis_general::DIAMETER_ABSOLUTE)));
+            self.report.note_once(
+                Subject::G(51),
+                fault.with(|d| d.parameter(axis_general::DIAMETER_ABSOLUTE)),
+            );
         }
         self.modal.diameter = Some(axis);
         Ok(())

@@ -7,7 +7,7 @@ use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
-use crate::exec::report::{NO_FEED, Report};
+use crate::exec::report::{Report, Subject};
 use crate::machine::{INCH_MM, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed};
@@ -61,14 +61,13 @@ impl Decoder {
                 Some(_) => "the feed is 0: value of the last F word",
                 None => "the feed is 0: no F word has been programmed",
             };
-            self.report.note_once(NO_FEED, Fault::new(Condition::FeedZero, text, span));
+            self.report.note_once(Subject::Only, Fault::new(Condition::FeedZero, text, span));
             // the block is skipped, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
         if self.contour.hsc.feed_type(self.modal.feed_type) != self.modal.feed_type {
             let text = "G93 in a B-spline: F is taken in mm/min";
-            self.report
-                .note_once("G93 in a B-spline", Fault::new(Condition::TimeInSpline, text, span));
+            self.report.note_once(Subject::Only, Fault::new(Condition::TimeInSpline, text, span));
         }
         let main = &self.motion.spindles[0];
         if self.modal.feed_type == FeedType::PerRevolution
@@ -78,7 +77,7 @@ impl Decoder {
         {
             let text = "feed per revolution while the main spindle is stopped: its S word is used";
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
-            self.report.note_once("G95 at rest", fault);
+            self.report.note_once(Subject::G(95), fault);
         }
         self.feed_from(word.value, word.unit_mm(&self.machine, path), span)
     }

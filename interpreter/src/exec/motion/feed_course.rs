@@ -8,6 +8,7 @@ use crate::exec::block::groups::Act;
 use crate::exec::contour::FeedCourse;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::report::Subject;
 use crate::machine::Machine;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Feed, SlopeKind};
@@ -19,12 +20,12 @@ impl MotionState {
         &self,
         machine: &Machine,
         path: &Path,
-        name: &str,
+        number: u32,
         over_path: bool,
         span: Span,
     ) -> Outcome<Option<FeedCourse>> {
         let Some(from) = self.feed_before.filter(|word| word.value > 0.0) else {
-            let text = format!("{name}: no earlier F word to start the change of the feed from");
+            let text = format!("G{number}: no earlier F word to start the change of the feed from");
             return Err(Fault::new(Condition::FeedZero, text, span));
         };
         let course = if over_path { FeedCourse::OverPath } else { FeedCourse::OverTime };
@@ -48,15 +49,15 @@ impl Decoder {
             .find(|g| matches!(g.row.act, Act::FeedOverPath | Act::FeedOverTime))
             .map(|g| (g.row, g.span));
         let corner = self.motion.corner.filter(|_| self.modal.corner_deceleration);
-        let (name, span) = match (interpolated, corner) {
+        let (number, span) = match (interpolated, corner) {
             _ if feed == Feed::Rapid => return Ok(None),
             (None, None) => return Ok(None),
             (Some((_, at)), Some(_)) => {
                 let what = "feed interpolation with corner deceleration (G13)";
                 return Err(Fault::unsupported(what, at));
             }
-            (Some((row, at)), None) => (format!("G{}", row.number), at),
-            (None, Some(_)) => ("G13".to_owned(), span),
+            (Some((row, at)), None) => (row.number, at),
+            (None, Some(_)) => (13, span),
         };
         let over_path = interpolated.is_some_and(|(row, _)| row.act == Act::FeedOverPath);
         match self.modal.slope.kind {
@@ -65,8 +66,9 @@ impl Decoder {
                 return Err(Fault::unsupported("G193 with the slope HSC", span));
             }
             SlopeKind::Trapez | SlopeKind::Sin2 | SlopeKind::Hsc => {
-                let text = format!("{name} has an effect only with the slope STEP");
-                self.report.note_once(&name, Fault::new(Condition::Ignored, text, span));
+                let text = format!("G{number} has an effect only with the slope STEP");
+                self.report
+                    .note_once(Subject::G(number), Fault::new(Condition::Ignored, text, span));
                 return Ok(None);
             }
         }
@@ -80,11 +82,11 @@ impl Decoder {
             "tool radius compensation"
         } else {
             return if interpolated.is_some() {
-                self.motion.interpolated_feed(&self.machine, path, &name, over_path, span)
+                self.motion.interpolated_feed(&self.machine, path, number, over_path, span)
             } else {
                 Ok(corner.map(FeedCourse::Corner))
             };
         };
-        Err(Fault::unsupported(format!("{name} with {beside}"), span))
+        Err(Fault::unsupported(format!("G{number} with {beside}"), span))
     }
 }

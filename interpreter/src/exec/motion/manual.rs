@@ -6,6 +6,7 @@ use crate::diag::Condition;
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::report::Subject;
 use crate::exec::step::Sync;
 use crate::syntax::ast::Group;
 
@@ -49,8 +50,8 @@ impl Decoder {
                 "G201: the axes are not moved by hand"
             }
         };
-        let key = format!("G{}", g.row.number);
-        self.report.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
+        let fault = Fault::new(Condition::Fallback, text, g.span);
+        self.report.note_once(Subject::G(g.row.number), fault);
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::diag::{Condition, rounded};
 use crate::exec::fault::Fault;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::exec::step::{Approach, Event, SpindleMotion};
 use crate::machine::{Acknowledged, Axis, Channel, Machine, SpindleLimits, SpindleWaits};
 use crate::syntax::ast::Span;
@@ -182,15 +182,15 @@ impl Spindle {
     pub(in crate::exec) fn warn(&self, report: &mut Report, span: Span) {
         if self.index.is_none() {
             let text = "the machine has no spindle: speeds are stored without effect";
-            report.note_once("spindle", Fault::new(Condition::Ignored, text, span));
+            report.note_once(Subject::Spindle, Fault::new(Condition::Ignored, text, span));
         } else if self.is_turning() && self.rpm == 0.0 {
             let text = "M03 and M04 have no effect at speed 0 before an S word";
-            report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
+            report.note_once("S", Fault::new(Condition::Odd, text, span));
         } else if matches!(self.turning, Turning::Positioned(_)) && self.rpm == 0.0 {
             // TF5200 programming manual, M19 (208038923, 208198923): a speed above 0 must be set
             let text = "M19 requires a spindle speed on the control; here the spindle positions at its maximum speed";
             let fault = Fault::new(Condition::Odd, text, span).hint("write S or REV before it");
-            report.note_once("M19 speed", fault.warning());
+            report.note_once(Subject::M(19), fault.warning());
         }
     }
 }

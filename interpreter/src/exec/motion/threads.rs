@@ -26,7 +26,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::Threads;
 use crate::exec::names::AxisNames;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::exec::step::{SpindleState, Sync};
 use crate::syntax::ast::{ItemKind, Span};
 use kontur_filters::time::CycleTime;
@@ -264,7 +264,8 @@ impl Decoder {
                     "the programmed override acts on G33: the pitch of the thread becomes {} %",
                     rounded(block.feed_ratio * 100.0)
                 );
-                self.report.note_once("G33", Fault::new(Condition::ThreadBroken, text, span));
+                self.report
+                    .note_once(Subject::G(33), Fault::new(Condition::ThreadBroken, text, span));
             }
         }
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));

@@ -11,6 +11,7 @@ use super::state::{Counter, Frame};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
+use crate::exec::report::Subject;
 use crate::source::Position;
 use crate::syntax::ast::{Body, Control, ControlKind, Expr, Place, Span};
 use std::sync::Arc;
@@ -292,7 +293,7 @@ impl Executor {
                 );
                 let fault = Fault::new(Condition::Odd, text, span).warning();
                 let hint = "write it before $SWITCH or after a $CASE";
-                self.decoder.report.note_once(&format!("$SWITCH {switch}"), fault.hint(hint));
+                self.decoder.report.note_once(Subject::Switch(switch), fault.hint(hint));
                 return;
             }
             at = behind;

@@ -15,6 +15,7 @@ use super::state::Target;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
+use crate::exec::report::Subject;
 use crate::exec::values::number::whole;
 use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, LabelKind, Span};
 
@@ -189,7 +190,7 @@ impl Executor {
             );
             let fault = Fault::new(Condition::Odd, text, span).warning();
             let hint = "use each block number only once";
-            self.decoder.report.note_once(&format!("N{number} twice"), fault.hint(hint));
+            self.decoder.report.note_once(Subject::Block(number), fault.hint(hint));
         }
         Some(place)
     }

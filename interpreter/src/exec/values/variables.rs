@@ -19,7 +19,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::syntax::ast::{Place, Span};
 use resolve::{Resolved, Target, resolve};
 
@@ -89,5 +89,5 @@ fn note_rounded(report: &mut Report, name: &str, x: f64, span: Span) {
     let text = format!("{name} only holds whole numbers: {x} is rounded to {}", x.round());
     let fault = Fault::new(Condition::Odd, text, span).warning();
     let hint = "use ROUND, INT, FLOOR or CEIL to select the whole number";
-    report.note_once(&format!("rounded {name}"), fault.hint(hint));
+    report.note_once(Subject::Rounded(name.into()), fault.hint(hint));
 }

@@ -8,7 +8,7 @@ use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
 use crate::exec::program::state::Calls;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::exec::step::{Event, Sync};
 use crate::machine::{Acknowledged, Channel, SpindleMoment, SpindleWaits};
 use crate::syntax::ast::Span;
@@ -140,8 +140,8 @@ impl Decoder {
             return;
         }
         if let Some(text) = crate::exec::block::dialect::m_function(m.number) {
-            let key = format!("M{}", m.number);
-            self.report.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
+            let fault = Fault::new(Condition::Dialect, text, m.span);
+            self.report.note_once(Subject::M(m.number), fault);
         }
         self.contour.event(Event::MFunction { number: m.number, value: m.value });
         self.motion.takes_time(Function::M(m.number), &self.machine.channel, &mut self.contour);

@@ -5,6 +5,7 @@ use crate::exec::block::choice::PathMode;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
+use crate::exec::report::Subject;
 use crate::exec::step::{Event, SpindleState, Sync};
 use crate::machine::Axis;
 use crate::syntax::ast::Span;
@@ -45,7 +46,7 @@ impl Decoder {
             return Ok(());
         }
         if let Some(text) = self.apart_from_spindle(&block.path, spindle, feed_mm_s, rpm) {
-            self.report.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
+            self.report.note_once(Subject::Only, Fault::new(Condition::UnequalKernels, text, span));
         }
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
         let Coupling { axis, deg_per_mm, .. } = coupling;

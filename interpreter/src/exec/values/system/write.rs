@@ -9,7 +9,7 @@ use crate::exec::geometry::tools::Tool;
 use crate::exec::geometry::tools::WEAR_UNIT;
 use crate::exec::options::Value;
 use crate::exec::program::state::Calls;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::exec::values::number::{as_number, is_true, whole};
 use crate::syntax::ast::{Segment, Span};
 
@@ -184,7 +184,7 @@ impl Calls {
         self.blocks_ahead[which] = f64::from(blocks);
         if blocks > 0 {
             let text = "the number of blocks read ahead is not limited: the path is planned over all of them";
-            report.note_once("blocks ahead", Fault::new(Condition::Fallback, text, span));
+            report.note_once(Subject::BlocksAhead, Fault::new(Condition::Fallback, text, span));
         }
         Ok(())
     }

@@ -216,7 +216,7 @@ impl Variables {
                 );
                 let hint = "on the control, a missing variable is error 20932";
                 let fault = Fault::new(Condition::Ignored, text, span).hint(hint);
-                report.note_once("deleted shared variable", fault);
+                report.note_once("V.S", fault);
                 Ok(())
             }
             Class::Program | Class::Local => {

@@ -5,7 +5,7 @@ use super::scopes::Variables;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::report::Report;
+use crate::exec::report::{Report, Subject};
 use crate::machine::table::channel as of;
 use crate::syntax::ast::Span;
 
@@ -62,7 +62,7 @@ impl Variables {
                 .warning()
                 .hint(pass_it(&name))
                 .with(|d| d.parameter(of::CREATES_PARAMETERS));
-            report.note_once(&format!("@{name}"), fault);
+            report.note_once(Subject::Created(name), fault);
         }
     }
 }
