@@ -25,7 +25,7 @@ use crate::diag::{Condition, Id, Named};
 use crate::machine::instead_of;
 use crate::machine::key::Key;
 use crate::machine::table::{
-    self, Bound, Correction, Default, ListKind, Raw, Row, axis_drive, axis_filters,
+    self, Bound, Correction, Default, DriveType, ListKind, Raw, Row, axis_filters,
 };
 use crate::machine::value::{self, Value};
 use crate::suggest::edit_distance;
@@ -119,12 +119,9 @@ fn printed(key: &str) -> String {
 fn drives_here(row: &Row) -> &'static str {
     match row.drives {
         _ if instead_of(row.id).is_some() => "",
-        "Profidrive" if !row.key.is_empty() => "; here only with antr_typ 3",
-        "Profidrive" => "",
-        // the dead time delays every drive
-        "Simulation" if row.id() != axis_drive::SIMU_DEAD_TIME.id() => {
-            "; here only with the plant SIMU (kontur.axis[i].plant.model)"
-        }
+        [DriveType::Profidrive] if !row.key.is_empty() => "; here only with antr_typ 3",
+        [DriveType::Profidrive] => "",
+        _ if row.needs_simu() => "; here only with the plant SIMU (kontur.axis[i].plant.model)",
         _ => "; here for every simulated drive",
     }
 }
@@ -173,7 +170,8 @@ fn parameter(row: &'static Row) -> Explanation {
         facts.push(("axes", format!("{} (T linear, R rotary, S spindle)", axes.join(", "))));
     }
     if !row.drives.is_empty() {
-        facts.push(("drives", format!("{}{}", row.drives, drives_here(row))));
+        let names: Vec<&str> = row.drives.iter().map(|drive| drive.name()).collect();
+        facts.push(("drives", format!("{}{}", names.join(", "), drives_here(row))));
     }
     if let Some(reaction) = reaction(row) {
         facts.push(("reaction", reaction));

@@ -56,19 +56,16 @@ pub(super) fn of_another_model(axis: &Axis) -> Option<(Place, &'static str)> {
 
 /// The first parameter of the vendor's simulated drive that a list changes although `kontur.lis` selects another model.
 pub(super) fn of_the_simulated_drive(axis: &Axis) -> Option<(Indices, &Setting)> {
-    const READERS: [Place; 5] = [
-        axis_drive::SIMU_FOLLOWS.place(),
-        axis_drive::SIMU_DAMPING_NUM.place(),
-        axis_drive::SIMU_DAMPING_DENOM.place(),
-        axis_drive::SIMU_FREQUENCY_NUM.place(),
-        axis_drive::SIMU_FREQUENCY_DENOM.place(),
-    ];
+    // the sampling time has a message of its own, which also compares it with the cycle
+    let sampling = [axis_drive::SIMU_SAMPLING_NUM, axis_drive::SIMU_SAMPLING_DENOM]
+        .map(|param| param.place().row.key);
     let model = axis.get(of::PLANT_MODEL).unwrap_or_default();
     if matches!(model.as_ref(), "" | "SIMU") {
         return None;
     }
     axis.parameters().settings().find(|(_, setting)| {
-        READERS.iter().any(|place| place.row.key == setting.row.key) && setting.is_changed()
+        let row = setting.row;
+        row.needs_simu() && !sampling.contains(&row.key) && setting.is_changed()
     })
 }
 

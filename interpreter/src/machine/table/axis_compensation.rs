@@ -2,7 +2,7 @@
 //! says so, see [`inert`](crate::machine); their other values are read and ignored.
 
 use super::param::parameters;
-use super::row::{Bound, Raw, axis};
+use super::row::{Bound, DriveType, Raw, axis};
 
 parameters! {
     axis("P-AXIS-00021", "lr_param.anwahl_losekomp", Raw::Uns16, "backlash compensation: 0 off, 1 last motion in the positive, 2 in the negative direction; not simulated")
@@ -36,6 +36,6 @@ parameters! {
     axis("P-AXIS-00438", "kenngr.in_add_interface_filter_time", Raw::Uns32, "time constant of the older PT2 filter of the additional interface, 0 off; not simulated, P-AXIS-00742 replaces it")
         .default(0.0).unit("us", "us");
     axis("P-AXIS-00522", "lr_param.frict_comp", Raw::Boolean, "friction compensation; not simulated")
-        .default(0.0).drives("SERCOS, CANopen").axes("TR");
+        .default(0.0).drives(&[DriveType::Sercos, DriveType::Canopen]).axes("TR");
     axis("P-AXIS-00789", "lr_param.crosstalk", Raw::Boolean, "crosstalk compensation; not simulated");
 }

@@ -1,7 +1,7 @@
 //! Axis lists: position controller, position and lag monitoring, measuring systems.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, Raw, axis};
+use super::row::{Bound, Correction, Default, DriveType, Raw, axis};
 use crate::diag::Condition;
 
 /// Names of P-AXIS-00320.
@@ -22,9 +22,9 @@ parameters! {
     axis("P-AXIS-00099", "getriebe[i].kv", Raw::Uns32, "gain of the P position controller in the CNC (1000 = 10/s); 0 gives 110150")
         .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").below(Condition::GainZero, Correction::Default), as GAIN: Number;
     axis("P-AXIS-00128", "getriebe[i].multi_gain_n", Raw::Uns32, "output at 1 m/min (1000 deg/min), denominator")
-        .range(Bound::At(1.0), Bound::None).default(1.0).drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"), as COMMAND_GAIN_DENOM: Number;
+        .range(Bound::At(1.0), Bound::None).default(1.0).drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]).source("TF5200 Improved Position Control"), as COMMAND_GAIN_DENOM: Number;
     axis("P-AXIS-00129", "getriebe[i].multi_gain_z", Raw::Uns32, "output at 1 m/min (1000 deg/min), numerator")
-        .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"), as COMMAND_GAIN_NUM: Number;
+        .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]).source("TF5200 Improved Position Control"), as COMMAND_GAIN_NUM: Number;
     axis("P-AXIS-00151", "getriebe[i].pos_einschw_zeit", Raw::Uns32, "older time limit, 0 off; the older manual gives ms")
         .range(Bound::At(0.0), Bound::At(4294967.0)).default(1000000.0).unit("us", "us"), as SETTLING_TIME_OLD: Number;
     axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the discontinued type 3; no effect")
@@ -46,17 +46,17 @@ parameters! {
     axis("P-AXIS-00236", "getriebe[i].window", Raw::Sgn32, "exact-stop window, also for G60")
         .range(Bound::At(1.0), Bound::None).default(500.0).unit("0.1um", "0.0001deg").below(Condition::WindowZero, Correction::Default).source("TF5200 position monitoring"), as WINDOW: Number;
     axis("P-AXIS-00244", "getriebe[i].dyn_kv.dyn_kv_active", Raw::Boolean, "dynamic kv: the gain depends on the speed (P-AXIS-00245 to 00248) instead of P-AXIS-00099")
-        .default(0.0).drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_BY_SPEED: Switch;
+        .default(0.0).drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]), as GAIN_BY_SPEED: Switch;
     axis("P-AXIS-00245", "getriebe[i].dyn_kv.kv1", Raw::Uns32, "dynamic kv: gain at v1")
-        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_1: Number;
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]), as GAIN_1: Number;
     axis("P-AXIS-00246", "getriebe[i].dyn_kv.v1", Raw::Uns32, "dynamic kv: lower speed")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("um/s", "0.001deg/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_SPEED_1: Number;
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("um/s", "0.001deg/s").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]), as GAIN_SPEED_1: Number;
     axis("P-AXIS-00247", "getriebe[i].dyn_kv.kv2", Raw::Uns32, "dynamic kv: gain at v2")
-        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_2: Number;
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]), as GAIN_2: Number;
     axis("P-AXIS-00248", "getriebe[i].dyn_kv.v2", Raw::Uns32, "dynamic kv: upper speed (AXIS prints the key kv2 by mistake)")
-        .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"), as GAIN_SPEED_2: Number;
+        .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]), as GAIN_SPEED_2: Number;
     axis("P-AXIS-00320", "antr.operation_mode", Raw::Word(OPERATION_MODES), "where the position loop is closed")
-        .default_is(Default::Text("DRIVE_DEFAULT")).drives("SERCOS").source("TwinCAT 3 CNC axis commissioning"), as OPERATION_MODE: Text;
+        .default_is(Default::Text("DRIVE_DEFAULT")).drives(&[DriveType::Sercos]).source("TwinCAT 3 CNC axis commissioning"), as OPERATION_MODE: Text;
     axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "lag below which an axis at rest gets no speed command")
         .range(Bound::None, Bound::Of("P-AXIS-00236")).default(0.0).unit("0.1um", "0.0001deg").above(Condition::DeadBand, Correction::Limit).source("TF5200 diagnosis"), as DEAD_BAND: Number;
     axis("P-AXIS-00407", "lr_param.dyn_monitoring_v_err", Raw::Uns32, "speed excess allowed in the controller (70382); 0 = off")

@@ -1,7 +1,7 @@
 //! Axis lists: head, general data, limits of the range, monitors of the set position.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, Raw, axis};
+use super::row::{Bound, Correction, Default, DriveType, Raw, axis};
 use crate::diag::Condition;
 
 /// Axis types (P-AXIS-00018).
@@ -10,7 +10,7 @@ const AXIS_TYPES: &[(&str, u32)] =
 
 parameters! {
     axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, homing not required; no effect here, every axis is treated as homed")
-        .default(0.0).drives("Simulation, SERCOS, CANopen");
+        .default(0.0).drives(&[DriveType::Simulation, DriveType::Sercos, DriveType::Canopen]);
     axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, face turning axis 0x40, longitudinal turning axis 0x80, gantry master 0x10000, gantry slave 0x20000")
         .default(1.0), as MODE: Whole;
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
@@ -54,7 +54,7 @@ parameters! {
     axis("P-AXIS-00178", "kenngr.swe_pos", Raw::Sgn32, "positive software limit")
         .default(100000000.0).unit("0.1um", "0.0001deg").axes("TR"), as UPPER_LIMIT: Number;
     axis("P-AXIS-00179", "kenngr.swe_toleranz", Raw::Uns32, "extra range for actual values")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").axes("TR");
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]).axes("TR");
     axis("P-AXIS-00297", "kopf.log_achs_name", Raw::Text, "default (alias) name of the axis"), as NAME: Text;
     axis("P-AXIS-00439", "kenngr.dyn_monitoring_v_warn", Raw::Uns32, "warning when setpoint speed > vb_max by this (50119)")
         .range(Bound::At(0.0), Bound::None).default(50.0).unit("0.1%", "0.1%"), as SPEED_WARNING: Number;

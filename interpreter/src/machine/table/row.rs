@@ -137,6 +137,43 @@ pub enum Correction {
     Refuse,
 }
 
+/// Drive types that the manual names for a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveType {
+    /// The simulated drive of the control.
+    Simulation,
+    /// Drives with an analog interface.
+    Conventional,
+    /// Drives at bus terminals.
+    Terminal,
+    /// Drives at the Lightbus.
+    Lightbus,
+    /// PROFIdrive.
+    Profidrive,
+    /// SERCOS.
+    Sercos,
+    /// CANopen.
+    Canopen,
+    /// Drives of KUKA.
+    Kuka,
+}
+
+impl DriveType {
+    /// As the manual writes it.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Simulation => "Simulation",
+            Self::Conventional => "Conventional",
+            Self::Terminal => "Terminal",
+            Self::Lightbus => "Lightbus",
+            Self::Profidrive => "Profidrive",
+            Self::Sercos => "SERCOS",
+            Self::Canopen => "CANopen",
+            Self::Kuka => "KUKA",
+        }
+    }
+}
+
 /// Documented reaction to a value out of range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
@@ -188,8 +225,11 @@ pub struct Row {
     pub unit_rotary: &'static str,
     /// Axis types: letters of `TRS` (translatory, rotary, spindle), empty outside axis lists.
     pub axes: &'static str,
-    /// Drive types in the manual; empty: all. In kontur every simulated drive can use every parameter.
-    pub drives: &'static str,
+    /// Drive types in the manual, in its order; empty: all. In kontur every simulated drive can use every parameter,
+    /// except those of [`needs_simu`](Self::needs_simu).
+    pub drives: &'static [DriveType],
+    /// A parameter of the vendor's simulated drive that acts with every plant.
+    pub every_plant: bool,
     /// Reaction below the range.
     pub below: Reaction,
     /// Reaction above the range.
@@ -224,7 +264,8 @@ const fn row(
         unit: "-",
         unit_rotary: "-",
         axes: "",
-        drives: "",
+        drives: &[],
+        every_plant: false,
         below: UNDOCUMENTED,
         above: UNDOCUMENTED,
         at_setup: false,
@@ -315,9 +356,20 @@ impl Row {
     }
 
     /// Drive types.
-    pub(super) const fn drives(mut self, drives: &'static str) -> Self {
+    pub(super) const fn drives(mut self, drives: &'static [DriveType]) -> Self {
         self.drives = drives;
         self
+    }
+
+    /// The parameter of the simulated drive acts with every plant.
+    pub(super) const fn every_plant(mut self) -> Self {
+        self.every_plant = true;
+        self
+    }
+
+    /// Whether the parameter acts only with the plant SIMU (`kontur.axis[i].plant.model`), the vendor's simulated drive.
+    pub(crate) fn needs_simu(&self) -> bool {
+        self.drives == [DriveType::Simulation] && !self.every_plant
     }
 
     /// Documented reaction below the range.
