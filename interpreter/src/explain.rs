@@ -256,7 +256,7 @@ fn reaction(row: &Row) -> Option<String> {
             "checked when the function is set up, together with its other parameters".to_owned(),
         );
     }
-    let side = |bound: Bound, name: &str, reaction: table::Reaction| {
+    let side = |bound: Bound, name: &str, reaction: table::OutOfRange| {
         // a negative number is not a value of an unsigned type (K-0073)
         let unsigned = matches!(row.raw, Raw::Uns08 | Raw::Uns16 | Raw::Uns32);
         let never =

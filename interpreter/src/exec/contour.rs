@@ -14,7 +14,7 @@ mod output;
 
 use self::akima::{Akima, Curve};
 use self::compensation::Compensator;
-use self::contouring::{Contouring, Hsc};
+use self::contouring::{ContourParameters, Hsc};
 use self::insertion::{Inserted, Insertion};
 use self::interim::Interim;
 use self::item::{Item, Rest};
@@ -36,7 +36,7 @@ pub(super) use motion::{
 #[derive(Debug, Default)]
 pub(super) struct Contour {
     /// `#CONTOUR MODE`.
-    pub(super) contouring: Contouring,
+    pub(super) contouring: ContourParameters,
     /// `#HSC`.
     pub(super) hsc: Hsc,
     /// Steps in order, without the numbers of their blocks yet.

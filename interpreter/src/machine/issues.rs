@@ -8,7 +8,7 @@ pub(crate) use control::control;
 
 use super::Axis;
 use super::kind::AxisKind;
-use super::table::axis_filters::FilterKeys;
+use super::table::axis_filters::FilterParameters;
 use super::table::axis_guard;
 use super::table::param::Place;
 use crate::diag::{Condition, Diagnostic, Named, Severity, ValueKind};
@@ -84,7 +84,11 @@ const fn guard_condition(error: &VibGuardError) -> Condition {
 }
 
 /// A condition of a filter's settings, with its values; `keys` of the list, `None` for the words of a program.
-pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue) -> Diagnostic {
+pub(crate) fn filter(
+    axis: &Axis,
+    keys: Option<&FilterParameters>,
+    issue: &FilterIssue,
+) -> Diagnostic {
     let condition = match filter_condition(issue) {
         // spindles have a separate number for this condition
         Condition::FilterTime if axis.kind() == AxisKind::Spindle => Condition::SpindleFilterTime,
@@ -97,7 +101,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
         Effect::Off => "the filter is off",
     };
     let what = issue.to_string();
-    let about = |place: fn(&FilterKeys) -> Place| {
+    let about = |place: fn(&FilterParameters) -> Place| {
         listed_or_programmed(axis, condition, keys.map(place), &what, becomes)
     };
     let diagnostic = match *issue {

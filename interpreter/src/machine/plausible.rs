@@ -9,7 +9,7 @@ use super::kind::{AxisKind, kind_of, mode as bits};
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place};
 use super::table::{
-    self, Bound, Correction, Default, Indices, ListKind, Raw, Reaction, Row, with_indices,
+    self, Bound, Correction, Default, Indices, ListKind, OutOfRange, Raw, Row, with_indices,
 };
 use super::table::{axis_drive, axis_general, kontur};
 use super::value::Value;
@@ -171,7 +171,7 @@ fn end(parameters: &Parameters, bound: Bound, indices: Indices, cycle: CycleTime
     }
 }
 
-fn correction(row: &Row, reaction: Reaction, bound: End, below: bool) -> Option<f64> {
+fn correction(row: &Row, reaction: OutOfRange, bound: End, below: bool) -> Option<f64> {
     if reaction.correction == Correction::Refuse {
         return None;
     }

@@ -33,4 +33,4 @@ pub use indices::Indices;
 pub(crate) use indices::with_indices;
 pub use lookup::rows;
 pub(crate) use lookup::{by_id, by_key, misspelt, suggestions};
-pub use row::{Bound, Correction, Default, DriveType, ListKind, Raw, Reaction, Row};
+pub use row::{Bound, Correction, Default, DriveType, ListKind, OutOfRange, Raw, Row};

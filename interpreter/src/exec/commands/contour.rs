@@ -6,7 +6,7 @@ use super::keys::arguments;
 use super::range::{at_least, between};
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::contour::contouring::{Contouring, Mode};
+use crate::exec::contour::contouring::{ContourParameters, Mode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::is_true;
@@ -238,7 +238,7 @@ fn switch(slot: &mut bool, written: Option<(Option<f64>, Span)>) {
 fn points(
     decoder: &Decoder,
     group: Option<&Group>,
-    settings: &mut Contouring,
+    settings: &mut ContourParameters,
 ) -> Outcome<Option<Group>> {
     let Some(group) = group else { return Ok(None) };
     let mut rest = Group { items: Vec::new(), span: group.span };

@@ -20,7 +20,7 @@ pub(in crate::exec) enum Mode {
 
 /// Parameters of `#CONTOUR MODE`; each keeps its value until it is programmed again.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) struct Contouring {
+pub(in crate::exec) struct ContourParameters {
     pub(in crate::exec) mode: Mode,
     pub(in crate::exec) path_dev_mm: f64,
     pub(in crate::exec) pre_mm: f64,
@@ -31,7 +31,7 @@ pub(in crate::exec) struct Contouring {
     pub(in crate::exec) common: ContourSettings,
 }
 
-impl Default for Contouring {
+impl Default for ContourParameters {
     /// DEV with 1 mm. Source: TF5200 programming manual, state at program start.
     fn default() -> Self {
         Self {
@@ -46,7 +46,7 @@ impl Default for Contouring {
     }
 }
 
-impl Contouring {
+impl ContourParameters {
     /// Settings of a block.
     pub(in crate::exec) fn settings(&self) -> ContourSettings {
         let Self { path_dev_mm, pre_mm, post_mm, path_dist_mm, point_mm, .. } = *self;

@@ -85,7 +85,7 @@ pub(super) fn additional(
 /// One filter of the list, with a type if it is `typed`; off if its entry is meaningless.
 fn entry(
     axis: &Axis,
-    keys: &of::FilterKeys,
+    keys: &of::FilterParameters,
     typed: bool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> FilterEntry {

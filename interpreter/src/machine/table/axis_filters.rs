@@ -79,7 +79,7 @@ parameters! {
 
 /// The parameters of one filter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FilterKeys {
+pub(crate) struct FilterParameters {
     pub(in crate::machine) enable: Param<Switch>,
     pub(in crate::machine) kind: Param<Whole>,
     /// Of a FIR filter, which has none, its type.
@@ -92,8 +92,8 @@ pub(crate) struct FilterKeys {
 }
 
 /// A standard filter, or the HSC filter.
-pub(in crate::machine) const fn standard(index: u32) -> FilterKeys {
-    FilterKeys {
+pub(in crate::machine) const fn standard(index: u32) -> FilterParameters {
+    FilterParameters {
         enable: ENABLE.at(index),
         kind: TYPE.at(index),
         prototype: PROTOTYPE.at(index),
@@ -106,7 +106,7 @@ pub(in crate::machine) const fn standard(index: u32) -> FilterKeys {
 }
 
 /// The FIR filter.
-pub(in crate::machine) const FIR_FILTER: FilterKeys = FilterKeys {
+pub(in crate::machine) const FIR_FILTER: FilterParameters = FilterParameters {
     enable: FIR_ENABLE,
     kind: FIR_TYPE,
     prototype: FIR_TYPE,
@@ -118,7 +118,7 @@ pub(in crate::machine) const FIR_FILTER: FilterKeys = FilterKeys {
 };
 
 /// The filter of the additional interface.
-pub(in crate::machine) const ADDITIONAL_FILTER: FilterKeys = FilterKeys {
+pub(in crate::machine) const ADDITIONAL_FILTER: FilterParameters = FilterParameters {
     enable: ADDITIONAL_ENABLE,
     kind: ADDITIONAL_TYPE,
     prototype: ADDITIONAL_PROTOTYPE,

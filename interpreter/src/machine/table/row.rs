@@ -174,9 +174,9 @@ impl DriveType {
     }
 }
 
-/// Documented reaction to a value out of range.
+/// What happens to a value out of range, as documented.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reaction {
+pub struct OutOfRange {
     /// ID of the message.
     pub condition: Condition,
     /// How the value is corrected.
@@ -231,9 +231,9 @@ pub struct Row {
     /// A parameter of the vendor's simulated drive that acts with every plant.
     pub every_plant: bool,
     /// Reaction below the range.
-    pub below: Reaction,
+    pub below: OutOfRange,
     /// Reaction above the range.
-    pub above: Reaction,
+    pub above: OutOfRange,
     /// The range is checked where the function is set up, since it depends on other words.
     pub at_setup: bool,
     /// Source document.
@@ -241,8 +241,8 @@ pub struct Row {
 }
 
 /// Reaction where the documents give no ID: limited, with a number of kontur's own.
-const UNDOCUMENTED: Reaction =
-    Reaction { condition: Condition::ListRange, correction: Correction::Limit };
+const UNDOCUMENTED: OutOfRange =
+    OutOfRange { condition: Condition::ListRange, correction: Correction::Limit };
 
 const fn row(
     list: ListKind,
@@ -374,19 +374,19 @@ impl Row {
 
     /// Documented reaction below the range.
     pub(super) const fn below(mut self, condition: Condition, correction: Correction) -> Self {
-        self.below = Reaction { condition, correction };
+        self.below = OutOfRange { condition, correction };
         self
     }
 
     /// Documented reaction above the range.
     pub(super) const fn above(mut self, condition: Condition, correction: Correction) -> Self {
-        self.above = Reaction { condition, correction };
+        self.above = OutOfRange { condition, correction };
         self
     }
 
     /// kontur's own reaction on both sides of the range.
     pub(super) const fn outside(mut self, condition: Condition, correction: Correction) -> Self {
-        self.below = Reaction { condition, correction };
+        self.below = OutOfRange { condition, correction };
         self.above = self.below;
         self
     }
