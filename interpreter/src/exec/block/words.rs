@@ -3,22 +3,16 @@
 //! Assignments take effect while the words are collected, so that a value uses the assignments written before it. Everything
 //! else takes effect afterwards, in the order of [`super::din`].
 
+mod assignment;
 mod g;
+mod macros;
 
 use super::collected::{Code, Words};
 use super::groups::{self};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::options::Value;
-use crate::exec::report::Report;
-use crate::exec::values::{every_axis, system};
-use crate::machine::Channel;
-use crate::machine::table::channel as of;
-use crate::suggest;
-use crate::syntax::ast::{
-    Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, PlaceKind, Span, Word, WordKind,
-};
+use crate::syntax::ast::{CodeNumber, Expr, HashWord, Span, Word, WordKind};
 
 impl Code {
     /// An M or H function and its value; `letter`: which of the two.
@@ -146,92 +140,14 @@ impl Decoder {
                 block.brackets.push(bracket);
                 Ok(())
             }
-            WordKind::Assign(assign) => {
-                if let PlaceKind::Cycle(name) = &assign.target.kind
-                    && !name.starts_with('P')
-                {
-                    if let Some(operator) = assign.operator {
-                        let text = format!(
-                            "@{name} takes a value with `=`, not with `{}=`",
-                            operator.symbol()
-                        );
-                        return Err(Fault::new(Condition::Syntax, text, span));
-                    }
-                    return self.cycle_address(name, assign, span, block);
-                }
-                block.assigned_to = Some(span.end());
-                if let PlaceKind::Variable(segments) = &assign.target.kind
-                    && system::is_active_tool(segments)
-                {
-                    let condition = match &segments[..] {
-                        [_, _, offset, ..] if offset.name.eq_ignore_ascii_case("V") => {
-                            Condition::ToolOffsetTwice
-                        }
-                        [_, _, radius, ..] if radius.name.eq_ignore_ascii_case("R") => {
-                            Condition::ToolRadiusTwice
-                        }
-                        _ => Condition::ToolTwice,
-                    };
-                    let radius = Condition::ToolRadiusTwice;
-                    let before = block.tool_written.replace((condition, span));
-                    if condition == radius && before.is_some_and(|(before, _)| before == radius) {
-                        let text = "V.G.WZ_AKT.R is written twice in one block";
-                        return Err(Fault::new(Condition::ToolRadiusWrittenTwice, text, span));
-                    }
-                }
-                let outcome = self.assign(assign);
-                // a check continues, and words that read the parameter have no error themselves
-                if outcome.is_err()
-                    && let PlaceKind::Parameter { indirections: 0, subscripts, .. } =
-                        &assign.target.kind
-                    && subscripts.is_empty()
-                    && self.read(&assign.target).is_err()
-                {
-                    let _ = self.write(&assign.target, Value::Number(0.0), span);
-                }
-                outcome
-            }
-            WordKind::MacroDefinition(definition) => {
-                let name = definition.name.trim_ascii();
-                macro_fits(&self.machine.channel, name, &definition.text, span, &mut self.report)?;
-                let before = self.calls.macros.insert(name.into(), definition.text.clone());
-                // blocks that contain the earlier text must be parsed again
-                self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
-                Ok(())
-            }
-            WordKind::MacroUse(name) => {
-                let text = format!("macro \"{name}\" is not defined");
-                let known = self.calls.macros.keys().map(|k| &**k);
-                let fault = Fault::new(Condition::Undefined, text, span);
-                Err(match suggest::hint(name, known) {
-                    _ if self.calls.macros.contains_key(name.trim_ascii()) => {
-                        fault.hint("it is defined in this block and valid from the next block on")
-                    }
-                    Some(hint) => fault.hint(hint),
-                    None => fault.hint(
-                        "define it before its use: \"NAME\" = \"NC code\", or in the channel list (makro_def)",
-                    ),
-                })
-            }
+            WordKind::Assign(assign) => self.assignment(assign, span, block),
+            WordKind::MacroDefinition(definition) => self.define_macro(definition, span),
+            WordKind::MacroUse(name) => Err(self.undefined_macro(name, span)),
             WordKind::Hash(hash) if hash.name.split(' ').next() == Some("ADD") => {
                 block.addition = Some((hash, span));
                 Ok(())
             }
-            WordKind::Hash(hash) => {
-                let keys = ["ANG", "CANG", "FRC", "CHR", "CHF", "RND"];
-                if keys.contains(&&*hash.name)
-                    && block.hashes.iter().any(|(other, _, _)| other.name == hash.name)
-                {
-                    let text = format!("#{} twice in one block", hash.name);
-                    return Err(Fault::new(Condition::BlockKeyTwice, text, span));
-                }
-                let value = match &hash.value {
-                    Some(expr) => Some(self.number(expr)?),
-                    None => None,
-                };
-                block.hashes.push((hash, value, span));
-                Ok(())
-            }
+            WordKind::Hash(hash) => self.block_key(hash, span, block),
             WordKind::Call(call) => {
                 if block.call.replace((call, span)).is_some() {
                     let text = "two subroutine calls in one block";
@@ -249,31 +165,26 @@ impl Decoder {
         }
     }
 
-    fn assign(&mut self, assign: &Assign) -> Outcome<()> {
-        if every_axis::is_all(&assign.target) {
-            return (0..self.machine.axes.len())
-                .try_for_each(|axis| self.assign_one(&every_axis::of_axis(assign, axis)));
+    /// A key of the block such as `#ANG` or `#RND`, with its value.
+    fn block_key<'b>(
+        &mut self,
+        hash: &'b HashWord,
+        span: Span,
+        block: &mut Words<'b>,
+    ) -> Outcome<()> {
+        let keys = ["ANG", "CANG", "FRC", "CHR", "CHF", "RND"];
+        if keys.contains(&&*hash.name)
+            && block.hashes.iter().any(|(other, _, _)| other.name == hash.name)
+        {
+            let text = format!("#{} twice in one block", hash.name);
+            return Err(Fault::new(Condition::BlockKeyTwice, text, span));
         }
-        self.assign_one(assign)
-    }
-
-    fn assign_one(&mut self, assign: &Assign) -> Outcome<()> {
-        let Assign { target, operator, value } = assign;
-        let span = value.span;
-        let result = match operator {
-            None => self.value(value)?,
-            Some(BinaryOp::Divide) if self.number(value)? == 0.0 => {
-                let text = "division by zero with /=";
-                return Err(Fault::new(Condition::DividedByZero, text, span));
-            }
-            Some(op) => {
-                let left = Expr { kind: target.clone().into(), span: target.span };
-                let both = Binary { op: *op, left, right: value.clone() };
-                let whole = Expr { kind: ExprKind::Binary(Box::new(both)), span };
-                self.value(&whole)?
-            }
+        let value = match &hash.value {
+            Some(expr) => Some(self.number(expr)?),
+            None => None,
         };
-        self.write(target, result, span)
+        block.hashes.push((hash, value, span));
+        Ok(())
     }
 }
 
@@ -285,38 +196,4 @@ fn once(written: &[Code], code: &Code, letter: &str, condition: Condition) -> Ou
     let text = format!("{letter}{} twice in one block", code.number);
     Err(Fault::new(condition, text, code.span)
         .with(|d| d.value(ValueKind::Current, code.number, "-")))
-}
-
-/// Checks the length of the name and the text of a macro (P-CHAN-00511, 00512).
-///
-/// Assumption: the pages print an ID for the name only; a text beyond its limit is used, with the warning K-RANGE.
-fn macro_fits(
-    channel: &Channel,
-    name: &str,
-    text: &str,
-    span: Span,
-    report: &mut Report,
-) -> Outcome<()> {
-    for (what, written, most, condition, parameter) in [
-        (
-            "name",
-            name,
-            channel.macros.name_length,
-            Condition::MacroNameLength,
-            of::MACRO_NAME_LENGTH,
-        ),
-        ("text", text, channel.macros.text_length, Condition::Range, of::MACRO_TEXT_LENGTH),
-    ] {
-        let length = written.chars().count();
-        if length > most as usize {
-            let text = format!("the {what} of the macro has {length} characters, maximum: {most}");
-            let fault = Fault::new(condition, text, span)
-                .with(|d| d.value(ValueKind::UpperLimit, most, "-").parameter(parameter));
-            if condition != Condition::Range {
-                return Err(fault);
-            }
-            report.note(fault.warning());
-        }
-    }
-    Ok(())
 }

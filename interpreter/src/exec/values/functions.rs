@@ -229,60 +229,85 @@ const COUNT_MAX: u32 = 4096;
 /// type, UNS32.
 const INTEGER_MAX: f64 = u32::MAX as f64;
 
-/// Functions of texts (206023179): `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`, `INSERT[s, t, position]`,
-/// `REPLACE[s, t, n, position]`.
-fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
-    let text = |i: usize| match decoder.value(&call.arguments[i])? {
-        Value::Text(text) => Ok(text.chars().collect::<Vec<char>>()),
-        Value::Number(_) => Err(argument_type(call.function, "a text", call.arguments[i].span)),
-    };
-    let count = |i: usize| {
-        let x = decoder.number(&call.arguments[i])?;
+/// A function of texts with its arguments.
+struct TextCall<'a> {
+    decoder: &'a Decoder,
+    call: &'a FunctionCall,
+}
+
+impl TextCall<'_> {
+    fn text(&self, i: usize) -> Outcome<Vec<char>> {
+        let argument = &self.call.arguments[i];
+        match self.decoder.value(argument)? {
+            Value::Text(text) => Ok(text.chars().collect()),
+            Value::Number(_) => Err(argument_type(self.call.function, "a text", argument.span)),
+        }
+    }
+
+    fn count(&self, i: usize) -> Outcome<usize> {
+        let x = self.decoder.number(&self.call.arguments[i])?;
         whole(x, 0, COUNT_MAX).map(|n| n as usize).ok_or_else(|| {
             let text = format!("a character count is {x}, allowed: 0 to {COUNT_MAX}");
-            Fault::new(Condition::TextCount, text, call.arguments[i].span)
+            Fault::new(Condition::TextCount, text, self.call.arguments[i].span)
         })
-    };
-    // position at which a text is split, counted from 0. Assumption: 21545 has limits, but the documents print no
-    // numbers for them; MID, DELETE and REPLACE begin at one of the characters, INSERT may also insert before the first
-    // one.
-    let position = |i: usize, least: usize, s: &[char]| {
-        let (x, most) = (decoder.number(&call.arguments[i])?, s.len());
+    }
+
+    /// Position at which a text is split, counted from 0. Assumption: 21545 has limits, but the documents print no
+    /// numbers for them; MID, DELETE and REPLACE begin at one of the characters, INSERT may also insert before the first
+    /// one.
+    fn position(&self, i: usize, least: usize, s: &[char]) -> Outcome<usize> {
+        let (x, most) = (self.decoder.number(&self.call.arguments[i])?, s.len());
         let at = whole(x, 0, u32::MAX).map(|at| at as usize);
         at.filter(|at| (least..=most).contains(at)).map(|at| at - least).ok_or_else(|| {
-            let name = call.function.name();
+            let name = self.call.function.name();
             let text =
                 format!("{name}: the text has {most} characters, position {x} does not exist");
-            Fault::new(Condition::TextPosition, text, call.arguments[i].span).with(|d| {
+            Fault::new(Condition::TextPosition, text, self.call.arguments[i].span).with(|d| {
                 d.value(ValueKind::Wrong, x, "-")
                     .value(ValueKind::LowerLimit, least as f64, "-")
                     .value(ValueKind::UpperLimit, most as f64, "-")
             })
         })
-    };
-    let joined =
-        |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
-    let parsed = |i: usize, largest: f64| -> Outcome<f64> {
-        let written: String = text(i)?.iter().collect();
+    }
+
+    /// Start and end, counted from 0, of the part that begins at the position in argument `at` and has at most the
+    /// number of characters in argument `count`.
+    fn part(&self, at: usize, count: usize, s: &[char]) -> Outcome<(usize, usize)> {
+        let from = self.position(at, 1, s)?;
+        Ok((from, (from + self.count(count)?).min(s.len())))
+    }
+
+    /// The number that the text of the first argument contains.
+    fn parsed(&self, largest: f64) -> Outcome<f64> {
+        let written: String = self.text(0)?.iter().collect();
+        let span = self.call.arguments[0].span;
         // `inf` and `NaN` are not digits
         let digits = written.bytes().any(|b| b.is_ascii_digit());
         let number: Option<f64> = written.trim().parse().ok();
         let number = number.filter(|_| digits).ok_or_else(|| {
             let text = format!("`{written}` is not a number");
-            Fault::new(Condition::DigitExpected, text, call.arguments[i].span)
+            Fault::new(Condition::DigitExpected, text, span)
         })?;
         if number.abs() > largest {
             let text = format!("`{written}` has too many digits: it is above {largest:e}");
-            return Err(Fault::new(Condition::DigitsTooMany, text, call.arguments[i].span));
+            return Err(Fault::new(Condition::DigitsTooMany, text, span));
         }
         Ok(number)
-    };
+    }
+}
+
+/// Functions of texts (206023179): `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`, `INSERT[s, t, position]`,
+/// `REPLACE[s, t, n, position]`.
+fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
+    let arguments = TextCall { decoder, call };
+    let joined =
+        |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
     Ok(match call.function {
-        Function::Len => Value::Number(text(0)?.len() as f64),
+        Function::Len => Value::Number(arguments.text(0)?.len() as f64),
         // the code of a character, of the first one if no position is given
         Function::Ord => {
-            let s = text(0)?;
-            let at = call.arguments.get(1).map_or(Ok(1), |_| count(1))?;
+            let s = arguments.text(0)?;
+            let at = call.arguments.get(1).map_or(Ok(1), |_| arguments.count(1))?;
             let character = at.checked_sub(1).and_then(|i| s.get(i)).ok_or_else(|| {
                 let text = format!("ORD: the text has {} characters, none at {at}", s.len());
                 Fault::new(Condition::Range, text, span)
@@ -290,38 +315,35 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
             Value::Number(f64::from(u32::from(*character)))
         }
         Function::Left => {
-            let s = text(0)?;
-            joined([&s[..count(1)?.min(s.len())], &[], &[]])
+            let s = arguments.text(0)?;
+            joined([&s[..arguments.count(1)?.min(s.len())], &[], &[]])
         }
         Function::Right => {
-            let s = text(0)?;
-            joined([&s[s.len() - count(1)?.min(s.len())..], &[], &[]])
+            let s = arguments.text(0)?;
+            joined([&s[s.len() - arguments.count(1)?.min(s.len())..], &[], &[]])
         }
         Function::Mid => {
-            let s = text(0)?;
-            let from = position(2, 1, &s)?;
-            let to = (from + count(1)?).min(s.len());
+            let s = arguments.text(0)?;
+            let (from, to) = arguments.part(2, 1, &s)?;
             joined([&s[from..to], &[], &[]])
         }
         Function::Delete => {
-            let s = text(0)?;
-            let from = position(2, 1, &s)?;
-            let to = (from + count(1)?).min(s.len());
+            let s = arguments.text(0)?;
+            let (from, to) = arguments.part(2, 1, &s)?;
             joined([&s[..from], &s[to..], &[]])
         }
         Function::Insert => {
-            let (s, t) = (text(0)?, text(1)?);
-            let at = position(2, 0, &s)?;
+            let (s, t) = (arguments.text(0)?, arguments.text(1)?);
+            let at = arguments.position(2, 0, &s)?;
             joined([&s[..at], &t, &s[at..]])
         }
         Function::Replace => {
-            let (s, t) = (text(0)?, text(1)?);
-            let from = position(3, 1, &s)?;
-            let to = (from + count(2)?).min(s.len());
+            let (s, t) = (arguments.text(0)?, arguments.text(1)?);
+            let (from, to) = arguments.part(3, 2, &s)?;
             joined([&s[..from], &t, &s[to..]])
         }
         Function::Find => {
-            let (s, t) = (text(0)?, text(1)?);
+            let (s, t) = (arguments.text(0)?, arguments.text(1)?);
             let found = if t.is_empty() { None } else { s.windows(t.len()).position(|w| w == t) };
             Value::Number(found.map_or(0.0, |i| i as f64 + 1.0))
         }
@@ -332,8 +354,8 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
             let x = as_number(&decoder.value(&call.arguments[0])?, span)?;
             Value::Text(format!("{x:.6}").into())
         }
-        Function::StrToInt => Value::Number(parsed(0, INTEGER_MAX)?.trunc()),
-        Function::StrToReal => Value::Number(parsed(0, f64::MAX)?),
+        Function::StrToInt => Value::Number(arguments.parsed(INTEGER_MAX)?.trunc()),
+        Function::StrToReal => Value::Number(arguments.parsed(f64::MAX)?),
         other => return Err(Fault::unsupported(other.name(), span)),
     })
 }

@@ -56,78 +56,7 @@ impl Decoder {
         }
         let functions: Vec<_> = group.items.iter().filter_map(function).collect();
         once(&functions, bracket, words)?;
-        let mut items = Vec::new();
-        let mut unknown = None;
-        for item in &group.items {
-            match SpindleItem::read(self, item) {
-                _ if matches!(item.kind, ItemKind::Missing) => {}
-                Ok(known) => items.push((known, item.span)),
-                Err(fault) => unknown = unknown.or(Some(fault)),
-            }
-        }
-        let of_plc = self.motion.spindles[spindle]
-            .index
-            .and_then(|i| self.machine.channel.spindles.of_plc.get(i));
-        let own = |i: &SpindleItem| {
-            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
-        };
-        if let (Some(true), Some((_, span))) = (of_plc, items.iter().find(|(i, _)| !own(i))) {
-            let text = "a spindle controlled by the PLC only takes M3, M4, M5, M19, REV and POS";
-            return Err(Fault::new(Condition::PlcSpindle, text, *span));
-        }
-        let feedforward =
-            |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
-        let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
-        if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
-            return Err(Fault::new(
-                Condition::SpindleFeedforwardTwice,
-                "G136 twice for one spindle",
-                *span,
-            ));
-        }
-        let some = items.iter().find(|(i, _)| feedforward(i));
-        let other = items.iter().find(|(i, _)| !feedforward(i));
-        let weight = items.iter().find(|(i, _)| matches!(i, SpindleItem::Acceleration(_)));
-        if let (Some(_), Some((_, span))) = (some, weight) {
-            let text = "feedforward and G130 cannot be in one bracket";
-            return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
-        }
-        let homes = items.iter().any(|(i, _)| matches!(i, SpindleItem::Home));
-        let turns = items.iter().find(|(i, _)| matches!(i, SpindleItem::Turn(_)));
-        if let (true, Some((_, span))) = (homes, turns) {
-            let text = "G74 and M3, M4, M5 or M19 cannot be in one bracket";
-            return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
-        }
-        if let (Some(_), Some((_, span))) = (some, other) {
-            let text = "feedforward needs a separate bracket, without other commands";
-            return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
-        }
-        for (i, (item, span)) in items.iter().enumerate() {
-            let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
-            let several = matches!(item, SpindleItem::Function(..));
-            // M3 and M4 give the direction of M19
-            let directs = |(other, _): &(SpindleItem, Span)| {
-                matches!(
-                    (item, other),
-                    (SpindleItem::Turn(19), SpindleItem::Turn(3 | 4))
-                        | (SpindleItem::Turn(3 | 4), SpindleItem::Turn(19))
-                )
-            };
-            if !several && items[..i].iter().any(|other| same(other) && !directs(other)) {
-                let text = "two words of the spindle bracket set the same value";
-                let condition = match item {
-                    SpindleItem::Turn(_) => Condition::SpindleMTwice,
-                    SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
-                    SpindleItem::Position(_) => Condition::SpindlePositionTwice,
-                    _ => Condition::DuplicateGroup,
-                };
-                return Err(Fault::new(condition, text, *span));
-            }
-        }
-        // M3 together with M4 is an error whatever else the bracket contains (20155 prints an unknown word beside them)
-        if let Some(unknown) = unknown {
-            return Err(unknown);
-        }
+        let mut items = self.spindle_items(spindle, group)?;
         if let Some((_, span)) =
             items.iter().find(|(i, _)| self.is_set_twice(spindle, i, bracket, words))
         {
@@ -153,6 +82,36 @@ impl Decoder {
         }
         self.motion.spindles[spindle].warn(&mut self.report, group.span);
         Ok(())
+    }
+
+    /// The items of a bracket, checked against each other.
+    fn spindle_items(&self, spindle: usize, group: &Group) -> Outcome<Vec<(SpindleItem, Span)>> {
+        let mut items = Vec::new();
+        let mut unknown = None;
+        for item in &group.items {
+            match SpindleItem::read(self, item) {
+                _ if matches!(item.kind, ItemKind::Missing) => {}
+                Ok(known) => items.push((known, item.span)),
+                Err(fault) => unknown = unknown.or(Some(fault)),
+            }
+        }
+        let of_plc = self.motion.spindles[spindle]
+            .index
+            .and_then(|i| self.machine.channel.spindles.of_plc.get(i));
+        let own = |i: &SpindleItem| {
+            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
+        };
+        if let (Some(true), Some((_, span))) = (of_plc, items.iter().find(|(i, _)| !own(i))) {
+            let text = "a spindle controlled by the PLC only takes M3, M4, M5, M19, REV and POS";
+            return Err(Fault::new(Condition::PlcSpindle, text, *span));
+        }
+        exclude_each_other(&items)?;
+        set_twice(&items)?;
+        // M3 together with M4 is an error whatever else the bracket contains (20155 prints an unknown word beside them)
+        if let Some(unknown) = unknown {
+            return Err(unknown);
+        }
+        Ok(items)
     }
 
     /// Whether a bracket before this one, or a word without a bracket, rotates the spindle or sets its speed as `item` does.
@@ -312,4 +271,63 @@ impl Decoder {
         }
         Ok(())
     }
+}
+
+/// Items that need a bracket without certain others.
+fn exclude_each_other(items: &[(SpindleItem, Span)]) -> Outcome<()> {
+    let feedforward =
+        |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
+    let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
+    if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
+        return Err(Fault::new(
+            Condition::SpindleFeedforwardTwice,
+            "G136 twice for one spindle",
+            *span,
+        ));
+    }
+    let some = items.iter().find(|(i, _)| feedforward(i));
+    let other = items.iter().find(|(i, _)| !feedforward(i));
+    let weight = items.iter().find(|(i, _)| matches!(i, SpindleItem::Acceleration(_)));
+    if let (Some(_), Some((_, span))) = (some, weight) {
+        let text = "feedforward and G130 cannot be in one bracket";
+        return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
+    }
+    let homes = items.iter().any(|(i, _)| matches!(i, SpindleItem::Home));
+    let turns = items.iter().find(|(i, _)| matches!(i, SpindleItem::Turn(_)));
+    if let (true, Some((_, span))) = (homes, turns) {
+        let text = "G74 and M3, M4, M5 or M19 cannot be in one bracket";
+        return Err(Fault::new(Condition::SpindleCommandsExclude, text, *span));
+    }
+    if let (Some(_), Some((_, span))) = (some, other) {
+        let text = "feedforward needs a separate bracket, without other commands";
+        return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
+    }
+    Ok(())
+}
+
+/// Items that set the same value.
+fn set_twice(items: &[(SpindleItem, Span)]) -> Outcome<()> {
+    for (i, (item, span)) in items.iter().enumerate() {
+        let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
+        let several = matches!(item, SpindleItem::Function(..));
+        // M3 and M4 give the direction of M19
+        let directs = |(other, _): &(SpindleItem, Span)| {
+            matches!(
+                (item, other),
+                (SpindleItem::Turn(19), SpindleItem::Turn(3 | 4))
+                    | (SpindleItem::Turn(3 | 4), SpindleItem::Turn(19))
+            )
+        };
+        if !several && items[..i].iter().any(|other| same(other) && !directs(other)) {
+            let text = "two words of the spindle bracket set the same value";
+            let condition = match item {
+                SpindleItem::Turn(_) => Condition::SpindleMTwice,
+                SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
+                SpindleItem::Position(_) => Condition::SpindlePositionTwice,
+                _ => Condition::DuplicateGroup,
+            };
+            return Err(Fault::new(condition, text, *span));
+        }
+    }
+    Ok(())
 }

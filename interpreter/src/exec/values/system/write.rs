@@ -24,17 +24,7 @@ pub(in crate::exec) fn write(
     span: Span,
 ) -> Outcome<()> {
     if is_kinematic(segments) {
-        let name = kinematic(d, segments, span)?;
-        let value = as_number(value, span)?;
-        if d.values.kinematics.len() >= KINEMATICS_MAX && !d.values.kinematics.contains_key(&name) {
-            let text = format!("more than {KINEMATICS_MAX} kinematic parameters");
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        d.values.kinematics.insert(name, value);
-        let text =
-            "V.G.KIN: transformations are treated as the identity, their parameters have no effect";
-        d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
-        return Ok(());
+        return write_kinematic(d, segments, value, span);
     }
     if let Some(row) = find(segments) {
         indices_fit(row, segments, span)?;
@@ -83,16 +73,7 @@ pub(in crate::exec) fn write(
                 return Err(Fault::unsupported("V.SPDL.M_FCT_FREE = 1", span));
             }
         }
-        ["TLM", name @ ("TIME_FACT" | "DIST_FACT")] => {
-            let weight = x()?;
-            if weight < 0.0 {
-                let text = format!("V.TLM.{name} = {weight}, allowed: values from 0");
-                return Err(Fault::new(Condition::Range, text, span));
-            }
-            d.values.tool_life[usize::from(name == "DIST_FACT")] = weight;
-            let text = "V.TLM: tool life is not counted, its weights have no effect";
-            d.report.note_once("V.TLM", Fault::new(Condition::Ignored, text, span));
-        }
+        ["TLM", name @ ("TIME_FACT" | "DIST_FACT")] => write_tool_life(d, name, x()?, span)?,
         ["G", "RW"] => {
             d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();
         }
@@ -104,33 +85,76 @@ pub(in crate::exec) fn write(
             d.geometry.coordinates.tool_programmed();
             d.geometry.apply_tool(d.modal.plane.main_axes());
         }
-        ["G", "WZ_AKT", ..] => {
-            let mut tool = d.geometry.tools.active.clone();
-            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
-            d.geometry.tools.active = tool;
-            if matches!(names[2], "L" | "V") {
-                d.geometry.coordinates.tool_programmed();
-            }
-            d.geometry.apply_tool(d.modal.plane.main_axes());
-        }
-        ["G", "WZ", ..] => {
-            let index = path.index(d, 1, u32::MAX)?;
-            if d.geometry.tools.table.len() >= 10_000
-                && !d.geometry.tools.table.contains_key(&index)
-            {
-                let text = "the tool table holds at most 10000 tools";
-                return Err(Fault::new(Condition::Range, text, span));
-            }
-            let mut tool = path.tool(d)?;
-            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
-            d.geometry.tools.table.insert(index, tool);
-        }
+        ["G", "WZ_AKT", ..] => write_active_tool(d, &path, &names[2..], x()?)?,
+        ["G", "WZ", ..] => write_listed_tool(d, &path, &names[2..], value)?,
         _ if find(segments).is_some() => {
             let text = format!("V.{} may not be written", written(segments));
             return Err(Fault::new(Condition::VariableNotWritable, text, span));
         }
         _ => return Err(unknown(d, segments, span)),
     }
+    Ok(())
+}
+
+/// `V.G.KIN[..]`: stored without effect.
+fn write_kinematic(
+    d: &mut Decoder,
+    segments: &[Segment],
+    value: &Value,
+    span: Span,
+) -> Outcome<()> {
+    let name = kinematic(d, segments, span)?;
+    let value = as_number(value, span)?;
+    if d.values.kinematics.len() >= KINEMATICS_MAX && !d.values.kinematics.contains_key(&name) {
+        let text = format!("more than {KINEMATICS_MAX} kinematic parameters");
+        return Err(Fault::new(Condition::Range, text, span));
+    }
+    d.values.kinematics.insert(name, value);
+    let text =
+        "V.G.KIN: transformations are treated as the identity, their parameters have no effect";
+    d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
+    Ok(())
+}
+
+/// `V.TLM.TIME_FACT`, `V.TLM.DIST_FACT`: stored without effect.
+fn write_tool_life(d: &mut Decoder, name: &str, weight: f64, span: Span) -> Outcome<()> {
+    if weight < 0.0 {
+        let text = format!("V.TLM.{name} = {weight}, allowed: values from 0");
+        return Err(Fault::new(Condition::Range, text, span));
+    }
+    d.values.tool_life[usize::from(name == "DIST_FACT")] = weight;
+    let text = "V.TLM: tool life is not counted, its weights have no effect";
+    d.report.note_once("V.TLM", Fault::new(Condition::Ignored, text, span));
+    Ok(())
+}
+
+/// `V.G.WZ_AKT`: the tool data in use; length and offsets act at once.
+fn write_active_tool(d: &mut Decoder, path: &Path<'_>, names: &[&str], x: f64) -> Outcome<()> {
+    let mut tool = d.geometry.tools.active.clone();
+    write_tool(d, path, names, &mut tool, x)?;
+    d.geometry.tools.active = tool;
+    if matches!(names[0], "L" | "V") {
+        d.geometry.coordinates.tool_programmed();
+    }
+    d.geometry.apply_tool(d.modal.plane.main_axes());
+    Ok(())
+}
+
+/// `V.G.WZ[n]`: the tool table.
+fn write_listed_tool(
+    d: &mut Decoder,
+    path: &Path<'_>,
+    names: &[&str],
+    value: &Value,
+) -> Outcome<()> {
+    let index = path.index(d, 1, u32::MAX)?;
+    if d.geometry.tools.table.len() >= 10_000 && !d.geometry.tools.table.contains_key(&index) {
+        let text = "the tool table holds at most 10000 tools";
+        return Err(Fault::new(Condition::Range, text, path.span));
+    }
+    let mut tool = path.tool(d)?;
+    write_tool(d, path, names, &mut tool, as_number(value, path.span)?)?;
+    d.geometry.tools.table.insert(index, tool);
     Ok(())
 }
 
@@ -162,6 +186,7 @@ fn write_tool(
     }
     Ok(())
 }
+
 impl Calls {
     /// `V.G.MAX_NC_BLOCKS_AHEAD`, `V.G.MAX_MOTION_BLOCKS_AHEAD`: how far the decoder may be ahead of the motion.
     ///
