@@ -39,16 +39,16 @@ mod axes;
 mod content;
 
 use super::chain::{OWN_LIST, SEPARATORS, beside};
-use super::kind::{AxisKind, kind_of, logical_number};
+use super::kind::{AxisKind, kind_of};
 use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
 use super::table::{ListKind, channel as of, kontur as own};
 use crate::diag::{Condition, Diagnostic, Severity};
-use axes::same_number;
+use axes::spindles_of;
 pub use content::Part;
 use content::{Content, ListText};
 use kontur_filters::time::CycleTime;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
 /// The lists of a project as files: those in the XML, and real files for the rest.
@@ -170,36 +170,8 @@ impl<'a> Project<'a> {
         left_out: &[String],
         cycle_given: bool,
     ) -> Result<(), Vec<Diagnostic>> {
-        let mut note = String::new();
-        let defaults =
-            content.axis_defaults.as_ref().map(|list| parameters(ListKind::Axis, &[list]));
-        let axes: Vec<Parameters> = content
-            .axes
-            .iter()
-            .map(|axis| {
-                let mut of = defaults.clone().unwrap_or_else(|| Parameters::new(ListKind::Axis));
-                of.apply(&lists::read(
-                    ListKind::Axis,
-                    "",
-                    axis.list.text.as_bytes(),
-                    &mut Vec::new(),
-                ));
-                of
-            })
-            .collect();
-        let mut numbers: Vec<u32> = axes.iter().map(logical_number).collect();
-        let different = numbers.iter().collect::<BTreeSet<_>>().len();
-        if different > 1 && different < numbers.len() {
-            return Err(vec![same_number(&content, &numbers)]);
-        }
-        if different < numbers.len() {
-            // lists from one prototype, which the tool numbers
-            numbers = (1..).take(axes.len()).collect();
-            for (axis, number) in content.axes.iter_mut().zip(&numbers) {
-                axis.list.replace(&["kopf.achs_nr"], &format!("kopf.achs_nr {number}\n"));
-            }
-            note.push_str("; lists with the same kopf.achs_nr, numbered in their order");
-        }
+        let axes = content.axis_parameters();
+        let (numbers, renumbered) = content.number_axes(&axes)?;
         let spindle: Vec<bool> =
             axes.iter().map(|axis| kind_of(axis) == AxisKind::Spindle).collect();
         let named = self.name_axes(&mut content, &numbers, &spindle);
@@ -214,8 +186,53 @@ impl<'a> Project<'a> {
             return Err(vec![Diagnostic::new(Condition::ProjectWrong, message).hint(hint)]);
         }
 
+        let entries = self.list_entries(&content);
         let mut start_up = content.start_up.take().unwrap_or_default();
-        let mut entries = format!("listen ASCII\nkanal_anzahl 1\nzahl_mds {}\n", axes.len());
+        let own = [
+            "listen",
+            "kanal_anzahl",
+            "zahl_mds",
+            "achs_mds[",
+            "default_achs_mds",
+            "default_sda_mds",
+            "sda_mds[",
+            "werkz_data[",
+            "nullp_data[",
+        ];
+        start_up.replace(&own, &entries);
+        self.lists.insert(self.start_up.clone(), start_up.placed());
+
+        let mut note = spindles_of(&channel);
+        note.push_str(renumbered);
+        note.push_str(&self.cycle(content.cycle_100ns, cycle_given));
+        if !left_out.is_empty() {
+            let _ = write!(note, "; omitted: {}", left_out.join(", "));
+        }
+        if !content.channels[0].unread.is_empty() {
+            let _ = write!(note, "; not read: {}", content.channels[0].unread.join(", "));
+        }
+        let list: Vec<String> =
+            named.iter().map(|(name, number)| format!("{name} ({number})")).collect();
+        let message = format!(
+            "machine of {}: {} axis lists, channel `{}` with {}{note}",
+            self.start_up,
+            axes.len(),
+            content.channels[0].list.name,
+            if list.is_empty() {
+                "the axes of its list".to_owned()
+            } else {
+                format!("the axes {}", list.join(", "))
+            }
+        );
+        self.said.insert(0, Diagnostic::new(Condition::ProjectRead, message));
+        self.others_left_out(&content);
+        Ok(())
+    }
+
+    /// Entries of the start-up list that name the lists of the project, which are kept.
+    fn list_entries(&mut self, content: &Content) -> String {
+        let axes = content.axes.len();
+        let mut entries = format!("listen ASCII\nkanal_anzahl 1\nzahl_mds {axes}\n");
         for (i, axis) in content.axes.iter().enumerate() {
             let _ = writeln!(entries, "achs_mds[{i}] \"{}\"", self.keep(&axis.list));
         }
@@ -232,49 +249,11 @@ impl<'a> Project<'a> {
                 let _ = writeln!(entries, "{key} \"{}\"", self.keep(list));
             }
         }
-        let own = [
-            "listen",
-            "kanal_anzahl",
-            "zahl_mds",
-            "achs_mds[",
-            "default_achs_mds",
-            "default_sda_mds",
-        ];
-        let own: Vec<&str> =
-            own.into_iter().chain(["sda_mds[", "werkz_data[", "nullp_data["]).collect();
-        start_up.replace(&own, &entries);
-        self.lists.insert(self.start_up.clone(), start_up.placed());
+        entries
+    }
 
-        note.push_str(&self.cycle(content.cycle_100ns, cycle_given));
-        if !left_out.is_empty() {
-            let _ = write!(note, "; omitted: {}", left_out.join(", "));
-        }
-        if !first.unread.is_empty() {
-            let _ = write!(note, "; not read: {}", first.unread.join(", "));
-        }
-        let list: Vec<String> =
-            named.iter().map(|(name, number)| format!("{name} ({number})")).collect();
-        let spindles: Vec<String> = (0..16)
-            .map_while(|i| {
-                let number = channel.listed(of::SPINDLE_NUMBER.at(i))?;
-                Some(format!("{} ({number})", channel.get(of::SPINDLE_NAME.at(i))?))
-            })
-            .collect();
-        if !spindles.is_empty() {
-            note.insert_str(0, &format!(" and the spindles {}", spindles.join(", ")));
-        }
-        let message = format!(
-            "machine of {}: {} axis lists, channel `{}` with {}{note}",
-            self.start_up,
-            axes.len(),
-            first.list.name,
-            if list.is_empty() {
-                "the axes of its list".to_owned()
-            } else {
-                format!("the axes {}", list.join(", "))
-            }
-        );
-        self.said.insert(0, Diagnostic::new(Condition::ProjectRead, message));
+    /// Says which channels are not simulated.
+    fn others_left_out(&mut self, content: &Content) {
         if let [first, others @ ..] = content.channels.as_slice()
             && !others.is_empty()
         {
@@ -288,7 +267,6 @@ impl<'a> Project<'a> {
             let hint = "export the axes and the channel to be simulated, and name their folder";
             self.said.push(said.hint(hint));
         }
-        Ok(())
     }
 
     /// Enters the cycle of the project, in units of 100 ns, into `kontur.lis`, unless the file next to the project has

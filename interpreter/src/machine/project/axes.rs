@@ -3,7 +3,11 @@
 use super::content::Content;
 use super::{Project, parameters};
 use crate::diag::{Condition, Diagnostic, Severity};
+use crate::machine::kind::logical_number;
+use crate::machine::lists;
+use crate::machine::parameters::Parameters;
 use crate::machine::table::{ListKind, channel as of};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 impl Project<'_> {
@@ -95,4 +99,62 @@ pub(super) fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
     let message = format!("axis lists with the same kopf.achs_nr {number}: {}", names.join(", "));
     let hint = "give each axis its own number, or remove the surplus list; lists are only numbered in their order if all of them have the same number";
     Diagnostic::new(Condition::ProjectWrong, message).hint(hint)
+}
+
+impl Content {
+    /// The parameters of each axis list, over those that all axes share.
+    pub(super) fn axis_parameters(&self) -> Vec<Parameters> {
+        let defaults = self.axis_defaults.as_ref().map(|list| parameters(ListKind::Axis, &[list]));
+        self.axes
+            .iter()
+            .map(|axis| {
+                let mut of = defaults.clone().unwrap_or_else(|| Parameters::new(ListKind::Axis));
+                of.apply(&lists::read(
+                    ListKind::Axis,
+                    "",
+                    axis.list.text.as_bytes(),
+                    &mut Vec::new(),
+                ));
+                of
+            })
+            .collect()
+    }
+
+    /// The logical numbers of the axes, and a remark if the lists had to be numbered.
+    ///
+    /// # Errors
+    /// K-0140 if only some of the lists have the same number.
+    pub(super) fn number_axes(
+        &mut self,
+        axes: &[Parameters],
+    ) -> Result<(Vec<u32>, &'static str), Vec<Diagnostic>> {
+        let mut numbers: Vec<u32> = axes.iter().map(logical_number).collect();
+        let different = numbers.iter().collect::<BTreeSet<_>>().len();
+        if different > 1 && different < numbers.len() {
+            return Err(vec![same_number(self, &numbers)]);
+        }
+        if different < numbers.len() {
+            // lists from one prototype, which the tool numbers
+            numbers = (1..).take(axes.len()).collect();
+            for (axis, number) in self.axes.iter_mut().zip(&numbers) {
+                axis.list.replace(&["kopf.achs_nr"], &format!("kopf.achs_nr {number}\n"));
+            }
+            return Ok((numbers, "; lists with the same kopf.achs_nr, numbered in their order"));
+        }
+        Ok((numbers, ""))
+    }
+}
+
+/// The spindles of a channel with their numbers, as they follow the axes in the note.
+pub(super) fn spindles_of(channel: &Parameters) -> String {
+    let spindles: Vec<String> = (0..16)
+        .map_while(|i| {
+            let number = channel.listed(of::SPINDLE_NUMBER.at(i))?;
+            Some(format!("{} ({number})", channel.get(of::SPINDLE_NAME.at(i))?))
+        })
+        .collect();
+    if spindles.is_empty() {
+        return String::new();
+    }
+    format!(" and the spindles {}", spindles.join(", "))
 }
