@@ -48,31 +48,31 @@ pub(in crate::exec) struct Words<'b> {
     /// I, J, K.
     pub(in crate::exec) centre: [Option<Placed>; 3],
     pub(in crate::exec) radius: Option<Placed>,
-    pub(in crate::exec) feed: Option<Placed>,
+    pub(in crate::exec::block) feed: Option<Placed>,
     pub(in crate::exec) end_feed: Option<Placed>,
     /// Spindle and speed.
     pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
     /// Spindle and angle of M19 (`S.POS=180`).
-    pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
+    pub(in crate::exec::block) angles: SmallVec<[(usize, f64, Span); 1]>,
     /// Spindle and angle of the start of a thread (`S.OFFSET=90`).
     pub(in crate::exec) offsets: SmallVec<[(usize, f64, Span); 1]>,
-    pub(in crate::exec) tool: Option<Placed>,
-    pub(in crate::exec) tool_data: Option<Placed>,
+    pub(in crate::exec::block) tool: Option<Placed>,
+    pub(in crate::exec::block) tool_data: Option<Placed>,
     /// A write to `V.G.WZ_AKT`.
     pub(in crate::exec::block) tool_written: Option<(Condition, Span)>,
     pub(in crate::exec) m: SmallVec<[Code; 4]>,
-    pub(in crate::exec) h: SmallVec<[Code; 1]>,
-    pub(in crate::exec) cycle: Option<CycleCall>,
+    pub(in crate::exec::block) h: SmallVec<[Code; 1]>,
+    pub(in crate::exec::block) cycle: Option<CycleCall>,
     pub(in crate::exec) brackets: SmallVec<[&'b Bracket; 1]>,
     pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
-    pub(in crate::exec) call: Option<(&'b Call, Span)>,
+    pub(in crate::exec::block) call: Option<(&'b Call, Span)>,
     pub(in crate::exec) goto: Option<&'b Jump>,
     /// `#ADD`, the last word.
-    pub(in crate::exec) addition: Option<(&'b HashWord, Span)>,
+    pub(in crate::exec::block) addition: Option<(&'b HashWord, Span)>,
     /// Where the last assignment ends.
     pub(in crate::exec::block) assigned_to: Option<u32>,
     /// Target of M17 or M29, if they name one.
-    pub(in crate::exec) back: Option<(&'b Return, Span)>,
+    pub(in crate::exec::block) back: Option<(&'b Return, Span)>,
 }
 
 impl<'b> Words<'b> {

@@ -118,9 +118,9 @@ pub(in crate::exec) enum ValueRule {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Row {
     pub(in crate::exec) number: u32,
-    pub(in crate::exec) group: Group,
+    pub(in crate::exec::block) group: Group,
     pub(in crate::exec) act: Act,
-    pub(in crate::exec) value: ValueRule,
+    pub(in crate::exec::block) value: ValueRule,
 }
 
 const fn g(number: u32, group: Group, act: Act) -> Row {

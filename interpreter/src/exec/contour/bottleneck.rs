@@ -101,10 +101,10 @@ pub(in crate::exec) struct Watch {
 /// The tool at one block cuts the contour of another block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Cut {
-    pub(in crate::exec) tool: SourceRef,
-    pub(in crate::exec) contour: SourceRef,
+    pub(in crate::exec::contour) tool: SourceRef,
+    pub(in crate::exec::contour) contour: SourceRef,
     /// Remaining distance between the tool centre and the contour, in mm.
-    pub(in crate::exec) distance_mm: f64,
+    pub(in crate::exec::contour) distance_mm: f64,
 }
 
 impl Watch {

@@ -54,7 +54,7 @@ pub(in crate::exec) struct Compensator {
     /// Whether the next motion in the plane starts or ends compensation with an arc (G05).
     tangential: bool,
     /// Whether G40 is programmed; the next motion in the plane is the departure.
-    pub(in crate::exec) deselected: bool,
+    pub(in crate::exec::contour) deselected: bool,
 }
 
 impl Compensator {

@@ -49,9 +49,9 @@ pub(in crate::exec) struct Insertion {
 
 /// An inserted element.
 pub(in crate::exec) struct Inserted {
-    pub(in crate::exec) motion: Box<Motion>,
+    pub(in crate::exec::contour) motion: Box<Motion>,
     /// Whether a part remains of the motion before it, and of the one after it.
-    pub(in crate::exec) leaves: [bool; 2],
+    pub(in crate::exec::contour) leaves: [bool; 2],
 }
 
 /// The element between two motions, which are trimmed; `None` at a tangential transition.

@@ -15,9 +15,9 @@ pub(in crate::exec) enum Item {
 /// A step at standstill.
 #[derive(Debug)]
 pub(in crate::exec) struct Rest {
-    pub(in crate::exec) what: Sync,
-    pub(in crate::exec) source: SourceRef,
-    pub(in crate::exec) events: Vec<Event>,
+    pub(in crate::exec::contour) what: Sync,
+    pub(in crate::exec::contour) source: SourceRef,
+    pub(in crate::exec::contour) events: Vec<Event>,
 }
 
 /// The events of a removed motion.

@@ -29,7 +29,7 @@ pub(in crate::exec) const LAST_ZERO_GROUP: u32 = 96;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Rotation {
     /// Main axes of the plane.
-    pub(in crate::exec) plane: [usize; 2],
+    pub(in crate::exec::geometry) plane: [usize; 2],
     pub(in crate::exec) deg: f64,
     /// Centre in mm in the plane.
     pub(in crate::exec) centre: [f64; 2],

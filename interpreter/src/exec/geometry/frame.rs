@@ -6,7 +6,7 @@ use super::angle::{cos_deg, sin_deg};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Frame {
     pub(in crate::exec) m: [[f64; 3]; 3],
-    pub(in crate::exec) t: [f64; 3],
+    pub(in crate::exec::geometry) t: [f64; 3],
 }
 
 impl Frame {

@@ -35,11 +35,11 @@ pub(in crate::exec) struct Spindle {
     /// Weight of the acceleration (G130), 1 without one.
     pub(in crate::exec) acceleration_ratio: f64,
     /// Whether M3 or M4 was its last command.
-    pub(in crate::exec) runs: bool,
+    pub(in crate::exec::motion) runs: bool,
     /// Active limits of its tool.
-    pub(in crate::exec) limits: Option<SpindleLimits>,
+    pub(in crate::exec::motion) limits: Option<SpindleLimits>,
     /// Limits of a tool or of the list that take effect at its next start.
-    pub(in crate::exec) passed: Passed,
+    pub(in crate::exec::motion) passed: Passed,
     pub(in crate::exec) feedforward: bool,
     /// Weight of feedforward, 0 to 1.
     pub(in crate::exec) weight_ratio: f64,

@@ -52,7 +52,7 @@ pub(in crate::exec) struct MotionState {
     /// Active `#VECTOR LIMIT` in feed and in rapid blocks.
     pub(in crate::exec) vector: [VectorLimits; 2],
     /// Dynamics in feed and in rapid blocks; reused while the limits do not change.
-    pub(in crate::exec) dynamics: [Option<Arc<ChannelDynamics>>; 2],
+    pub(in crate::exec::motion) dynamics: [Option<Arc<ChannelDynamics>>; 2],
     pub(in crate::exec) overrides: Overrides,
     pub(in crate::exec) independent: Independent,
     pub(in crate::exec) couplings: Couplings,
@@ -262,7 +262,7 @@ pub(in crate::exec) struct Threads {
     /// Speed of the last tapping in rev/min, signed.
     pub(super) tapping_rpm: Option<f64>,
     /// Whether the path follows the rotating spindle.
-    pub(in crate::exec) cutting: bool,
+    pub(in crate::exec::motion) cutting: bool,
     /// Direction of the previous block of G33.
     pub(super) direction: AxisVec,
     /// Speed of the spindle in the previous block of G33 in rev/min.

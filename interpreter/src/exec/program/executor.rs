@@ -36,24 +36,24 @@ enum State {
 
 /// Runs one program and returns its steps.
 pub(crate) struct Executor {
-    pub(in crate::exec) decoder: Decoder,
-    pub(in crate::exec) sources: Arc<dyn Sources>,
-    pub(in crate::exec) parser: Parser,
-    pub(in crate::exec) files: Files,
-    pub(in crate::exec) levels: Vec<Level>,
+    pub(in crate::exec::program) decoder: Decoder,
+    pub(in crate::exec::program) sources: Arc<dyn Sources>,
+    pub(in crate::exec::program) parser: Parser,
+    pub(in crate::exec::program) files: Files,
+    pub(in crate::exec::program) levels: Vec<Level>,
     /// Block numbers for `L SEQUENCE`.
-    pub(in crate::exec) sequences: Sequences,
-    pub(in crate::exec) skip: SkipLevels,
+    pub(in crate::exec::program) sequences: Sequences,
+    pub(in crate::exec::program) skip: SkipLevels,
     state: State,
     start: AxisVec,
     pub(super) found: Found,
     budget: Budget,
     /// Position of the current block.
-    pub(in crate::exec) position: Position,
+    pub(in crate::exec::program) position: Position,
     /// Blocks executed so far, during a check.
-    pub(in crate::exec) reached: Reached,
+    pub(in crate::exec::program) reached: Reached,
     /// Whether blocks that a check did not execute call further files.
-    pub(in crate::exec) calls_more: bool,
+    pub(in crate::exec::program) calls_more: bool,
     /// Whether the program of P-CHAN-00252 has been called.
     pub(in crate::exec::program) end_program_called: bool,
     reason: EndReason,

@@ -25,11 +25,11 @@ const TWICE_MAX: usize = 10_000;
 /// A parsed block.
 #[derive(Debug)]
 pub(in crate::exec) struct Parsed {
-    pub(in crate::exec) block: Block,
+    pub(in crate::exec::program) block: Block,
     /// The event for which the block waits before it reads actual positions.
-    pub(in crate::exec) needs_actual: Option<Sync>,
+    pub(in crate::exec::program) needs_actual: Option<Sync>,
     /// Whether its text has an error.
-    pub(in crate::exec) faulty: bool,
+    pub(in crate::exec::program) faulty: bool,
 }
 
 /// A block to be executed.
@@ -63,9 +63,9 @@ impl Deref for Tree {
 /// One file.
 #[derive(Debug)]
 pub(in crate::exec) struct ProgramFile {
-    pub(in crate::exec) name: Arc<str>,
+    pub(in crate::exec::program) name: Arc<str>,
     reader: BlockReader,
-    pub(in crate::exec) index: Arc<Index>,
+    pub(in crate::exec::program) index: Arc<Index>,
     cache: BTreeMap<u64, (Arc<Parsed>, Position)>,
 }
 
@@ -75,9 +75,9 @@ type Macros = BTreeMap<Box<str>, Box<str>>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) struct Reading {
     /// Whether to keep the block, because it runs again.
-    pub(in crate::exec) keep: bool,
+    pub(in crate::exec::program) keep: bool,
     /// Between `#VAR` and `#ENDVAR`.
-    pub(in crate::exec) declaration: bool,
+    pub(in crate::exec::program) declaration: bool,
 }
 
 /// The way a block that is not executed is checked.

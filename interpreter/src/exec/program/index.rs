@@ -33,16 +33,16 @@ pub(in crate::exec) type EntryId = u32;
 /// One statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) struct Entry {
-    pub(in crate::exec) position: Position,
+    pub(in crate::exec::program) position: Position,
     /// The keyword in its block.
-    pub(in crate::exec) span: Span,
-    pub(in crate::exec) keyword: Keyword,
+    pub(in crate::exec::program) span: Span,
+    pub(in crate::exec::program) keyword: Keyword,
     /// Statement that opened the structure; an opening statement refers to itself.
-    pub(in crate::exec) open: Option<EntryId>,
+    pub(in crate::exec::program) open: Option<EntryId>,
     /// Next clause of the structure, finally its closing statement.
-    pub(in crate::exec) next: Option<EntryId>,
+    pub(in crate::exec::program) next: Option<EntryId>,
     /// Closing statement.
-    pub(in crate::exec) end: Option<EntryId>,
+    pub(in crate::exec::program) end: Option<EntryId>,
     /// Innermost structure around it.
     pub(in crate::exec::program) parent: Option<EntryId>,
 }
@@ -58,7 +58,7 @@ impl Entry {
 /// Target of a jump.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::exec) struct LabelPlace {
-    pub(in crate::exec) position: Position,
+    pub(in crate::exec::program) position: Position,
     /// Innermost structure around it.
     pub(in crate::exec::program) parent: Option<EntryId>,
 }
@@ -66,12 +66,12 @@ pub(in crate::exec) struct LabelPlace {
 /// A main program or local subroutine.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct Section {
-    pub(in crate::exec) name: Option<Arc<str>>,
-    pub(in crate::exec) local: bool,
+    pub(in crate::exec::program) name: Option<Arc<str>>,
+    pub(in crate::exec::program) local: bool,
     /// First block.
-    pub(in crate::exec) start: Position,
+    pub(in crate::exec::program) start: Position,
     /// Offset at which the next section begins, or of the end of the file.
-    pub(in crate::exec) end: u64,
+    pub(in crate::exec::program) end: u64,
 }
 
 /// Structure of a file.

@@ -16,7 +16,7 @@ pub(in crate::exec) struct ProgramInfo {
     /// Offset of the block in its file.
     pub(in crate::exec) offset: u64,
     /// Nesting depth of cycles.
-    pub(in crate::exec) cycles: u32,
+    pub(in crate::exec::program) cycles: u32,
 }
 
 impl Default for ProgramInfo {

@@ -14,30 +14,30 @@ use std::sync::Arc;
 /// One program level.
 #[derive(Debug)]
 pub(in crate::exec) struct Level {
-    pub(in crate::exec) file: usize,
-    pub(in crate::exec) section: usize,
-    pub(in crate::exec) index: Arc<Index>,
+    pub(in crate::exec::program) file: usize,
+    pub(in crate::exec::program) section: usize,
+    pub(in crate::exec::program) index: Arc<Index>,
     /// Next block.
-    pub(in crate::exec) at: Position,
-    pub(in crate::exec) end: u64,
+    pub(in crate::exec::program) at: Position,
+    pub(in crate::exec::program) end: u64,
     /// Position at which it begins again, and the number of passes left (REPEAT of `L SEQUENCE`).
-    pub(in crate::exec) begin: Position,
-    pub(in crate::exec) passes: u32,
-    pub(in crate::exec) frames: Vec<Frame>,
+    pub(in crate::exec::program) begin: Position,
+    pub(in crate::exec::program) passes: u32,
+    pub(in crate::exec::program) frames: Vec<Frame>,
     /// Modal state to be restored; present if the level is a cycle.
-    pub(in crate::exec) cycle: Option<Box<BeforeCycle>>,
+    pub(in crate::exec::program) cycle: Option<Box<BeforeCycle>>,
     /// Whether it is between `#VAR` and `#ENDVAR`.
-    pub(in crate::exec) declarations: bool,
+    pub(in crate::exec::program) declarations: bool,
     /// Start of the present section between `#OPTIONAL EXECUTION ON` and `OFF`.
-    pub(in crate::exec) optional: Option<(Position, Span)>,
+    pub(in crate::exec::program) optional: Option<(Position, Span)>,
     /// Whether a control block without an end covers the rest of the text.
-    pub(in crate::exec) cut: bool,
+    pub(in crate::exec::program) cut: bool,
     /// Offsets of the first and last block that jumps back may execute again.
-    pub(in crate::exec) again: Option<(u64, u64)>,
+    pub(in crate::exec::program) again: Option<(u64, u64)>,
     /// The block that called it; `None` for a program that no block called.
-    pub(in crate::exec) caller: Option<SourceRef>,
+    pub(in crate::exec::program) caller: Option<SourceRef>,
     /// How the block that called it leaves its own level afterwards.
-    pub(in crate::exec) then: Option<Closing>,
+    pub(in crate::exec::program) then: Option<Closing>,
 }
 
 /// Target of a call: a file, and a program in it.
@@ -69,8 +69,8 @@ impl Level {
 /// An open control block.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct Frame {
-    pub(in crate::exec) open: EntryId,
-    pub(in crate::exec) keyword: Keyword,
+    pub(in crate::exec::program) open: EntryId,
+    pub(in crate::exec::program) keyword: Keyword,
     /// Counter, last value and step of `$FOR`.
     pub(super) counter: Option<Arc<Counter>>,
 }
