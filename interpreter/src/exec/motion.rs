@@ -62,7 +62,7 @@ impl Modal {
     /// manual, G08/G09/G900/G901).
     fn brakes_late(&self, early_once: bool, span: Span, report: &mut Report) -> bool {
         let late = self.late_braking && !early_once;
-        if late && self.slope.kind == SlopeKind::Hsc {
+        if late && self.commanded.slope.kind == SlopeKind::Hsc {
             let text = "G901 has no effect with the slope HSC";
             report.note_once(Subject::G(901), Fault::new(Condition::Ignored, text, span));
         }
@@ -312,7 +312,7 @@ impl Decoder {
             full_override: full,
             end_velocity_mm_s,
             late_braking,
-            slope: self.modal.slope,
+            slope: self.modal.commanded.slope,
             dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: if rounds {

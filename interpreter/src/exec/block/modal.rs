@@ -16,7 +16,30 @@ pub(in crate::exec) struct FeedWord {
     pub(in crate::exec) inch: bool,
 }
 
-/// Everything that G words and F, R, I set modally.
+/// Settings that `#` commands make modally; the end of a cycle keeps them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a key of a command")]
+pub(in crate::exec) struct Commanded {
+    /// `#SLOPE`.
+    pub(in crate::exec) slope: Slope,
+    /// Whether selective weights apply (P-CHAN-00001, P-CHAN-00073): from program start, and with the older form of the slope
+    /// command. With `#SLOPE` the weights apply to all values.
+    pub(in crate::exec) old_slope: bool,
+    /// Transition velocity of `#TRANSVELMIN` in mm/s.
+    pub(in crate::exec) transition_min_mm_s: f64,
+    /// `#TANGFEED`: smallest radius of such arcs in mm.
+    pub(in crate::exec) engagement_radius_mm: f64,
+    /// `#TRC [STRETCH_FACTOR]`: reach of the lines at acute outer corners in tool radii.
+    pub(in crate::exec) corner_stretch: f64,
+    /// `#TRC [REVERSE]`.
+    pub(in crate::exec) turns_back: bool,
+    /// `#TRC [PERPENDICULAR_RADIUS_CHANGE]`.
+    pub(in crate::exec) perpendicular_change: bool,
+    /// `#TRC [SUPPRESS_TRC]`: the tool centre follows the contour.
+    pub(in crate::exec) compensation_suppressed: bool,
+}
+
+/// Everything that G words and F, R, I set modally, and the settings of commands.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a group of two words")]
 pub(in crate::exec) struct Modal {
@@ -37,16 +60,6 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) corner_deceleration: bool,
     /// G11: F applies at the point where the tool touches compensated arcs.
     pub(in crate::exec) engagement_feed: bool,
-    /// `#TANGFEED`: smallest radius of such arcs in mm.
-    pub(in crate::exec) engagement_radius_mm: f64,
-    /// `#TRC [STRETCH_FACTOR]`: reach of the lines at acute outer corners in tool radii.
-    pub(in crate::exec) corner_stretch: f64,
-    /// `#TRC [REVERSE]`.
-    pub(in crate::exec) turns_back: bool,
-    /// `#TRC [PERPENDICULAR_RADIUS_CHANGE]`.
-    pub(in crate::exec) perpendicular_change: bool,
-    /// `#TRC [SUPPRESS_TRC]`: the tool centre follows the contour.
-    pub(in crate::exec) compensation_suppressed: bool,
     /// G161: centres in program coordinates.
     pub(in crate::exec) centre_absolute: bool,
     /// G165.
@@ -55,10 +68,6 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) radius_mm: Option<f64>,
     /// The last programmed I, J and K of arcs in their planes, in mm, while they are modal (P-CHAN-00159).
     pub(in crate::exec) centre_mm: [Option<f64>; 3],
-    pub(in crate::exec) slope: Slope,
-    /// Whether selective weights apply (P-CHAN-00001, P-CHAN-00073): from program start, and with the older form of the slope
-    /// command. With `#SLOPE` the weights apply to all values.
-    pub(in crate::exec) old_slope: bool,
     pub(in crate::exec) look_ahead: LookAhead,
     pub(in crate::exec) compensation: Compensation,
     /// Outer corners of tool radius compensation.
@@ -67,10 +76,10 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) selection: Selection,
     /// G51: the face turning axis, programmed in diameters.
     pub(in crate::exec) diameter: Option<usize>,
+    /// What `#` commands set: the end of a cycle does not restore it.
+    pub(in crate::exec) commanded: Commanded,
     /// I of G301/G302 in mm.
     pub(in crate::exec) insertion_mm: Option<f64>,
-    /// Transition velocity of `#TRANSVELMIN` in mm/s.
-    pub(in crate::exec) transition_min_mm_s: f64,
 }
 
 impl Modal {
@@ -122,24 +131,26 @@ impl Modal {
             late_braking: false,
             corner_deceleration: false,
             engagement_feed: false,
-            engagement_radius_mm: 0.0,
-            corner_stretch: 1.0,
-            turns_back: false,
-            perpendicular_change: false,
-            compensation_suppressed: false,
             centre_absolute: false,
             centre_correction: true,
             radius_mm: None,
             centre_mm: [None; 3],
-            slope: Slope { kind: slope, optimised: false, constant_ramp_time },
-            old_slope: true,
+            commanded: Commanded {
+                slope: Slope { kind: slope, optimised: false, constant_ramp_time },
+                old_slope: true,
+                transition_min_mm_s: 0.0,
+                engagement_radius_mm: 0.0,
+                corner_stretch: 1.0,
+                turns_back: false,
+                perpendicular_change: false,
+                compensation_suppressed: false,
+            },
             look_ahead: LookAhead::Complete,
             compensation: Compensation::Off,
             corners: Corners::Straight,
             selection: Selection::default(),
             diameter: None,
             insertion_mm: None,
-            transition_min_mm_s: 0.0,
         }
     }
 

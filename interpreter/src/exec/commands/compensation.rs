@@ -103,25 +103,25 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::unsupported(format!("#TRC [{name}]"), span));
     }
     if let Some((reverse, _)) = keys.reverse {
-        decoder.modal.turns_back = reverse > 0.0;
+        decoder.modal.commanded.turns_back = reverse > 0.0;
     }
     if let Some((perpendicular, _)) = keys.perpendicular {
-        decoder.modal.perpendicular_change = perpendicular > 0.0;
+        decoder.modal.commanded.perpendicular_change = perpendicular > 0.0;
     }
     if let Some((suppress, span)) = keys.suppress {
         if decoder.modal.compensation != Compensation::Off {
             let what = "#TRC [SUPPRESS_TRC] between G41 or G42 and G40";
             return Err(Fault::unsupported(what, span));
         }
-        decoder.modal.compensation_suppressed = suppress > 0.0;
+        decoder.modal.commanded.compensation_suppressed = suppress > 0.0;
     }
     if let Some((factor, span)) = keys.stretch {
-        decoder.modal.corner_stretch = factor;
+        decoder.modal.commanded.corner_stretch = factor;
         if !(1.0..=STRETCH_MAX).contains(&factor) {
             let text = format!("#TRC [STRETCH_FACTOR={factor}], allowed: 1 to 9; 1 is used");
             let fault = Fault::new(Condition::StretchFactor, text, span);
             decoder.report.note(fault.with(|d| d.value(ValueKind::Wrong, factor, "-")));
-            decoder.modal.corner_stretch = 1.0;
+            decoder.modal.commanded.corner_stretch = 1.0;
         }
     }
     Ok(())
@@ -163,7 +163,7 @@ fn set_least_radius(
         r if r < 0.0 => (Condition::TangentialRadiusNegative, "is negative"),
         r if r > LARGEST_MM => (Condition::TangentialRadius, "is outside the data format"),
         _ => {
-            decoder.modal.engagement_radius_mm = radius_mm;
+            decoder.modal.commanded.engagement_radius_mm = radius_mm;
             return Ok(());
         }
     };

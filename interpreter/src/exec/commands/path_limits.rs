@@ -197,7 +197,7 @@ fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = format!("#TRANSVELMIN: {value} is not a velocity");
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
-    decoder.modal.transition_min_mm_s = value * decoder.modal.unit_mm() / 60.0;
+    decoder.modal.commanded.transition_min_mm_s = value * decoder.modal.unit_mm() / 60.0;
     decoder.motion.dynamics_changed();
     Ok(())
 }

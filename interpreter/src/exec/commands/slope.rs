@@ -13,14 +13,14 @@ use crate::exec::values::number::whole;
 use crate::syntax::ast::{Item, ItemKind, ItemValue};
 
 fn default(decoder: &mut Decoder) {
-    decoder.modal.slope.kind = decoder.machine.channel.dynamics.slope;
-    decoder.modal.slope.optimised = false;
+    decoder.modal.commanded.slope.kind = decoder.machine.channel.dynamics.slope;
+    decoder.modal.commanded.slope.optimised = false;
     set_old(decoder, false);
 }
 
 fn set_old(decoder: &mut Decoder, old: bool) {
-    if decoder.modal.old_slope != old {
-        decoder.modal.old_slope = old;
+    if decoder.modal.commanded.old_slope != old {
+        decoder.modal.commanded.old_slope = old;
         decoder.motion.dynamics_changed();
     }
 }
@@ -63,10 +63,10 @@ fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 Fault::new(Condition::SlopeType, text, span).hint("use STEP, TRAPEZ, SIN2 or HSC")
             );
         };
-        decoder.modal.slope.kind = kind;
+        decoder.modal.commanded.slope.kind = kind;
     }
     if let Some((x, _)) = keys.no_opt {
-        decoder.modal.slope.optimised = x < 0.5;
+        decoder.modal.commanded.slope.optimised = x < 0.5;
     }
     set_old(decoder, false);
     Ok(())
@@ -127,7 +127,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         }
     }
-    decoder.modal.slope.kind = kind;
+    decoder.modal.commanded.slope.kind = kind;
     set_old(decoder, true);
     Ok(())
 }

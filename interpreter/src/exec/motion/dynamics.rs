@@ -224,12 +224,12 @@ fn weighted(
     let mut d = axis.dynamics();
     let mut capped = Capped::default();
     // the active profile decides which value becomes 0
-    let stepped = modal.slope.kind == SlopeKind::Step;
+    let stepped = modal.commanded.slope.kind == SlopeKind::Step;
     let stages = [Cut::ZeroFirstStage, Cut::ZeroSecondStage].map(|c| stepped.then_some(c));
     let smooth = [Cut::ZeroAcceleration, Cut::ZeroDeceleration].map(|c| (!stepped).then_some(c));
     let (a_cap, floor) = (axis.a_w_max_mm_s2(), axis.tr_w_min_s());
     // P-CHAN-00001, P-CHAN-00073: selective weights apply to the older command
-    let (accelerations, ramps) = if modal.old_slope {
+    let (accelerations, ramps) = if modal.commanded.old_slope {
         (channel.dynamics.acc_selection, channel.dynamics.ramp_selection)
     } else {
         (0, 0)
@@ -290,7 +290,7 @@ pub(in crate::exec) fn channel_dynamics(
         vector,
         vector_acc_on_arcs: channel.dynamics.vector_acc_on_arcs,
         curve_jerk: channel.dynamics.curve_jerk,
-        transition_velocity_min_mm_s: modal.transition_min_mm_s,
+        transition_velocity_min_mm_s: modal.commanded.transition_min_mm_s,
         stop_at_transitions: modal.look_ahead == LookAhead::StopAtTransitions,
     };
     (dynamics, capped)

@@ -60,7 +60,7 @@ impl Decoder {
             (None, Some(_)) => (13, span),
         };
         let over_path = interpolated.is_some_and(|(row, _)| row.act == Act::FeedOverPath);
-        match self.modal.slope.kind {
+        match self.modal.commanded.slope.kind {
             SlopeKind::Step => {}
             SlopeKind::Hsc if over_path => {
                 return Err(Fault::unsupported("G193 with the slope HSC", span));

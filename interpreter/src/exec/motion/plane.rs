@@ -57,8 +57,8 @@ impl Decoder {
     /// Axes of the active plane, its coordinate system if it is oblique to the axes, and the compensation.
     pub(super) fn in_plane(&self, span: Span) -> Outcome<InPlane> {
         let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let compensated =
-            self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
+        let compensated = self.modal.compensation != Compensation::Off
+            && !self.modal.commanded.compensation_suppressed;
         let PlaneImage { main, keeps_sense, tilt } = self.geometry.image_of_plane(
             self.modal.plane.main_axes(),
             &self.motion.independent.way,
@@ -80,14 +80,14 @@ impl Decoder {
         let compensation = compensated.then_some(Compensated {
             distance_mm: if left { radius } else { -radius },
             straight_corners: (self.modal.corners == Corners::Straight)
-                .then_some(self.modal.corner_stretch),
-            reverse: self.modal.turns_back,
-            perpendicular_change: self.modal.perpendicular_change,
+                .then_some(self.modal.commanded.corner_stretch),
+            reverse: self.modal.commanded.turns_back,
+            perpendicular_change: self.modal.commanded.perpendicular_change,
             selection: self.modal.selection,
             engagement_radius_mm: self
                 .modal
                 .engagement_feed
-                .then_some(self.modal.engagement_radius_mm),
+                .then_some(self.modal.commanded.engagement_radius_mm),
         });
         Ok(InPlane { plane: [first, second], tilt, compensation })
     }

@@ -233,7 +233,7 @@ impl Decoder {
         Ok(Box::new(Straight {
             feed,
             feed_ratio: self.motion.overrides.ratio(rapid, 0..1),
-            slope: self.modal.slope,
+            slope: self.modal.commanded.slope,
             dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: self.contour.hsc.contour(),

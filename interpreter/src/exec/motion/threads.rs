@@ -327,7 +327,7 @@ impl Decoder {
             full_override: false,
             end_velocity_mm_s: None,
             late_braking: false,
-            slope: self.modal.slope,
+            slope: self.modal.commanded.slope,
             dynamics,
             tolerance: self.shaping.tolerance(),
             contour: None,

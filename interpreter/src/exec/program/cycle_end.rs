@@ -53,18 +53,7 @@ impl Decoder {
                 }
             }
         }
-        let now = &self.modal;
-        let restored = Modal {
-            engagement_radius_mm: now.engagement_radius_mm,
-            corner_stretch: now.corner_stretch,
-            turns_back: now.turns_back,
-            perpendicular_change: now.perpendicular_change,
-            compensation_suppressed: now.compensation_suppressed,
-            slope: now.slope,
-            old_slope: now.old_slope,
-            transition_min_mm_s: now.transition_min_mm_s,
-            ..modal
-        };
+        let restored = Modal { commanded: self.modal.commanded, ..modal };
         if self.modal != restored {
             self.modal = restored;
             self.geometry.apply_tool(self.modal.plane.main_axes());
