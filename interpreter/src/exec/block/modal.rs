@@ -27,7 +27,7 @@ pub(in crate::exec) struct Commanded {
     pub(in crate::exec) old_slope: bool,
     /// Transition velocity of `#TRANSVELMIN` in mm/s.
     pub(in crate::exec) transition_min_mm_s: f64,
-    /// `#TANGFEED`: smallest radius of such arcs in mm.
+    /// `#TANGFEED`: smallest radius in mm of the arcs whose feed applies at the point of engagement (G11).
     pub(in crate::exec) engagement_radius_mm: f64,
     /// `#TRC [STRETCH_FACTOR]`: reach of the lines at acute outer corners in tool radii.
     pub(in crate::exec) corner_stretch: f64,

@@ -142,7 +142,7 @@ impl Decoder {
             }
             WordKind::Assign(assign) => self.assignment(assign, span, block),
             WordKind::MacroDefinition(definition) => self.define_macro(definition, span),
-            WordKind::MacroUse(name) => Err(self.undefined_macro(name, span)),
+            WordKind::MacroUse(name) => Err(self.calls.undefined_macro(name, span)),
             WordKind::Hash(hash) if hash.name.split(' ').next() == Some("ADD") => {
                 block.addition = Some((hash, span));
                 Ok(())

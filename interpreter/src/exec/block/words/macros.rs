@@ -3,6 +3,7 @@
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::program::state::Calls;
 use crate::exec::report::Report;
 use crate::machine::Channel;
 use crate::machine::table::channel as of;
@@ -19,14 +20,16 @@ impl Decoder {
         self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
         Ok(())
     }
+}
 
+impl Calls {
     /// A macro without a definition in the blocks before.
     pub(super) fn undefined_macro(&self, name: &str, span: Span) -> Box<Fault> {
         let text = format!("macro \"{name}\" is not defined");
-        let known = self.calls.macros.keys().map(|k| &**k);
+        let known = self.macros.keys().map(|k| &**k);
         let fault = Fault::new(Condition::Undefined, text, span);
         match suggest::hint(name, known) {
-            _ if self.calls.macros.contains_key(name.trim_ascii()) => {
+            _ if self.macros.contains_key(name.trim_ascii()) => {
                 fault.hint("it is defined in this block and valid from the next block on")
             }
             Some(hint) => fault.hint(hint),
