@@ -10,7 +10,7 @@
 //!
 //! A file of `lists` takes the place of a list of the machine `xyz`: `# x.lis: exit 0`.
 //!
-//! `open.csv` gives the reason for every ID of the catalogue without a file.
+//! `open.csv` gives the reason for every ID of the catalogue without a program or list.
 
 use kontur_interpreter::diag::condition;
 use kontur_tests::suite::{self, call, compare, files, head, machines, name};
@@ -58,17 +58,16 @@ fn list(path: &Path) -> Result<(), Failed> {
     Ok(compare(&head.what, &head, exit, &said)?)
 }
 
-/// Files by the IDs in their heads.
-fn named() -> Result<BTreeMap<String, BTreeSet<String>>, Failed> {
-    let mut named: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+/// The IDs in the heads of programs and lists. What the vendor's page of an ID prints is a program of `printed` alone.
+fn named() -> Result<BTreeSet<String>, Failed> {
     let folder = folder();
-    for path in files(&folder, "nc").into_iter().chain(files(&folder.join("lists"), "lis")) {
+    let lists = files(&folder.join("lists"), "lis");
+    let printed = files(&suite::folder("printed"), "nc");
+    let mut named = BTreeSet::new();
+    for path in files(&folder, "nc").into_iter().chain(lists).chain(printed) {
         let head = head(&String::from_utf8_lossy(&std::fs::read(&path)?))
             .map_err(|e| format!("{}: {e}", path.display()))?;
-        let file = path.strip_prefix(&folder)?.display().to_string();
-        for (_, id, _) in head.messages {
-            named.entry(id).or_default().insert(file.clone());
-        }
+        named.extend(head.messages.into_iter().map(|(_, id, _)| id));
     }
     Ok(named)
 }
@@ -84,7 +83,7 @@ fn open() -> Result<BTreeMap<String, String>, Failed> {
 fn complete() -> Result<(), Failed> {
     let (named, open) = (named()?, open()?);
     let known: BTreeSet<String> = condition::rows().map(|row| row.id.to_string()).collect();
-    for id in named.keys().chain(open.keys()) {
+    for id in named.iter().chain(open.keys()) {
         let of_the_program = id.parse().is_ok_and(|n: u32| (1..=1000).contains(&n));
         if !known.contains(id) && !of_the_program {
             return Err(format!("{id} is not in the catalogue").into());
@@ -92,7 +91,7 @@ fn complete() -> Result<(), Failed> {
     }
     let mut wrong = Vec::new();
     for id in &known {
-        match (named.contains_key(id), open.contains_key(id)) {
+        match (named.contains(id), open.contains_key(id)) {
             (false, false) => wrong.push(format!("{id} has neither a file nor a reason")),
             (true, true) => wrong.push(format!("{id} has a file and a reason to have none")),
             _ => {}

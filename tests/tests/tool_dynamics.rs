@@ -2,6 +2,7 @@
 //!
 //! D1 has the numbers of TF5200 spindle 287608459: 10 to 500 rev/min and 3000 deg/s2; D2 allows 200 rev/min at most.
 
+use kontur_kit::Random;
 use kontur_tests::{Run, run};
 
 const TOOLS: [&str; 14] = [
@@ -88,23 +89,18 @@ fn what_changes_nothing_at_once() {
 /// Random commands: a tool that permits everything gives the same bits as one without a spindle.
 #[test]
 fn limits_beyond_those_of_the_list_change_nothing() {
-    let mut state = 20_261_126_u64;
-    let mut random = |n: u64| {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) % n
-    };
+    let mut random = Random::new(20_261_126);
     for _ in 0..40 {
         let mut program = String::new();
         for _ in 0..8 {
-            program += &match random(7) {
-                0 => format!("M3 S{}\n", random(13_000)),
-                1 => format!("M4 S{}\n", random(13_000)),
+            program += &match random.below(7) {
+                0 => format!("M3 S{}\n", random.below(13_000)),
+                1 => format!("M4 S{}\n", random.below(13_000)),
                 2 => "M5\n".to_owned(),
-                3 => format!("M19 S200 S.POS{}\n", random(360)),
-                4 => format!("S[G130={}]\n", 10 + random(90)),
+                3 => format!("M19 S200 S.POS{}\n", random.below(360)),
+                4 => format!("S[G130={}]\n", 10 + random.below(90)),
                 5 => "S[GET_DYNAMIC_DATA]\n".to_owned(),
-                _ => format!("G04 {}\n", random(20) as f64 / 10.0),
+                _ => format!("G04 {}\n", random.below(20) as f64 / 10.0),
             };
         }
         let angles = |tool: u32| {
