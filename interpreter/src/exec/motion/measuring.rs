@@ -8,7 +8,7 @@
 //! Assumptions, where they are silent: the path stops before a run; a run without a signal keeps the measured values and sets
 //! V.A.MERF to FALSE; types 3 to 6 treat a missing signal as type 1 does (P-CHAN-00176).
 
-use super::state::measuring::{Measured, Pending};
+use super::state::measuring::{Measured, Measuring, Pending};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::choice::{Compensation, PathMode};
 use crate::exec::block::collected::{GWord, Words};
@@ -18,6 +18,32 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::syntax::ast::{Jump, Span};
 use kontur_motion::block::Feed;
+
+impl Measuring {
+    /// Functions that belong to other measuring types; `through`: with G106.
+    fn type_fits(&self, g: &GWord, through: bool) -> Outcome<()> {
+        let kind = self.kind;
+        let of_kind = |condition, text| {
+            Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Current, kind, "-"))
+        };
+        match (g.row.number, kind) {
+            (100, 5 | 6) => {
+                let text = format!("G100 with measuring type {kind}");
+                return Err(of_kind(Condition::MeasuringTypeOfG100, text));
+            }
+            (310, 1..=4 | 7) => {
+                let text = format!("G310 with measuring type {kind}");
+                return Err(of_kind(Condition::MeasuringTypeOfG310, text));
+            }
+            _ => {}
+        }
+        if through && kind != 3 {
+            let text = format!("G106 with measuring type {kind}");
+            return Err(of_kind(Condition::MeasuringFunction, text));
+        }
+        Ok(())
+    }
+}
 
 impl Decoder {
     /// G100, G310.
@@ -79,25 +105,7 @@ impl Decoder {
 
     /// Functions that cannot be combined with a run, or with its type.
     fn measuring_fits(&mut self, g: &GWord, words: &Words<'_>, through: bool) -> Outcome<()> {
-        let kind = self.motion.measuring.kind;
-        let of_kind = |condition, text| {
-            Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Current, kind, "-"))
-        };
-        match (g.row.number, kind) {
-            (100, 5 | 6) => {
-                let text = format!("G100 with measuring type {kind}");
-                return Err(of_kind(Condition::MeasuringTypeOfG100, text));
-            }
-            (310, 1..=4 | 7) => {
-                let text = format!("G310 with measuring type {kind}");
-                return Err(of_kind(Condition::MeasuringTypeOfG310, text));
-            }
-            _ => {}
-        }
-        if through && kind != 3 {
-            let text = format!("G106 with measuring type {kind}");
-            return Err(of_kind(Condition::MeasuringFunction, text));
-        }
+        self.motion.measuring.type_fits(g, through)?;
         match words.group(Group::Path).map(|g| g.row.act) {
             Some(Act::Path(PathMode::Clockwise | PathMode::CounterClockwise)) => {
                 let text = format!("G{} with an arc", g.row.number);
@@ -118,6 +126,25 @@ impl Decoder {
             let text = format!("G{} without axis words", g.row.number);
             return Err(Fault::new(Condition::MeasuringWay, text, g.span));
         }
+        self.axes_measure(g, words)?;
+        if self.modal.compensation != Compensation::Off {
+            let text = "a measuring run while tool radius compensation is active";
+            return Err(Fault::new(Condition::MeasuringCompensated, text, g.span));
+        }
+        if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
+            let text = "a measuring run while contouring is active";
+            return Err(Fault::new(Condition::MeasuringWithContouring, text, g.span)
+                .hint("write G260 before it and G261 after it"));
+        }
+        if self.contour.akima.selected {
+            return Err(Fault::unsupported("measuring in a spline", g.span));
+        }
+        Ok(())
+    }
+
+    /// The axes of a run: their number, and whether the lists let them measure.
+    fn axes_measure(&self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        let kind = self.motion.measuring.kind;
         let most = match kind {
             2 => 1,
             4 => 3,
@@ -161,18 +188,6 @@ impl Decoder {
             let text = "measuring type 7: none of the axes of the run looks for a fixed stop";
             let hint = "set kenngr.meas_signal_fixed_stop to 1 and a lag in kenngr.fixed_stop_pos_lag_limit";
             return Err(Fault::new(Condition::NoMeasuringAxis, text, g.span).hint(hint));
-        }
-        if self.modal.compensation != Compensation::Off {
-            let text = "a measuring run while tool radius compensation is active";
-            return Err(Fault::new(Condition::MeasuringCompensated, text, g.span));
-        }
-        if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
-            let text = "a measuring run while contouring is active";
-            return Err(Fault::new(Condition::MeasuringWithContouring, text, g.span)
-                .hint("write G260 before it and G261 after it"));
-        }
-        if self.contour.akima.selected {
-            return Err(Fault::unsupported("measuring in a spline", g.span));
         }
         Ok(())
     }

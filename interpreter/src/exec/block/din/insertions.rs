@@ -9,6 +9,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::Channel;
+use crate::syntax::ast::Span;
 
 /// `#CHR`, `#CHF` and `#RND` in a motion apply to the corner at its end; as separate blocks they lie between two motions.
 ///
@@ -31,29 +32,7 @@ impl Decoder {
         {
             return;
         }
-        let mut request = None;
-        for g in &words.g {
-            let kind = match g.row.act {
-                Act::Chamfer => Kind::Chamfer,
-                Act::Rounding => Kind::Rounding,
-                _ => continue,
-            };
-            let written = words.centre[0].map(|(i, span)| (i * self.modal.unit_mm(), span));
-            if let Some((size, _)) = written {
-                self.modal.insertion_mm = Some(size);
-            }
-            match self.modal.insertion_mm {
-                Some(size) if size > LARGEST_MM => {
-                    let text = format!("G{}: {size} mm is outside the data format", g.row.number);
-                    self.report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
-                }
-                Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
-                _ => {
-                    let text = format!("G{} without a size (I)", g.row.number);
-                    self.report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
-                }
-            }
-        }
+        let mut request = self.insertion_of_function(words);
         let mut feed = None;
         for (hash, value, span) in &words.hashes {
             let kind = match &*hash.name {
@@ -123,6 +102,34 @@ impl Decoder {
             let text = "#FRC without chamfer or rounding has no effect";
             self.report.note(Fault::new(Condition::Odd, text, at).warning());
         }
+    }
+
+    /// The insertion of G301 or G302; its size is modal.
+    fn insertion_of_function(&mut self, words: &Words<'_>) -> Option<(Kind, f64, Span)> {
+        let mut request = None;
+        for g in &words.g {
+            let kind = match g.row.act {
+                Act::Chamfer => Kind::Chamfer,
+                Act::Rounding => Kind::Rounding,
+                _ => continue,
+            };
+            let written = words.centre[0].map(|(i, span)| (i * self.modal.unit_mm(), span));
+            if let Some((size, _)) = written {
+                self.modal.insertion_mm = Some(size);
+            }
+            match self.modal.insertion_mm {
+                Some(size) if size > LARGEST_MM => {
+                    let text = format!("G{}: {size} mm is outside the data format", g.row.number);
+                    self.report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
+                }
+                Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
+                _ => {
+                    let text = format!("G{} without a size (I)", g.row.number);
+                    self.report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
+                }
+            }
+        }
+        request
     }
 }
 

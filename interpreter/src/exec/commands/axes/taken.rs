@@ -78,8 +78,8 @@ fn number(
     }
 }
 
-/// `[name, number, index, options]`.
-fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> {
+/// The name of an axis exchange in capitals, and its place.
+fn name_of(group: &Group) -> Outcome<(String, Span)> {
     let items = &group.items;
     let name = match items.first().map(|i| (&i.kind, i.span)) {
         Some((ItemKind::Flag(name), _)) => name.clone(),
@@ -105,6 +105,12 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
         let text = format!("`{}` is not an axis name", name.text);
         return Err(Fault::new(Condition::ExchangeName, text, name.span));
     }
+    Ok((letters, name.span))
+}
+
+/// The logical number and the index of an axis exchange, whose options are checked.
+fn numbers_of(decoder: &Decoder, group: &Group) -> Outcome<(u32, u32)> {
+    let items = &group.items;
     let at = |i: usize| items.get(i).map_or(group.span, |item| item.span);
     let logical = number(
         decoder,
@@ -138,6 +144,15 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
             }
         }
     }
+    Ok((logical, index))
+}
+
+/// `[name, number, index, options]`.
+fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> {
+    let items = &group.items;
+    let (letters, named) = name_of(group)?;
+    let (logical, index) = numbers_of(decoder, group)?;
+    let at = |i: usize| items.get(i).map_or(group.span, |item| item.span);
     let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
         let text = format!("no axis of the channel has the logical number {logical}");
         let hint = "only axes named in the channel list at start-up exist; other lists are not simulated (K-0075)";
@@ -158,7 +173,7 @@ fn take(decoder: &mut Decoder, group: &Group, taken: &mut Taken) -> Outcome<()> 
             Condition::ExchangeNameTaken
         };
         let text = format!("two axes of the channel would have the name {letters}");
-        return Err(Fault::new(condition, text, name.span));
+        return Err(Fault::new(condition, text, named));
     }
     let main = index as usize;
     if index < 3 && decoder.geometry.coordinates.main_axis(main).is_some_and(|other| other != axis)
