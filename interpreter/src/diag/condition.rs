@@ -87,4 +87,14 @@ mod tests {
             );
         }
     }
+
+    /// Documented conditions may concern parameters without a row.
+    #[test]
+    fn raised_conditions_name_parameters_of_the_table() {
+        for row in raised::ROWS {
+            for id in row.parameter.into_iter().flat_map(|ids| ids.split(", ")) {
+                assert!(crate::machine::table::by_id(id).is_some(), "{} names {id}", row.id);
+            }
+        }
+    }
 }
