@@ -56,7 +56,7 @@ pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 pub(crate) use tools::INCH_MM;
-pub use tools::{SpindleLimits, Tool, ToolKind, ZeroOffsets};
+pub(crate) use tools::{SpindleLimits, Tool, ToolKind, ZeroOffsets};
 
 use kontur_filters::control::monitor::ExactStopConfig;
 use kontur_filters::time::CycleTime;
@@ -74,13 +74,13 @@ pub struct Machine {
     /// Spindles in the order of the channel list.
     pub spindles: Vec<Axis>,
     /// Gantry slaves: axis lists that no channel names and that name a master (P-AXIS-00070).
-    pub gantry_slaves: Vec<Axis>,
+    pub(crate) gantry_slaves: Vec<Axis>,
     /// Channel.
     pub channel: Channel,
     /// Tools by the number of the D word (P-STUP-00010).
-    pub tools: BTreeMap<u32, Tool>,
+    pub(crate) tools: BTreeMap<u32, Tool>,
     /// Zero offsets (P-STUP-00011).
-    pub zero_offsets: ZeroOffsets,
+    pub(crate) zero_offsets: ZeroOffsets,
 }
 
 /// Whether a position in mm (deg) is outside software limits. A position closer to a limit than half of the increment in

@@ -13,7 +13,7 @@ pub(crate) const INCH_MM: f64 = 25.4;
 
 /// Purpose of a tool (P-TOOL-00001).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ToolKind {
+pub(crate) enum ToolKind {
     /// 0.
     #[default]
     Milling,
@@ -27,7 +27,7 @@ pub enum ToolKind {
 
 impl ToolKind {
     /// Name in messages.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Milling => "milling",
             Self::Turning => "turning",
@@ -39,13 +39,13 @@ impl ToolKind {
 
 /// Limits that a tool sets for its spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpindleLimits {
+pub(crate) struct SpindleLimits {
     /// Lowest speed in deg/s while it turns (P-TOOL-00013).
-    pub min_deg_s: f64,
+    pub(crate) min_deg_s: f64,
     /// Largest speed in deg/s (P-TOOL-00014).
-    pub max_deg_s: f64,
+    pub(crate) max_deg_s: f64,
     /// Largest acceleration in deg/s2 (P-TOOL-00015).
-    pub acc_deg_s2: f64,
+    pub(crate) acc_deg_s2: f64,
 }
 
 impl Default for SpindleLimits {
@@ -57,29 +57,29 @@ impl Default for SpindleLimits {
 
 /// One tool.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tool {
+pub(crate) struct Tool {
     /// P-TOOL-00004 in mm.
-    pub radius_mm: f64,
+    pub(crate) radius_mm: f64,
     /// P-TOOL-00003 in mm.
-    pub length_mm: f64,
+    pub(crate) length_mm: f64,
     /// Offsets by the index of the axis in the channel, in mm or deg (P-TOOL-00006).
-    pub offsets_mm: BTreeMap<usize, f64>,
+    pub(crate) offsets_mm: BTreeMap<usize, f64>,
     /// Free parameters (P-TOOL-00007).
-    pub parameters: BTreeMap<u32, f64>,
+    pub(crate) parameters: BTreeMap<u32, f64>,
     /// P-TOOL-00005; data written by a program are valid.
-    pub is_valid: bool,
+    pub(crate) is_valid: bool,
     /// Logical number of the spindle that the tool limits (P-TOOL-00012), 0: none.
-    pub spindle: u32,
+    pub(crate) spindle: u32,
     /// Limits for this spindle.
-    pub limits: SpindleLimits,
+    pub(crate) limits: SpindleLimits,
     /// P-TOOL-00001.
-    pub kind: ToolKind,
+    pub(crate) kind: ToolKind,
     /// Wear of a grinding wheel in mm per mm of way (P-TOOL-00030).
-    pub wear_ratio: f64,
+    pub(crate) wear_ratio: f64,
     /// Largest external wear in mm (P-TOOL-00031).
-    pub most_infeed_mm: f64,
+    pub(crate) most_infeed_mm: f64,
     /// Angle between the axis of a grinding wheel and the third main axis in deg (P-TOOL-00138).
-    pub tilt_deg: f64,
+    pub(crate) tilt_deg: f64,
 }
 
 impl Default for Tool {
@@ -102,13 +102,13 @@ impl Default for Tool {
 
 /// Zero offsets of a channel.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ZeroOffsets {
+pub(crate) struct ZeroOffsets {
     /// mm or deg by group and index of the axis in the channel (P-ZERO-00003).
-    pub entries: BTreeMap<(u32, usize), f64>,
+    pub(crate) entries: BTreeMap<(u32, usize), f64>,
     /// Group that is active at program start (P-ZERO-00002).
-    pub start_group: u32,
+    pub(crate) start_group: u32,
     /// G53 has the offsets of group 0 (P-ZERO-00001); otherwise it cancels the offsets.
-    pub has_g53: bool,
+    pub(crate) has_g53: bool,
 }
 
 /// K-0075 for an offset of an axis that the channel does not have, unless it is 0. The vendor's lists have entries for
