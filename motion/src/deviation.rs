@@ -22,10 +22,9 @@
 //! way back that is only slightly nearer, along another axis, and that ends with the last cycle that counts.
 //!
 //! Between two samples (a) is evaluated where it can be larger than at both of them: where the nearest point moves from
-//! one block to another, and at the middle of a curved block. (b) is evaluated at block boundaries with a kink and at the
-//! interpolated points of which the filters hold more than one straight block; between these where the nearest point
-//! passes to another part of the set path, because the vector then turns, and on curved blocks whose points are far
-//! apart. The planner chooses its points by a bound on what lies between them.
+//! one block to another, and at the middle of a curved block. (b) is evaluated at block boundaries with a kink and, on
+//! curved blocks, at the interpolated points. Along a straight block (b) follows from (a) by continuity, as long as all
+//! axes have the same filter; otherwise the interpolated points are evaluated there as well.
 
 mod between;
 mod component;

@@ -2,8 +2,7 @@
 
 use super::{Excursion, SetPath};
 use crate::axis::AxisVec;
-use crate::contour::{Contour, ROUNDING_MM, Sight};
-use smallvec::SmallVec;
+use crate::contour::{Contour, Sight};
 
 /// Deviation in both directions, cycle by cycle, for the output.
 #[derive(Clone, Debug, Default)]
@@ -17,52 +16,10 @@ pub(crate) struct Gauge {
     sight: Sight,
     /// Number of the last block that has left the filters.
     left: u64,
-    /// Cycle and place of the last point of the contour that was examined.
-    foot: Option<(u64, Foot)>,
     /// Last cycle whose set point differed from the interpolated one.
     filtered: Option<u64>,
     /// Shortest vector to the last set point with its length in mm.
     shortest: Option<(f64, AxisVec)>,
-}
-
-/// Movement of the nearest set point, as a multiple of that along the contour, from which on it has passed to another
-/// part of the set path: then a point between may be missed by more, or along another axis.
-const JUMP: f64 = 1.5;
-/// Halvings of the contour in one cycle in the search for this place.
-const HALVINGS: u32 = 10;
-/// Distance between points of a bent contour, as a multiple of what is missed there, from which on points between are
-/// examined, and the halvings for them.
-const COARSE: f64 = 0.5;
-const PARTS: u32 = 2;
-
-/// A point of the contour and the vector to the nearest set point.
-#[derive(Clone, Debug)]
-struct Foot {
-    of: AxisVec,
-    vector: AxisVec,
-}
-
-impl Foot {
-    /// Halvings of the contour up to another point that are worthwhile.
-    fn halvings(&self, other: &Self, bent: bool) -> u32 {
-        let between = |f: &dyn Fn(&Self, usize) -> f64| {
-            let square = |i| (f(other, i) - f(self, i)) * (f(other, i) - f(self, i));
-            (0..self.of.len()).map(square).sum::<f64>().sqrt()
-        };
-        let way = between(&|foot, i| foot.of[i]);
-        let moved = between(&|foot, i| foot.of[i] + foot.vector[i]);
-        let missed = |foot: &Self| foot.vector.iter().map(|c| c * c).sum::<f64>();
-        let most = missed(self).max(missed(other)).sqrt();
-        if way <= ROUNDING_MM {
-            0
-        } else if moved > JUMP * way {
-            HALVINGS
-        } else if bent && way > COARSE * most {
-            PARTS
-        } else {
-            0
-        }
-    }
 }
 
 impl Gauge {
@@ -153,83 +110,28 @@ impl Gauge {
         let passed = k as f64 - self.reach as f64 - 1.0;
         let entered = contour.entered_near(passed, contour.index(self.left).unwrap_or_default());
         self.left = contour.number(entered);
-        let before = k.checked_sub(1).and_then(|before| self.foot.take_if(|(at, _)| *at == before));
-        let mut last = before.map(|(_, foot)| foot);
-        let bent = contour.is_bent(entered);
         for (moment, point) in contour.kinks(passed - 1.0, entered) {
             let first = moment.floor().max(0.0) as u64;
-            let among = (first, first + self.reach + 2);
-            last = self.follow(contour, (k, passed), point, among, (last, bent), least_mm);
+            self.miss(contour, k, &point, (first, first + self.reach + 2), least_mm);
         }
         if let Some(first) = k.checked_sub(self.reach + 1)
-            && (self.every || bent || self.holds_several(contour, k))
+            && (self.every || contour.is_bent(entered))
             && let Some(point) = self.path.get(first).map(AxisVec::from_slice)
         {
-            let among = (first, k);
-            last = self.follow(contour, (k, passed), point, among, (last, bent), least_mm);
-            self.foot = last.map(|foot| (k, foot));
+            self.miss(contour, k, &point, (first, k), least_mm);
         }
-    }
-
-    /// Whether the set points near a point that leaves the filters in cycle `k` depend on more than one block.
-    fn holds_several(&self, contour: &Contour, k: u64) -> bool {
-        contour.between(k as f64 - 2.0 * self.reach as f64 - 2.0, k as f64).nth(1).is_some()
-    }
-
-    /// Examines a point of the contour, and the points between it and the last one where another one may be missed by
-    /// more.
-    fn follow(
-        &mut self,
-        contour: &Contour,
-        (k, passed): (u64, f64),
-        point: AxisVec,
-        among: (u64, u64),
-        (last, bent): (Option<Foot>, bool),
-        least_mm: f64,
-    ) -> Option<Foot> {
-        let foot = self.miss(contour, k, point, among, least_mm)?;
-        if let Some(last) = last {
-            let mut open: SmallVec<[(Foot, Foot, u32); 4]> = SmallVec::new();
-            open.push((last, foot.clone(), HALVINGS));
-            while let Some((low, high, left)) = open.pop() {
-                let halvings = low.halvings(&high, bent);
-                if halvings + left <= HALVINGS {
-                    continue;
-                }
-                let mut middle: AxisVec =
-                    low.of.iter().zip(high.of.iter()).map(|(a, b)| 0.5 * (a + b)).collect();
-                if bent {
-                    // the middle of a chord lies beside the block
-                    let mut aside = AxisVec::zeros(middle.len());
-                    contour.nearest(&middle, passed - 1.0, passed, &mut aside);
-                    middle.iter_mut().zip(aside.iter()).for_each(|(m, a)| *m -= a);
-                }
-                let Some(middle) = self.miss(contour, k, middle, among, least_mm) else { continue };
-                open.push((middle.clone(), high, left - 1));
-                open.push((low, middle, left - 1));
-            }
-        }
-        Some(foot)
     }
 
     /// Adds the vector from a point of the contour to the set path between two cycles: the shortest one or, if that
     /// exceeds the tolerance of the blocks that the filters held, the one with the smallest largest component. Vectors
     /// up to `least_mm`, the least tolerance of the run, do not exceed any.
-    fn miss(
-        &mut self,
-        contour: &Contour,
-        k: u64,
-        of: AxisVec,
-        among: (u64, u64),
-        least_mm: f64,
-    ) -> Option<Foot> {
-        let mut shortest = Excursion::none(of.len());
-        let (_, vector) = self.set.misses(&of, among, f64::INFINITY, &mut shortest)?;
+    fn miss(&mut self, contour: &Contour, k: u64, point: &[f64], among: (u64, u64), least_mm: f64) {
+        let mut shortest = Excursion::none(point.len());
+        self.set.misses(point, among, f64::INFINITY, &mut shortest);
         let exceeds = shortest.largest() > least_mm
             && loosest(contour, k, self.reach).is_some_and(|(mm, _)| shortest.largest() > mm);
-        let least = exceeds.then(|| self.set.reaches(&of, among)).flatten();
+        let least = exceeds.then(|| self.set.reaches(point, among)).flatten();
         self.found.take(&least.unwrap_or(shortest.vector));
-        Some(Foot { of, vector })
     }
 }
 
