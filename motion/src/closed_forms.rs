@@ -1,4 +1,5 @@
-//! Counts evaluations of the closed forms of the look-ahead, so that a test can judge its cost without a clock.
+//! Counts evaluations of the closed forms of the look-ahead and set points of plans under examination, so that a test can
+//! judge their cost without a clock.
 
 use std::cell::Cell;
 
@@ -19,11 +20,64 @@ fn take() -> u64 {
 mod tests {
     use super::take;
     use crate::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
-    use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
-    use crate::path::{LinePath, Path};
+    use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
+    use crate::path::{ArcPath, ArcShape, LinePath, Path};
     use crate::planner::{Next, Planner};
+    use crate::tolerance::Kernels;
     use kontur_filters::time::CycleTime;
+    use kontur_filters::vib_guard::VibGuardSettings;
+    use kontur_kit::Random;
     use std::sync::Arc;
+
+    /// Lines and arcs with filters that differ, searched for a plan within the tolerance: set points computed per cycle of
+    /// the motion.
+    fn searched(r: &mut Random) -> f64 {
+        let cycle = CycleTime::from_us(500).unwrap();
+        let kernels = (0..3).map(|_| {
+            let (mode, freq_hz) = (r.pick(&[1, 2, 3, 4]), r.log(10.0, 80.0));
+            let guard = VibGuardSettings { mode, freq_hz, damping: 0.0 };
+            Some(Arc::new(guard.kernel(cycle).unwrap()))
+        });
+        let mut planner = Planner::new(cycle, 120, &[0.0; 3]);
+        planner.set_kernels(Kernels::new(kernels.collect()), 0);
+        let (dynamics, tolerance_mm) = (dynamics(), r.log(0.005, 0.05));
+        let mut from = AxisVec::zeros(3);
+        for seq in 0..4 {
+            let mut to: AxisVec = from.iter().map(|p| p + r.between(-8.0, 8.0)).collect();
+            let path = if r.ratio() < 0.5 {
+                Path::Line(LinePath::new(from, to.clone(), &[]).unwrap())
+            } else {
+                to[2] = from[2];
+                let sweep_rad = r.between(0.5, 2.0);
+                let aside = 0.5 / libm::tan(0.5 * sweep_rad);
+                let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+                let centre_mm = [from[0] + 0.5 * dx - aside * dy, from[1] + 0.5 * dy + aside * dx];
+                let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad };
+                Path::Arc(ArcPath::new(from, to.clone(), shape, &[true; 3]).unwrap())
+            };
+            from = to;
+            let feed = Feed::PathVelocity(100.0);
+            let block = Block::new(seq, path, feed, Arc::clone(&dynamics));
+            let tolerance = Tolerance { ax_dev_mm: Some(tolerance_mm), acc_fact: 1.0 };
+            let slope = Slope { kind: SlopeKind::Trapez, ..Slope::default() };
+            planner.push(Block { slope, tolerance, ..block });
+        }
+        planner.finish();
+        take();
+        while planner.advance().unwrap() == Next::Setpoint {}
+        assert!(planner.take_unkept().is_empty());
+        take() as f64 / planner.setpoint().k as f64
+    }
+
+    #[test]
+    fn a_search_measures_the_whole_plan_a_few_times() {
+        let mut random = Random::new(5);
+        let costs: Vec<f64> = (0..20).map(|_| searched(&mut random)).collect();
+        let worst = costs.iter().copied().fold(0.0, f64::max);
+        let mean = costs.iter().sum::<f64>() / costs.len() as f64;
+        println!("set points per cycle: mean {mean:.2}, at most {worst:.2}");
+        assert!(mean <= 8.0 && worst <= 30.0, "{mean} {worst}");
+    }
 
     fn dynamics() -> Arc<ChannelDynamics> {
         let step = StepSlope { acc_mm_s2: [4000.0; 2], dec_mm_s2: [4000.0; 2], change_mm_s: 100.0 };

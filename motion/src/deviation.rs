@@ -255,11 +255,14 @@ impl SetPath {
         let guess = first.midpoint(last);
         let guessed = self.to_line(guess, point).0;
         let mut search = Search { best: (guessed, guess), alike: (1.0 + ALIKE) * guessed.sqrt() };
+        // the shortest vector found so far is not shorter than the one found in the end
         let mut near: SmallVec<[(u64, f64); 16]> = SmallVec::new();
+        let (wary, alike) = (wary_mm * wary_mm, (1.0 + ALIKE) * (1.0 + ALIKE));
         let mut look = |k: u64| {
             let d2 = if k == guess { guessed } else { self.to_line(k, point).0 };
             search.take(k, d2);
-            if wary_mm.is_finite() {
+            let shortest = search.best.0;
+            if shortest > wary && d2 <= alike * shortest {
                 near.push((k, d2));
             }
             d2.sqrt() - search.alike - ROUNDING_MM
@@ -285,8 +288,8 @@ impl SetPath {
         self.aside(k, point, &mut vector);
         out.take(&vector);
         let nearest = vector.clone();
-        if d2 > wary_mm * wary_mm {
-            let within = (1.0 + ALIKE) * (1.0 + ALIKE) * d2;
+        if d2 > wary {
+            let within = alike * d2;
             near.sort_unstable_by_key(|(k, _)| *k);
             for (k, d2) in near {
                 if d2 <= within {

@@ -97,6 +97,7 @@ mod harvest;
 mod kernels;
 mod leaves;
 mod measure;
+mod places;
 mod ranges;
 mod search;
 mod set_points;
@@ -134,6 +135,8 @@ pub(crate) enum Verdict {
     Divided(Vec<(usize, Vec<Arc<Queued>>)>),
     /// The plan does not keep the tolerance; the demands have been tightened.
     Tightened,
+    /// The same where the last plan exceeded the tolerance; the rest of the plan has not been measured.
+    Again,
     /// The plan does not keep the tolerance after the last round. Contains the largest excess.
     GivenUp(Unkept),
 }

@@ -121,11 +121,12 @@ impl Planner {
             let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
             recall(&mut entries, before, self.cycle);
             let verdict = self.verdict(&mut entries, *round);
-            *round += 1;
+            // a plan that is measured in a few places only is not a round
+            *round += usize::from(!matches!(verdict, Verdict::Again));
             match verdict {
                 Verdict::Kept => return Searched::Kept(entries),
                 Verdict::Divided(parts) => return Searched::Divided(parts),
-                Verdict::Tightened => last = Some(entries),
+                Verdict::Tightened | Verdict::Again => last = Some(entries),
                 Verdict::GivenUp(unkept) => return Searched::GivenUp(entries, unkept),
             }
         }

@@ -1,6 +1,7 @@
 //! The demands of the tolerance on the plan.
 
 use super::kernels::Kernels;
+use super::places::Places;
 use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::queue::Queued;
@@ -38,6 +39,8 @@ pub(crate) struct Demands {
     pub(super) tried: Vec<Option<f64>>,
     /// First boundary without a known even speed, see [`super::even::foresee`].
     pub(super) foreseen: usize,
+    /// Where the last plan exceeded the tolerance.
+    pub(super) places: Places,
 }
 
 impl Default for Demands {
@@ -51,6 +54,7 @@ impl Default for Demands {
             slower: Vec::new(),
             tried: vec![None],
             foreseen: 0,
+            places: Places::default(),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::demands::Demands;
 use super::even::{foresee, foresees};
 use super::findings::Findings;
 use super::leaves::Left;
+use super::places::Places;
 use super::ranges::joined;
 use super::set_points::SetPoints;
 use super::view::View;
@@ -41,7 +42,7 @@ impl Monitor {
         // even speeds and divided blocks come first; without bends there is nothing to divide, and blame is not needed
         // for it
         if round == 0 && !trial.bends() && foresees(trial.kernels) {
-            let found = view.examine(round, |_, _| ());
+            let found = view.examine(round, &Places::default(), |_, _| ());
             if found.worst.is_none() {
                 return (Verdict::Kept, found.seen(trial));
             }
@@ -52,9 +53,14 @@ impl Monitor {
         let mut findings = Findings::none(blocks);
         // after many rounds everything within reach counts as a cause
         let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * blocks;
-        let found =
-            view.examine(round, |v, record| view.blame(v, record, all, demands, &mut findings));
+        let mut places = Places::default();
+        let found = view.examine(round, &demands.places, |v, record| {
+            places.add(v, record, trial.kernels.length());
+            view.blame(v, record, all, demands, &mut findings);
+        });
         let seen = found.seen(trial);
+        let only = found.depth == Depth::Again;
+        demands.places.follow(places.take(), only);
         let Some(worst) = found.worst else {
             return (Verdict::Kept, seen);
         };
@@ -69,13 +75,15 @@ impl Monitor {
         if round > 0 || !trial.foresee(demands) {
             view.tighten(&findings, all, demands);
         }
-        (Verdict::Tightened, seen)
+        (if only { Verdict::Again } else { Verdict::Tightened }, seen)
     }
 }
 
 /// The last step that an examination has reached; the steps before it found the tolerance kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Depth {
+    /// Where the last plan exceeded the tolerance.
+    Again,
     /// A first look at the changes.
     Glance,
     /// How far the changed set path leaves the contour.
@@ -133,9 +141,15 @@ impl Found {
 }
 
 impl View<'_> {
-    /// Looks at the changes since the last examination, measures them in both directions, and then what has moved in
+    /// Measures the plan where the last one exceeded the tolerance, looks at the changes since the last examination,
+    /// measures them in both directions, and then what has moved in
     /// time; an excess usually ends it.
-    fn examine(&self, round: usize, mut found: impl FnMut(&Violation, &Record)) -> Found {
+    fn examine(
+        &self,
+        round: usize,
+        places: &Places,
+        mut found: impl FnMut(&Violation, &Record),
+    ) -> Found {
         let mut exceeded = Vec::new();
         let mut found = |v: &Violation, record: &Record| {
             exceeded.push((v.cycle, v.missed.is_some()));
@@ -145,9 +159,13 @@ impl View<'_> {
         let is_new = |e: &Entry| matches!(e.seen, Seen::Nothing | Seen::Glanced);
         let patient = round < ROUNDS_OF_PATIENCE;
         let mut points = SetPoints::new(self);
-        let mut depth = Depth::Glance;
-        let mut worst = None;
+        let mut depth = Depth::Again;
         let mut suspects = Vec::new();
+        let mut worst = self.search_again(places, is_new, &mut points, &mut found);
+        if worst.is_some() {
+            return Found { worst, exceeded, suspects, depth };
+        }
+        depth = Depth::Glance;
         if patient {
             worst = self.glance(&trial.shown_by(|e| e.seen == Seen::Nothing), &mut found);
         }
@@ -201,7 +219,7 @@ impl Trial<'_> {
     }
 
     /// Future cycles whose set points depend on some entries.
-    fn shown_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
+    pub(super) fn shown_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
         self.reached_by(f64::from(self.kernels.length()) + BORDER_CYCLES + 3.0, which)
     }
 
