@@ -44,6 +44,8 @@ const COMMANDS: &[Command] = &[
         "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis", "G108", &["G100", "K-0133", "20156", "50263", "50398", "50655", "P-AXIS-00098", "P-CHAN-00030", "P-CHAN-00041"]),
     row(&["G310"], "G310 G01 X.. F.. $GOTO[LABEL]", "measuring run of types 5 and 6: after a signal the program continues at the label, from the position of the axes", "", "", "G310 G01 X10 F500", &["G100", "#MEAS", "20956"]),
     row(&["G101", "G102"], "G101 X1 Y1   G102 X1", "adds measuring offsets (measured minus target) times a factor to the offsets, removes them", "", "takes effect with the next absolute word of the axis", "G102 X1", &["G100", "K-0134"]),
+    row(&["G112"], "G112 X4   G112 S2", "changes to another gear stage: the parameters getriebe[i] with this number in the list of the axis or spindle",
+        "the values are the numbers of the stages (P-AXIS-00135)", "the path stops; a spindle must be at rest; the functions that change the gear itself are M functions of the machine", "G112 S2", &["P-AXIS-00135", "P-AXIS-00079", "3210", "60285"]),
     row(&["G98", "G99"], "G98 X..   G99 X..", "negative, positive software limit of an axis until the end of the program", "", "", "G99 X500", &["21897", "P-AXIS-00177", "P-AXIS-00178"]),
     row(&["M06", "M6"], "M06", "tool change: calls the configured subroutine, otherwise an M function", "", "#FILE NAME [M6=\"file\"] selects another subroutine", "T5 M06", &["P-CHAN-00118"]),
     row(&["G60"], "G60", "exact stop at the end of this block", "", "the next block starts when every axis is in its window", "N10 G01 G60 X10 F1000", &["P-AXIS-00236", "P-AXIS-00532", "70082", "G360"]),

@@ -143,9 +143,20 @@ impl Coordinates {
         self.program[axis]
     }
 
-    /// Last coordinate word.
-    pub(in crate::exec) fn last_word(&self, axis: usize) -> f64 {
-        self.word[axis]
+    /// Last coordinate word as it is traversed: mirrored, and with a contour rotation the programmed position on the axes of
+    /// the machine, without offsets.
+    ///
+    /// Source: TF5200 programming manual 207902603 (V.A.PROG), tccncprogramming 15556682379: the mental coordinates are those
+    /// of the program, the programmed ones are mirrored. Assumption: under a rotation an increment counts as a position.
+    pub(in crate::exec) fn traversed_word(&self, axis: usize) -> f64 {
+        let word = match (&self.rotation, self.main_index(axis)) {
+            (Some(r), Some(main)) => {
+                let turn = Frame::rotation(r.plane[0], r.plane[1], r.deg, r.centre);
+                turn.apply(self.programmed_point())[main]
+            }
+            _ => self.word[axis],
+        };
+        if self.mirrored[axis] { 0.0 - word } else { word }
     }
 
     /// Axis of a main axis index.

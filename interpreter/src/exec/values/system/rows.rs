@@ -40,10 +40,8 @@ fn text(s: &str) -> Outcome<Value> {
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     Row { name: &["A", "ABS", "*"], meaning: "programmed position of an axis, without offsets", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
-    Row { name: &["A", "PROG", "*"], meaning: "last coordinate word of an axis", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
-    Row { name: &["A", "MENT", "*"], meaning: "programmed position of an axis with its mirroring undone", read: |d, p| p.coordinate(d, 2, |d, a| {
-        if d.geometry.coordinates.mirrored(a) { -d.geometry.coordinates.programmed(a) } else { d.geometry.coordinates.programmed(a) }
-    }) },
+    Row { name: &["A", "PROG", "*"], meaning: "last coordinate word of an axis as it is traversed, mirrored and rotated, without offsets", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.traversed_word(a)) },
+    Row { name: &["A", "MENT", "*"], meaning: "position of an axis in the values of the program, before mirroring", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
     Row { name: &["A", "ACT_POS", "*"], meaning: "actual position of an axis; motion comes to rest before it is read", read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
     Row { name: &["A", "ACS", "ABS", "*"], meaning: "position of an axis with all offsets", read: |d, p| p.axis_position(d) },
     Row { name: &["A", "BZP", "*"], meaning: "reference point offset of an axis (#PSET)", read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.preset(a)) },
