@@ -8,13 +8,13 @@ use crate::exec::{commands, unknown_g, unsupported_function};
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]
 const COMMANDS: &[Command] = &[
-    row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=..]",
+    row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=.. INCL_OFFSETS]",
         "moves one axis independently of the path on its own profile; with INDP_SYN the next block starts when the axis has arrived, with INDP_ASYN the motion continues over several blocks",
         "FEED in the unit of F; TIME in s from rest to rest; FEED_MAX_WEIGHT above 0 to 100 % of P-AXIS-00212; SLOPE_TYPE STEP, TRAPEZ, SIN2, default P-CHAN-00071",
-        "offsets, weights of G130 to G133 and programmed override do not apply; override and feedhold of --input do. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-AXIS-00491", "P-AXIS-00540", "P-CHAN-00071"]),
+        "offsets apply with INCL_OFFSETS only, weights of G130 to G133 and programmed override do not; override and feedhold of --input do. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-AXIS-00491", "P-AXIS-00540", "P-CHAN-00071"]),
     row(&["OSC"], "X[OSC ON 1ST_POS=.. 2ND_POS=.. FEED=..|FREQ=..|TIME=..]   X[OSC OFF]",
         "an axis oscillates independently of the path and stops at its second position, at the latest when the program waits for it",
-        "1ST_DELT, 2ND_DELT: dwells in s; FREQ in 1/s or TIME in s of an oscillation without its dwells; NBR_OSC: number of oscillations", "offsets and programmed override do not apply; override and feedhold of --input do", "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]", &["INDP_SYN", "50593", "120470", "#WAIT"]),
+        "1ST_DELT, 2ND_DELT: dwells in s; FREQ in 1/s or TIME in s of an oscillation without its dwells; NBR_OSC: number of oscillations", "offsets apply with INCL_OFFSETS only, the programmed override does not; override and feedhold of --input do", "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]", &["INDP_SYN", "50593", "120470", "#WAIT"]),
     row(&["G00", "G0"], "G00 X.. Y..", "straight line in rapid traverse: at least one axis at its rapid speed", "", "", "G00 X10 Y20", &["P-AXIS-00209", "P-AXIS-00004", "P-AXIS-00200", "G129"]),
     row(&["G01", "G1"], "G01 X.. F..", "straight line at feed F", "", "without F: 20008", "G01 X10 F2000", &["20008", "P-CHAN-00099", "P-CHAN-00108"]),
     row(&["G02", "G03", "G2", "G3"], "G02 X.. Y.. I.. J..   G02 X.. Y.. R..", "arc in the plane, clockwise (G02) or counter-clockwise (G03)", "", "full circles require the centre, not R (20034)", "G02 X10 Y0 I5 J0 F1000", &["20034", "20036", "21024", "21758", "G161", "G164", "P-CHAN-00059", "P-CHAN-00171"]),

@@ -34,8 +34,13 @@ impl Simulation {
     }
 
     /// K-0132, once for each thread: the path does not follow the spindle.
+    ///
+    /// In its final braking the path leaves the pitch anyway; whoever holds it before its end makes it rest within the thread.
     pub(super) fn watch_thread(&mut self) {
         let Some(thread) = &mut self.thread else { return };
+        if self.planner.setpoint().a_mm_s2 < 0.0 {
+            return;
+        }
         let why = self.inputs.changes_speed(thread.full_override);
         if let (Some(why), false) = (why, thread.broken)
             && matches!(self.phase, Phase::Running)
