@@ -161,7 +161,11 @@ fn a_feedhold_at_the_end_of_a_thread() {
     let mut counts = [0, 0];
     for before in (1..60).step_by(4) {
         let at = (end - before) as f64 * free.cycle_s;
-        let run = run_with_inputs(machine(&[]), text, &[(at, "feedhold", 1.0), (at + 0.3, "feedhold", 0.0)]);
+        let run = run_with_inputs(
+            machine(&[]),
+            text,
+            &[(at, "feedhold", 1.0), (at + 0.3, "feedhold", 0.0)],
+        );
         let differs = (0..=end).any(|k| (depth(&run, k) - depth(&free, k)).abs() > 1e-9);
         assert_eq!(run.said().contains(&"K-0132".to_owned()), differs, "{before}");
         counts[usize::from(differs)] += 1;

@@ -62,6 +62,9 @@ impl Geometry {
                 coordinates.set_zero_entry(*group, *axis, *value);
             }
         }
+        for (group, axis) in &offsets.excluded {
+            coordinates.mask_zero_entry(*group, *axis, true);
+        }
         coordinates.use_zero_groups(
             offsets.has_g53,
             machine.channel.offsets_in_systems,

@@ -23,7 +23,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["G351"], "G351 X1 Y-1", "mirroring of the axes named: -1 on, 1 off", "", "", "G351 X-1", &["G20", "20860"]),
     row(&["G53", "G54", "G55", "G56", "G57", "G58", "G59"], "G54", "zero offsets off, groups 1 to 6", "values of the zero-offset list or V.G.NP[i].V.X", "takes effect with the next absolute word of an axis", "G54", &["G159", "G92", "#SUPPRESS OFFSETS"]),
     row(&["G159"], "G159=n", "zero offset of group n", "", "", "G159=7", &["G54"]),
-    row(&["G160"], "G160=n X1 Y1", "zero offset of group n for the axes named", "", "without axes: 20003", "G160=2 X1", &["G54", "20003"]),
+    row(&["G160"], "G160=n X1 Y1", "1 excludes the zero offset of an axis from group n, 0 includes it again", "", "without axes: 20003", "G160=2 X1", &["G54", "20003", "P-ZERO-00004"]),
     row(&["G68", "G69"], "G68 R.. X.. Y..   G69", "rotation of the contour in the plane on, off", "R: angle in deg; X, Y: centre", "", "G68 R30 X0 Y0", &["#ROTATION", "#CS ADD", "22156"]),
     row(&["G80", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"], "G81", "calls the subroutine named in the channel list", "", "the words of the block are its parameters", "G81", &["P-CHAN-00160"]),
     row(&["G92"], "G92 X.. Y..", "reference point offset: moves the origin of the axes named", "", "takes effect with the next absolute word of an axis", "G92 X10 Y20", &["#PSET", "G54"]),

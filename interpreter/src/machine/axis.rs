@@ -39,7 +39,8 @@ impl Axis {
     ) -> Self {
         let number = logical_number(&parameters);
         let stage = gears::at_start(&parameters);
-        let mut axis = Self { name, number, kind, parameters, own, stage, software_limits_mm: None };
+        let mut axis =
+            Self { name, number, kind, parameters, own, stage, software_limits_mm: None };
         axis.software_limits_mm = axis.listed_software_limits_mm();
         axis
     }

@@ -14,7 +14,8 @@ pub(super) fn is_of_gear(row: &Row) -> bool {
 
 /// The place of a parameter for a gear stage, given as an index.
 pub(super) fn of_stage(stage: u32, place: Place) -> Place {
-    let indices: Indices = if stage > 0 && is_of_gear(place.row) { [stage, 0] } else { place.indices };
+    let indices: Indices =
+        if stage > 0 && is_of_gear(place.row) { [stage, 0] } else { place.indices };
     Place { indices, ..place }
 }
 

@@ -214,8 +214,11 @@ fn check_together(
     if gears::of_number(parameters, stage).is_none() {
         let place = axis_general::GEAR_STAGE.place();
         let text = format!("kenngr.getriebe_stufe: no gear stage has the number {stage}");
-        let diagnostic = Diagnostic::new(Condition::GearUnknown, text)
-            .value(ValueKind::Wrong, f64::from(stage), "-");
+        let diagnostic = Diagnostic::new(Condition::GearUnknown, text).value(
+            ValueKind::Wrong,
+            f64::from(stage),
+            "-",
+        );
         let at = parameters.set_by(place).and_then(|s| s.at.clone());
         diagnostics.push(finish(diagnostic, place.row, at, axis));
     }

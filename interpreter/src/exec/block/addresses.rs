@@ -196,8 +196,7 @@ fn o_word(value: f64, span: Span) -> Box<Fault> {
         Condition::OFormat
     };
     let text = "the O word does not exist in this dialect: it numbers programs of Fanuc controls";
-    Fault::new(condition, text, span)
-        .with(|d| d.value(ValueKind::Wrong, value, "-"))
+    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, value, "-"))
 }
 
 fn unknown_letter(names: &AxisNames, letter: u8, span: Span) -> Box<Fault> {

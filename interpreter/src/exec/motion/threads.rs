@@ -313,8 +313,8 @@ impl Decoder {
         dynamics: Arc<kontur_motion::block::ChannelDynamics>,
         full_override: bool,
     ) -> Box<Block> {
-        let moved =
-            (0..path.start().len()).filter(|a| path.start()[*a].to_bits() != path.end()[*a].to_bits());
+        let moved = (0..path.start().len())
+            .filter(|a| path.start()[*a].to_bits() != path.end()[*a].to_bits());
         let feed_ratio =
             if full_override { 1.0 } else { self.motion.overrides.ratio(false, moved) };
         Box::new(Block {

@@ -90,7 +90,8 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
     });
     if let Some((indices, setting)) = other {
         let what = format!("parameters of getriebe[{}], which has no number", indices[0]);
-        let hint = format!("write getriebe[{}].nummer, so that G112 can select the stage", indices[0]);
+        let hint =
+            format!("write getriebe[{}].nummer, so that G112 can select the stage", indices[0]);
         tell(Place { row: setting.row, indices }, &what, &hint);
     }
     if let Some((place, reader)) = plant::of_another_model(axis) {
