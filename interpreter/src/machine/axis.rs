@@ -70,9 +70,14 @@ impl Axis {
         self.kind == AxisKind::Linear
     }
 
-    /// Whether the axis counts modulo 360 degrees (P-AXIS-00015, bit 0x4).
+    /// Whether the axis counts modulo its range, 360 degrees by default (P-AXIS-00015, bit 0x4).
     pub fn is_modulo(&self) -> bool {
         !self.is_linear() && self.mode_bits() & mode::MODULO != 0
+    }
+
+    /// Range of a modulo axis in deg (P-AXIS-00126, P-AXIS-00127).
+    pub(crate) fn modulo_deg(&self) -> f64 {
+        self.get(axis_general::MODULO_UPPER) - self.get(axis_general::MODULO_LOWER)
     }
 
     /// Whether its words may be diameters (P-AXIS-00015, bit 0x40).

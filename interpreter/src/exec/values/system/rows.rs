@@ -96,7 +96,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["A", "+SWE_MDS", "*"], meaning: "positive software limit of an axis by its list", read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
     Row { name: &["A", "REF", "*"], meaning: "reference position of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["A", "MODE", "*"], meaning: "mode of an axis as bits (P-AXIS-00015)", read: |d, p| { let a = p.axis(d, 2)?; number(f64::from(d.machine.axes[a].mode_bits())) } },
-    Row { name: &["A", "MODULO_VALUE", "*"], meaning: "modulo range of an axis in deg; 0 for an axis that is not modulo", read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
+    Row { name: &["A", "MODULO_VALUE", "*"], meaning: "modulo range of an axis in deg; 0 for an axis that is not modulo", read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { d.machine.axes[a].modulo_deg() } else { 0.0 }) } },
     Row { name: &["G", "BLOCK_NR"], meaning: "block number (N) of the current block", read: |d, _| number(d.calls.info.block_number as f64) },
     Row { name: &["G", "SATZ_NR"], meaning: "block number (N) of the current block (older name)", read: |d, _| number(d.calls.info.block_number as f64) },
     Row { name: &["G", "FEEDRATE"], meaning: "F word in force, in the active unit", read: |d, _| number(d.modal.feed_in_unit()) },
