@@ -150,29 +150,6 @@ fn a_feedhold_breaks_a_thread() {
     assert!(longer > 0.4, "{longer}");
 }
 
-/// A feedhold at the end of a thread is reported if and only if the path of the thread differs: while it brakes to its end anyway, a
-/// late one changes nothing.
-#[test]
-fn a_feedhold_at_the_end_of_a_thread() {
-    let text = "%P\nM3 S600\nG33 Z-20 K1\nG01 X1 F1000\nM5\nM30\n";
-    let free = run_with_inputs(machine(&[]), text, &[]);
-    let depth = |run: &Run, k: usize| run.records[k].axes[Z].ipo;
-    let end = (0..free.records.len()).find(|k| (depth(&free, *k) + 20.0).abs() < 1e-9).unwrap();
-    let mut counts = [0, 0];
-    for before in (1..60).step_by(4) {
-        let at = (end - before) as f64 * free.cycle_s;
-        let run = run_with_inputs(
-            machine(&[]),
-            text,
-            &[(at, "feedhold", 1.0), (at + 0.3, "feedhold", 0.0)],
-        );
-        let differs = (0..=end).any(|k| (depth(&run, k) - depth(&free, k)).abs() > 1e-9);
-        assert_eq!(run.said().contains(&"K-0132".to_owned()), differs, "{before}");
-        counts[usize::from(differs)] += 1;
-    }
-    assert!(counts.iter().all(|count| *count > 0), "{counts:?}");
-}
-
 /// A feedhold before the thread delays it: the thread begins at the mark all the same. A feedhold without an end ends the run (K-0083).
 #[test]
 fn a_feedhold_before_a_thread_delays_it() {

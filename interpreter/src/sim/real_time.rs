@@ -1,14 +1,10 @@
 //! Effects of the inputs of a run on the path and on all independent motions: override, feedhold, and a hold without
 //! end.
 
-use super::axes::Driver;
 use super::{Phase, Probing, Simulation, fault};
 use crate::diag::Diagnostic;
 use kontur_motion::independent::Steering;
 use kontur_motion::realtime::FeedholdBraking;
-
-/// Distance in mm (deg) within which the path has come to the end of a thread.
-const AT_TARGET_MM: f64 = 1e-9;
 
 impl Simulation {
     /// Applies the inputs that are due in cycle `k`: to the axes at once, to the path after the cycle.
@@ -38,19 +34,8 @@ impl Simulation {
     }
 
     /// K-0132, once for each thread: the path does not follow the spindle.
-    ///
-    /// In its final braking the path leaves the pitch anyway; a hold that stops it before its end makes it rest within the
-    /// thread.
     pub(super) fn watch_thread(&mut self) {
         let Some(thread) = &mut self.thread else { return };
-        let setpoint = self.planner.setpoint();
-        let is_at_target = |(driver, target): (&Driver, &f64)| match driver {
-            Driver::Path(p) => (setpoint.position[*p] - target).abs() < AT_TARGET_MM,
-            Driver::Spindle(_) | Driver::Standing => true,
-        };
-        if setpoint.a_mm_s2 < 0.0 || self.drivers.iter().zip(&self.targets).all(is_at_target) {
-            return;
-        }
         let why = self.inputs.changes_speed(thread.full_override);
         if let (Some(why), false) = (why, thread.broken)
             && matches!(self.phase, Phase::Running)

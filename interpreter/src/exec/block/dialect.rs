@@ -47,10 +47,18 @@ pub(in crate::exec) struct Seen {
     unit_or_mirror: bool,
     /// `#` commands, `$` statements or G numbers from 127 on.
     own: bool,
+    other: Other,
+}
+
+/// Evidence that a program is written for another control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Other {
+    #[default]
+    Nothing,
     /// An M function that sets a temperature in programs of 3D printers.
-    temperature: bool,
+    Temperature,
     /// A block that begins with an O word: the number of a Fanuc program.
-    program_number: bool,
+    ProgramNumber,
 }
 
 impl Seen {
@@ -63,7 +71,7 @@ impl Seen {
     pub(super) fn homing(self, number: u32, span: Span) -> Option<Box<Fault>> {
         let word = format!("G{number}");
         match number {
-            28 | 29 if self.temperature && !self.own => {
+            28 | 29 if self.other == Other::Temperature && !self.own => {
                 Some(printer(&word, "homes or levels after a temperature", span))
             }
             28 | 30 if !self.own => {
@@ -79,17 +87,19 @@ impl Seen {
 
     /// A block that begins with an O word, whose message is 20192.
     pub(in crate::exec) fn program_number(&mut self) {
-        self.program_number = true;
+        self.other = Other::ProgramNumber;
     }
 
     /// Whether the messages so far show a program of another control, so that its other blocks are not checked.
     pub(in crate::exec) fn ends_check(self) -> bool {
-        self.program_number
+        self.other == Other::ProgramNumber
     }
 
     /// K-0120 for a block that only a 3D printer understands: G92 with the position of an extruder.
     pub(super) fn is_of_a_printer(&mut self, words: &Words<'_>, report: &mut Report) -> bool {
-        self.temperature |= is_temperature(words);
+        if is_temperature(words) {
+            self.other = Other::Temperature;
+        }
         let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
             return false;
         };
