@@ -20,6 +20,7 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
+mod gears;
 mod hints;
 mod inert;
 pub(crate) mod issues;

@@ -63,6 +63,8 @@ pub(super) struct Contour {
     /// Whether the position of the tool at the contour must be reported (`#OTC`), and the last reported one.
     tells_engagement: bool,
     engaged: Option<([usize; 2], bool)>,
+    /// Whether the last motion ended with an exact stop.
+    stopped_exactly: bool,
 }
 
 impl Contour {
@@ -105,6 +107,10 @@ impl Contour {
         if self.akima.runs() {
             return Some(Fault::unsupported("a chamfer or rounding in a spline", span));
         }
+        if self.stopped_exactly {
+            // the pages do not say whether it is inserted, and where the path then stops
+            return Some(Fault::unsupported("a chamfer or rounding at an exact stop", span));
+        }
         if self.held.is_none() {
             let text = "no earlier motion to which a chamfer or rounding could be joined";
             return Some(Fault::new(Condition::InsertionWithoutMotion, text, span).warning());
@@ -118,6 +124,7 @@ impl Contour {
 
     /// A motion.
     pub(super) fn motion(&mut self, motion: Box<Motion>) -> Vec<Fault> {
+        self.stopped_exactly = false;
         self.akima.moved |= !motion.akima;
         if !motion.akima && !self.akima.runs() {
             return self.joined(motion);
@@ -231,6 +238,7 @@ impl Contour {
             return vec![*akima::rest_inside().in_block(source)];
         }
         let mut faults = self.end_spline();
+        self.stopped_exactly |= self.held.is_some() && matches!(what, Sync::ExactStop { .. });
         faults.extend(self.flush());
         let events = self.take_events();
         let rest = Rest { what, source, events };

@@ -167,27 +167,34 @@ impl Decoder {
             // Assumption: also replaces a limit set by G98 or G99, as the later command for this limit
             self.geometry.limits_mm[axis] = changed.software_limits_mm();
         }
-        let number = changed.number();
         let overrides = self.shaping.overrides(&listed, &changed.kernel_preset(cycle));
-        // consequences of the change: a filter that cannot be designed with the new value, an input that the drive does not
-        // have
-        let new = machine.chain_issues(axis).into_iter().filter(|issue| !known.contains(issue));
-        let new: Vec<Diagnostic> = new.collect();
-        for diagnostic in new {
-            self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
-        }
-        self.motion.dynamics_changed();
-        // first: a kernel is replaced only after the axes have been at standstill for its whole length
-        self.update_shaping(span);
+        self.report_consequences(axis, &known, span);
+        self.axis_changes(self.machine.axes[axis].number(), span);
         if let Some(command) = overrides {
             let text = format!("{key}: no effect, {command} of the program takes precedence");
             let fault = Fault::new(Condition::ListNoEffect, text, span).warning();
             self.report.note(fault.hint(format!("write the value into {command}")));
         }
+        Ok(())
+    }
+
+    /// Consequences of changed parameters of a path axis: a filter that cannot be designed with the new value, an input that the
+    /// drive does not have. Those that were `known` before the change are not repeated.
+    pub(super) fn report_consequences(&mut self, axis: usize, known: &[Diagnostic], span: Span) {
+        let issues = self.machine.chain_issues(axis);
+        for diagnostic in issues.into_iter().filter(|issue| !known.contains(issue)) {
+            self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
+        }
+    }
+
+    /// The parameters of an axis or spindle, given by its logical number, have changed: the path stops, and its chain is replaced.
+    pub(super) fn axis_changes(&mut self, number: u32, span: Span) {
+        self.motion.dynamics_changed();
+        // first: a kernel is replaced only after the axes have been at standstill for its whole length
+        self.update_shaping(span);
         self.sync(Sync::MachineData { axis: number });
         // the list determines the effect of G135
         self.contour.event(self.motion.feedforward.event());
-        Ok(())
     }
 
     /// Names of several characters that the parser must recognise.

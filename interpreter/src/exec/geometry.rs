@@ -15,7 +15,7 @@ pub(super) mod tools;
 
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
-use crate::machine::{Axis, Machine};
+use crate::machine::{Axis, Machine, ToolKind};
 use crate::syntax::ast::Span;
 use coordinates::Coordinates;
 use kontur_motion::axis::AxisVec;
@@ -62,6 +62,9 @@ impl Geometry {
                 coordinates.set_zero_entry(*group, *axis, *value);
             }
         }
+        for (group, axis) in &offsets.excluded {
+            coordinates.mask_zero_entry(*group, *axis, true);
+        }
         coordinates.use_zero_groups(
             offsets.has_g53,
             machine.channel.offsets.in_systems,
@@ -77,6 +80,16 @@ impl Geometry {
             direct_on: false,
             tools: Tools { table: machine.tools.clone(), ..Tools::default() },
         }
+    }
+
+    /// Refuses G41 and G42 with turning tools: the reference point of their tip is programmed, not its centre (287637387), and
+    /// their orientation (P-TOOL-00002) is not read.
+    pub(in crate::exec) fn compensates_tool(&self, span: Span) -> Outcome<()> {
+        if self.tools.active.kind != ToolKind::Turning {
+            return Ok(());
+        }
+        let what = "tool radius compensation of a turning tool (P-TOOL-00001 = 1)";
+        Err(Fault::unsupported(what, span))
     }
 
     /// Applies the offsets of the active tool; its length along the third axis of the plane.

@@ -10,6 +10,7 @@ mod dwell;
 pub(super) mod dynamics;
 mod feed;
 mod feed_course;
+mod gears;
 mod independent;
 mod limits;
 mod manual;

@@ -8,13 +8,13 @@ use crate::exec::{commands, unknown_g, unsupported_function};
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]
 const COMMANDS: &[Command] = &[
-    row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=..]",
+    row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=.. INCL_OFFSETS]",
         "moves one axis independently of the path on its own profile; with INDP_SYN the next block starts when the axis has arrived, with INDP_ASYN the motion continues over several blocks",
         "FEED in the unit of F; TIME in s from rest to rest; FEED_MAX_WEIGHT above 0 to 100 % of P-AXIS-00212; SLOPE_TYPE STEP, TRAPEZ, SIN2, default P-CHAN-00071",
-        "offsets, weights of G130 to G133 and programmed override do not apply; override and feedhold of --input do. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-AXIS-00491", "P-AXIS-00540", "P-CHAN-00071"]),
+        "offsets apply with INCL_OFFSETS only, weights of G130 to G133 and programmed override do not; override and feedhold of --input do. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-AXIS-00491", "P-AXIS-00540", "P-CHAN-00071"]),
     row(&["OSC"], "X[OSC ON 1ST_POS=.. 2ND_POS=.. FEED=..|FREQ=..|TIME=..]   X[OSC OFF]",
         "an axis oscillates independently of the path and stops at its second position, at the latest when the program waits for it",
-        "1ST_DELT, 2ND_DELT: dwells in s; FREQ in 1/s or TIME in s of an oscillation without its dwells; NBR_OSC: number of oscillations", "offsets and programmed override do not apply; override and feedhold of --input do", "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]", &["INDP_SYN", "50593", "120470", "#WAIT"]),
+        "1ST_DELT, 2ND_DELT: dwells in s; FREQ in 1/s or TIME in s of an oscillation without its dwells; NBR_OSC: number of oscillations", "offsets apply with INCL_OFFSETS only, the programmed override does not; override and feedhold of --input do", "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]", &["INDP_SYN", "50593", "120470", "#WAIT"]),
     row(&["G00", "G0"], "G00 X.. Y..", "straight line in rapid traverse: at least one axis at its rapid speed", "", "", "G00 X10 Y20", &["P-AXIS-00209", "P-AXIS-00004", "P-AXIS-00200", "G129"]),
     row(&["G01", "G1"], "G01 X.. F..", "straight line at feed F", "", "without F: 20008", "G01 X10 F2000", &["20008", "P-CHAN-00099", "P-CHAN-00108"]),
     row(&["G02", "G03", "G2", "G3"], "G02 X.. Y.. I.. J..   G02 X.. Y.. R..", "arc in the plane, clockwise (G02) or counter-clockwise (G03)", "", "full circles require the centre, not R (20034)", "G02 X10 Y0 I5 J0 F1000", &["20034", "20036", "21024", "21758", "G161", "G164", "P-CHAN-00059", "P-CHAN-00171"]),
@@ -44,6 +44,8 @@ const COMMANDS: &[Command] = &[
         "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis", "G108", &["G100", "K-0133", "20156", "50263", "50398", "50655", "P-AXIS-00098", "P-CHAN-00030", "P-CHAN-00041"]),
     row(&["G310"], "G310 G01 X.. F.. $GOTO[LABEL]", "measuring run of types 5 and 6: after a signal the program continues at the label, from the position of the axes", "", "", "G310 G01 X10 F500", &["G100", "#MEAS", "20956"]),
     row(&["G101", "G102"], "G101 X1 Y1   G102 X1", "adds measuring offsets (measured minus target) times a factor to the offsets, removes them", "", "takes effect with the next absolute word of the axis", "G102 X1", &["G100", "K-0134"]),
+    row(&["G112"], "G112 X4   G112 S2", "changes to another gear stage: the parameters getriebe[i] with this number in the list of the axis or spindle",
+        "the values are the numbers of the stages (P-AXIS-00135)", "the path stops; a spindle must be at rest; the functions that change the gear itself are M functions of the machine", "G112 S2", &["P-AXIS-00135", "P-AXIS-00079", "3210", "60285"]),
     row(&["G98", "G99"], "G98 X..   G99 X..", "negative, positive software limit of an axis until the end of the program", "", "", "G99 X500", &["21897", "P-AXIS-00177", "P-AXIS-00178"]),
     row(&["M06", "M6"], "M06", "tool change: calls the configured subroutine, otherwise an M function", "", "#FILE NAME [M6=\"file\"] selects another subroutine", "T5 M06", &["P-CHAN-00118"]),
     row(&["G60"], "G60", "exact stop at the end of this block", "", "the next block starts when every axis is in its window", "N10 G01 G60 X10 F1000", &["P-AXIS-00236", "P-AXIS-00532", "70082", "G360"]),

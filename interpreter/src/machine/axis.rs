@@ -1,5 +1,6 @@
 //! One axis of the machine: its parameters, and the planner's values derived from them.
 
+use super::gears;
 use super::key::Key;
 use super::kind::{AxisKind, logical_number, mode};
 use super::parameters::Kind;
@@ -23,6 +24,8 @@ pub struct Axis {
     kind: AxisKind,
     parameters: Parameters,
     own: Parameters,
+    /// Index of the gear stage in force.
+    stage: u32,
     /// Computed when the parameters change, since every motion needs them.
     software_limits_mm: Option<(f64, f64)>,
 }
@@ -35,7 +38,9 @@ impl Axis {
         own: Parameters,
     ) -> Self {
         let number = logical_number(&parameters);
-        let mut axis = Self { name, number, kind, parameters, own, software_limits_mm: None };
+        let stage = gears::at_start(&parameters);
+        let mut axis =
+            Self { name, number, kind, parameters, own, stage, software_limits_mm: None };
         axis.software_limits_mm = axis.listed_software_limits_mm();
         axis
     }
@@ -65,9 +70,14 @@ impl Axis {
         self.kind == AxisKind::Linear
     }
 
-    /// Whether the axis counts modulo 360 degrees (P-AXIS-00015, bit 0x4).
+    /// Whether the axis counts modulo its range, 360 degrees by default (P-AXIS-00015, bit 0x4).
     pub fn is_modulo(&self) -> bool {
         !self.is_linear() && self.mode_bits() & mode::MODULO != 0
+    }
+
+    /// Range of a modulo axis in deg (P-AXIS-00126, P-AXIS-00127).
+    pub(crate) fn modulo_deg(&self) -> f64 {
+        self.get(axis_general::MODULO_UPPER) - self.get(axis_general::MODULO_LOWER)
     }
 
     /// Whether its words may be diameters (P-AXIS-00015, bit 0x40).
@@ -169,18 +179,35 @@ impl Axis {
             | ListKind::Channel
             | ListKind::StartUp
             | ListKind::Tool
-            | ListKind::Zero => self.parameters.get(param),
+            | ListKind::Zero => self.parameters.get(gears::param_of(self.stage, param)),
         }
     }
 
     /// A number in the units of the axis list.
     pub(super) fn listed(&self, param: impl Into<Place>) -> f64 {
-        self.parameters.listed(param).unwrap_or_default()
+        self.parameters.listed(self.place(param)).unwrap_or_default()
+    }
+
+    /// The place of a parameter in the list: that of the gear stage in force, if it is one of a stage.
+    pub(super) fn place(&self, param: impl Into<Place>) -> Place {
+        gears::of_stage(self.stage, param.into())
+    }
+
+    /// Changes to the gear stage with this number (G112); false if the list has none.
+    pub(crate) fn change_gear(&mut self, number: u32) -> bool {
+        let stage = gears::of_number(&self.parameters, number);
+        self.stage = stage.unwrap_or(self.stage);
+        stage.is_some()
+    }
+
+    /// Number of the gear stage in force.
+    pub(crate) fn gear(&self) -> u32 {
+        gears::number_of(&self.parameters, self.stage)
     }
 
     /// The setting of a parameter of the axis list or of this axis in `kontur.lis`, `None` if it is not set.
     pub(super) fn set_by(&self, param: impl Into<Place>) -> Option<&Setting> {
-        let place = param.into();
+        let place = self.place(param);
         match place.row.list {
             ListKind::Kontur => self.own.set_by(place),
             _ => self.parameters.set_by(place),
@@ -320,12 +347,13 @@ impl Axis {
     /// Assumption: neither the page on `#MACHINE DATA` [TF5200] nor the documentation of these parameters says which
     /// ones they are.
     pub(crate) fn is_read_at_start(key: &str) -> bool {
-        const KEYS: [&str; 5] = [
+        const KEYS: [&str; 6] = [
             "kopf.",
             "kenngr.achs_typ",
             "kenngr.achs_mode",
             "kenngr.antr_typ",
             "kenngr.gantry_ax_nr",
+            "kenngr.getriebe_stufe",
         ];
         KEYS.iter().any(|start| {
             key.get(..start.len()).is_some_and(|head| head.eq_ignore_ascii_case(start))

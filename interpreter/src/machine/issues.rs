@@ -26,7 +26,7 @@ pub(super) fn about(
     what: &str,
     effect: &str,
 ) -> Diagnostic {
-    let place = param.into();
+    let place = axis.place(param);
     let named = place.id().map_or_else(|| place.to_string(), |id| format!("{place} ({id})"));
     let text = format!("{what}, axis {}, {named}: {effect}", axis.name());
     let mut diagnostic =

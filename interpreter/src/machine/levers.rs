@@ -52,7 +52,7 @@ impl Lever {
     /// Settings as for `--set` that multiply the list values of an axis by `factor`, in whole units of the list and at
     /// least 1.
     pub fn settings(self, axis: &Axis, factor: f64) -> Vec<String> {
-        let listed = self.parameters().iter().map(|p| (p.place(), axis.listed(*p)));
+        let listed = self.parameters().iter().map(|p| (axis.place(*p), axis.listed(*p)));
         listed
             .filter(|(_, value)| *value > 0.0)
             .map(|(key, value)| {

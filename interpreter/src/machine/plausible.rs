@@ -5,6 +5,7 @@
 
 pub(super) mod channel;
 
+use super::gears;
 use super::kind::{AxisKind, kind_of, mode as bits};
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place};
@@ -44,11 +45,15 @@ pub(super) fn check(
                 .filter(|(_, s)| s.row.key == row.key)
                 .map(|(i, _)| i)
                 .collect();
-            if second && !places.contains(&[0; 2]) {
-                places.push([0; 2]);
+            let is_of_gear = gears::is_of_gear(row);
+            let stages = if is_of_gear { gears::stages(parameters) } else { vec![0] };
+            for indices in stages.iter().map(|stage| [*stage, 0]) {
+                if second && !places.contains(&indices) {
+                    places.push(indices);
+                }
             }
-            // only the first of several gear stages is used
-            let used = |i: &Indices| !row.key.starts_with("getriebe[i]") || i[0] == 0;
+            // stages without a number cannot be selected
+            let used = |i: &Indices| !is_of_gear || stages.contains(&i[0]);
             for indices in places.into_iter().filter(used) {
                 check_value(parameters, row, indices, cycle, axis, diagnostics);
             }
@@ -203,6 +208,20 @@ fn check_together(
     axis: Option<&AxisRef>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    // P-AXIS-00079; Assumption: the page of 3210 names gear changes of programs only
+    let stage = parameters.get(axis_general::GEAR_STAGE);
+    if gears::of_number(parameters, stage).is_none() {
+        let place = axis_general::GEAR_STAGE.place();
+        let text = format!("kenngr.getriebe_stufe: no gear stage has the number {stage}");
+        let diagnostic = Diagnostic::new(Condition::GearUnknown, text).value(
+            ValueKind::Wrong,
+            f64::from(stage),
+            "-",
+        );
+        let at = parameters.set_by(place).and_then(|s| s.at.clone());
+        diagnostics.push(finish(diagnostic, place.row, at, axis));
+    }
+
     let mut put = |parameters: &mut Parameters,
                    condition: Condition,
                    place: Place,

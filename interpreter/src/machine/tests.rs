@@ -353,19 +353,21 @@ fn settings_have_the_messages_of_lists() {
     assert_eq!(files.load(&["*.getriebe[].kv=2500"]).unwrap().1.len(), 1);
 }
 
-/// TF5200 zero offsets: P-ZERO-00002, P-ZERO-00003.
+/// TF5200 zero offsets: P-ZERO-00002 to 00004.
 #[test]
 fn lists_of_zero_offsets() {
     let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "nullp_data[0] lists/zero.lis\n");
     files.put(
         "m/lists/zero.lis",
-        "default_index 2\nnp_grp[1].achse[0].versch 100000\nnp_grp[2].achse[1].versch -55000\n",
+        "default_index 2\nnp_grp[1].achse[0].versch 100000\nnp_grp[2].achse[1].versch -55000\nnp_grp[2].achse[1].inaktiv 1\n",
     );
     let (machine, messages) = files.load(&[]).unwrap();
     assert!(messages.is_empty(), "{messages:?}");
     assert_eq!(machine.zero_offsets.start_group, 2);
     assert_eq!(machine.zero_offsets.entries, BTreeMap::from([((1, 0), 10.0), ((2, 1), -5.5)]));
+    // P-ZERO-00004
+    assert_eq!(machine.zero_offsets.excluded, [(2, 1)].into());
     let set = files.load(&["zero.default_index=1"]).unwrap().0;
     assert_eq!(set.zero_offsets.start_group, 1);
     assert_eq!(files.ids(&["zero.default_index=97"]), ["20585"]);

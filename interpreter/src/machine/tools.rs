@@ -6,7 +6,7 @@ use super::parameters::{Parameters, Setting};
 use super::table::{Indices, tool, with_indices, zero};
 use super::value::Value;
 use crate::diag::{Condition, Diagnostic};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// mm in one inch.
 pub(crate) const INCH_MM: f64 = 25.4;
@@ -105,6 +105,8 @@ impl Default for Tool {
 pub(crate) struct ZeroOffsets {
     /// mm or deg by group and index of the axis in the channel (P-ZERO-00003).
     pub(crate) entries: BTreeMap<(u32, usize), f64>,
+    /// Entries that their group does not include at program start (P-ZERO-00004).
+    pub(crate) excluded: BTreeSet<(u32, usize)>,
     /// Group that is active at program start (P-ZERO-00002).
     pub(crate) start_group: u32,
     /// G53 has the offsets of group 0 (P-ZERO-00001); otherwise it cancels the offsets.
@@ -192,17 +194,25 @@ pub(super) fn zero_offsets(
     axes: usize,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> ZeroOffsets {
-    let offset = zero::OFFSET.place().row.key;
-    let mut entries = BTreeMap::new();
-    for ([i, j], setting) in list.settings().filter(|(_, setting)| setting.row.key == offset) {
-        if j as usize >= axes {
-            diagnostics.extend(unused(setting, [i, j], axes));
+    let [offset, exclusion] =
+        [zero::OFFSET.place(), zero::EXCLUDED.place()].map(|place| place.row.key);
+    let (mut entries, mut excluded) = (BTreeMap::new(), BTreeSet::new());
+    for ([i, j], setting) in list.settings() {
+        let key = setting.row.key;
+        if key != offset && key != exclusion {
             continue;
         }
-        entries.insert((i, j as usize), list.get(zero::OFFSET.at(i).and(j)));
+        if j as usize >= axes {
+            diagnostics.extend(unused(setting, [i, j], axes));
+        } else if key == offset {
+            entries.insert((i, j as usize), list.get(zero::OFFSET.at(i).and(j)));
+        } else if list.get(zero::EXCLUDED.at(i).and(j)) {
+            excluded.insert((i, j as usize));
+        }
     }
     ZeroOffsets {
         entries,
+        excluded,
         start_group: list.get(zero::DEFAULT_GROUP),
         has_g53: list.get(zero::G53_IN_USE),
     }

@@ -67,6 +67,11 @@ impl Simulation {
                     spindle.weigh_acceleration(ratio);
                 }
             }
+            Event::SpindleDynamics { spindle, dynamics } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.set_dynamics(&dynamics);
+                }
+            }
             Event::SpindleLimits { spindle, limits } => {
                 if let Some(spindle) = self.spindles.get_mut(spindle) {
                     spindle.limit(limits);

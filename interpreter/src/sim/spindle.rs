@@ -67,6 +67,11 @@ impl Spindle {
         }
     }
 
+    /// Replaces the limits of its list (G112).
+    pub(super) fn set_dynamics(&mut self, dynamics: &AxisDynamics) {
+        (self.slope, self.v_max_deg_s) = (dynamics.feed, dynamics.v_max_mm_s);
+    }
+
     /// Follows the way of a path axis from the present position on, or comes to rest again.
     pub(super) fn follow(&mut self, way: Option<(usize, f64)>, position: &[f64]) {
         self.following = way.map(|(axis, deg_per_mm)| Following {
@@ -193,7 +198,8 @@ impl Spindle {
             SpindleMotion::Stop | SpindleMotion::Position { .. } => 0.0,
         };
         let most = self.most_deg_s();
-        let speed = speed.clamp(-most, most);
+        // + 0.0: M4 with the speed 0 is no negative zero
+        let speed = speed.clamp(-most, most) + 0.0;
         match self.tool {
             Some(tool) if speed != 0.0 => speed.abs().max(tool.min_deg_s.min(most)).copysign(speed),
             _ => speed,

@@ -210,6 +210,7 @@ impl Totals {
             | Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
             | Event::SpindleAcceleration { .. }
+            | Event::SpindleDynamics { .. }
             | Event::SpindleLimits { .. }
             | Event::SpindleFollows { .. }
             | Event::CuttingSpeed { .. }

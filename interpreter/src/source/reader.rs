@@ -17,6 +17,17 @@ const LINE_BYTES: usize = (BLOCK_LENGTH_MAX as usize + 1) * 4;
 /// Number of bytes of lines that are examined together when lines are skipped.
 const STRETCH: usize = 1024;
 
+/// Number of bytes that show whether a text is UTF-16.
+const UTF_16_BYTES: usize = 8;
+
+/// Whether a text begins with ASCII characters of two bytes: NUL ends a block, but not after each of the first characters.
+fn is_utf_16(text: &[u8]) -> bool {
+    let Some(begin) = text.get(..UTF_16_BYTES) else { return false };
+    let zero = |first: usize| begin.iter().skip(first).step_by(2).all(|b| *b == 0);
+    let other = |first: usize| begin.iter().skip(first).step_by(2).all(|b| *b != 0);
+    (zero(0) && other(1)) || (zero(1) && other(0))
+}
+
 /// Byte order mark of UTF-8.
 const BOM: &[u8] = b"\xEF\xBB\xBF";
 
@@ -266,7 +277,11 @@ impl BlockReader {
     }
 
     fn skip_bom(&mut self) -> io::Result<()> {
-        while self.filled < BOM.len() && self.fill()? {}
+        while self.filled < UTF_16_BYTES && self.fill()? {}
+        if is_utf_16(&self.window[..self.filled]) {
+            let text = "the text is UTF-16 without a byte order mark; save it as UTF-8";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, text));
+        }
         match self.window[..self.filled] {
             [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => {
                 let text = "the text is UTF-16; save it as UTF-8";

@@ -32,6 +32,7 @@ impl Found {
             "=IC" | "=AC" => "coordinates are X10: incremental after G91, absolute after G90",
             "=DC" | "=ACP" | "=ACN" => "modulo axes are C+90 and C-90 here",
             _ if self.meaning == CALL => "L file and LL NAME call subroutines here",
+            _ if self.meaning == DATA => "V.G.NP[1].V.X=.. sets a zero offset here",
             _ if self.meaning == ARITHMETIC => "parameters are P1 and V.P.NAME here",
             _ => return None,
         })
@@ -54,6 +55,8 @@ pub(super) fn recognise(masked: &str) -> Option<Problem> {
         .or_else(|| sinumerik(masked))
         .or_else(|| arithmetic_parameter(masked))
         .or_else(|| subprogram(masked))
+        .or_else(|| data_setting(masked))
+        .or_else(|| homing(masked))
         .or_else(|| numbered_parameter(masked))
         .or_else(|| decimal_g(masked))?;
     let word = masked.get(found.at..found.at + found.length)?;
@@ -75,6 +78,7 @@ const HEIDENHAIN: &str = "a Heidenhain control";
 const SINUMERIK: &str = "a Sinumerik control";
 const FANUC: &str = "a Fanuc control";
 const CALL: &str = "a call of a subprogram";
+const DATA: &str = "a setting of offsets or tools";
 const ARITHMETIC: &str = "an arithmetic parameter";
 
 /// The words at the beginning of Klartext blocks, after a number without a letter.
@@ -311,6 +315,31 @@ fn subprogram(masked: &str) -> Option<Found> {
             meaning: CALL,
         })
     })
+}
+
+/// `G10 L2 P1 X0`: values of a table.
+fn data_setting(masked: &str) -> Option<Found> {
+    let mut words = words(masked).skip_while(|(_, word)| !word.eq_ignore_ascii_case("G10"));
+    let (at, _) = words.next()?;
+    let (table, word) = words.next()?;
+    let number = word.strip_prefix(['L', 'l'])?;
+    let is_number = !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
+    is_number.then_some(Found {
+        at,
+        length: table + word.len() - at,
+        control: "a Fanuc control or LinuxCNC",
+        meaning: DATA,
+    })
+}
+
+/// `G28 W`: homing in a block that does not parse. Others are recognised where G functions are looked up.
+fn homing(masked: &str) -> Option<Found> {
+    let is_homing = |(_, word): &(usize, &str)| {
+        ["G28", "G29", "G30"].iter().any(|known| known.eq_ignore_ascii_case(word))
+    };
+    let (at, word) = words(masked).find(is_homing)?;
+    let control = "a 3D printer, a Fanuc control or LinuxCNC";
+    Some(Found { at, length: word.len(), control, meaning: "homing or levelling" })
 }
 
 /// Runs of letters, digits and points, with their positions.

@@ -1,5 +1,4 @@
 ; run: exit 1
-; error K-0009 at 4:38
-; warning K-0109 at called/unpassed.nc 1:2
+; error K-0009 at 3:38
 L CYCLE [NAME="called/unpassed.nc"   @P201=1]
 M30

@@ -1,6 +1,6 @@
 ; check: exit 1
-; error 20131 at 4:5
-; once per program
+; error K-0120 at 4:5
+; the rest is not checked
 G91 G28 Z0
-G28 X0
+G43 H1
 M30

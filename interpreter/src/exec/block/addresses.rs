@@ -196,8 +196,8 @@ fn o_word(value: f64, span: Span) -> Box<Fault> {
     } else {
         Condition::OFormat
     };
-    Fault::new(condition, "the O word does not exist in this dialect", span)
-        .with(|d| d.value(ValueKind::Wrong, value, "-"))
+    let text = "the O word does not exist in this dialect: it numbers programs of Fanuc controls";
+    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, value, "-"))
 }
 
 fn unknown_letter(names: &AxisNames, letter: u8, span: Span) -> Box<Fault> {

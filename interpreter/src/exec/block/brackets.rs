@@ -47,8 +47,20 @@ const OF_FUNCTIONS: &[&str] = &[
 ];
 
 /// Functions of axes in the manual that are not built.
-const REFUSED: &[&str] =
-    &["LIFT", "LIFT_START", "LIFT_END", "SYNC", "DIST_CTRL", "GANTRY", "CALLAX", "PUTAX"];
+const REFUSED: &[&str] = &[
+    "LIFT",
+    "LIFT_START",
+    "LIFT_END",
+    "SYNC",
+    "DIST_CTRL",
+    "GANTRY",
+    "CALLAX",
+    "PUTAX",
+    "MODULO",
+    "FIXED_STOP",
+    "DYNAMIC",
+    "POLY",
+];
 
 arguments! {
     /// Keys of `#OVERRIDE` and `X[OVERRIDE]`.

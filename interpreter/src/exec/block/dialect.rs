@@ -4,7 +4,7 @@ use super::collected::{Code, Words};
 use crate::diag::{Condition, Id};
 use crate::exec::fault::Fault;
 use crate::exec::report::{Report, Subject};
-use crate::syntax::ast::Span;
+use crate::syntax::ast::{ExprKind, GValue, Span};
 
 /// Whether an error is one that a file of another control repeats in every line: unassigned G functions (20131) and parameters
 /// without a value (20194), each separately, and O words (20191, 20192).
@@ -47,8 +47,18 @@ pub(in crate::exec) struct Seen {
     unit_or_mirror: bool,
     /// `#` commands, `$` statements or G numbers from 127 on.
     own: bool,
+    other: Other,
+}
+
+/// Evidence that a program is written for another control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Other {
+    #[default]
+    Nothing,
     /// An M function that sets a temperature in programs of 3D printers.
-    temperature: bool,
+    Temperature,
+    /// A block that begins with an O word: the number of a Fanuc program.
+    ProgramNumber,
 }
 
 impl Seen {
@@ -57,14 +67,39 @@ impl Seen {
         self.own = true;
     }
 
-    /// Whether G28 and G29 are functions of a 3D printer: after a temperature, and nothing of this dialect.
-    pub(super) fn is_printer(self) -> bool {
-        self.temperature && !self.own
+    /// K-0120 for G28, G29 and G30 unless the program is one of this dialect.
+    pub(super) fn homing(self, number: u32, span: Span) -> Option<Box<Fault>> {
+        let word = format!("G{number}");
+        match number {
+            28 | 29 if self.other == Other::Temperature && !self.own => {
+                Some(printer(&word, "homes or levels after a temperature", span))
+            }
+            28 | 30 if !self.own => {
+                let text = format!(
+                    "`{word}` moves to a reference point: this is a program for a Fanuc control, LinuxCNC or a 3D printer, not for ISG and TwinCAT"
+                );
+                let hint = "G74 homes the axes here, G53 cancels zero offsets";
+                Some(Fault::new(Condition::ForeignProgram, text, span).hint(hint))
+            }
+            _ => None,
+        }
+    }
+
+    /// A block that begins with an O word, whose message is 20192.
+    pub(in crate::exec) fn program_number(&mut self) {
+        self.other = Other::ProgramNumber;
+    }
+
+    /// Whether the messages so far show a program of another control, so that its other blocks are not checked.
+    pub(in crate::exec) fn ends_check(self) -> bool {
+        self.other == Other::ProgramNumber
     }
 
     /// K-0120 for a block that only a 3D printer understands: G92 with the position of an extruder.
     pub(super) fn is_of_a_printer(&mut self, words: &Words<'_>, report: &mut Report) -> bool {
-        self.temperature |= is_temperature(words);
+        if is_temperature(words) {
+            self.other = Other::Temperature;
+        }
         let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
             return false;
         };
@@ -137,6 +172,19 @@ pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
         "`{name}` is {meaning}: this is a program for a Sinumerik control, not for ISG and TwinCAT"
     );
     Some(Fault::new(Condition::ForeignProgram, text, span).hint(hint))
+}
+
+/// K-0120 for `G5 P10000` and `G8 P1`: high-speed modes of Fanuc controls.
+pub(in crate::exec) fn high_speed(number: u32, value: &GValue, span: Span) -> Option<Box<Fault>> {
+    let GValue::Scalar(expr) = value else { return None };
+    let is_parameter = matches!(&expr.kind, ExprKind::Place(_));
+    let text = format!(
+        "`G{number} P` is a high-speed mode: this is a program for a Fanuc control, not for ISG and TwinCAT"
+    );
+    (matches!(number, 5 | 8) && is_parameter).then(|| {
+        let hint = "#CONTOUR MODE and #HSC smooth the path here";
+        Fault::new(Condition::ForeignProgram, text, span).hint(hint)
+    })
 }
 
 /// Whether it is a subroutine call of another control, in which the words are arguments.

@@ -111,9 +111,10 @@ impl Decoder {
             || self.contour.akima.spline_vectors(&words, &mut self.report);
         self.motion.feed_before = self.modal.feed();
         self.feeds_and_modes(&words, takes_axes);
-        // after G04 the S word is a number of revolutions, after G74 a sequence
-        let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
-        let is_speed = !words.group(Group::Path).is_some_and(arguments);
+        // after G04 the S word is a number of revolutions, after G74 a sequence, after G112 a gear stage
+        let arguments =
+            |g: &GWord| matches!(g.row.act, Act::Dwell | Act::Gear) || g.row.number == 74;
+        let is_speed = !words.g.iter().any(arguments);
         let late_speed = is_speed.then(|| self.spindle_speeds(&words)).flatten();
         if let Err(fault) = self.leaves_the_spindle(&words) {
             self.report.note(fault);
@@ -262,6 +263,7 @@ impl Decoder {
                 self.modal.exact_stop &= !on;
             }
             Act::Manual => self.manual_mode(g, words)?,
+            Act::Gear => self.change_gears(g, words)?,
             Act::CornerDeceleration(on) => {
                 if on && self.motion.corner.is_none() {
                     let text = "G13 without the values of #CORNER PARAM";

@@ -96,6 +96,8 @@ pub(in crate::exec) enum Act {
     Banding(bool),
     /// G101 (true), G102.
     MeasuringOffsets(bool),
+    /// G112.
+    Gear,
     /// Already the behaviour of this tool.
     Nothing,
     /// No influence on set positions.
@@ -197,7 +199,7 @@ const ROWS: &[Row] = &[
     g(106, Group::None, Act::MeasureThrough),
     g(107, Group::Measuring, Act::Banding(false)),
     g(108, Group::Measuring, Act::Banding(true)),
-    g(112, Group::None, Act::Unsupported("gear stages")),
+    g(112, Group::None, Act::Gear),
     v(115, Group::LookAhead, Act::LookAheadFunctions),
     g(116, Group::LookAhead, Act::StopAtTransitions(true)),
     g(117, Group::LookAhead, Act::StopAtTransitions(false)),

@@ -116,6 +116,17 @@ impl Modal {
         self.feeds[self.feed_type as usize]
     }
 
+    /// The F word in force in the active unit of length, 0 without one; the time of G93 and the share of G194 have none.
+    pub(in crate::exec) fn feed_in_unit(&self) -> f64 {
+        let Some(word) = self.feed() else { return 0.0 };
+        let has_length = matches!(self.feed_type, FeedType::PerMinute | FeedType::PerRevolution);
+        match (word.inch, self.inch) {
+            (true, false) if has_length => word.value * INCH_MM,
+            (false, true) if has_length => word.value / INCH_MM,
+            _ => word.value,
+        }
+    }
+
     /// State at program start without presets of the channel list.
     pub(in crate::exec) fn start(slope: SlopeKind, constant_ramp_time: bool) -> Self {
         Self {

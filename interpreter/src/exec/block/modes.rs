@@ -185,6 +185,10 @@ impl Decoder {
             span,
         );
         self.report.keep(passed);
+        if self.modal.compensation != Compensation::Off {
+            let outcome = self.geometry.compensates_tool(span);
+            self.report.keep(outcome);
+        }
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
     }
@@ -235,6 +239,7 @@ impl Decoder {
     pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
         if side != Compensation::Off {
             self.geometry.plane_has_axes(self.modal.plane.main_axes(), &self.machine, span)?;
+            self.geometry.compensates_tool(span)?;
         }
         if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";

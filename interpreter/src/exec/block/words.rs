@@ -60,8 +60,11 @@ impl Code {
 impl Decoder {
     /// Collects the words of a block and executes its assignments. Invalid words are reported and skipped.
     pub(in crate::exec) fn collect<'b>(&mut self, words: &'b [Word], block: &mut Words<'b>) {
-        for word in words {
+        for (i, word) in words.iter().enumerate() {
             if let Err(fault) = self.collect_word(word, block) {
+                if i == 0 && fault.diagnostic.id == Condition::ONotImplemented.id() {
+                    self.dialect.program_number();
+                }
                 self.report.note(fault);
                 let foreign_call = match word.kind {
                     WordKind::G { number, .. } => super::dialect::is_call(number),

@@ -293,7 +293,7 @@ pub(super) const HSC: Row = Row::run("HSC", hsc)
     .form("#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]")
     .meaning("fits a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR")
     .keys(HscArguments::KEYS)
-    .note("BSPLINE first removes the rounding noise of the coordinates, within a tenth of the tolerances and at most 3 um")
+    .note("BSPLINE first removes the rounding noise of the coordinates, within 30 % of the tolerances and at most 3 um")
     .example("#HSC ON [BSPLINE PATH_DEV=0.05]")
     .related(&["120393", "120396"]);
 

@@ -169,9 +169,9 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     {
         return Ok(());
     }
-    decoder.sync(Sync::FlushWait);
     match (call.rest, &call.command.arguments[..]) {
         ([word], [condition]) if word.is("FOR") => {
+            // decoding waits, not the path: a condition that is met stops nothing (207058059)
             if decoder.condition(condition)? {
                 return Ok(());
             }
@@ -180,6 +180,7 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             Err(fault.with(|d| d.severity(crate::diag::Severity::Error)))
         }
         _ => {
+            decoder.sync(Sync::FlushWait);
             let text = format!("{} does not wait: no event to wait for", call.title());
             decoder.report.note_once("#WAIT", Fault::new(Condition::Wait, text, call.span()));
             Ok(())

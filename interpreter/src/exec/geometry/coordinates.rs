@@ -143,9 +143,20 @@ impl Coordinates {
         self.program[axis]
     }
 
-    /// Last coordinate word.
-    pub(in crate::exec) fn last_word(&self, axis: usize) -> f64 {
-        self.word[axis]
+    /// Last coordinate word as it is traversed: mirrored, and with a contour rotation the programmed position on the axes of
+    /// the machine, without offsets.
+    ///
+    /// Source: TF5200 programming manual 207902603 (V.A.PROG), tccncprogramming 15556682379: the mental coordinates are those
+    /// of the program, the programmed ones are mirrored. Assumption: under a rotation an increment counts as a position.
+    pub(in crate::exec) fn traversed_word(&self, axis: usize) -> f64 {
+        let word = match (&self.rotation, self.main_index(axis)) {
+            (Some(r), Some(main)) => {
+                let turn = Frame::rotation(r.plane[0], r.plane[1], r.deg, r.centre);
+                turn.apply(self.programmed_point())[main]
+            }
+            _ => self.word[axis],
+        };
+        if self.mirrored[axis] { 0.0 - word } else { word }
     }
 
     /// Axis of a main axis index.
@@ -315,18 +326,31 @@ impl Coordinates {
 
     /// Programmed coordinates of the current axis positions.
     fn recompute_program(&mut self) {
-        for axis in 0..self.target.len() {
-            let bare = self.target[axis] - self.applied[axis];
-            self.program[axis] = if self.mirrored[axis] { -bare } else { bare };
+        let mut program = std::mem::take(&mut self.program);
+        self.write_program(&self.target, &mut program);
+        self.program = program;
+    }
+
+    /// Programmed coordinates of axis positions: in the active system, without offsets.
+    pub(in crate::exec) fn program_at(&self, position: &AxisVec) -> AxisVec {
+        let mut program = position.clone();
+        self.write_program(position, &mut program);
+        program
+    }
+
+    fn write_program(&self, position: &AxisVec, program: &mut AxisVec) {
+        for axis in 0..position.len() {
+            let bare = position[axis] - self.applied[axis];
+            program[axis] = if self.mirrored[axis] { -bare } else { bare };
         }
         if self.plain {
             return;
         }
-        let bare = self.main.map(|m| m.map_or(0.0, |axis| self.target[axis] - self.applied[axis]));
-        let program = self.frame.inverse(bare);
-        for (main, value) in program.into_iter().enumerate() {
+        let bare = self.main.map(|m| m.map_or(0.0, |axis| position[axis] - self.applied[axis]));
+        let inside = self.frame.inverse(bare);
+        for (main, value) in inside.into_iter().enumerate() {
             if let Some(axis) = self.main[main] {
-                self.program[axis] = value;
+                program[axis] = value;
             }
         }
     }

@@ -15,23 +15,23 @@ use crate::diag::Condition;
 use crate::exec::fault::Fault;
 use crate::syntax::ast::{Sign, Span};
 
-const TURN_DEG: f64 = 360.0;
 /// Below this distance the axis counts as at its target and does not turn.
 const SAME_DEG: f64 = 1e-7;
 
-/// The position in deg for the word `value` (first sign included), from the current position of the axis.
-pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f64 {
+/// The position in deg for the word `value` (first sign included), from the current position of an axis that counts modulo
+/// `range_deg` (P-AXIS-00126, P-AXIS-00127).
+pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64, range_deg: f64) -> f64 {
     let angle = if turn == Some(Sign::Minus) { -value } else { value };
-    let turns = (from - angle) / TURN_DEG;
+    let turns = (from - angle) / range_deg;
     // a half rounds down here: the target is above `from`, in positive direction
-    let nearest = angle + (turns + 0.5).floor() * TURN_DEG;
+    let nearest = angle + (turns + 0.5).floor() * range_deg;
     if (nearest - from).abs() < SAME_DEG {
         return nearest;
     }
     match turn {
         None => nearest,
-        Some(Sign::Plus) => angle + turns.ceil() * TURN_DEG,
-        Some(Sign::Minus) => angle + turns.floor() * TURN_DEG,
+        Some(Sign::Plus) => angle + turns.ceil() * range_deg,
+        Some(Sign::Minus) => angle + turns.floor() * range_deg,
     }
 }
 
@@ -66,12 +66,15 @@ mod tests {
             (180.0, None, 0.0, 180.0),
             (-10.0, Some(Sign::Minus), 365.0, 10.0),
         ] {
-            assert_eq!(unwrapped(value, turn, from), to, "{value} {turn:?} from {from}");
+            assert_eq!(unwrapped(value, turn, from, 360.0), to, "{value} {turn:?} from {from}");
         }
+        // a range of two revolutions
+        assert_eq!(unwrapped(350.0, None, 0.0, 720.0), 350.0);
+        assert_eq!(unwrapped(370.0, None, 0.0, 720.0), -350.0);
         // rounding must not cause a revolution: at an angle already reached the axis stays where it is
         for (angle, turn) in [(350.0 + 1e-9, Sign::Plus), (-350.0 - 1e-9, Sign::Minus)] {
             for beside in [-2e-9, 2e-9] {
-                assert!((unwrapped(angle, Some(turn), 710.0 + beside) - 710.0).abs() < 1e-8);
+                assert!((unwrapped(angle, Some(turn), 710.0 + beside, 360.0) - 710.0).abs() < 1e-8);
             }
         }
     }

@@ -26,6 +26,9 @@ use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{LinePath, Path};
 
+/// mm in a foot.
+const FOOT_MM: f64 = 304.8;
+
 impl MotionState {
     /// Refuses functions that depend on the speed of the main spindle while an override changes it: the pages do not state
     /// which of the two speeds applies.
@@ -99,10 +102,12 @@ impl Decoder {
     }
 
     fn cut_with(&mut self, speed: Option<(f64, Span)>) -> Outcome<()> {
-        let (true, Some((m_min, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
-        if m_min <= 0.0 || m_min > 1e6 {
-            let text = format!("cutting speed S{m_min} m/min");
-            let condition = if m_min < 0.0 {
+        let (true, Some((written, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
+        let unit_mm =
+            if self.machine.channel.feed.cuts_in_feet && self.modal.inch { FOOT_MM } else { 1000.0 };
+        if written <= 0.0 || written > 1e6 {
+            let text = format!("cutting speed S{written}");
+            let condition = if written < 0.0 {
                 Condition::CuttingSpeedNegative
             } else {
                 Condition::CuttingSpeedZero
@@ -123,7 +128,7 @@ impl Decoder {
         let cutting = CuttingSpeed {
             axis,
             centre_mm: 0.0,
-            speed_mm_min: m_min * 1000.0,
+            speed_mm_min: written * unit_mm,
             max_rpm: self.motion.cutting.rpm_max.map_or(most, |rpm| rpm.min(most)),
             held_mm: None,
         };

@@ -4,7 +4,8 @@
 //! without that motion: its coordinates of the axis are shifted by the distances that the axis has travelled independently
 //! ([`Independent::way`]), so that they stay continuous. The simulation adds the shift to the path.
 //!
-//! Source: TF5200 programming manual, independent axes; 21068, 21071.
+//! Source: TF5200 programming manual, independent axes (208612235); 21068, 21071. Assumption: INCL_OFFSETS has no effect on an
+//! increment (G91).
 
 use super::slope::{slope_of_number, slope_type};
 use super::state::Function;
@@ -12,6 +13,8 @@ use crate::diag::Condition;
 use crate::exec::block::collected::Words as BlockWords;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
+use crate::exec::names::AxisNames;
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::block::SlopeKind;
@@ -26,11 +29,13 @@ struct Words {
     rapid: Option<bool>,
     speed: Option<(IndependentSpeed, Span)>,
     slope: Option<SlopeKind>,
+    /// INCL_OFFSETS.
+    offsets: Option<Span>,
     functions: Vec<Event>,
 }
 
 /// Words that are valid but not simulated.
-const UNSUPPORTED: &[&str] = &["G100", "DRY_RUN", "ACC_WEIGHT", "RAPID_ACC_WEIGHT", "INCL_OFFSETS"];
+const UNSUPPORTED: &[&str] = &["G100", "DRY_RUN", "ACC_WEIGHT", "RAPID_ACC_WEIGHT"];
 
 fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
     let hint = "X[INDP_SYN G90 G01 FEED=1000 POS=50]";
@@ -85,6 +90,9 @@ impl Words {
         if UNSUPPORTED.iter().any(|w| word.is(w)) {
             let what = format!("{} of an independent axis", word.text);
             return Err(Fault::unsupported(what, word.span));
+        }
+        if word.is("INCL_OFFSETS") {
+            return once(&mut self.offsets, word.span, "INCL_OFFSETS", word.span);
         }
         let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
         let code = crate::exec::values::number::whole(number, 0, 65535);
@@ -147,6 +155,28 @@ impl Words {
     }
 }
 
+impl Geometry {
+    /// Offset of an independent position of an axis: that of the program with INCL_OFFSETS, written at `at`, otherwise 0.
+    pub(super) fn included_offset(
+        &self,
+        axis: usize,
+        function: &str,
+        at: Option<Span>,
+        names: &AxisNames,
+    ) -> Outcome<f64> {
+        match at {
+            Some(at) if !self.coordinates.frame().is_identity() => {
+                let name = names.name(axis);
+                let what =
+                    format!("{name}[{function}] with INCL_OFFSETS in a rotated or mirrored system");
+                Err(Fault::unsupported(what, at))
+            }
+            Some(_) => Ok(self.coordinates.active_offset(axis)),
+            None => Ok(0.0),
+        }
+    }
+}
+
 impl Decoder {
     /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: the text after the first word.
     pub(in crate::exec) fn independent_axis(
@@ -205,7 +235,8 @@ impl Decoder {
         let way = position
             * self.modal.axis_unit(&self.machine.axes[axis])
             * self.geometry.scale.factor(axis);
-        let target = if relative { start[axis] + way } else { way };
+        let offset_mm = self.geometry.included_offset(axis, "INDP", words.offsets, &self.names)?;
+        let target = if relative { start[axis] + way } else { way + offset_mm };
         self.geometry.coordinates.place(axis, target);
         self.check_limit(axis, target, at);
         if let IndependentSpeed::Time(time_s) = speed {

@@ -118,14 +118,7 @@ impl Decoder {
             return Err(of_axis(Condition::NoOscillation, text, second_at));
         }
         let unit = self.modal.axis_unit(&self.machine.axes[axis]);
-        let offset_mm = match keys.offsets {
-            Some(at) if !self.geometry.coordinates.frame().is_identity() => {
-                let what = format!("{name}[OSC] with INCL_OFFSETS in a rotated or mirrored system");
-                return Err(Fault::unsupported(what, at));
-            }
-            Some(_) => self.geometry.coordinates.active_offset(axis),
-            None => 0.0,
-        };
+        let offset_mm = self.geometry.included_offset(axis, "OSC", keys.offsets, &self.names)?;
         let reversal_mm = [first, second].map(|position| position * unit + offset_mm);
         let feed = self.machine.channel.feed.unit_mm_min / 60.0 * unit;
         let speed = match (keys.feed, keys.frequency, keys.time) {

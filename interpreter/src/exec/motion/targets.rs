@@ -104,7 +104,8 @@ impl Decoder {
                 let bare = start[target.axis] - offset;
                 let mirrored = self.geometry.coordinates.mirrored(target.axis);
                 let from = if mirrored { -bare } else { bare };
-                target.value = modulo::unwrapped(target.value, turn, from);
+                let range_deg = self.machine.axes[target.axis].modulo_deg();
+                target.value = modulo::unwrapped(target.value, turn, from, range_deg);
             }
         }
         match suppressed {

@@ -154,7 +154,7 @@ impl Decoder {
         if mode == PathMode::Thread {
             self.cut_thread(path, words, span)
         } else {
-            self.tap(path, span)
+            self.tap(path, has_full_override(words), span)
         }
     }
 
@@ -252,21 +252,14 @@ impl Decoder {
         let way = (path.end()[axis] - path.start()[axis]).abs();
         let feed_mm_s = pitch_mm * rev_s * path.length() / way;
         let dynamics = self.motion.dynamics(&self.machine, &self.modal, false);
-        let mut block = self.thread_block(path, feed_mm_s, dynamics);
-        block.full_override =
-            modes.full_override() || words.g.iter().any(|g| g.row.act == Act::FullOverride);
-        if !block.full_override {
-            let moved = (0..block.path.start().len())
-                .filter(|a| block.path.start()[*a].to_bits() != block.path.end()[*a].to_bits());
-            block.feed_ratio = self.motion.overrides.ratio(false, moved);
-            if (block.feed_ratio - 1.0).abs() > 1e-12 {
-                let text = format!(
-                    "the programmed override acts on G33: the pitch of the thread becomes {} %",
-                    rounded(block.feed_ratio * 100.0)
-                );
-                self.report
-                    .note_once(Subject::G(33), Fault::new(Condition::ThreadBroken, text, span));
-            }
+        let full = modes.full_override() || has_full_override(words);
+        let block = self.thread_block(path, feed_mm_s, dynamics, full);
+        if (block.feed_ratio - 1.0).abs() > 1e-12 {
+            let text = format!(
+                "the programmed override acts on G33: the pitch of the thread becomes {} %",
+                rounded(block.feed_ratio * 100.0)
+            );
+            self.report.note_once(Subject::G(33), Fault::new(Condition::ThreadBroken, text, span));
         }
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
         if speeds.highest() < feed_mm_s * (1.0 - 1e-9) {
@@ -318,13 +311,18 @@ impl Decoder {
         path: Path,
         feed_mm_s: f64,
         dynamics: Arc<kontur_motion::block::ChannelDynamics>,
+        full_override: bool,
     ) -> Box<Block> {
+        let moved = (0..path.start().len())
+            .filter(|a| path.start()[*a].to_bits() != path.end()[*a].to_bits());
+        let feed_ratio =
+            if full_override { 1.0 } else { self.motion.overrides.ratio(false, moved) };
         Box::new(Block {
             seq: 0,
             path,
             feed: Feed::PathVelocity(feed_mm_s),
-            feed_ratio: 1.0,
-            full_override: false,
+            feed_ratio,
+            full_override,
             end_velocity_mm_s: None,
             late_braking: false,
             slope: self.modal.commanded.slope,
@@ -334,6 +332,11 @@ impl Decoder {
             spline: None,
         })
     }
+}
+
+/// G166 in the block.
+fn has_full_override(words: &Words<'_>) -> bool {
+    words.g.iter().any(|g| g.row.act == Act::FullOverride)
 }
 
 /// K-0132 for a thread from standstill to standstill that ends before the path reaches the speed of its pitch.

@@ -6,7 +6,7 @@ use super::executor::Executor;
 use super::state::{ModalCycle, Passed, Target};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::CycleCall;
-use crate::exec::fault::Fault;
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Param, Text};
@@ -171,9 +171,9 @@ impl Executor {
     fn call_cycle(&mut self, group: &Group, local: bool, span: Span) {
         let mut name = None;
         let mut passed = Passed::new();
-        let mut modal = None;
+        let (mut modal, mut faulty) = (None, false);
         for item in &group.items {
-            let outcome = match &item.kind {
+            let outcome: Outcome<()> = match &item.kind {
                 ItemKind::Missing => Ok(()),
                 ItemKind::Flag(word) if word.is("MODAL_MOVE") || word.is("MODAL") => {
                     modal = Some(false);
@@ -214,7 +214,18 @@ impl Executor {
                         .hint("write L CYCLE [NAME=\"file\" @P1=..]; @X and @S are words inside the cycle"))
                 }
             };
-            self.decoder.report.keep(outcome);
+            if let Err(fault) = outcome {
+                // the rest of a word that is not understood would be another error
+                let ends = fault.diagnostic.id == Condition::TokenUnknown.id();
+                faulty = true;
+                self.decoder.report.note(fault);
+                if ends {
+                    break;
+                }
+            }
+        }
+        if faulty {
+            return;
         }
         let Some(name) = name else {
             self.decoder.report.note(Fault::new(

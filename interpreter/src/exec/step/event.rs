@@ -2,7 +2,7 @@
 
 use super::{IndependentMotion, OscillatingMotion, SourceRef};
 use crate::machine::SpindleLimits;
-use kontur_motion::axis::AxisVec;
+use kontur_motion::axis::{AxisDynamics, AxisVec};
 
 /// An action at a point of the program that does not move the path.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +29,13 @@ pub(crate) enum Event {
         spindle: usize,
         /// Weight, above 0; 1 is the acceleration of the list.
         ratio: f64,
+    },
+    /// G112: another gear stage of a spindle at rest.
+    SpindleDynamics {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// Limits of the stage.
+        dynamics: Box<AxisDynamics>,
     },
     /// `S[GET_DYNAMIC_DATA]`, or a start from standstill: the limits of the tool apply to a spindle from now on.
     SpindleLimits {

@@ -66,6 +66,8 @@ pub(crate) struct FeedEntries {
     pub(crate) start_mm_s: Option<f64>,
     /// Length unit of an F word in mm/min (P-CHAN-00108 = 100: 1; 0.1: 1000).
     pub(crate) unit_mm_min: f64,
+    /// Cutting speeds under G70 are in ft/min (P-CHAN-00360), otherwise always in m/min.
+    pub(crate) cuts_in_feet: bool,
     /// Members of the feed group (P-CHAN-00011), one flag per path axis.
     ///
     /// Source: TF5200 channel parameters; if no axis is marked: the main axes, the first three at program start.
@@ -84,6 +86,7 @@ impl FeedEntries {
         Self {
             start_mm_s: Some(p.get(of::FEED)).filter(|f| *f > 0.0).map(|f| f / 60.0),
             unit_mm_min: feed_unit(p.get(of::FEED_UNIT)),
+            cuts_in_feet: p.get(of::CUTTING_IN_FEET),
             axes,
             lists_axes,
         }

@@ -8,7 +8,7 @@ use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, k
 use crate::machine::transmission::{
     feed_constant, feed_constant_given, gear, has_rotary_motor, is_one,
 };
-use crate::machine::{Axis, issues};
+use crate::machine::{Axis, gears, issues};
 use kontur_filters::control::{
     AxisControlConfig, Encoder, FeedforwardConfig, FeedforwardMode, PositionConfig, PositionLoop,
     feedforward::AdditiveInputs,
@@ -82,12 +82,17 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         let condition = Condition::ListNoEffect;
         diagnostics.push(issues::about(axis, condition, place, what, "no effect").hint(hint));
     };
-    let of_gear = |row: &Row| row.key.starts_with("getriebe[i]");
-    let other = axis.parameters().settings().find(|([gear, _], s)| *gear > 0 && of_gear(s.row));
+    let stages = gears::stages(axis.parameters());
+    let mut settings = axis.parameters().settings();
+    let number = axis_general::GEAR_NUMBER.place().row;
+    let other = settings.find(|([stage, _], s)| {
+        gears::is_of_gear(s.row) && !stages.contains(stage) && s.row.key != number.key
+    });
     if let Some((indices, setting)) = other {
-        let what = format!("parameters of gear stage {}", indices[0]);
-        let hint = "gear stages are not changed: getriebe[0] is used";
-        tell(Place { row: setting.row, indices }, &what, hint);
+        let what = format!("parameters of getriebe[{}], which has no number", indices[0]);
+        let hint =
+            format!("write getriebe[{}].nummer, so that G112 can select the stage", indices[0]);
+        tell(Place { row: setting.row, indices }, &what, &hint);
     }
     if let Some((place, reader)) = plant::of_another_model(axis) {
         let hint = format!("only used by {reader} in kontur.axis[i].plant.model");

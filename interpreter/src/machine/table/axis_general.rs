@@ -25,6 +25,17 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(32.0)).default(4.0), as DRIVE: Whole;
     axis("P-AXIS-00070", "kenngr.gantry_ax_nr", Raw::Uns16, "gantry slave: logical number of its master")
         .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"), as GANTRY_MASTER: Whole;
+    axis("P-AXIS-00079", "kenngr.getriebe_stufe", Raw::Uns16, "number of the gear stage in force at start-up (P-AXIS-00135); G112 changes it")
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::GearStageZero, Correction::Default)
+        .source("TF5200 axis parameters 117429259"), as GEAR_STAGE: Whole;
+    axis("P-AXIS-00126", "getriebe[i].moduloo", Raw::Sgn32, "upper end of the range of a modulo axis")
+        .range(Bound::BeyondOf("P-AXIS-00127"), Bound::None).default(3_600_000.0).unit("0.1um", "0.0001deg").axes("R")
+        .source("TF5200 axis parameters 117197963"), as MODULO_UPPER: Number;
+    axis("P-AXIS-00127", "getriebe[i].modulou", Raw::Sgn32, "lower end of the range of a modulo axis")
+        .default(0.0).unit("0.1um", "0.0001deg").axes("R")
+        .source("TF5200 axis parameters 117199499"), as MODULO_LOWER: Number;
+    axis("P-AXIS-00135", "getriebe[i].nummer", Raw::Uns16, "number of a gear stage for G112; getriebe[0] has 1, the others cannot be selected without one")
+        .special(0.0).range(Bound::At(1.0), Bound::None).source("TF5200 axis parameters 117585419"), as GEAR_NUMBER: Optional;
     axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; raise it for measuring moves, whose distance is shortened by the content of the feedforward buffer")
         .axes("TR").source("TF5200 feedforward control");
     axis("P-AXIS-00058", "kenngr.durchm_prog_abs", Raw::Boolean, "with G51 and G90, words of a face turning axis are diameters")

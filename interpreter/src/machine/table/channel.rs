@@ -208,6 +208,8 @@ parameters! {
         .default(0.0), as PATH_ACC_ON_ARCS: Switch;
     chan("P-CHAN-00351", "vector.acc_dec_unit", Raw::Word(&["MM_S2", "MM_M2"]), "unit of the accelerations vector.* and of ACC, DEC, RADIAL_ACC and RADIAL_JERK of #VECTOR LIMIT: MM_M2 mm/min2, MM_S2 mm/s2")
         .default_is(Default::Text("MM_M2")), as PATH_ACC_UNIT: Text;
+    chan("P-CHAN-00360", "enable_unit_feet_cut_speed", Raw::Boolean, "1: the cutting speed of G96 is in feet per minute under G70")
+        .default(0.0).source("TF5200 channel parameters 270415883"), as CUTTING_IN_FEET: Switch;
     chan("P-CHAN-00361", "vector.radial_acceleration", Raw::Real64, "v2/r limit on curves")
         .range(Bound::Beyond(0.0), Bound::None).default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2").outside(Condition::ListRange, Correction::Default), as PATH_RADIAL_ACC: Number;
     chan("P-CHAN-00429", "d_prog_file", Raw::Text, "global subroutine called by D words")

@@ -11,4 +11,6 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(96.0)).default(0.0).above(Condition::ZeroOffsetDefault, Correction::Refuse), as DEFAULT_GROUP: Whole;
     zero("P-ZERO-00003", "np_grp[i].achse[j].versch", Raw::Sgn32, "zero offset of axis j of the channel in group i")
         .default(0.0).unit("0.1um", "0.0001deg"), as OFFSET: Number;
+    zero("P-ZERO-00004", "np_grp[i].achse[j].inaktiv", Raw::Boolean, "1: group i does not include axis j, until G160=i includes it")
+        .default(0.0).source("TF5200 zero offsets 103725579"), as EXCLUDED: Switch;
 }

@@ -14,6 +14,7 @@ macro_rules! lists {
     FeedDecelerationZero = Vendor 110102: Warning None 1 2, "deceleration is 0, default used", hint "write the feed deceleration in mm/s2", parameter "P-AXIS-00002";
     SoftwareLimitRange = Vendor 110110: Warning None 1 2, "software limits leave no travel, corrected", cause "P-AXIS-00177, P-AXIS-00178", hint "write kenngr.swe_neg below kenngr.swe_pos";
     OverrideRange = Vendor 110111: Warning None 1 2, "maximum override below the minimum override, limited", cause "P-AXIS-00109", hint "write 1 to 2000 (0.1 %)";
+    GearStageZero = Vendor 110115: Warning None 1 1, "gear stage 0 at start-up, default used", cause "kenngr.getriebe_stufe 0", hint "write 1 or more", parameter "P-AXIS-00079";
     FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more", note "the feedforward manual allows a numerator of 0, so P-AXIS-00228 = 0 is a valid weight here; P-AXIS-00514 = 0 raises it";
     FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
     GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";

@@ -5,6 +5,7 @@ macro_rules! words {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     ListIndexRange = Vendor 1030: Error JobAbort 7 2, "index in the start-up list beyond its array", cause "achs_mds[230]", hint "use the indices 0 to 31 for axis lists, 0 to 11 for channel lists";
+    GearUnknown = Vendor 3210: Error ProgramAbort 3 6, "gear stage that the axis list does not have", cause "G112 X4", hint "write its number in getriebe[i].nummer of the axis list", parameter "P-AXIS-00135";
     AxisMissing = Vendor 20003: Warning None 1 1, "G function without an axis", cause "e.g. G160=2 without axis", hint "write the axes in the block of the function: G160=2 X1, G130 X50";
     SpindleSpeedZero = Vendor 20007: Error ProgramAbort 3 1, "spindle speed is 0", cause "G63 with S0", hint "program the speed first: S1000 M3";
     FeedZero = Vendor 20008: Error ProgramAbort 3 1, "feed is 0 in a motion block", cause "first G01/G02/G03 without F (P-CHAN-00099 = 0)", hint "write F in this block or before it";

@@ -30,9 +30,8 @@ impl Decoder {
             }));
         }
         let Some(row) = groups::row(number) else {
-            if matches!(number, 28 | 29) && self.dialect.is_printer() {
-                let meaning = "homes or levels after a temperature";
-                return Err(dialect::printer(&format!("G{number}"), meaning, span));
+            if let Some(fault) = self.dialect.homing(number, span) {
+                return Err(fault);
             }
             let fault =
                 Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
@@ -70,6 +69,9 @@ impl Decoder {
             // it still uses its axis words and occupies its group
             block.g.push(GWord { row, value: None, span });
             return Err(Fault::unsupported(format!("G{number:02} ({what})"), span));
+        }
+        if let Some(fault) = value.and_then(|value| dialect::high_speed(number, value, span)) {
+            return Err(fault);
         }
         let value = match (value, row.value) {
             (None, ValueRule::Required) => {

@@ -18,7 +18,7 @@ use std::sync::Arc;
 const SPEED_MAX: f64 = 1e6;
 
 impl Decoder {
-    pub(super) fn tap(&mut self, path: Path, span: Span) -> Outcome<()> {
+    pub(super) fn tap(&mut self, path: Path, full_override: bool, span: Span) -> Outcome<()> {
         let rpm = self.motion.threads.tapping_rpm.unwrap_or(self.motion.spindles[0].rpm);
         if rpm.abs() > SPEED_MAX {
             let text = format!("spindle speed {rpm} is outside 0 to {SPEED_MAX} rev/min");
@@ -40,7 +40,7 @@ impl Decoder {
         vector.vel_mm_s = least(vector.vel_mm_s, limits.v_max_mm_s / coupling.deg_per_path_mm);
         vector.acc_mm_s2 = least(vector.acc_mm_s2, slope.acc_mm_s2 * ratio);
         vector.dec_mm_s2 = least(vector.dec_mm_s2, slope.dec_mm_s2 * ratio);
-        let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics));
+        let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics), full_override);
         let plane = self.in_plane(span)?;
         if self.report.failed() && !self.checking {
             return Ok(());

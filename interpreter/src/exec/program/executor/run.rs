@@ -383,6 +383,9 @@ impl Executor {
                 break;
             }
         }
+        if self.decoder.dialect.ends_check() {
+            self.end(EndReason::Aborted);
+        }
         if self.decoder.checking {
             let enough = self.found.is_enough(self.budget.blocks());
             if let (Some(text), true) = (enough, self.state != State::Ended) {

@@ -37,14 +37,22 @@ fn text(s: &str) -> Outcome<Value> {
     Ok(Value::Text(s.into()))
 }
 
+/// Actual position of an axis in the active system without offsets, in mm; the programmed one where nothing has moved.
+fn actual_coordinate(d: &Decoder, axis: usize) -> f64 {
+    let coordinates = &d.geometry.coordinates;
+    let mut position = coordinates.target().clone();
+    for (position, actual_mm) in position.iter_mut().zip(d.feedback.actual_mm.iter()) {
+        *position = *actual_mm;
+    }
+    coordinates.program_at(&position)[axis]
+}
+
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     Row { name: &["A", "ABS", "*"], meaning: "programmed position of an axis, without offsets", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
-    Row { name: &["A", "PROG", "*"], meaning: "last coordinate word of an axis", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
-    Row { name: &["A", "MENT", "*"], meaning: "programmed position of an axis with its mirroring undone", read: |d, p| p.coordinate(d, 2, |d, a| {
-        if d.geometry.coordinates.mirrored(a) { -d.geometry.coordinates.programmed(a) } else { d.geometry.coordinates.programmed(a) }
-    }) },
-    Row { name: &["A", "ACT_POS", "*"], meaning: "actual position of an axis; motion comes to rest before it is read", read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
+    Row { name: &["A", "PROG", "*"], meaning: "last coordinate word of an axis as it is traversed, mirrored and rotated, without offsets", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.traversed_word(a)) },
+    Row { name: &["A", "MENT", "*"], meaning: "position of an axis in the values of the program, before mirroring", read: |d, p| p.coordinate(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
+    Row { name: &["A", "ACT_POS", "*"], meaning: "actual position of an axis in the active system, without offsets; motion comes to rest before it is read", read: |d, p| p.coordinate(d, 2, actual_coordinate) },
     Row { name: &["A", "ACS", "ABS", "*"], meaning: "position of an axis with all offsets", read: |d, p| p.axis_position(d) },
     Row { name: &["A", "BZP", "*"], meaning: "reference point offset of an axis (#PSET)", read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.preset(a)) },
     Row { name: &["A", "MESS", "*"], meaning: "measured value of an axis", read: |d, p| p.position(d, 2, |d, a| d.motion.measuring.results[a].value) },
@@ -88,12 +96,12 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["A", "+SWE_MDS", "*"], meaning: "positive software limit of an axis by its list", read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
     Row { name: &["A", "REF", "*"], meaning: "reference position of an axis; here 0", read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["A", "MODE", "*"], meaning: "mode of an axis as bits (P-AXIS-00015)", read: |d, p| { let a = p.axis(d, 2)?; number(f64::from(d.machine.axes[a].mode_bits())) } },
-    Row { name: &["A", "MODULO_VALUE", "*"], meaning: "modulo range of an axis in deg; 0 for an axis that is not modulo", read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
+    Row { name: &["A", "MODULO_VALUE", "*"], meaning: "modulo range of an axis in deg; 0 for an axis that is not modulo", read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { d.machine.axes[a].modulo_deg() } else { 0.0 }) } },
     Row { name: &["G", "BLOCK_NR"], meaning: "block number (N) of the current block", read: |d, _| number(d.calls.info.block_number as f64) },
     Row { name: &["G", "SATZ_NR"], meaning: "block number (N) of the current block (older name)", read: |d, _| number(d.calls.info.block_number as f64) },
-    Row { name: &["G", "FEEDRATE"], meaning: "F word in force", read: |d, _| number(d.modal.feed().map_or(0.0, |f| f.value)) },
+    Row { name: &["G", "FEEDRATE"], meaning: "F word in force, in the active unit", read: |d, _| number(d.modal.feed_in_unit()) },
     Row { name: &["G", "FEEDRATE_MODE"], meaning: "G function of the feed type: 93, 94, 95, 194", read: |d, _| number(f64::from(d.modal.feed_type.g())) },
-    Row { name: &["G", "FEEDRATE_SCALE"], meaning: "unit of the F word in mm/min", read: |d, _| number(d.machine.channel.feed.unit_mm_min) },
+    Row { name: &["G", "FEEDRATE_SCALE"], meaning: "factor from mm/min to the unit of the F word (P-CHAN-00108)", read: |d, _| number(1.0 / d.machine.channel.feed.unit_mm_min) },
     Row { name: &["G", "MASS_MM"], meaning: "1 under G70 (inch)", read: |d, _| truth(d.modal.inch) },
     Row { name: &["G", "MASS_360"], meaning: "scaling of rotary axes; here 0", read: |_, _| number(0.0) },
     Row { name: &["G", "I"], meaning: "centre of the last arc along the first main axis", read: |d, _| centre(d, 0) },
