@@ -2,6 +2,7 @@
 
 use super::batch::{Batch, Head};
 use super::fixed::{Cells, NumberTable};
+use super::now;
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
@@ -101,14 +102,6 @@ impl Rows {
         }
         out.end_line();
     }
-}
-
-#[expect(
-    clippy::disallowed_methods,
-    reason = "what waits too long could be lost; no value depends on it"
-)]
-fn now() -> Instant {
-    Instant::now()
 }
 
 /// A cell as CSV requires it: quoted only if necessary.
