@@ -12,6 +12,9 @@ use ::parquet::schema::types::ColumnDescPtr;
 use bytes::Bytes;
 use std::io::{self, Write};
 
+/// Room for the headers of the pages of a column.
+const HEADERS: usize = 128;
+
 /// A column of a group: its pages, and the description for the footer of a file.
 #[derive(Debug)]
 pub(super) struct Chunk {
@@ -43,13 +46,14 @@ impl Chunk {
     ///
     /// # Errors
     /// Those of the library.
-    pub(super) fn of_pages(
+    pub(super) fn of_pages<const N: usize>(
         column: ColumnDescPtr,
         rows: usize,
         compression: Compression,
-        pages: impl IntoIterator<Item = (Page, usize)>,
+        pages: [(Page, usize); N],
     ) -> io::Result<Self> {
-        let mut sink = TrackedWrite::new(Vec::new());
+        let values: usize = pages.iter().map(|(page, _)| page.buffer().len()).sum();
+        let mut sink = TrackedWrite::new(Vec::with_capacity(values + HEADERS));
         let (mut uncompressed, mut encodings) = (0, vec![Encoding::RLE]);
         let (mut dictionary, mut data) = (None, 0);
         for (page, size) in pages {
