@@ -18,6 +18,7 @@ use kontur_interpreter::record::columns::{self, Column};
 use kontur_interpreter::record::{Asked, Rows};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 /// One trace file.
 #[derive(Debug)]
@@ -62,7 +63,7 @@ impl Writer {
         match self {
             Self::Csv(w) => w.flush(),
             #[cfg(feature = "parquet")]
-            Self::Parquet(_) => Ok(()),
+            Self::Parquet(w) => w.flush(),
         }
     }
 
@@ -121,7 +122,7 @@ impl Trace {
             match is_parquet {
                 #[cfg(feature = "parquet")]
                 true => {
-                    let writer = parquet::ParquetWriter::new(path, target, columns, facts);
+                    let writer = parquet::ParquetWriter::new(path, target, &columns, facts);
                     Writer::Parquet(Box::new(writer.map_err(to_error)?))
                 }
                 _ => csv(csv::Target::File(target)),
@@ -184,6 +185,14 @@ impl Trace {
 /// [`Error::Usage`] for an unknown word.
 pub(crate) fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, Error> {
     columns::select(signals, facts).map_err(|e| Error::Usage(format!("--signals: {e}")))
+}
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "what waits too long could be lost; no value depends on it"
+)]
+fn now() -> Instant {
+    Instant::now()
 }
 
 fn error(path: &Path, e: io::Error) -> Error {

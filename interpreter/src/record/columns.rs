@@ -71,6 +71,8 @@ impl Content {
     /// Appends the values of a numeric column in every `decimate`-th of the rows, from the first one on.
     pub fn extend(self, values: &mut Vec<f64>, rows: &Rows<'_>, decimate: usize) {
         match self {
+            // without steps the length of the column is known in advance
+            Self::Path(f) if decimate == 1 => values.extend(rows.cycles().iter().map(f)),
             Self::Path(f) => values.extend(rows.cycles().iter().step_by(decimate).map(f)),
             Self::Axis(i, quantity) => match rows.column(i, quantity) {
                 column if decimate == 1 => values.extend_from_slice(column),

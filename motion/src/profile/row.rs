@@ -2,6 +2,7 @@
 
 use super::phase::Phase;
 use smallvec::SmallVec;
+use std::ops::Deref;
 use std::sync::Arc;
 
 /// Phases of a profile of TRAPEZ, SIN2 and HSC: two legs of three phases and a cruise.
@@ -21,18 +22,37 @@ pub struct State {
 }
 
 /// A speed that is never negative, in phases of constant jerk or of one sine-square ramp each.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    /// Phases in order with their start times, possibly with empty ones. Shared: plans pass their profiles on.
-    phases: Arc<[(f64, Phase)]>,
-    duration: f64,
     end: State,
+    duration: f64,
+    phases: Phases,
 }
 
-impl PartialEq for Profile {
+/// Phases in order with their start times, possibly with empty ones.
+#[derive(Clone, Debug)]
+enum Phases {
+    /// Most short blocks have only one, which needs no memory of its own.
+    One([(f64, Phase); 1]),
+    /// Shared: plans pass their profiles on.
+    Shared(Arc<[(f64, Phase)]>),
+}
+
+impl Deref for Phases {
+    type Target = [(f64, Phase)];
+
+    #[inline]
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Self::One(phase) => phase,
+            Self::Shared(phases) => phases,
+        }
+    }
+}
+
+impl PartialEq for Phases {
     fn eq(&self, other: &Self) -> bool {
-        self.end == other.end
-            && (Arc::ptr_eq(&self.phases, &other.phases) || self.phases == other.phases)
+        std::ptr::eq(&raw const self[..], &raw const other[..]) || self[..] == other[..]
     }
 }
 
@@ -47,14 +67,14 @@ impl Profile {
             timed.push((duration, phase));
             duration += phase.t;
         });
-        Self { phases: Arc::from(&timed[..]), duration, end }
+        Self { phases: Phases::Shared(Arc::from(&timed[..])), duration, end }
     }
 
     /// A constant speed in mm/s, above 0, over a length, as most short blocks of a run have it.
     pub(super) fn even(v_mm_s: f64, length: f64) -> Self {
         let cruise = Phase::state(0.0, v_mm_s, 0.0).until(length / v_mm_s);
         let end = State { s_mm: length, v_mm_s, ..State::default() };
-        Self { phases: Arc::new([(0.0, cruise)]), duration: cruise.t, end }
+        Self { phases: Phases::One([(0.0, cruise)]), duration: cruise.t, end }
     }
 
     /// Consecutive phases over a length.

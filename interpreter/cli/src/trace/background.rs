@@ -3,8 +3,8 @@
 //! Rows are passed to it in batches, and the empty batches are returned: a few of them are all the memory required, and
 //! a run that is faster than its file waits. The rows are the same, in the same order, as without a thread.
 
-use super::Writer;
 use super::batch::{Batch, Numbers};
+use super::{Writer, now};
 use kontur_interpreter::record::Rows;
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
@@ -19,14 +19,6 @@ const BATCHES: usize = 3;
 const LOOK_EVERY: usize = 16;
 /// Longest wait before a batch is handed over, and before the thread flushes.
 const PERIOD: Duration = Duration::from_millis(400);
-
-#[expect(
-    clippy::disallowed_methods,
-    reason = "what waits too long could be lost; no value depends on it"
-)]
-fn now() -> Instant {
-    Instant::now()
-}
 
 /// A writer on a separate thread.
 pub(super) struct Background {

@@ -43,8 +43,12 @@ pub(crate) struct Batch {
 impl Batch {
     /// Adds every `decimate`-th cycle, from the first one on; the sources must be the same for every row.
     pub(crate) fn extend(&mut self, Numbers(contents): &Numbers, rows: &Rows<'_>, decimate: usize) {
-        let cycles = rows.cycles().iter().step_by(decimate);
-        self.heads.extend(cycles.map(Head::of));
+        let cycles = rows.cycles().iter();
+        if decimate == 1 {
+            self.heads.extend(cycles.map(Head::of));
+        } else {
+            self.heads.extend(cycles.step_by(decimate).map(Head::of));
+        }
         self.numbers.resize_with(contents.len(), Vec::new);
         for (column, content) in self.numbers.iter_mut().zip(contents) {
             content.extend(column, rows, decimate);

@@ -1,7 +1,8 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
 use super::batch::{Batch, Head};
-use super::fixed::{Cells, NumberTable};
+use super::fixed::{Cells, NumberTable, Repeating};
+use super::now;
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
@@ -17,6 +18,8 @@ pub(crate) struct Rows {
     numbers: NumberTable,
     cycle_us: u64,
     files: FileNames,
+    last_line: Repeating,
+    last_block: Repeating,
 }
 
 /// A column that is not a number, and the numeric columns after it: the data read for every row.
@@ -48,6 +51,8 @@ impl Rows {
             numbers: NumberTable::new(&decimals),
             cycle_us: u64::from(facts.cycle_us),
             files: facts.files.clone(),
+            last_line: Repeating::default(),
+            last_block: Repeating::default(),
         }
     }
 
@@ -77,15 +82,15 @@ impl Rows {
     }
 
     /// Appends the line of one of these rows.
-    fn push_row(&self, out: &mut Cells, row: usize, head: &Head) {
+    fn push_row(&mut self, out: &mut Cells, row: usize, head: &Head) {
         let mut from = 0;
         for &Stretch { content, numbers_to } in &self.stretches {
             match content {
                 Content::Time => out.push_seconds(head.k.saturating_mul(self.cycle_us)),
-                Content::Line => out.push_integer(u64::from(head.line)),
+                Content::Line => out.push_integer(u64::from(head.line), &mut self.last_line),
                 Content::Block => {
                     if let Some(n) = head.block {
-                        out.push_integer(n);
+                        out.push_integer(n, &mut self.last_block);
                     }
                 }
                 Content::File => {
@@ -101,14 +106,6 @@ impl Rows {
         }
         out.end_line();
     }
-}
-
-#[expect(
-    clippy::disallowed_methods,
-    reason = "what waits too long could be lost; no value depends on it"
-)]
-fn now() -> Instant {
-    Instant::now()
 }
 
 /// A cell as CSV requires it: quoted only if necessary.

@@ -67,6 +67,15 @@ impl Divided {
     }
 }
 
+/// An integer that mostly is the same as in the row before, with its text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Repeating {
+    n: u64,
+    text: [u8; 24],
+    /// 0 before the first one.
+    length: usize,
+}
+
 /// Text of a table that grows cell by cell.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cells {
@@ -195,10 +204,19 @@ impl Cells {
         }
     }
 
-    /// Appends an unsigned integer.
+    /// Appends an unsigned integer; `last` belongs to its column.
     #[inline]
-    pub(crate) fn push_integer(&mut self, n: u64) {
-        self.push_cell(|cell| put_whole(cell, 0, n));
+    pub(crate) fn push_integer(&mut self, n: u64, last: &mut Repeating) {
+        self.push_cell(|cell| {
+            if last.length == 0 || last.n != n {
+                let length = put_whole(cell, 0, n);
+                let text = cell.first_chunk().copied().unwrap_or_default();
+                *last = Repeating { n, text, length };
+            } else {
+                store(cell, 0, last.text);
+            }
+            last.length
+        });
     }
 
     /// Appends microseconds as seconds with six decimals, exactly.
@@ -372,13 +390,15 @@ mod tests {
             out.push_seconds(micros);
             out.push_comma();
         }
-        for n in [0, 7, 10, 999, 1000, 20_034, u64::MAX] {
-            out.push_integer(n);
+        let mut last = Repeating::default();
+        for n in [0, 7, 7, 10, 999, 1000, 20_034, u64::MAX, u64::MAX, 0] {
+            out.push_integer(n, &mut last);
             out.push_comma();
         }
         assert_eq!(
             std::str::from_utf8(out.as_bytes()).unwrap(),
-            "0.000000,1.834000,10000000.000062,0,7,10,999,1000,20034,18446744073709551615,"
+            "0.000000,1.834000,10000000.000062,\
+             0,7,7,10,999,1000,20034,18446744073709551615,18446744073709551615,0,"
         );
     }
 }

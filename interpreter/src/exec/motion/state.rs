@@ -217,6 +217,8 @@ pub(in crate::exec) struct Straight {
     pub(super) contour: Option<ContourSettings>,
     pub(super) spline: Option<SplineSettings>,
     pub(super) plane: [usize; 2],
+    /// See [`Coordinates::active_offsets`](crate::exec::geometry::coordinates::Coordinates::active_offsets).
+    pub(super) offsets: AxisVec,
 }
 
 /// A function that the machine executes during the motion.

@@ -110,7 +110,7 @@ impl Decoder {
         }
         self.straight = match (passed, shared) {
             (Some(passed), Some(shared)) if self.contour.lets_by() => {
-                *passed = self.pass_by(words);
+                *passed = self.pass_by(words, &shared);
                 Some(shared)
             }
             (_, shared) => self.straight_path(words, shared),
@@ -151,7 +151,8 @@ impl Decoder {
     ) -> Option<Box<Straight>> {
         let coordinates = &mut self.geometry.coordinates;
         let start = coordinates.target().clone();
-        coordinates.program(words.targets.iter().map(|(target, _)| *target));
+        let offsets = shared.as_ref().map(|shared| &shared.offsets[..]);
+        coordinates.program_with(offsets, words.targets.iter().map(|(target, _)| *target));
         let end = coordinates.target().clone();
         let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else { return shared };
         let path = Path::Line(line);
@@ -188,10 +189,11 @@ impl Decoder {
 
     /// Replaces the previous motion by the motion to the targets of a block; returns the time of the previous one if there is a
     /// motion.
-    fn pass_by(&mut self, words: &StraightWords) -> Option<f64> {
+    fn pass_by(&mut self, words: &StraightWords, shared: &Straight) -> Option<f64> {
         let coordinates = &mut self.geometry.coordinates;
         let start = coordinates.target().clone();
-        coordinates.program(words.targets.iter().map(|(target, _)| *target));
+        let targets = words.targets.iter().map(|(target, _)| *target);
+        coordinates.program_with(Some(&shared.offsets), targets);
         let ends = (&start[..], &coordinates.target()[..]);
         let time_s =
             self.contour.pass_by(ends, &self.motion.feed_axes, self.report.source, words.span)?;
@@ -239,6 +241,7 @@ impl Decoder {
             contour: self.contour.hsc.contour(),
             spline: self.contour.hsc.spline(),
             plane,
+            offsets: self.geometry.coordinates.active_offsets(),
         }))
     }
 }

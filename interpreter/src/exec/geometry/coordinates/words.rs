@@ -1,6 +1,7 @@
 //! Positions programmed by the words of a block.
 
 use super::{Coordinates, OffsetKind, Target};
+use kontur_motion::axis::AxisVec;
 
 impl Coordinates {
     /// `#SUPPRESS OFFSETS`: targets of axes without offsets of these kinds. Systems, rotation and mirroring remain (207072907).
@@ -35,6 +36,24 @@ impl Coordinates {
 
     /// Applies the words of a block; the new targets are in [`target`](Self::target).
     pub(in crate::exec) fn program(&mut self, words: impl IntoIterator<Item = Target>) {
+        self.program_with(None, words);
+    }
+
+    /// The offset that an absolute word of each axis would apply. It stays valid until a block does anything but move axes.
+    pub(in crate::exec) fn active_offsets(&self) -> AxisVec {
+        let mut offsets = AxisVec::zeros(self.target.len());
+        for (axis, offset) in offsets.iter_mut().enumerate() {
+            *offset = self.active_offset(axis);
+        }
+        offsets
+    }
+
+    /// The same as [`Self::program`], with the [active offsets](Self::active_offsets) if they are known.
+    pub(in crate::exec) fn program_with(
+        &mut self,
+        offsets: Option<&[f64]>,
+        words: impl IntoIterator<Item = Target>,
+    ) {
         let mut framed = [None; 3];
         for Target { axis, value, absolute } in words {
             self.word[axis] = value;
@@ -45,7 +64,7 @@ impl Coordinates {
             }
             match if self.plain { None } else { self.main_index(axis) } {
                 Some(main) => framed[main] = Some(absolute),
-                None => self.program_plain(axis, value, absolute),
+                None => self.program_plain(offsets, axis, value, absolute),
             }
         }
         if !self.plain && framed.iter().any(Option::is_some) {
@@ -54,10 +73,11 @@ impl Coordinates {
     }
 
     #[inline]
-    fn program_plain(&mut self, axis: usize, value: f64, absolute: bool) {
+    fn program_plain(&mut self, offsets: Option<&[f64]>, axis: usize, value: f64, absolute: bool) {
         let value = if self.mirrored[axis] { -value } else { value };
         if absolute {
-            self.applied[axis] = self.active_offset(axis);
+            self.applied[axis] =
+                offsets.map_or_else(|| self.active_offset(axis), |offsets| offsets[axis]);
             self.target[axis] = value + self.applied[axis];
         } else {
             self.target[axis] += value;
