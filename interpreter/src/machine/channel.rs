@@ -10,12 +10,14 @@ use super::table::channel as of;
 use super::table::param::{Optional, Param, Text, Whole, whole};
 use couplings::{DefaultCoupling, default_couplings};
 use functions::{Acknowledged, SpindleDurations, SpindleWaits};
-use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
+use kontur_motion::block::{
+    CurveJerk, SlopeKind, SplineSettings, TransitionJerkMode, VectorLimits,
+};
 use kontur_motion::realtime::OverrideMode;
-use path::{feed_unit, look_ahead, slope, vector, vector_time_s};
+use path::{feed_unit, look_ahead, slope, spline, vector, vector_time_s};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Number of blocks in the look-ahead of the planner (P-STUP-00070, P-STUP-00071).
+/// Number of blocks in the look-ahead of the planner (P-CHAN-00650 and 00653, or P-STUP-00070 and 00071).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LookAhead {
     /// Blocks, 10 to 10 000; default 120.
@@ -104,6 +106,10 @@ pub struct Channel {
     pub limit_warnings: u32,
     /// Look-ahead.
     pub look_ahead: LookAhead,
+    /// Settings of `#HSC [BSPLINE]` at program start (P-CHAN-00122 to 00130).
+    pub spline: SplineSettings,
+    /// Shortest length and smallest radius in mm of a tool that D accepts (P-CHAN-00156, P-CHAN-00157); 0: any.
+    pub(crate) least_tool_mm: [f64; 2],
     /// Programs start in inch (P-CHAN-00054).
     pub inch: bool,
     /// Tolerance words are inch under G70 (P-CHAN-00439).
@@ -284,7 +290,9 @@ impl Channel {
                 radius_difference_mm: p.get(of::RADIUS_DIFFERENCE),
                 radius_difference_ratio: p.get(of::RADIUS_DIFFERENCE_RATIO),
             },
-            look_ahead: look_ahead(&start_up),
+            look_ahead: look_ahead(p, &start_up),
+            spline: spline(p),
+            least_tool_mm: [p.get(of::MIN_TOOL_LENGTH), p.get(of::MIN_TOOL_RADIUS)],
             inch: p.get(of::INCH),
             contouring_consider_inch: p.get(of::CONTOURING_INCH),
             exact_stop_after_g00: p.get(of::EXACT_STOP_AFTER_G00),
