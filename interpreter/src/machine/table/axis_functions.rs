@@ -32,8 +32,8 @@ parameters! {
         .default(200_000.0).unit("0.001deg/s", "0.001deg/s").axes("S").source("TF5200 axis parameters 117214859");
     axis("P-AXIS-00277", "kenngr.prog_move_requires_homing", Raw::Boolean, "1: the axis does not move before homing; no effect here, every axis counts as homed")
         .default(0.0).source("TF5200 axis parameters 117251723");
-    axis("P-AXIS-00557", "getriebe[i].modulo_calculation", Raw::Sgn16, "modulo calculation: -1 as in P-AXIS-00015, 0 off, 1 on (rotary axes)")
+    axis("P-AXIS-00557", "getriebe[i].modulo_calculation", Raw::Sgn08, "modulo calculation: -1 as in P-AXIS-00015, 0 off, 1 on (rotary axes)")
         .range(Bound::At(-1.0), Bound::At(1.0)).default(-1.0).axes("TR").source("TF5200 axis parameters 117205643"), as MODULO_CALCULATION: Number;
-    axis("P-AXIS-00705", "kenngr.swe_check", Raw::Sgn16, "software limits: -1 for linear axes and rotary axes that are not modulo, 0 off, 1 on")
+    axis("P-AXIS-00705", "kenngr.swe_check", Raw::Sgn08, "software limits: -1 for linear axes and rotary axes that are not modulo, 0 off, 1 on")
         .range(Bound::At(-1.0), Bound::At(1.0)).default(-1.0).axes("TR").source("TF5200 axis parameters 117316107"), as LIMIT_CHECK: Number;
 }
