@@ -23,6 +23,7 @@ use super::geometry::point::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
+use kontur_motion::block::SplineSettings;
 use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
@@ -68,6 +69,13 @@ pub(super) struct Contour {
 }
 
 impl Contour {
+    /// The state at program start, with the settings of `#HSC [BSPLINE]` of the channel list.
+    pub(super) fn start(spline: SplineSettings) -> Self {
+        let mut contour = Self::default();
+        contour.hsc.spline = spline;
+        contour
+    }
+
     /// `#OTC`: from here on the simulation needs the position of the tool at the contour.
     pub(super) fn report_engagement(&mut self) {
         self.tells_engagement = true;

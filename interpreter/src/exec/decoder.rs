@@ -74,7 +74,7 @@ impl Decoder {
             dialect: Seen::default(),
             values: Values::new(options.external),
             geometry: Geometry::new(&machine, start),
-            contour: Contour::default(),
+            contour: Contour::start(machine.channel.spline),
             motion: MotionState::new(&machine, options.techno_times),
             shaping: ShapingState::new(options.guard),
             calls: Calls::new(&machine.channel),

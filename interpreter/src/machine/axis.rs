@@ -8,7 +8,8 @@ use super::parameters::{Parameters, Setting};
 use super::plausible;
 use super::table::param::{Number, Param, Place};
 use super::table::{
-    Indices, ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general,
+    Indices, ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_functions,
+    axis_general,
 };
 use super::value;
 use crate::diag::{AxisRef, Diagnostic, Location};
@@ -310,13 +311,15 @@ impl Axis {
         self.get(axis_control::GAIN)
     }
 
-    /// Software limits in mm (P-AXIS-00177, P-AXIS-00178); `None` for spindles and modulo axes.
+    /// Software limits in mm (P-AXIS-00177, P-AXIS-00178); `None` for spindles and modulo axes, and if they are off
+    /// (P-AXIS-00705).
     pub(crate) fn software_limits_mm(&self) -> Option<(f64, f64)> {
         self.software_limits_mm
     }
 
     fn listed_software_limits_mm(&self) -> Option<(f64, f64)> {
-        if self.kind == AxisKind::Spindle || self.is_modulo() {
+        let off = self.get(axis_functions::LIMIT_CHECK).total_cmp(&0.0).is_eq();
+        if self.kind == AxisKind::Spindle || self.is_modulo() || off {
             return None;
         }
         Some((self.get(axis_general::LOWER_LIMIT), self.get(axis_general::UPPER_LIMIT)))

@@ -11,8 +11,9 @@ use super::parameters::Parameters;
 use super::table::channel as of;
 use couplings::{DefaultCoupling, default_couplings};
 use functions::{FunctionEntries, SpindleEntries};
+use kontur_motion::block::SplineSettings;
 use language::{LanguageEntries, OffsetEntries};
-use path::{ArcCentre, FeedEntries, PathEntries, look_ahead};
+use path::{ArcCentre, FeedEntries, PathEntries, look_ahead, spline};
 use programs::{MacroEntries, ProgramEntries, VariableEntries};
 use running::{
     BandingEntries, IndependentEntries, MeasuringEntries, OverrideEntries, ThreadEntries,
@@ -67,8 +68,13 @@ pub struct Channel {
     pub(crate) independent: IndependentEntries,
     /// Axes of the channel, one bit each, whose positions outside the software limits are a warning (P-CHAN-00147).
     pub(crate) limit_warnings: u32,
-    /// Number of blocks in the look-ahead of the planner (P-STUP-00070, P-STUP-00071), 10 to 10 000; default 120.
+    /// Number of blocks in the look-ahead of the planner (P-CHAN-00650 and 00653, or P-STUP-00070 and 00071), 10 to 10 000; default
+    /// 120.
     pub(crate) look_ahead_blocks: u32,
+    /// Settings of `#HSC [BSPLINE]` at program start (P-CHAN-00122 to 00130).
+    pub(crate) spline: SplineSettings,
+    /// Shortest length and smallest radius in mm of a tool that D accepts (P-CHAN-00156, P-CHAN-00157); 0: any.
+    pub(crate) least_tool_mm: [f64; 2],
     /// Messages to the diagnosis receiver (P-CHAN-00518).
     pub(crate) diagnosis_messages: DiagnosisMessages,
     /// Coupling group 0 as defined by the list (P-CHAN-00037, P-CHAN-00038).
@@ -98,7 +104,9 @@ impl Channel {
             banding: BandingEntries::of(p),
             independent: IndependentEntries::of(p),
             limit_warnings: p.get(of::LIMIT_WARNINGS),
-            look_ahead_blocks: look_ahead(&start_up),
+            look_ahead_blocks: look_ahead(p, &start_up),
+            spline: spline(p),
+            least_tool_mm: [p.get(of::MIN_TOOL_LENGTH), p.get(of::MIN_TOOL_RADIUS)],
             diagnosis_messages: match p.get(of::DIAGNOSIS_MESSAGES).as_deref() {
                 Some("DISABLED") => DiagnosisMessages::Disabled,
                 Some("WARNING") => DiagnosisMessages::Warning,

@@ -1,22 +1,32 @@
 //! Parameters that change the behaviour of a control but are not simulated: if a list sets one to a value other than
 //! its default, a message says so, lest the trace be mistaken for that of the control.
 
-use super::parameters::Parameters;
+use super::kind::{AxisKind, kind_of, mode};
+use super::parameters::{Parameters, Setting};
 use super::plausible::finish;
-use super::table::{axis_general, with_indices};
+use super::table::param::{Place, whole};
+use super::table::{ListKind, axis_functions, axis_general, channel, start_up, with_indices};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic};
+
+/// What such a message warns of.
+const HINT: &str = "the trace may differ from that of the control";
 
 /// ID, and what is done instead.
 ///
 /// Source: TF5200 axis, channel, start-up and tool parameters, axis compensation, friction compensation.
 const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00021", "the backlash (P-AXIS-00103) is not compensated at reversal"),
+    ("P-AXIS-00043", "the axes of a collision pair are not stopped before they meet"),
     ("P-AXIS-00047", "cross compensation is not added to the set position"),
+    ("P-AXIS-00073", "a gantry slave has the set position of its master"),
+    ("P-AXIS-00120", "the modulo circle has no error to be compensated"),
     ("P-AXIS-00174", "plane compensation is not added to the set position"),
     ("P-AXIS-00175", "leadscrew error compensation is not added to the set position"),
     ("P-AXIS-00179", "actual positions are not checked against the software limits"),
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
+    ("P-AXIS-00217", "the path waits until the spindle has the whole of its speed"),
+    ("P-AXIS-00220", "the spindle is in position control at every speed"),
     ("P-AXIS-00224", "the spindle turns in both directions"),
     ("P-AXIS-00231", "the sign of the drive command is not changed"),
     ("P-AXIS-00271", "temperature compensation is not added to the set position"),
@@ -33,6 +43,7 @@ const INERT: &[(&str, &str)] = &[
         "P-STUP-00018",
         "programs and subroutines are searched for next to the main program and in the folders of --path",
     ),
+    ("P-STUP-00075", "the whole look-ahead is computed in every cycle"),
     ("P-CHAN-00004", "S words do not change the gear"),
     ("P-CHAN-00016", "D uses the data of the tool list"),
     (
@@ -40,11 +51,22 @@ const INERT: &[(&str, &str)] = &[
         "M40 to M45 do not change the gear, the spindle keeps the limits of the first gear",
     ),
     ("P-CHAN-00069", "the spindle turns like a spindle of the control"),
+    ("P-CHAN-00079", "words of rotary axes are in degrees"),
+    ("P-CHAN-00120", "an axis beyond a software limit is an error at program start"),
+    ("P-CHAN-00131", "#HSC [BSPLINE] keeps distances of its own from corners"),
+    ("P-CHAN-00132", "lines are not divided before a spline is fitted"),
+    ("P-CHAN-00138", "arcs are not divided under #HSC"),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
     ("P-CHAN-00190", "the limits do not depend on the length of a motion"),
+    ("P-CHAN-00217", "the first motion after #HSC ON is part of the spline"),
+    ("P-CHAN-00219", "contour violations are found without contour masking"),
     ("P-CHAN-00230", "the limits do not depend on the radius of an arc"),
     ("P-CHAN-00259", "contouring treats arcs as with 0"),
     ("P-CHAN-00261", "there is only one path"),
+    ("P-CHAN-00405", "a spline does not end where the ways of other axes are long"),
+    ("P-CHAN-00654", "the whole look-ahead is computed in every cycle"),
+    ("P-CHAN-00761", "the spindle follows the set positions of the axes of G63"),
+    ("P-CHAN-00834", "the axes of G33 follow the set position of the spindle"),
 ];
 
 /// What is done instead of the function of a parameter that is not simulated.
@@ -52,36 +74,81 @@ pub(crate) fn instead_of(id: &str) -> Option<&'static str> {
     INERT.iter().find(|(inert, _)| *inert == id).map(|(_, instead)| *instead)
 }
 
-/// K-0075 for every such parameter that a list changes.
+/// K-0075 for every such parameter that a list changes, once for all indices of an array.
 pub(super) fn check(
     parameters: &Parameters,
     axis: Option<&AxisRef>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    // ordered by key: the entries of an array are adjacent
+    let mut last = None;
     for (indices, setting) in parameters.settings() {
         let row = setting.row;
         let Some(instead) = instead_of(row.id) else { continue };
         // a refused value has already been reported
         let is_refused =
             |d: &Diagnostic| d.is_error() && d.parameter == Some(row.id) && d.source == setting.at;
-        if !setting.is_changed() || diagnostics.iter().any(is_refused) {
+        if !setting.is_changed() || last == Some(row.id) || diagnostics.iter().any(is_refused) {
             continue;
         }
+        last = Some(row.id);
         let key = with_indices(row.key, indices);
         let text = format!("{key} is not simulated: {instead}");
-        let diagnostic = Diagnostic::new(Condition::ListNoEffect, text)
-            .hint("the trace may differ from that of the control");
-        diagnostics.push(finish(diagnostic, row, setting.at.clone(), axis));
+        diagnostics.push(without_effect(setting, &text, axis).hint(HINT));
     }
-    let behaviour = axis_general::LIMIT_BEHAVIOUR;
-    let in_controller = Value::Text("ERROR_LR".to_owned());
-    if let Some(setting) = parameters.set_by(behaviour).filter(|s| s.value == in_controller) {
-        let text = format!(
-            "{}: ERROR_LR acts as ERROR, a position outside the software limits ends the program",
-            behaviour.place()
-        );
-        let diagnostic = Diagnostic::new(Condition::ListNoEffect, text)
-            .hint("WARNING lets the program run and the axis cross the limit");
-        diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), axis));
+    let number = |place: Place| parameters.listed(place).unwrap_or_default();
+    let mut values = |place: Place, acts: bool, instead: &str, hint: &str| {
+        if let (Some(setting), true) = (parameters.set_by(place), acts) {
+            let text = format!("{place}: {instead}");
+            diagnostics.push(without_effect(setting, &text, axis).hint(hint));
+        }
+    };
+    match parameters.kind() {
+        ListKind::Axis => {
+            let place = axis_general::LIMIT_BEHAVIOUR.place();
+            let behaviour = parameters.of(place.row, place.indices);
+            values(
+                place,
+                behaviour == Some(Value::Text("ERROR_LR".to_owned())),
+                "ERROR_LR acts as ERROR, a position outside the software limits ends the program",
+                "WARNING lets the program run and the axis cross the limit",
+            );
+            let kind = kind_of(parameters);
+            let place = axis_functions::MODULO_CALCULATION.place();
+            let acts = match kind {
+                AxisKind::Linear => number(place) > 0.0,
+                AxisKind::Rotary => false,
+                AxisKind::Spindle => number(place).total_cmp(&0.0).is_eq(),
+            };
+            let of = if kind == AxisKind::Linear {
+                "a linear axis is not counted modulo"
+            } else {
+                "a spindle is counted modulo"
+            };
+            values(place, acts, of, HINT);
+            let place = axis_functions::LIMIT_CHECK.place();
+            let is_modulo = parameters.get(axis_general::MODE) & mode::MODULO != 0;
+            let acts = number(place) > 0.0 && is_modulo && kind != AxisKind::Linear;
+            values(place, acts, "a modulo axis has no software limits", HINT);
+        }
+        ListKind::Channel => interpolator(channel::LOOK_AHEAD.place(), parameters, &mut values),
+        ListKind::StartUp => interpolator(start_up::LOOK_AHEAD.place(), parameters, &mut values),
+        _ => {}
     }
+}
+
+/// FCT_LOOK_AHEAD_OPT, the one function of the interpolator that changes speeds.
+fn interpolator(
+    place: Place,
+    parameters: &Parameters,
+    values: &mut impl FnMut(Place, bool, &str, &str),
+) {
+    let functions = parameters.listed(place).and_then(whole).unwrap_or_default();
+    let acts = functions & start_up::OPTIMISED != 0;
+    values(place, acts, "FCT_LOOK_AHEAD_OPT does not raise speeds further", HINT);
+}
+
+fn without_effect(setting: &Setting, text: &str, axis: Option<&AxisRef>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text);
+    finish(diagnostic, setting.row, setting.at.clone(), axis)
 }

@@ -12,7 +12,7 @@ use super::table::param::{Number, Param, Place};
 use super::table::{
     self, Bound, Correction, Default, Indices, ListKind, OutOfRange, Raw, Row, with_indices,
 };
-use super::table::{axis_drive, axis_general, kontur};
+use super::table::{axis_drive, axis_functions, axis_general, kontur};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
@@ -272,6 +272,20 @@ fn check_together(
     if let Some((condition, what, used)) = wrong {
         let text = format!("kenngr.achs_mode: {mode} {what}, {used} is used");
         put(parameters, condition, axis_general::MODE.place(), text, f64::from(used));
+    }
+
+    // P-AXIS-00557 has precedence over the axis mode; K-0075 where it cannot, see `inert`
+    let calculation = number(parameters, axis_functions::MODULO_CALCULATION);
+    if kind_of(parameters) == AxisKind::Rotary && calculation >= 0.0 {
+        let mode = parameters.get(axis_general::MODE);
+        let used = if calculation > 0.0 {
+            mode | bits::MODULO
+        } else {
+            mode & !bits::MODULO | bits::LINEAR
+        };
+        let Place { row, indices } = axis_general::MODE.place();
+        let at = parameters.set_by(axis_functions::MODULO_CALCULATION).and_then(|s| s.at.clone());
+        parameters.set(row, indices, Value::Number(f64::from(used)), at);
     }
 
     // P-AXIS-00566 permits velocity feedforward only

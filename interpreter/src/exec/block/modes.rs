@@ -176,6 +176,10 @@ impl Decoder {
             }
             crate::exec::geometry::tools::Tool::default()
         };
+        if number != 0 {
+            let outcome = self.tool_is_large_enough(number, span);
+            self.report.keep(outcome);
+        }
         self.geometry.coordinates.tool_programmed();
         self.geometry.apply_tool(self.modal.plane.main_axes());
         let passed = self.motion.pass_tool_limits(
@@ -191,6 +195,26 @@ impl Decoder {
         }
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
+    }
+
+    /// 21426, 21427: the active tool is shorter or thinner than the channel list demands (P-CHAN-00156, P-CHAN-00157).
+    ///
+    /// Assumption: the error ends the program, like the other errors of tool data; no document prints its reaction.
+    fn tool_is_large_enough(&self, number: u32, span: Span) -> Outcome<()> {
+        let tool = &self.geometry.tools.active;
+        let [length, radius] = self.machine.channel.least_tool_mm;
+        for (condition, what, value, least) in [
+            (Condition::ToolTooShort, "length", tool.length_mm, length),
+            (Condition::ToolTooThin, "radius", tool.radius_mm, radius),
+        ] {
+            if least > 0.0 && value < least {
+                let text = format!("{what} {value} mm of tool data D{number}, at least {least} mm");
+                return Err(Fault::new(condition, text, span).with(|d| {
+                    d.value(ValueKind::Wrong, value, "mm").value(ValueKind::LowerLimit, least, "mm")
+                }));
+            }
+        }
+        Ok(())
     }
 
     /// G05: the motion that starts or ends compensation becomes an arc.

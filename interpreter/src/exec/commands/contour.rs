@@ -273,8 +273,8 @@ arguments! {
     /// Keys of `#HSC`.
     struct HscArguments {
         bspline: Flag "BSPLINE", "", "the first key: a B-spline through short blocks";
-        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 0.2; 0: not monitored";
-        track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default 5; 0: not monitored";
+        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default of the channel list (P-CHAN-00122, 0.2); 0: not monitored";
+        track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default of the channel list (P-CHAN-00123, 5); 0: not monitored";
         merge: MaybeNumber "MERGE", "", "no effect";
         auto_off_path: MaybeNumber "AUTO_OFF_PATH", "", "ends the spline";
         auto_off_track: MaybeNumber "AUTO_OFF_TRACK", "", "ends the spline";

@@ -103,8 +103,11 @@ impl Decoder {
 
     fn cut_with(&mut self, speed: Option<(f64, Span)>) -> Outcome<()> {
         let (true, Some((written, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
-        let unit_mm =
-            if self.machine.channel.feed.cuts_in_feet && self.modal.inch { FOOT_MM } else { 1000.0 };
+        let unit_mm = if self.machine.channel.feed.cuts_in_feet && self.modal.inch {
+            FOOT_MM
+        } else {
+            1000.0
+        };
         if written <= 0.0 || written > 1e6 {
             let text = format!("cutting speed S{written}");
             let condition = if written < 0.0 {

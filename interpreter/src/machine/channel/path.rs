@@ -1,10 +1,13 @@
-//! Dynamics and feed of the path at the start of a program, limits of arcs, and the size of the look-ahead.
+//! Dynamics and feed of the path at the start of a program, limits of arcs, the size of the look-ahead, and splines.
 
 use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
-use crate::machine::table::param::{Number, Param};
+use crate::machine::table::channel_hsc as hsc;
+use crate::machine::table::param::{Number, Param, whole};
 use crate::machine::table::start_up as from;
-use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
+use kontur_motion::block::{
+    CurveJerk, SlopeKind, SplineSettings, TransitionJerkMode, VectorLimits,
+};
 
 /// Dynamics of the path: slope, weighted limits, transitions and `#VECTOR LIMIT`.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,16 +120,6 @@ impl ArcCentre {
     }
 }
 
-/// Number of blocks in the look-ahead of channel 0; P-STUP-00071 acts only with the function `_CUSTOM`.
-pub(super) fn look_ahead(start_up: &Parameters) -> u32 {
-    match start_up.get(from::LOOK_AHEAD).as_deref() {
-        Some("FCT_LOOK_AHEAD_LOW") => 30,
-        Some("FCT_LOOK_AHEAD_STANDARD") => 70,
-        Some("FCT_LOOK_AHEAD_CUSTOM") => start_up.get(from::LOOK_AHEAD_BLOCKS),
-        _ => 120,
-    }
-}
-
 fn slope(profile: u32) -> SlopeKind {
     match profile {
         1 => SlopeKind::Trapez,
@@ -156,5 +149,41 @@ fn vector(p: &Parameters) -> VectorLimits {
         dec_mm_s2: acc(of::PATH_DEC),
         radial_acc_mm_s2: acc(of::PATH_RADIAL_ACC),
         ..VectorLimits::default()
+    }
+}
+
+/// Number of blocks in the look-ahead of channel 0; the numbers of blocks act only with the function `_CUSTOM`.
+///
+/// Source: TF5200 channel parameters 828925963 and 829047947. Assumption: P-CHAN-00650 takes precedence over P-STUP-00070,
+/// as a list of a channel does over one of the control.
+pub(super) fn look_ahead(p: &Parameters, start_up: &Parameters) -> u32 {
+    let listed = p.get(of::LOOK_AHEAD).and_then(whole);
+    let (functions, blocks) = match listed {
+        Some(functions) => (functions, p.get(of::LOOK_AHEAD_BLOCKS)),
+        None => (start_up.get(from::LOOK_AHEAD), start_up.get(from::LOOK_AHEAD_BLOCKS)),
+    };
+    let has = |function: u32| functions & function != 0;
+    match () {
+        () if has(from::CUSTOM) => blocks,
+        () if has(from::LOW) => 30,
+        () if has(from::HIGH) => 190,
+        () => 120,
+    }
+}
+
+/// Settings of `#HSC [BSPLINE]` at program start (P-CHAN-00122 to 00130).
+///
+/// Assumption: an angle of 0, the default of P-CHAN-00125, is no limit, as for the other limits; read literally it would end a
+/// spline at every block. Rapid blocks end a spline unless the list states P-CHAN-00128.
+pub(super) fn spline(p: &Parameters) -> SplineSettings {
+    let angle_deg = p.get(hsc::MAX_ANGLE) / 1e4;
+    SplineSettings {
+        path_dev_mm: p.get(hsc::PATH_DEVIATION),
+        track_dev_deg: p.get(hsc::TRACK_DEVIATION),
+        off_at_path_dev: p.get(hsc::OFF_AT_PATH_DEVIATION),
+        off_at_track_dev: p.get(hsc::OFF_AT_TRACK_DEVIATION),
+        off_at_rapid: p.get(hsc::OFF_AT_RAPID).is_none_or(|on| on > 0.0),
+        max_length_mm: p.get(hsc::MAX_LENGTH),
+        max_angle_deg: if angle_deg > 0.0 { angle_deg.min(180.0) } else { 180.0 },
     }
 }

@@ -2,6 +2,7 @@
 
 use super::param::parameters;
 use super::row::{Bound, Correction, Default, Raw, chan};
+use super::start_up::FUNCTIONS;
 use crate::diag::Condition;
 
 /// Kinds of synchronisation with the PLC (P-CHAN-00041).
@@ -164,8 +165,6 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
     chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"), as TOOL_CHANGE_PROGRAM: Text;
     chan("P-CHAN-00119", "start_init_prog_file", Raw::Text, "global subroutine called at program start"), as START_PROGRAM: Text;
-    chan("P-CHAN-00136", "", Raw::Uns32, "secant error of HSC segmentation (with 00138)")
-        .default(50.0).unit("0.1um", "0.1um");
     chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "how the jerk check uses the speed of the polynomial parameter; jerk is checked as with 1 here")
         .range(Bound::At(0.0), Bound::At(2.0)).default(1.0);
     chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with a warning instead of an error at setpoint limits")
@@ -271,4 +270,42 @@ parameters! {
     chan("P-CHAN-00167", "g87_prog_file", Raw::Text, "global subroutine called by G87"), as G87_PROGRAM: Text;
     chan("P-CHAN-00168", "g88_prog_file", Raw::Text, "global subroutine called by G88"), as G88_PROGRAM: Text;
     chan("P-CHAN-00169", "g89_prog_file", Raw::Text, "global subroutine called by G89"), as G89_PROGRAM: Text;
+    chan("P-CHAN-00032", "kinematik_id", Raw::Uns16, "kinematics of #TRAFO at program start; no effect here, #TRAFO is refused or has no kinematics")
+        .default(0.0).source("TF5200 channel parameters 149237131");
+    chan("P-CHAN-00079", "rund_mass_einh", Raw::Uns08, "unit of words of rotary axes: 0 degree, 1 gon (400 a turn); not simulated")
+        .range(Bound::At(0.0), Bound::At(1.0)).default(0.0).source("TF5200 channel parameters 148980747");
+    chan("P-CHAN-00092", "wrk_im_kanal_vorhanden", Raw::Boolean, "1: the channel has tool radius compensation; no effect here, it always has")
+        .default(0.0).source("TF5200 channel parameters 149218699");
+    chan("P-CHAN-00104", "synchro_data.restore_coupling_after_reset", Raw::Boolean, "1: couplings are active again after a reset; no effect here, a run is one program")
+        .default(0.0).source("TF5200 gantry operation 285758987");
+    chan("P-CHAN-00105", "synchro_data.preserve_coupling_after_prog_end", Raw::Boolean, "1: couplings of the program before are active again; no effect here, a run is one program")
+        .default(0.0).source("TF5200 gantry operation 285758987");
+    chan("P-CHAN-00120", "soft_limit_tolerance", Raw::Boolean, "1: axes that a program does not move may be beyond a software limit by P-AXIS-00179; not simulated")
+        .default(0.0).source("TF5200 channel parameters 149357707");
+    chan("P-CHAN-00156", "tool.minimum_length", Raw::Uns32, "shortest tool that D accepts (21426); 0: any")
+        .default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 148966795"), as MIN_TOOL_LENGTH: Number;
+    chan("P-CHAN-00157", "tool.minimum_radius", Raw::Uns32, "smallest radius of a tool that D accepts (21427); 0: any")
+        .default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 148968331"), as MIN_TOOL_RADIUS: Number;
+    chan("P-CHAN-00219", "implicit_contour_masking", Raw::Boolean, "1: contour violations without G141 are found by contour masking; not simulated")
+        .default(0.0).source("TF5200 channel parameters 149221771");
+    chan("P-CHAN-00262", "trafo[i].id", Raw::Uns16, "kinematics of transformation i; no effect here, #TRAFO, #CYL and #FACE are refused or have no kinematics")
+        .default(0.0).source("TF5200 channel parameters 149247371");
+    chan("P-CHAN-00263", "trafo[i].param[j]", Raw::Real64, "offset j of transformation i, see P-CHAN-00262; no effect here")
+        .default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 149248907");
+    chan("P-CHAN-00284", "trc_circular_kerf_masking", Raw::Boolean, "0: KERF_MASKING of #TRC takes the older method; no effect here, it is refused")
+        .default(1.0).source("TF5200 channel parameters 149223307");
+    chan("P-CHAN-00650", "configuration.interpolator.function", Raw::Flags(FUNCTIONS), "as P-STUP-00070, which it replaces")
+        .source("TF5200 channel parameters 828925963"), as LOOK_AHEAD: Optional;
+    chan("P-CHAN-00653", "configuration.interpolator.number_blocks_lah", Raw::Uns32, "blocks of look-ahead with FCT_LOOK_AHEAD_CUSTOM of P-CHAN-00650")
+        .range(Bound::At(10.0), Bound::At(10000.0)).default(120.0).source("TF5200 channel parameters 829047947"), as LOOK_AHEAD_BLOCKS: Whole;
+    chan("P-CHAN-00654", "configuration.interpolator.blocks_per_call", Raw::Uns32, "blocks of look-ahead per cycle; not simulated")
+        .range(Bound::At(1.0), Bound::None).default(200.0).source("TF5200 channel parameters 829080715");
+    chan("P-CHAN-00761", "tapping.use_actual_position", Raw::Boolean, "1: the axes of G63 follow the actual position of the spindle; not simulated")
+        .default(0.0).source("TF5200 turning functions 400206731");
+    chan("P-CHAN-00762", "tapping.n_cycles", Raw::Uns16, "cycles of the filter of P-CHAN-00761; not simulated")
+        .range(Bound::At(0.0), Bound::At(20.0)).default(0.0).source("TF5200 turning functions 400206731");
+    chan("P-CHAN-00834", "thread_cutting.use_actual_speed", Raw::Boolean, "1: the axes of G33 follow the actual position of the spindle; not simulated")
+        .default(0.0).source("TF5200 channel parameters 1116195083");
+    chan("P-CHAN-00835", "thread_cutting.n_cycles", Raw::Uns16, "cycles of the filter of P-CHAN-00834; not simulated")
+        .range(Bound::At(0.0), Bound::At(25.0)).default(0.0).source("TF5200 channel parameters 1116199691");
 }

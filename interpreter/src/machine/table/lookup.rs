@@ -2,7 +2,7 @@
 
 use super::{
     ListKind, Row, axis_compensation, axis_control, axis_drive, axis_dynamics, axis_filters,
-    axis_general, axis_guard, channel, kontur, start_up, tool, zero,
+    axis_functions, axis_general, axis_guard, channel, channel_hsc, kontur, start_up, tool, zero,
 };
 use crate::suggest::edit_distance;
 use std::collections::HashMap;
@@ -12,6 +12,7 @@ use std::sync::LazyLock;
 const FAMILIES: &[&[Row]] = &[
     start_up::ROWS,
     channel::ROWS,
+    channel_hsc::ROWS,
     axis_general::ROWS,
     axis_dynamics::ROWS,
     axis_control::ROWS,
@@ -19,6 +20,7 @@ const FAMILIES: &[&[Row]] = &[
     axis_filters::ROWS,
     axis_guard::ROWS,
     axis_compensation::ROWS,
+    axis_functions::ROWS,
     tool::ROWS,
     zero::ROWS,
     kontur::ROWS,
@@ -27,13 +29,18 @@ const FAMILIES: &[&[Row]] = &[
 /// Other spellings of a key that mean the same parameter, with `[]` for every index.
 ///
 /// Source: the channel manual's older edition (`syn_chk.fehler_*`); the overview of the start-up
-/// manual (`wrkz_data`); TF5200 Improved Position Control: builds with one
+/// manual (`wrkz_data`); its pages 1238935151133070859 and 829047947 (`interpolator.parameter`); TF5200 Improved Position Control: builds with one
 /// filter per stage write `filter.`, newer ones `filter[k].`.
 const ALIASES: &[(&str, &str)] = &[
     ("suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("lr_param.suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("getriebe[].suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("wrkz_data[]", "werkz_data[i]"),
+    (
+        "configuration.channel[].interpolator.parameter",
+        "configuration.channel[i].interpolator.number_blocks_lah",
+    ),
+    ("configuration.interpolator.parameter", "configuration.interpolator.number_blocks_lah"),
     ("syn_chk.fehler_gesamt", "syn_chk.errors_total"),
     ("syn_chk.fehler_pro_zeile", "syn_chk.errors_per_block"),
     (

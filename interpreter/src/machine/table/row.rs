@@ -28,6 +28,8 @@ pub enum Raw {
     Uns16,
     /// Unsigned, 32 bits.
     Uns32,
+    /// Signed, 8 bits.
+    Sgn08,
     /// Signed, 16 bits.
     Sgn16,
     /// Signed, 32 bits.
@@ -55,6 +57,7 @@ impl Raw {
             Self::Uns08 => Some((0.0, 255.0)),
             Self::Uns16 => Some((0.0, 65535.0)),
             Self::Uns32 | Self::Names(_) | Self::Flags(_) => Some((0.0, 4294967295.0)),
+            Self::Sgn08 => Some((-128.0, 127.0)),
             Self::Sgn16 => Some((-32768.0, 32767.0)),
             Self::Sgn32 => Some((-2147483648.0, 2147483647.0)),
             Self::Real64 => Some((f64::MIN, f64::MAX)),
@@ -69,6 +72,7 @@ impl Raw {
             Self::Uns08 => "UNS08",
             Self::Uns16 => "UNS16",
             Self::Uns32 => "UNS32",
+            Self::Sgn08 => "SGN08",
             Self::Sgn16 => "SGN16",
             Self::Sgn32 => "SGN32",
             Self::Real64 => "REAL64",

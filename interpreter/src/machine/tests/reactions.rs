@@ -1,6 +1,7 @@
 //! Handling of values that are out of range, inconsistent or without effect.
 
 use super::*;
+use kontur_motion::block::SplineSettings;
 
 #[test]
 fn numbers_that_do_not_fit_together() {
@@ -264,4 +265,137 @@ fn the_feed_has_one_of_two_units() {
         assert_eq!(ids, said, "{value}");
         assert!((machine.channel.feed.unit_mm_min - mm_min).abs() < 1e-9, "{value}");
     }
+}
+
+/// A list that changes a parameter which the control acts on says so by name; the default, and a value that kontur has by
+/// itself, say nothing. Defaults: the vendor's pages, see the rows.
+#[test]
+fn what_is_not_simulated_is_named() {
+    let rows = [
+        ("x", "kenngr.coll_check_ax_nr", "0", "7"),
+        ("x", "kenngr.gantry_offset", "0", "-100"),
+        ("x", "lr_param.mod_komp", "0", "1"),
+        ("x", "getriebe[0].modulo_calculation", "-1", "1"),
+        ("s", "getriebe[0].modulo_calculation", "1", "0"),
+        ("s", "kenngr.vb_prozent", "100", "50"),
+        ("s", "getriebe[0].vb_regelgrenze", "200000", "60000000"),
+        ("s", "kenngr.swe_check", "-1", "1"),
+        ("channel", "rund_mass_einh", "0", "1"),
+        ("channel", "soft_limit_tolerance", "0", "1"),
+        ("channel", "hsc.bspline.limit_corner_dist", "200", "100"),
+        ("channel", "hsc.gen.linear_segmentation", "0", "1"),
+        ("channel", "hsc.gen.circular_param", "50", "100"),
+        ("channel", "hsc.gen.on_delay_output_one_block", "0", "1"),
+        ("channel", "hsc.gen.max_track_ratio", "1.0e+002", "50"),
+        ("channel", "implicit_contour_masking", "0", "1"),
+        ("channel", "configuration.interpolator.blocks_per_call", "200", "50"),
+        (
+            "channel",
+            "configuration.interpolator.function",
+            "FCT_IPO_DEFAULT | FCT_SYNC",
+            "FCT_IPO_DEFAULT | FCT_LOOK_AHEAD_OPT",
+        ),
+        ("channel", "tapping.use_actual_position", "0", "1"),
+        ("channel", "thread_cutting.use_actual_speed", "0", "1"),
+    ];
+    for (list, key, default, changed) in rows {
+        for (value, ids) in [(default, &[][..]), (changed, &["K-0075"][..])] {
+            let mut files = Memory::machine();
+            let modulo = if list == "s" { "kenngr.achs_mode 4\n" } else { "" };
+            files.add(&format!("m/lists/{list}.lis"), &format!("{modulo}{key} {value}\n"));
+            let (_, said) = files.load(&[]).unwrap();
+            let said_ids: Vec<String> = said.iter().map(|d| d.id.to_string()).collect();
+            assert_eq!(said_ids, ids, "{key} {value}");
+            assert!(said.iter().all(|d| d.text.starts_with(key)), "{said:?}");
+        }
+    }
+}
+
+/// One message for all entries of an array: pages of kinematics and dynamic weighting list dozens of them.
+#[test]
+fn an_array_without_effect_is_named_once() {
+    let mut files = Memory::machine();
+    files.add("m/lists/x.lis", "lr_hw[0].vz_stellgr 1\nlr_hw[1].vz_stellgr 1\n");
+    assert_eq!(files.ids(&[]), ["K-0075"]);
+}
+
+/// P-AXIS-00557 decides for rotary axes whatever the axis mode is (117205643); P-AXIS-00705 switches the software limits off
+/// (117316107).
+#[test]
+fn modulo_calculation_and_software_limits_by_their_switches() {
+    for (mode, calculation, is_modulo) in
+        [(1, -1, false), (4, -1, true), (1, 1, true), (4, 0, false), (4, 1, true), (1, 0, false)]
+    {
+        let mut files = Memory::machine();
+        let entries = format!(
+            "kenngr.achs_typ ACHSTYP_ROTATOR\nkenngr.achs_mode {mode}\ngetriebe[0].modulo_calculation {calculation}\n"
+        );
+        files.add("m/lists/x.lis", &entries);
+        let (machine, said) = files.load(&[]).unwrap();
+        let axis = machine.axis("Y").unwrap();
+        assert_eq!(axis.is_modulo(), is_modulo, "{entries}");
+        assert_eq!(axis.software_limits_mm().is_none(), is_modulo, "{entries}");
+        assert_eq!(said, [], "{entries}");
+    }
+    for (check, limited) in [(-1, true), (0, false), (1, true)] {
+        let mut files = Memory::machine();
+        files.add("m/lists/x.lis", &format!("kenngr.swe_check {check}\n"));
+        let (machine, said) = files.load(&[]).unwrap();
+        assert_eq!(machine.axis("Y").unwrap().software_limits_mm().is_some(), limited, "{check}");
+        assert_eq!(said, [], "{check}");
+    }
+}
+
+/// Sizes of the look-ahead: TF5200 channel parameters 828925963 (30, 120, 190), 829047947 (the number with CUSTOM only).
+#[test]
+fn look_ahead_of_the_channel_list() {
+    let blocks = |start_up: &str, channel: &str| {
+        let mut files = Memory::machine();
+        files.add("m/hochlauf.lis", start_up);
+        files.add("m/lists/channel.lis", channel);
+        let (machine, said) = files.load(&[]).unwrap();
+        assert_eq!(said, [], "{start_up} {channel}");
+        machine.channel.look_ahead_blocks
+    };
+    let start_up = "configuration.channel[0].interpolator.function";
+    let channel = "configuration.interpolator";
+    let function = format!("{channel}.function");
+    assert_eq!(blocks("", ""), 120);
+    for (name, size) in [("LOW", 30), ("STANDARD", 120), ("HIGH", 190)] {
+        assert_eq!(blocks(&format!("{start_up} FCT_LOOK_AHEAD_{name}\n"), ""), size);
+        let listed = format!("{function} FCT_IPO_DEFAULT | FCT_LOOK_AHEAD_{name}\n");
+        assert_eq!(blocks(&format!("{start_up} FCT_LOOK_AHEAD_LOW\n"), &listed), size);
+    }
+    let number = format!("{channel}.number_blocks_lah 500\n");
+    assert_eq!(blocks("", &number), 120);
+    assert_eq!(blocks("", &format!("{number}{function} FCT_LOOK_AHEAD_CUSTOM\n")), 500);
+    let older = format!("{channel}.parameter 95\n{function} FCT_LOOK_AHEAD_CUSTOM\n");
+    assert_eq!(blocks("", &older), 95);
+}
+
+/// P-CHAN-00122 to 00130 in the units of their pages: 0.1 um and 0.0001 deg.
+#[test]
+fn splines_begin_with_the_settings_of_the_list() {
+    let spline = |entries: &str| {
+        let mut files = Memory::machine();
+        files.add("m/lists/channel.lis", entries);
+        let (machine, said) = files.load(&[]).unwrap();
+        assert_eq!(said, [], "{entries}");
+        machine.channel.spline
+    };
+    assert_eq!(spline(""), SplineSettings::default());
+    let listed = spline(
+        "hsc.bspline.path_deviation 500\nhsc.bspline.track_deviation 1.0e+004\nhsc.bspline.max_path_length 30000\n\
+         hsc.bspline.max_angle 450000\nhsc.bspline.auto_off_g00 0\nhsc.bspline.auto_off_path 1\nhsc.bspline.auto_off_track 1\n",
+    );
+    let expected = SplineSettings {
+        path_dev_mm: 0.05,
+        track_dev_deg: 1.0,
+        off_at_path_dev: true,
+        off_at_track_dev: true,
+        off_at_rapid: false,
+        max_length_mm: 3.0,
+        max_angle_deg: 45.0,
+    };
+    assert_eq!(listed, expected);
 }

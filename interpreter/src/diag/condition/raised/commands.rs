@@ -96,6 +96,8 @@ macro_rules! commands {
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or remove WAIT";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword given twice in #OVERRIDE", hint "remove one of the two";
     SpindleOverrideKeyTwice = Vendor 21422: Error ProgramAbort 3 1, "keyword given twice in S[OVERRIDE ..]", hint "remove one of the two";
+    ToolTooShort = Vendor 21426: Error ProgramAbort 3 1, "tool shorter than the channel list demands", cause "D selects a tool whose length is below tool.minimum_length", hint "select another tool, or correct its length in the tool list", parameter "P-CHAN-00156";
+    ToolTooThin = Vendor 21427: Error ProgramAbort 3 1, "tool radius smaller than the channel list demands", cause "D selects a tool whose radius is below tool.minimum_radius", hint "select another tool, or correct its radius in the tool list", parameter "P-CHAN-00157";
     ToolKeyTwice = Vendor 21453: Error ProgramAbort 3 1, "key of #TOOL DEF given twice", hint "remove one of the two";
     MixedTypes = Vendor 21457: Error ProgramAbort 3 1, "text and number mixed in one operation", cause "\"Peter\" + 23", hint "convert the number to text with INT_TO_STR[23]";
     TextOperator = Vendor 21458: Error ProgramAbort 3 1, "operator not defined for texts", hint "join texts with +, compare them with == and !=";
