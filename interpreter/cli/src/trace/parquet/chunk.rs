@@ -69,9 +69,9 @@ impl Chunk {
         let metadata = ColumnChunkMetaData::builder(column)
             .set_encodings(encodings)
             .set_compression(compression)
-            .set_num_values(rows as i64)
-            .set_total_compressed_size(pages.len() as i64)
-            .set_total_uncompressed_size(uncompressed as i64)
+            .set_num_values(rows.cast_signed() as i64)
+            .set_total_compressed_size(pages.len().cast_signed() as i64)
+            .set_total_uncompressed_size(uncompressed.cast_signed() as i64)
             .set_data_page_offset(data)
             .set_dictionary_page_offset(dictionary)
             .build();
