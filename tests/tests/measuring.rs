@@ -148,6 +148,25 @@ fn measuring_offsets() {
     assert_eq!(run_with_inputs(linear(&[]), &program, &[]).errors(), ["K-0134"]);
 }
 
+/// A measuring offset is added to the programmed position (342045451): the target of the run, programmed again, is the measured
+/// surface, mirrored or not. In a turned system an offset of one axis would act on two: the pages differ, and it is refused.
+#[test]
+fn the_target_with_its_offset_is_the_surface() {
+    let slope = "#SLOPE [TYPE=STEP]\nG90 G00 X0 Y0 Z0\n";
+    for (mirror, target) in [("", "50"), ("G21", "-50")] {
+        let program =
+            format!("{slope}{mirror}\nG100 X{target} F600\nG101 X1\nG01 X{target}\nM30\n");
+        let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 20.1234)]);
+        assert!(run.errors().is_empty(), "{:?}", run.errors());
+        near(end(&run, 0), 20.1234, 1e-6);
+    }
+    for turn in ["#ROTATION ON [ANGLE=30]", "#CS ON [1,2,0,0,0,30]"] {
+        let program = format!("{slope}{turn}\nG100 X50 F600\nG101 X1\nG01 X50\nM30\n");
+        let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 20.1234)]);
+        assert!(run.errors().iter().any(|d| d.contains("K-0019")), "{turn}: {:?}", run.errors());
+    }
+}
+
 /// The measured value contains the offsets, the value in the coordinates of the program does not.
 #[test]
 fn measured_values_and_offsets() {

@@ -123,6 +123,13 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
             .collect();
         notes.push(format!("{} decays, from {}", times.len(), times.join(", ")));
     }
+    if let Some(misfit) = found.misfit {
+        notes.push(format!(
+            "the fit leaves {} times the white noise: no free decay, or coloured noise; the intervals are too \
+             small, select a free decay with --window",
+            number(misfit, 1)
+        ));
+    }
     if let Some((low, high)) = found.disagree {
         notes.push(format!("its decays differ: {} to {} Hz", number(low, 2), number(high, 2)));
     }

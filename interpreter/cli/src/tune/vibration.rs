@@ -41,8 +41,17 @@ const LASTING: f64 = 0.3;
 const MOST_DAMPING: f64 = 0.3;
 /// A fit that leaves more than this multiple of the white noise of the piece is incomplete.
 const MISFIT: f64 = 1.25;
+/// Number of first samples of a part that are examined on their own, and the multiple of the white noise that they may leave.
+const FRONT: usize = 64;
+const MISFIT_OF_FRONT: f64 = 1.5;
 /// Number of times that an incompletely fitted piece is halved.
 const HALVINGS: usize = 3;
+/// Shorter parts of a piece are not fitted.
+const LEAST_PART: usize = 256;
+/// First time in s after the start of a piece at which an excitation may have ended, and the ratio from one to the next.
+const EXCITATION_S: (f64, f64) = (0.02, 1.5);
+/// Number of bisections between an excitation and the free decay after it.
+const BISECTIONS: usize = 5;
 /// Number of successive samples at the limit that count as clipped.
 const CLIPPED: usize = 3;
 
@@ -111,6 +120,9 @@ pub struct Analysis {
     pub clipped: usize,
     /// Lowest and highest frequency in Hz if the decays disagree.
     pub disagree: Option<(f64, f64)>,
+    /// Residual of the fit as a multiple of the white noise of the recording, if it is more than noise: a drive that
+    /// still moves the machine, coloured noise, a frequency that depends on the amplitude.
+    pub misfit: Option<f64>,
 }
 
 /// Searches a recording for vibrations. Samples in `missing` were not recorded; their values, interpolated between
@@ -210,6 +222,81 @@ fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
     fit
 }
 
+/// A part of a recording with its fit.
+struct Part {
+    range: Range<usize>,
+    piece: Piece,
+    stride: usize,
+    fit: Fit,
+}
+
+impl Part {
+    fn of(
+        range: Range<usize>,
+        cut: impl Fn(&Range<usize>) -> (Piece, usize),
+        range_hz: (f64, f64),
+    ) -> Self {
+        let (piece, stride) = cut(&range);
+        let fit = complete(Fit::new(&piece), &piece, range_hz);
+        Self { range, piece, stride, fit }
+    }
+
+    /// Residual of the fit as a multiple of the white noise.
+    fn misfit(&self) -> f64 {
+        self.fit.noise(&self.piece) / self.fit.white(&self.piece).max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether it consists of decaying vibrations and noise, from its first samples on: the end of an excitation is short, and
+    /// hardly changes the residual of a long part.
+    fn is_free(&self) -> bool {
+        let seconds = self.piece.seconds();
+        let residual = self.fit.residual(&self.piece);
+        let front = &residual[..FRONT.min(residual.len())];
+        let front = (front.iter().map(|e| e * e).sum::<f64>() / front.len() as f64).sqrt();
+        self.misfit() < MISFIT
+            && front < MISFIT_OF_FRONT * self.fit.white(&self.piece)
+            && self.fit.vibrations(&self.piece, |_| 1.0).iter().any(|v| decays(v, seconds))
+    }
+}
+
+/// The longest part of an incompletely fitted one that is a free decay. A later blow spoils the fit of the whole, but not
+/// that of its beginning; an excitation that lasts, such as the braking of a move, not that of its end.
+fn free_part(whole: &Part, rate_hz: f64, part: impl Fn(Range<usize>) -> Part) -> Option<Part> {
+    let Range { start, end } = whole.range;
+    let beginning = (1..=HALVINGS)
+        .map(|halvings| start..start + (whole.range.len() >> halvings))
+        .take_while(|shorter| shorter.len() >= LEAST_PART)
+        .map(&part)
+        .find(Part::is_free);
+    if beginning.is_some() {
+        return beginning;
+    }
+    let (first_s, ratio) = EXCITATION_S;
+    let (mut excited, mut free) = (start, None);
+    for after_s in std::iter::successors(Some(first_s), |s| Some(s * ratio)) {
+        let from = start + (after_s * rate_hz) as usize;
+        if from > start + whole.range.len() / 2 || end - from < LEAST_PART {
+            break;
+        }
+        let rest = part(from..end);
+        if rest.is_free() {
+            free = Some(rest);
+            break;
+        }
+        excited = from;
+    }
+    let mut free = free?;
+    for _ in 0..BISECTIONS {
+        let rest = part(excited.midpoint(free.range.start)..end);
+        if rest.is_free() {
+            free = rest;
+        } else {
+            excited = rest.range.start;
+        }
+    }
+    Some(free)
+}
+
 fn of_decay(
     samples: &[f64],
     valid: &[bool],
@@ -219,21 +306,12 @@ fn of_decay(
 ) -> Analysis {
     let top_hz = range_hz.1.min(400.0).min(0.4 * rate_hz);
     let cut = |range: &Range<usize>| piece(samples, valid, rate_hz, range, top_hz);
-    let (mut range, (mut used, mut stride)) = (range.clone(), cut(&range));
-    let mut fit = complete(Fit::new(&used), &used, range_hz);
-    // an undetected blow spoils the fit of the whole piece, but not that of its first part
-    for halvings in 1..=HALVINGS {
-        let whole = fit.noise(&used) < MISFIT * fit.white(&used);
-        let shorter = range.start..range.start + (range.len() >> halvings);
-        if whole || shorter.len() < 256 {
-            break;
-        }
-        let (part, part_stride) = cut(&shorter);
-        let part_fit = complete(Fit::new(&part), &part, range_hz);
-        if part_fit.noise(&part) < MISFIT * part_fit.white(&part) {
-            (range, used, stride, fit) = (shorter, part, part_stride, part_fit);
-        }
+    let part = |range: Range<usize>| Part::of(range, cut, range_hz);
+    let mut part_used = part(range);
+    if part_used.misfit() > MISFIT {
+        part_used = free_part(&part_used, rate_hz, part).unwrap_or(part_used);
     }
+    let Part { mut range, piece: mut used, mut stride, mut fit } = part_used;
     // after the decay there is only noise, and drift that is not a parabola
     let slowest = fit
         .vibrations(&used, |_| 1.0)
@@ -281,6 +359,8 @@ fn of_decay(
         decays: vec![Decay { samples: range, curve: fit.curve(&used), stride }],
         clipped: 0,
         disagree: None,
+        misfit: Some(fit.noise(&used) / fit.white(&used).max(f64::MIN_POSITIVE))
+            .filter(|misfit| *misfit > MISFIT),
     }
 }
 

@@ -257,7 +257,19 @@ impl Decoder {
                 let text = format!("axis {} has not been measured", self.names.name(*axis));
                 return Err(Fault::new(Condition::NotMeasured, text, *at));
             };
-            self.geometry.coordinates.set_measuring_offset(*axis, factor * offset);
+            let coordinates = &mut self.geometry.coordinates;
+            let main = coordinates.main_index(*axis);
+            let turned = main.is_some_and(|m| {
+                coordinates.rotation().is_some() || !coordinates.keeps_direction(m)
+            });
+            if turned {
+                let text =
+                    format!("G101 of {} in a turned coordinate system", self.names.name(*axis));
+                return Err(Fault::unsupported(text, *at));
+            }
+            // an offset is added to programmed positions (342045451), so that mirroring acts on it as on them
+            let sign = if coordinates.mirrored(*axis) { -1.0 } else { 1.0 };
+            coordinates.set_measuring_offset(*axis, sign * factor * offset);
         }
         Ok(())
     }

@@ -38,7 +38,7 @@ impl Variables {
     /// Number of elements of an array; refused if it has too many dimensions, or if all arrays together would have too many
     /// elements.
     fn room_for(&self, sizes: &[usize], span: Span) -> Outcome<usize> {
-        let count: usize = sizes.iter().product();
+        let count = sizes.iter().fold(1, |n: usize, size| n.saturating_mul(*size));
         if sizes.len() > DIMENSIONS_MAX {
             let text = format!("arrays have at most {DIMENSIONS_MAX} dimensions");
             return Err(Fault::new(Condition::TooManyDimensions, text, span));
