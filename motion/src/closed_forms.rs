@@ -75,7 +75,6 @@ mod tests {
         let costs: Vec<f64> = (0..20).map(|_| searched(&mut random)).collect();
         let worst = costs.iter().copied().fold(0.0, f64::max);
         let mean = costs.iter().sum::<f64>() / costs.len() as f64;
-        println!("set points per cycle: mean {mean:.2}, at most {worst:.2}");
         assert!(mean <= 8.0 && worst <= 30.0, "{mean} {worst}");
     }
 

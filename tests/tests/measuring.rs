@@ -153,7 +153,8 @@ fn measuring_offsets() {
 #[test]
 fn the_target_with_its_offset_is_the_surface() {
     let slope = "#SLOPE [TYPE=STEP]\nG90 G00 X0 Y0 Z0\n";
-    for (mirror, target) in [("", "50"), ("G21", "-50")] {
+    // a rotation of the other axes does not matter
+    for (mirror, target) in [("", "50"), ("G21", "-50"), ("G19\n#ROTATION ON [ANGLE=30]", "50")] {
         let program =
             format!("{slope}{mirror}\nG100 X{target} F600\nG101 X1\nG01 X{target}\nM30\n");
         let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 20.1234)]);

@@ -27,6 +27,8 @@ use std::ops::Range;
 
 /// Largest number of vibrations that are searched, including hum and its harmonics.
 const MOST_MODES: usize = 10;
+/// Largest number of them while the end of an excitation is sought: a fit of many to coloured noise takes long.
+const FEW_MODES: usize = 3;
 /// Largest number of decays that are fitted.
 const MOST_DECAYS: usize = 4;
 /// Largest number of samples that are fitted; longer pieces are averaged.
@@ -199,10 +201,10 @@ fn piece(
     (Piece { samples: averaged, valid: good, rate_hz: rate_hz / stride as f64 }, stride)
 }
 
-/// Adds vibrations to a fit until only noise remains.
-fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
+/// Adds vibrations to a fit, up to a number of them, until only noise remains.
+fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64), most: usize) -> Fit {
     let largest = piece.samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-    while fit.modes() < MOST_MODES {
+    while fit.modes() < most {
         let residual = fit.residual(piece);
         let Some(next) = detect::strongest(&residual, &piece.valid, piece.rate_hz, range_hz) else {
             break;
@@ -235,15 +237,11 @@ impl Part {
         range: Range<usize>,
         cut: impl Fn(&Range<usize>) -> (Piece, usize),
         range_hz: (f64, f64),
+        most_modes: usize,
     ) -> Self {
         let (piece, stride) = cut(&range);
-        let fit = complete(Fit::new(&piece), &piece, range_hz);
+        let fit = complete(Fit::new(&piece), &piece, range_hz, most_modes);
         Self { range, piece, stride, fit }
-    }
-
-    /// Residual of the fit as a multiple of the white noise.
-    fn misfit(&self) -> f64 {
-        self.fit.noise(&self.piece) / self.fit.white(&self.piece).max(f64::MIN_POSITIVE)
     }
 
     /// Whether it consists of decaying vibrations and noise, from its first samples on: the end of an excitation is short, and
@@ -253,20 +251,24 @@ impl Part {
         let residual = self.fit.residual(&self.piece);
         let front = &residual[..FRONT.min(residual.len())];
         let front = (front.iter().map(|e| e * e).sum::<f64>() / front.len() as f64).sqrt();
-        self.misfit() < MISFIT
+        self.fit.misfit(&self.piece) < MISFIT
             && front < MISFIT_OF_FRONT * self.fit.white(&self.piece)
             && self.fit.vibrations(&self.piece, |_| 1.0).iter().any(|v| decays(v, seconds))
     }
 }
 
-/// The longest part of an incompletely fitted one that is a free decay. A later blow spoils the fit of the whole, but not
+/// The part of an incompletely fitted one that is a free decay: its longest such beginning, otherwise its longest such end. A later blow spoils the fit of the whole, but not
 /// that of its beginning; an excitation that lasts, such as the braking of a move, not that of its end.
-fn free_part(whole: &Part, rate_hz: f64, part: impl Fn(Range<usize>) -> Part) -> Option<Part> {
+fn free_part(
+    whole: &Part,
+    rate_hz: f64,
+    part: impl Fn(Range<usize>, usize) -> Part,
+) -> Option<Part> {
     let Range { start, end } = whole.range;
     let beginning = (1..=HALVINGS)
         .map(|halvings| start..start + (whole.range.len() >> halvings))
         .take_while(|shorter| shorter.len() >= LEAST_PART)
-        .map(&part)
+        .map(|shorter| part(shorter, MOST_MODES))
         .find(Part::is_free);
     if beginning.is_some() {
         return beginning;
@@ -278,7 +280,7 @@ fn free_part(whole: &Part, rate_hz: f64, part: impl Fn(Range<usize>) -> Part) ->
         if from > start + whole.range.len() / 2 || end - from < LEAST_PART {
             break;
         }
-        let rest = part(from..end);
+        let rest = part(from..end, FEW_MODES);
         if rest.is_free() {
             free = Some(rest);
             break;
@@ -287,14 +289,14 @@ fn free_part(whole: &Part, rate_hz: f64, part: impl Fn(Range<usize>) -> Part) ->
     }
     let mut free = free?;
     for _ in 0..BISECTIONS {
-        let rest = part(excited.midpoint(free.range.start)..end);
+        let rest = part(excited.midpoint(free.range.start)..end, FEW_MODES);
         if rest.is_free() {
             free = rest;
         } else {
             excited = rest.range.start;
         }
     }
-    Some(free)
+    Some(part(free.range, MOST_MODES))
 }
 
 fn of_decay(
@@ -306,9 +308,9 @@ fn of_decay(
 ) -> Analysis {
     let top_hz = range_hz.1.min(400.0).min(0.4 * rate_hz);
     let cut = |range: &Range<usize>| piece(samples, valid, rate_hz, range, top_hz);
-    let part = |range: Range<usize>| Part::of(range, cut, range_hz);
-    let mut part_used = part(range);
-    if part_used.misfit() > MISFIT {
+    let part = |range: Range<usize>, most| Part::of(range, cut, range_hz, most);
+    let mut part_used = part(range, MOST_MODES);
+    if part_used.fit.misfit(&part_used.piece) > MISFIT {
         part_used = free_part(&part_used, rate_hz, part).unwrap_or(part_used);
     }
     let Part { mut range, piece: mut used, mut stride, mut fit } = part_used;
@@ -323,7 +325,7 @@ fn of_decay(
     if slowest.is_finite() && length < range.len() / 2 {
         range = range.start..range.start + length.max(64);
         (used, stride) = cut(&range);
-        fit = complete(fit.again(&used), &used, range_hz);
+        fit = complete(fit.again(&used), &used, range_hz, MOST_MODES);
     }
     let density = detect::density(&fit.residual(&used), used.rate_hz);
     let found = fit.vibrations(&used, density);
@@ -359,8 +361,7 @@ fn of_decay(
         decays: vec![Decay { samples: range, curve: fit.curve(&used), stride }],
         clipped: 0,
         disagree: None,
-        misfit: Some(fit.noise(&used) / fit.white(&used).max(f64::MIN_POSITIVE))
-            .filter(|misfit| *misfit > MISFIT),
+        misfit: Some(fit.misfit(&used)).filter(|misfit| *misfit > MISFIT),
     }
 }
 

@@ -258,11 +258,7 @@ impl Decoder {
                 return Err(Fault::new(Condition::NotMeasured, text, *at));
             };
             let coordinates = &mut self.geometry.coordinates;
-            let main = coordinates.main_index(*axis);
-            let turned = main.is_some_and(|m| {
-                coordinates.rotation().is_some() || !coordinates.keeps_direction(m)
-            });
-            if turned {
+            if coordinates.is_turned(*axis) {
                 let text =
                     format!("G101 of {} in a turned coordinate system", self.names.name(*axis));
                 return Err(Fault::unsupported(text, *at));

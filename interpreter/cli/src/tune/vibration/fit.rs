@@ -259,6 +259,11 @@ impl Fit {
         (self.error(piece) / free as f64).sqrt()
     }
 
+    /// Residual as a multiple of its white part: about 1 for a complete fit.
+    pub(super) fn misfit(&self, piece: &Piece) -> f64 {
+        self.noise(piece) / self.white(piece).max(f64::MIN_POSITIVE)
+    }
+
     /// The vibrations with their intervals. `density` is the ratio of the residual's spectral density at a frequency to
     /// its mean: where the model is incomplete the intervals grow with it.
     pub(super) fn vibrations(&self, piece: &Piece, density: impl Fn(f64) -> f64) -> Vec<Vibration> {

@@ -230,6 +230,14 @@ impl Coordinates {
         systems.direction(unit).iter().zip(unit).all(|(a, b)| (a - b).abs() < 1e-12)
     }
 
+    /// Whether a system or a contour rotation turns an axis, so that its words move other axes as well.
+    pub(in crate::exec) fn is_turned(&self, axis: usize) -> bool {
+        self.main_index(axis).is_some_and(|main| {
+            let rotates = self.rotation.as_ref().is_some_and(|r| r.plane.contains(&main));
+            rotates || !self.keeps_direction(main)
+        })
+    }
+
     /// Whether a stored system with this number is active.
     pub(in crate::exec) fn is_system_active(&self, number: u32) -> bool {
         let aside = self.suspended.as_ref().map_or(&[][..], |before| before.systems());
