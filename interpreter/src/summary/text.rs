@@ -68,7 +68,10 @@ impl Summary {
             // shortest vector if it belongs to a slightly longer one
             let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
             if deviation > worst.mm * (1.0 + HARDLY_LONGER) * (1.0 + HARDLY_LONGER) + LEAST_SHOWN {
-                writeln!(out, "  missed         up to {deviation:.6} of the contour, see |dev|")?;
+                writeln!(
+                    out,
+                    "  missed         up to {deviation:.6} mm (deg) of the contour in one axis, see |dev|"
+                )?;
             }
         }
         if self.cycles > 0 {

@@ -45,7 +45,7 @@ pub enum OutputForm {
     Text,
     /// One JSON object.
     Json,
-    /// `JUnit` XML: a test case for each signal.
+    /// JUnit XML: a test case for each signal.
     Junit,
     /// Commands of GitHub's workflow log, at the NC lines.
     Github,

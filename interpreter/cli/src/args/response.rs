@@ -50,11 +50,11 @@ pub(crate) const PROTOTYPES: [(&str, Prototype); 3] = [
     group(ArgGroup::new("what").args(["filter", "guard", "fir", "hsc_mean", "hsc_novib", "axis"]).multiple(true).required(true)),
 )]
 pub struct ResponseArgs {
-    /// Standard filters: LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, PT2, `TIME_DELAY`
+    /// Standard filters: LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, PT2, TIME_DELAY
     #[arg(long, value_name = "TYPE", value_delimiter = ',', value_parser = filter_type)]
     pub filter: Vec<String>,
 
-    /// Prototypes of --filter: `CRIT_DAMPING`, BUTTERWORTH, BESSEL
+    /// Prototypes of --filter: CRIT_DAMPING, BUTTERWORTH, BESSEL
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "CRIT_DAMPING", value_parser = prototype, requires = "filter")]
     pub prototype: Vec<String>,
 
@@ -70,7 +70,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "Q", default_value = "1", requires = "filter")]
     pub q: Numbers,
 
-    /// Time constants of PT1, PT2 and `TIME_DELAY` in microseconds (P-AXIS-00357)
+    /// Time constants of PT1, PT2 and TIME_DELAY in microseconds (P-AXIS-00357)
     #[arg(long, value_name = "US", default_value = "10000", requires = "filter")]
     pub time: Numbers,
 
@@ -82,7 +82,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "KEY=VALUE,..")]
     pub guard: Vec<String>,
 
-    /// FIR filter: MEAN, GAUSS, SINC or DELAY with ORDER or `ORDER_TIME`, SHARE, FCUT, QUALITY: `GAUSS,ORDER=40,QUALITY=0.5`
+    /// FIR filter: MEAN, GAUSS, SINC or DELAY with ORDER or ORDER_TIME, SHARE, FCUT, QUALITY: `GAUSS,ORDER=40,QUALITY=0.5`
     #[arg(long, value_name = "TYPE,KEY=VALUE,..")]
     pub fir: Vec<String>,
 
@@ -90,7 +90,7 @@ pub struct ResponseArgs {
     #[arg(long, value_name = "ORDER")]
     pub hsc_mean: Option<Numbers>,
 
-    /// HSC `NoVib` filters by the first natural frequency in Hz
+    /// HSC NoVib filters by the first natural frequency in Hz
     #[arg(long, value_name = "HZ")]
     pub hsc_novib: Option<Numbers>,
 

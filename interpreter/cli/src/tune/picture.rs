@@ -1,11 +1,10 @@
 //! `tune -o picture.svg`: the recording with the findings.
 
-use super::recording::Recording;
+use super::recording::{Recording, interval};
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around};
 use crate::chart::view::{Line, Points, View, thinned};
 use crate::spectrum::AmplitudeSpectrum;
-use crate::table::number;
 
 /// Largest number of points of a curve; longer ones are reduced to their extremes.
 const MOST_POINTS: usize = 4000;
@@ -19,15 +18,7 @@ pub(super) fn draw(recordings: &[Recording]) -> String {
     }
     let found = recordings.iter().flat_map(|r| &r.found.modes);
     let list: Vec<String> = found
-        .map(|m| {
-            format!(
-                "{} +- {} Hz, damping {} +- {}",
-                number(m.freq.value, 3),
-                number(m.freq.half_width, 3),
-                number(m.damping.value, 4),
-                number(m.damping.half_width, 4)
-            )
-        })
+        .map(|m| format!("{} Hz, damping {}", interval(m.freq, 3), interval(m.damping, 4)))
         .collect();
     let plot = Plot {
         title: "Recorded vibration and result of the evaluation".to_owned(),

@@ -1,7 +1,7 @@
 //! Natural frequencies and damping from recordings: selection of columns and times, and the common result of several
 //! files.
 
-use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
+use super::vibration::{Analysis, Estimate, Focus, Lasting, Mode, analyse};
 use crate::Error;
 use crate::args::TuneArgs;
 use crate::console::Console;
@@ -14,6 +14,9 @@ use std::path::Path;
 const LEAST_SAMPLES: usize = 64;
 /// Longer recordings are refused: two minutes at 4 kHz. Their spectra take 130 MB.
 const MOST_SAMPLES: usize = 1 << 19;
+
+/// Largest number of decimals of a half width.
+const MOST_DECIMALS: f64 = 6.0;
 
 /// One recording with its result.
 #[derive(Clone, Debug)]
@@ -72,13 +75,19 @@ pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measure
             ]);
         }
         for lasting in &found.lasting {
-            let what = if lasting.hum { "mains hum, ignored" } else { "does not decay, ignored" };
+            let what = match lasting {
+                Lasting { hum: true, .. } => "mains hum, ignored".to_owned(),
+                Lasting { loss, .. } if *loss > 0.0 => {
+                    format!("decays by {} % only, ignored", number(100.0 * loss, 0))
+                }
+                Lasting { .. } => "does not decay, ignored".to_owned(),
+            };
             table.push(vec![
                 recording.name.clone(),
                 String::new(),
                 number(lasting.freq_hz, 3),
                 String::new(),
-                what.to_owned(),
+                what,
             ]);
         }
         all.recordings.push(recording);
@@ -96,9 +105,14 @@ pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measure
     Ok(all)
 }
 
-/// `6.01 +- 0.02`.
-fn interval(e: Estimate, decimals: usize) -> String {
-    format!("{} +- {}", number(e.value, decimals), number(e.half_width, decimals))
+/// `6.01 +- 0.02`: with at least these decimals, and with more of them if the half width has no digit otherwise. It
+/// is rounded up: no measurement is exact.
+pub(super) fn interval(e: Estimate, decimals: usize) -> String {
+    let first_digit = -libm::log10(e.half_width).floor();
+    let decimals = decimals.max((first_digit + 1.0).clamp(0.0, MOST_DECIMALS) as usize);
+    let unit = libm::exp10(-(decimals as f64));
+    let rounded_up = (e.half_width / unit).ceil().max(1.0) * unit;
+    format!("{} +- {}", number(e.value, decimals), number(rounded_up, decimals))
 }
 
 /// Remarks on one recording in addition to its vibrations.
@@ -128,6 +142,18 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
             "the fit leaves {} times the white noise: no free decay, or coloured noise; the intervals are too \
              small, select a free decay with --window",
             number(misfit, 1)
+        ));
+    }
+    let slow = found.lasting.iter().filter(|l| l.loss > 0.0 && !l.hum);
+    if let Some(slow) = slow
+        .filter(|l| l.amplitude > found.swing)
+        .max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
+    {
+        notes.push(format!(
+            "{} Hz swings more than the vibrations that were evaluated, but loses only {} % within the recording: \
+             record it for longer",
+            number(slow.freq_hz, 3),
+            number(100.0 * slow.loss, 0)
         ));
     }
     if let Some((low, high)) = found.disagree {
@@ -239,6 +265,18 @@ mod tests {
         let word = text.replace("0.002,1,", "0.002,one,");
         assert!(message(read_with(&word, &["--column", "a"])).contains("row 3, column a"));
         assert!(matches!(recorded::read(Path::new("no.csv")), Err(Error::Io { .. })));
+    }
+
+    /// A half width is not printed as zero, and never too small.
+    #[test]
+    fn half_widths_have_digits() {
+        let text = |value, half_width| interval(Estimate { value, half_width }, 3);
+        assert_eq!(text(12.294, 0.044), "12.294 +- 0.044");
+        assert_eq!(text(12.294, 0.000_41), "12.29400 +- 0.00041");
+        assert_eq!(text(12.294, 1.7), "12.294 +- 1.700");
+        assert_eq!(text(12.294, 0.012_01), "12.294 +- 0.013");
+        assert_eq!(text(12.294, 1e-14), "12.294000 +- 0.000001");
+        assert_eq!(text(12.294, 0.0), "12.294000 +- 0.000001");
     }
 
     #[test]

@@ -68,7 +68,7 @@ pub struct Mode {
     pub peak_ratio: f64,
 }
 
-/// A signal that does not decay.
+/// A signal that does not decay, or by too little within the recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lasting {
     /// Frequency in Hz.
@@ -77,6 +77,8 @@ pub struct Lasting {
     pub amplitude: f64,
     /// The mains (50 or 60 Hz) or one of its harmonics.
     pub hum: bool,
+    /// Share of the amplitude that is lost within the evaluated part, 0 if that is less than the accuracy.
+    pub loss: f64,
 }
 
 /// The part to examine.
@@ -213,6 +215,7 @@ fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64), most: usize) -> F
         let sound = wider.vibrations(piece, |_| 1.0).iter().all(|v| {
             v.amplitude < 20.0 * largest
                 && v.freq.value.is_finite()
+                && [v.freq, v.damping, v.decay].iter().all(|e| e.half_width.is_finite())
                 && v.freq.value < 0.5 * piece.rate_hz
         });
         // a vibration that hardly reduces the residual is the misfit of another one
@@ -351,6 +354,11 @@ fn of_decay(
                 freq_hz: v.freq.value,
                 amplitude: v.amplitude,
                 hum: is_hum(v.freq.value),
+                loss: if is_damped(v) {
+                    -libm::expm1(-v.decay.value * used.seconds())
+                } else {
+                    0.0
+                },
             })
             .collect(),
         modes: modes
@@ -366,8 +374,13 @@ fn of_decay(
 }
 
 /// Whether it is damped by more than the accuracy.
+fn is_damped(v: &Vibration) -> bool {
+    v.decay.value > 1.5 * v.decay.half_width
+}
+
+/// Whether it is damped, and loses enough within this time to be distinguished from a motor.
 fn decays(v: &Vibration, seconds: f64) -> bool {
-    v.decay.value > 1.5 * v.decay.half_width && v.decay.value * seconds > LASTING
+    is_damped(v) && v.decay.value * seconds > LASTING
 }
 
 fn is_hum(freq_hz: f64) -> bool {

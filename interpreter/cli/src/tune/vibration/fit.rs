@@ -286,7 +286,8 @@ impl Fit {
                     let v = ds * ds * covariance(i, i)
                         + 2.0 * ds * dw * covariance(i, j)
                         + dw * dw * covariance(j, j);
-                    SIGMAS * (v.max(0.0) * grow).sqrt()
+                    // two vibrations that are nearly the same leave a matrix that is no covariance
+                    if v < 0.0 { f64::INFINITY } else { SIGMAS * (v * grow).sqrt() }
                 };
                 let cubed = undamped * undamped * undamped;
                 Vibration {

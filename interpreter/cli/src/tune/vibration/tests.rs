@@ -173,6 +173,21 @@ fn what_does_not_decay_is_no_vibration() {
     assert_eq!(analyse(&[0.0; 10], &[], 1000.0, &Focus::default()).modes, []);
 }
 
+/// A vibration that loses only a fifth of its amplitude within the recording is not evaluated, but is not said to last:
+/// `1 - exp(-D w T)`.
+#[test]
+fn a_slow_decay_is_not_a_lasting_signal() {
+    let (slow, quick) = ((5.779, 0.002), (10.138, 0.0389));
+    let of = found(|t| swing(t, slow, 0.3) + 0.6 * swing(t, quick, 1.0), 0.001);
+    let seconds = of.decays[0].samples.len() as f64 * 1e-3;
+    let loss = 1.0 - libm::exp(-TAU * slow.0 * slow.1 * seconds);
+    let [lasting] = of.lasting[..] else { panic!("{:?}", of.lasting) };
+    assert!((lasting.loss - loss).abs() < 0.01 && lasting.amplitude > of.swing, "{lasting:?}");
+    assert_eq!(of.modes.len(), 1);
+    let motor = found(|t| 2.0 * libm::sin(TAU * 23.0 * t), 0.05);
+    assert!(motor.lasting[0].loss.abs() < 1e-9, "{:?}", motor.lasting);
+}
+
 /// A decaying vibration at the mains frequency itself is a vibration.
 #[test]
 fn a_vibration_at_the_mains_frequency_decays() {
