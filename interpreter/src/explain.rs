@@ -131,7 +131,9 @@ fn probably(thing: &str) -> Vec<String> {
     let mut found: Vec<String> =
         table::suggestions(None, &shape).into_iter().map(str::to_owned).collect();
     let wanted = thing.to_ascii_uppercase();
-    let near = |name: &String| edit_distance(&name.to_ascii_uppercase(), &wanted, 2).is_some();
+    // of a short word, two letters would be half
+    let most = if wanted.len() < 6 { 1 } else { 2 };
+    let near = |name: &String| edit_distance(&name.to_ascii_uppercase(), &wanted, most).is_some();
     found.extend(commands::names().chain(words::names().map(str::to_owned)).filter(near));
     found.truncate(5);
     found
@@ -354,12 +356,15 @@ fn message(entry: &'static condition::Row) -> Explanation {
 fn named_parameters(entry: &condition::Row) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for text in [entry.meaning, entry.cause] {
+        // `P-TOOL-00013 to 00014`: a number without a list is of the one before it
+        let mut list = "AXIS";
         for (start, _) in text.match_indices("00") {
             let digits =
                 text.get(start..start + 5).filter(|d| d.bytes().all(|b| b.is_ascii_digit()));
             let alone = !text[..start].ends_with(|c: char| c.is_ascii_digit());
             let Some(digits) = digits.filter(|_| alone) else { continue };
-            let list = if text[..start].ends_with("P-CHAN-") { "CHAN" } else { "AXIS" };
+            let named = text[..start].strip_suffix('-').and_then(|t| t.rsplit_once("P-"));
+            list = named.map_or(list, |(_, list)| list);
             let id = format!("P-{list}-{digits}");
             if table::by_id(&id).is_some() && !found.contains(&id) {
                 found.push(id);

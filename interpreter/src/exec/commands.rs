@@ -270,9 +270,9 @@ pub(crate) fn state_of(text: &str) -> Option<(&'static str, &'static str)> {
         Act::Run(_) => "kontur check reports which parts are executed",
         Act::Ignored(why) => why,
         Act::OffOnly => {
-            "OFF is accepted; ON is refused, because it would change the path and is not simulated"
+            "OFF is accepted; ON is refused: not simulated, and the result would be wrong without it"
         }
-        Act::Unsupported => "refused, because it would change the path and is not simulated",
+        Act::Unsupported => "refused: not simulated, and the result would be wrong without it",
     };
     Some((row.name, state))
 }

@@ -98,8 +98,14 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     let is_named = |name: &str| {
         wanted == name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '))
     };
-    if let Some(function) = functions().find(|c| c.names.iter().any(|name| is_named(name))) {
-        return Some(function.explained());
+    let function = |is: &dyn Fn(&str) -> bool| {
+        functions().find(|c| c.names.iter().any(|name| is(name))).map(Command::explained)
+    };
+    // M8 and H12 have no entry of their own
+    let letter = wanted.trim_end_matches(|c: char| c.is_ascii_digit());
+    let numbered = |name: &str| matches!(letter, "M" | "H") && name == letter;
+    if let Some(function) = function(&is_named).or_else(|| function(&numbered)) {
+        return Some(function);
     }
     // the longest name: `#CS DEF` is not `#CS`
     let named = commands::explained()

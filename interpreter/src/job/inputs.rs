@@ -118,7 +118,7 @@ impl<R: Read> InputFile<R> {
             let known = all.iter().find(|(n, _)| n.eq_ignore_ascii_case(name));
             match known {
                 _ if i == 0 && name == "t_s" => {}
-                _ if i == 0 => return Err(self.wrong(at, name, "the first column is t_s")),
+                _ if i == 0 => return Err(self.wrong(at, name, "the first column has to be t_s")),
                 None => {
                     let names: Vec<&str> = all.iter().map(|(n, _)| n.as_str()).collect();
                     let hint = format!("signals of this machine: {}", names.join(", "));

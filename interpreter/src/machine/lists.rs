@@ -279,7 +279,11 @@ impl Reader<'_> {
         let mut names: Vec<&str> = plain.iter().map(|(shape, _, _)| shape.as_str()).collect();
         let Some((_, _, first)) = plain.first() else { return };
         let more = names.split_off(names.len().min(NAMED_UNKNOWN));
-        let mut message = format!("{total} unknown element(s), ignored: {}", names.join(", "));
+        let mut message = format!(
+            "{total} unknown element{}, ignored: {}",
+            if total == 1 { "" } else { "s" },
+            names.join(", ")
+        );
         if !more.is_empty() {
             message = format!("{message} and {} more: {}", more.len(), structures(&more));
         }

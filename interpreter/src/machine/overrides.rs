@@ -59,8 +59,13 @@ impl Override {
         let (row, indices) = self.resolve(parameters.kind())?;
         let value = value::read(row.raw, &self.value).map_err(|bad| {
             let message = format!("{}: {}", self.key, bad.reason);
+            let hint = format!(
+                "kontur explain {} states type, range and unit",
+                if row.key.is_empty() { row.id } else { row.key }
+            );
             Box::new(
                 Diagnostic::new(Condition::Setting, message)
+                    .hint(hint)
                     .parameter(row)
                     .at(self.location(&self.value)),
             )
@@ -105,6 +110,9 @@ impl Override {
             return Err(Box::new(say(format!("`{}`: {beyond}", self.key))));
         }
         let mut diagnostic = say(format!("`{}` is not a parameter of {}", self.key, self.target));
+        if let Some(row) = table::by_id(&self.key).filter(|row| !row.key.is_empty()) {
+            return Err(Box::new(diagnostic.hint(format!("write its key, `{}`", row.key))));
+        }
         let shape = key.map_or_else(|| self.key.clone(), |key| key.shape);
         if let Some(near) = table::suggestions(Some(kind), &shape).first() {
             diagnostic = diagnostic.hint(if *near == self.key {

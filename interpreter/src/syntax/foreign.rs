@@ -29,8 +29,10 @@ impl Found {
             "TRAORI" => "transformations are #TRAFO ON here",
             "GOTOF" | "GOTOB" => "$GOTO N20 and $GOTO [NAME] jump here",
             "CYCLE800" => "#CS ON [x,y,z,a,b,c] rotates the plane here",
-            "=IC" | "=AC" => "coordinates are X10: incremental after G91, absolute after G90",
-            "=DC" | "=ACP" | "=ACN" => "modulo axes are C+90 and C-90 here",
+            _ if upper.ends_with("=IC") || upper.ends_with("=AC") => {
+                "coordinates are X10: incremental after G91, absolute after G90"
+            }
+            _ if self.meaning == DIMENSION => "modulo axes are C+90 and C-90 here",
             _ if self.meaning == CALL => "L file and LL NAME call subroutines here",
             _ if self.meaning == DATA => "V.G.NP[1].V.X=.. sets a zero offset here",
             _ if self.meaning == ARITHMETIC => "parameters are P1 and V.P.NAME here",
@@ -79,6 +81,7 @@ const SINUMERIK: &str = "a Sinumerik control";
 const FANUC: &str = "a Fanuc control";
 const CALL: &str = "a call of a subprogram";
 const DATA: &str = "a setting of offsets or tools";
+const DIMENSION: &str = "a coordinate with its dimension";
 const ARITHMETIC: &str = "an arithmetic parameter";
 
 /// The words at the beginning of Klartext blocks, after a number without a letter.
@@ -272,12 +275,15 @@ fn sinumerik(masked: &str) -> Option<Found> {
         let is = |known: &&str| known.eq_ignore_ascii_case(word);
         let before = masked[..at].chars().next_back();
         match before {
-            Some('=') if DIMENSIONS.iter().any(is) => Some(Found {
-                at: at - 1,
-                length: word.len() + 1,
-                control: SINUMERIK,
-                meaning: "a coordinate with its dimension",
-            }),
+            Some('=') if DIMENSIONS.iter().any(is) => {
+                let name = last_word(&masked[..at - 1]).len();
+                Some(Found {
+                    at: at - 1 - name,
+                    length: name + 1 + word.len(),
+                    control: SINUMERIK,
+                    meaning: DIMENSION,
+                })
+            }
             None | Some(' ' | '\t') if WORDS.iter().any(is) => {
                 Some(Found { at, length: word.len(), control: SINUMERIK, meaning: "a keyword" })
             }
@@ -352,6 +358,13 @@ fn outside_brackets(masked: &str) -> impl Iterator<Item = (usize, &str)> {
     runs(masked).filter(|(_, _, depth)| *depth == 0).map(|(at, word, _)| (at, word))
 }
 
+/// The letters, digits and points at the end.
+fn last_word(text: &str) -> &str {
+    &text[text
+        .trim_end_matches(|c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.'))
+        .len()..]
+}
+
 fn runs(masked: &str) -> impl Iterator<Item = (usize, &str, usize)> {
     let is_part = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.');
     let bytes = masked.as_bytes();
@@ -424,7 +437,8 @@ mod tests {
             ("N5 STOPRE", "`STOPRE`", "Sinumerik"),
             ("G0 G90 SUPA Z0 D0", "`SUPA`", "Sinumerik"),
             ("ROT RPL=45", "`ROT`", "Sinumerik"),
-            ("G1 X=IC    ", "`=IC`", "Sinumerik"),
+            ("G1 X=IC    ", "`X=IC`", "Sinumerik"),
+            ("C=ACP", "`C=ACP`", "Sinumerik"),
             ("R1=R2+5", "`R2`", "Sinumerik"),
             ("X=R5", "`R5`", "Sinumerik"),
             ("N10 M98 P1000 L2", "`M98 P1000`", "Fanuc"),

@@ -187,7 +187,7 @@ pub(super) fn from_error(
     if let Some(condition) = misplaced(before, rest, &expected) {
         return Problem { condition, ..problem };
     }
-    match no_word(before, &expected) {
+    let problem = match no_word(before, &expected) {
         Some((length, text)) if context == Context::Words => {
             let start = offset + before.trim_ascii_end().len() - length;
             let problem = Problem::syntax(Span::new(start, start + length), text);
@@ -202,7 +202,25 @@ pub(super) fn from_error(
             Problem { condition, ..problem }
         }
         _ => refine(problem, before, rest, context, masked, &expected),
+    };
+    match (&problem.hint, unbalanced(masked)) {
+        (None, Some(hint)) => problem.hint(hint),
+        _ => problem,
     }
+}
+
+/// The bracket of a block that is not closed or not opened, in words.
+fn unbalanced(masked: &str) -> Option<String> {
+    let code = scan::without_texts(masked);
+    let mut open = Vec::new();
+    for (at, bracket) in code.match_indices(['[', ']']) {
+        if bracket == "[" {
+            open.push(at);
+        } else if open.pop().is_none() {
+            return Some(format!("the ] in column {} closes no bracket", at + 1));
+        }
+    }
+    open.last().map(|at| format!("close the bracket that is opened in column {}", at + 1))
 }
 
 /// The vendor's number for faults common to all kinds of blocks.

@@ -43,7 +43,7 @@ impl Decoder {
         let radius =
             (written || is_radius_of_parameter(self, name.as_str(), span)?).then_some(b'R');
         let Some(letter) = name.letter().or(radius) else {
-            return Err(unknown_name(&self.names, name.as_str(), span));
+            return Err(unknown_name(&self.names, name.as_str(), value, span));
         };
         let slot = match letter {
             b'F' => &mut block.feed,
@@ -214,8 +214,8 @@ fn unknown_letter(names: &AxisNames, letter: u8, span: Span) -> Box<Fault> {
     }
 }
 
-fn unknown_name(names: &AxisNames, name: &str, span: Span) -> Box<Fault> {
-    if let Some(fault) = super::dialect::sinumerik(name, span) {
+fn unknown_name(names: &AxisNames, name: &str, value: &Expr, span: Span) -> Box<Fault> {
+    if let Some(fault) = super::dialect::sinumerik(name, value, span) {
         return fault;
     }
     match name.as_bytes().first() {

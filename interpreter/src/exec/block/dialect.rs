@@ -4,7 +4,7 @@ use super::collected::{Code, Words};
 use crate::diag::{Condition, Id};
 use crate::exec::fault::Fault;
 use crate::exec::report::{Report, Subject};
-use crate::syntax::ast::{ExprKind, GValue, Span};
+use crate::syntax::ast::{Expr, ExprKind, GValue, Span};
 
 /// Whether an error is one that a file of another control repeats in every line: unassigned G functions (20131) and parameters
 /// without a value (20194), each separately, and O words (20191, 20192).
@@ -158,8 +158,9 @@ pub(in crate::exec) fn printer(word: &str, meaning: &str, span: Span) -> Box<Fau
     Fault::new(Condition::ForeignProgram, text, span)
 }
 
-/// K-0120 for a name with a value that occurs in Sinumerik programs only: `CYCLE81(..)`, `CR=5`.
-pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
+/// K-0120 for a name with a value that occurs in Sinumerik programs only: `CYCLE81(..)`, `CR=5`. A number that follows
+/// without `=` is part of the word.
+pub(in crate::exec) fn sinumerik(name: &str, value: &Expr, span: Span) -> Option<Box<Fault>> {
     let (meaning, hint) = match name.to_ascii_uppercase().as_str() {
         "CYCLE" | "HOLES" | "POCKET" | "SLOT" | "LONGHOLE" => {
             ("a cycle", "cycles are files here: L CYCLE [NAME=\"file\" @P1=..]")
@@ -168,8 +169,14 @@ pub(in crate::exec) fn sinumerik(name: &str, span: Span) -> Option<Box<Fault>> {
         "RPL" => ("an angle of rotation", "#ROTATION [ANGLE=..] rotates the plane here"),
         _ => return None,
     };
+    let number = match value.kind {
+        ExprKind::Number(number) => number.to_string(),
+        _ => String::new(),
+    };
+    let joined = name.len() + number.len() == span.len as usize;
+    let number = if joined { &*number } else { "" };
     let text = format!(
-        "`{name}` is {meaning}: this is a program for a Sinumerik control, not for ISG and TwinCAT"
+        "`{name}{number}` is {meaning}: this is a program for a Sinumerik control, not for ISG and TwinCAT"
     );
     Some(Fault::new(Condition::ForeignProgram, text, span).hint(hint))
 }

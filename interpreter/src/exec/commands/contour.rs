@@ -140,9 +140,11 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut settings = decoder.contour.contouring;
     let group = points(decoder, call.command.groups.first(), &mut settings)?;
     let keys = ContourArguments::read(decoder, &call.title(), group.as_ref())?;
-    let [mode, speed] = [keys.auto_vel, keys.vel].map(|key| key.map(|(_, at)| at));
-    if let Some(span) = mode.or(speed).or(keys.sym_dist.map(|(_, at)| at)) {
-        return Err(Fault::unsupported("#CONTOUR MODE [AUTO_VEL] and [SYM_DIST]", span));
+    let speed = [("AUTO_VEL", &keys.auto_vel), ("VEL", &keys.vel)];
+    let speed = speed.into_iter().filter_map(|(name, key)| Some((name, key.as_ref()?.1)));
+    let distance = keys.sym_dist.as_ref().map(|(_, at)| ("SYM_DIST", *at));
+    if let Some((name, span)) = speed.chain(distance).next() {
+        return Err(Fault::unsupported(format!("#CONTOUR MODE [{name}]"), span));
     }
     at_least_an_increment(Condition::PathDevTooSmall, "PATH_DEV", keys.path_dev, unit)?;
     match keys.modes()[..] {

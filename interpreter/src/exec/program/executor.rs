@@ -133,9 +133,11 @@ impl Executor {
             let severity =
                 if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
             let mut diagnostic = Diagnostic::new(Condition::NoEnd, text).severity(severity);
-            if severity == Severity::Error {
-                diagnostic = diagnostic.hint("write % and the main program after the subroutines");
-            }
+            diagnostic = diagnostic.hint(if severity == Severity::Error {
+                "write % and the main program after the subroutines"
+            } else {
+                "the file contains no block"
+            });
             let (file, text) = (name, Arc::from(""));
             let (line, column, offset, length, block) = (1, 1, 0, 1, None);
             let beginning = Location { file, line, column, offset, length, block, text };

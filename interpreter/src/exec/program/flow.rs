@@ -89,6 +89,14 @@ impl Executor {
         }
     }
 
+    /// A structure without an end covers the rest of the text; a missing M30 is not reported in addition.
+    pub(in crate::exec::program) fn skip_unclosed(&mut self) {
+        self.skip_to_level_end();
+        if let Some(level) = self.levels.last_mut() {
+            level.cut = true;
+        }
+    }
+
     fn position_of(&self, id: Option<EntryId>) -> Option<Position> {
         let level = self.levels.last()?;
         id.map(|id| level.index.entry(id).position)
@@ -115,10 +123,7 @@ impl Executor {
 
     /// 21500, 21501, 21502: the closing statement is missing; the rest of the level is ignored.
     fn unclosed(&mut self, id: EntryId, span: Span) -> Box<Fault> {
-        self.skip_to_level_end();
-        if let Some(level) = self.levels.last_mut() {
-            level.cut = true;
-        }
+        self.skip_unclosed();
         let Some(level) = self.levels.last() else {
             return Fault::new(Condition::OpenIfMain, "open control block", span);
         };
@@ -214,7 +219,7 @@ impl Executor {
         self.pop_frame_of(id);
         match self.position_of(end) {
             Some(end) => self.jump_behind(end),
-            None => self.skip_to_level_end(),
+            None => self.skip_unclosed(),
         }
     }
 

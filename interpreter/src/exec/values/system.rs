@@ -232,7 +232,7 @@ fn is_kinematic(segments: &[Segment]) -> bool {
 fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     if !d.identity_trafo {
         let hint = "--identity-trafo treats transformations as the identity, their parameters have no effect";
-        return Err(Fault::unsupported("variables V.G.KIN", span).hint(hint));
+        return Err(Fault::unsupported("variable V.G.KIN", span).hint(hint));
     }
     let mut parts = Vec::new();
     for segment in segments {

@@ -265,7 +265,7 @@ impl Decoder {
         if let Some((_, order, at)) =
             words.axes.iter().find(|(_, order, _)| whole(*order, 0, u32::from(u16::MAX)).is_none())
         {
-            let text = format!("G74: the order {order} is none of the whole numbers 0 to 65535");
+            let text = format!("G74: the order {order} is not a whole number from 0 to 65535");
             return Err(Fault::new(Condition::HomingOrder, text, *at)
                 .with(|d| d.value(ValueKind::Wrong, *order, "-")));
         }

@@ -117,7 +117,7 @@ impl Executor {
         if entry.keyword == Keyword::RealTimeBegin {
             match entry.end.map(|end| level.index.entry(end).position) {
                 Some(end) => self.jump_behind(end),
-                None => self.skip_to_level_end(),
+                None => self.skip_unclosed(),
             }
         }
     }
@@ -130,7 +130,7 @@ impl Executor {
             Keyword::CommentBegin => {
                 match entry.end.map(|end| level.index.entry(end).position) {
                     Some(end) => self.jump_behind(end),
-                    None => self.skip_to_level_end(),
+                    None => self.skip_unclosed(),
                 }
                 true
             }
@@ -138,7 +138,7 @@ impl Executor {
             Keyword::ConditionalElse => {
                 match entry.end.map(|end| level.index.entry(end).position) {
                     Some(end) => self.jump_behind(end),
-                    None => self.skip_to_level_end(),
+                    None => self.skip_unclosed(),
                 }
                 true
             }

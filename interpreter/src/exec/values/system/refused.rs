@@ -69,7 +69,7 @@ pub(super) fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Faul
         && matches!(tool.as_str(), "WZ" | "WZ_AKT")
         && OTHER_TOOL_DATA.contains(&name.as_str())
     {
-        return Fault::unsupported(format!("variables V.G.{tool}.{name}"), span);
+        return Fault::unsupported(format!("variable V.G.{tool}.{name}"), span);
     }
     let axis = d.names.in_channel().next().unwrap_or("X");
     let names: Vec<String> =

@@ -78,7 +78,7 @@ impl Executor {
         let next = level.index.entry(id).next.map(|next| level.index.entry(next).position);
         match next {
             Some(next) => self.jump_behind(next),
-            None => self.skip_to_level_end(),
+            None => self.skip_unclosed(),
         }
     }
 }
