@@ -83,6 +83,8 @@ pub struct GuardCommands {
     pub settings: Option<Location>,
     /// The first one that names `AX_DEV`, and its value as written.
     pub ax_dev: Option<(Location, f64)>,
+    /// The first one that switches it on without `AX_DEV`.
+    pub on_without_ax_dev: Option<Location>,
 }
 
 /// Ends a check or a run from another thread; clones share their state.

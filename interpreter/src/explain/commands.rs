@@ -111,7 +111,15 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     let named = commands::explained()
         .filter(|row| is_named(&format!("#{}", row.name)))
         .max_by_key(|row| row.name.len());
-    named.map(of_row).or_else(|| family(wanted)).or_else(|| state(wanted))
+    // a refused command may begin with the name of another one: `#MCS TO WCS`
+    let listed = wanted.strip_prefix('#').and_then(commands::state_of);
+    let shorter =
+        |row: &&commands::Row| listed.is_none_or(|(name, _)| name.len() <= row.name.len());
+    match named {
+        Some(row) if shorter(&row) => Some(of_row(row)),
+        Some(_) => state(wanted),
+        None => family(wanted).or_else(|| state(wanted)),
+    }
 }
 
 /// Commands and G functions with nothing to explain except their state.

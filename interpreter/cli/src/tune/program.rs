@@ -169,6 +169,12 @@ fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64)
              #VIB GUARD ON [AX_DEV={max_dev_mm}]"
         ),
     });
+    if let (Some(_), Some(place)) = (&own.ax_dev, &own.on_without_ax_dev) {
+        lines.push(format!(
+            "          {} switches the guard on without AX_DEV: there is no tolerance from there on",
+            line(place)
+        ));
+    }
     if let Some(line) = own.settings.as_ref().map(line) {
         lines.push(format!(
             "          MODE, FREQ and DAMPING of the program's own commands ({line}) are replaced by each choice"

@@ -181,6 +181,8 @@ fn note_command(decoder: &mut Decoder, keys: &GuardArguments, on: Option<bool>) 
     }
     if let Some((value, _)) = keys.ax_dev {
         commands.ax_dev.get_or_insert_with(|| (place.clone(), value));
+    } else if on == Some(true) {
+        commands.on_without_ax_dev.get_or_insert_with(|| place.clone());
     }
 }
 
