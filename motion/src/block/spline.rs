@@ -20,6 +20,16 @@ pub struct SplineSettings {
     pub max_angle_deg: f64,
 }
 
+impl SplineSettings {
+    /// The limit that a programmed or listed `MAX_ANGLE` in deg sets.
+    ///
+    /// Assumption: 0, the default of P-CHAN-00125, is no limit, as for the other limits; read literally it would end a
+    /// spline at every block.
+    pub fn angle_limit_deg(max_angle_deg: f64) -> f64 {
+        if max_angle_deg > 0.0 { max_angle_deg.min(180.0) } else { 180.0 }
+    }
+}
+
 impl Default for SplineSettings {
     fn default() -> Self {
         Self {

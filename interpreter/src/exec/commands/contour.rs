@@ -11,7 +11,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
-use kontur_motion::block::CurveJerk;
+use kontur_motion::block::{CurveJerk, SplineSettings};
 
 arguments! {
     /// Keys of `#CONTOUR MODE`.
@@ -283,7 +283,7 @@ arguments! {
         auto_off_g00: MaybeNumber "AUTO_OFF_G00", "", "ends the spline";
         _auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "always so here";
         max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks are kept";
-        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners are kept";
+        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners are kept; 0: unlimited";
         surface: Flag "SURFACE", "", "not supported";
         opmode: Number "OPMODE", "", "1: corners within CONTERROR";
         conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
@@ -337,7 +337,9 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     set(&mut hsc.spline.path_dev_mm, keys.path_dev, unit);
     set(&mut hsc.spline.track_dev_deg, keys.track_dev, 1.0);
     set(&mut hsc.spline.max_length_mm, keys.max_path_length, unit);
-    set(&mut hsc.spline.max_angle_deg, keys.max_angle, 1.0);
+    if let Some((angle_deg, _)) = keys.max_angle {
+        hsc.spline.max_angle_deg = SplineSettings::angle_limit_deg(angle_deg);
+    }
     set(&mut hsc.contour_error_mm, keys.conterror, unit);
     switch(&mut hsc.spline.off_at_path_dev, keys.auto_off_path);
     switch(&mut hsc.spline.off_at_track_dev, keys.auto_off_track);

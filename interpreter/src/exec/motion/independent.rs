@@ -17,8 +17,10 @@ use crate::exec::geometry::Geometry;
 use crate::exec::names::AxisNames;
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
+use kontur_filters::time::CycleTime;
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind;
-use kontur_motion::independent::IndependentSpeed;
+use kontur_motion::independent::{IndependentMove, IndependentSpeed};
 use kontur_motion::path::Path;
 
 /// Contents of the bracket.
@@ -239,18 +241,18 @@ impl Decoder {
         let target = if relative { start[axis] + way } else { way + offset_mm };
         self.geometry.coordinates.place(axis, target);
         self.check_limit(axis, target, at);
+        let slope = words.slope.unwrap_or(self.machine.channel.dynamics.slope);
         if let IndependentSpeed::Time(time_s) = speed {
-            let least_s = (target - start[axis]).abs()
-                / self.motion.dynamics(&self.machine, &self.modal, false).axes[axis].v_max_mm_s;
-            if time_s < least_s * (1.0 - 1e-9) {
+            let dynamics = &self.motion.dynamics(&self.machine, &self.modal, false).axes[axis];
+            let ends = [start[axis], target];
+            if let Some(least_s) = longer_than(time_s, ends, slope, dynamics, self.machine.cycle) {
                 let text = format!(
-                    "the independent axis cannot move in TIME={time_s} s: its velocity limit requires {least_s:.6} s"
+                    "the independent axis cannot move in TIME={time_s} s: its limits require {least_s:.6} s"
                 );
                 self.report.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
         self.motion.independent.way[axis] += target - start[axis];
-        let slope = words.slope.unwrap_or(self.machine.channel.dynamics.slope);
         let source = self.report.source;
         let motion =
             IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope, source };
@@ -364,4 +366,18 @@ impl Decoder {
         }
         Ok(())
     }
+}
+
+/// Time in s from rest to rest that the limits of an axis require, in whole cycles, if it is longer than the programmed one.
+pub(super) fn longer_than(
+    time_s: f64,
+    [from_mm, to_mm]: [f64; 2],
+    slope: SlopeKind,
+    dynamics: &AxisDynamics,
+    cycle: CycleTime,
+) -> Option<f64> {
+    let speed = IndependentSpeed::Time(time_s);
+    // the time is above 0
+    let way = IndependentMove::new(from_mm, to_mm, speed, slope, dynamics, cycle).ok()?;
+    Some(cycle.time_of(way.cycles())).filter(|least_s| *least_s > time_s + cycle.seconds())
 }

@@ -9,6 +9,7 @@
 //! block; the first position is EXCUR below ZERO_POS, the second one EXCUR above; FREQ and TIME refer to an oscillation without
 //! its dwells; the block after OSC OFF begins when the axis has stopped.
 
+use super::independent::longer_than;
 use crate::diag::Condition;
 use crate::exec::commands::keys::arguments;
 use crate::exec::commands::range::{above_zero, at_least, between};
@@ -17,7 +18,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{Event, OscillatingMotion, Sync};
 use crate::machine::Machine;
 use crate::syntax::ast::{Group, Item, Span};
-use kontur_motion::independent::{IndependentMove, IndependentSpeed};
+use kontur_motion::independent::IndependentSpeed;
 
 arguments! {
     /// Keys of `X[OSC ..]`.
@@ -176,13 +177,9 @@ fn limited_stroke(
 ) -> Option<String> {
     let (dynamics, cycle) = (machine.axes[axis].dynamics(), machine.cycle);
     let slope = machine.channel.dynamics.slope;
-    // the speed is above 0
-    let way = IndependentMove::new(first, second, speed, slope, &dynamics, cycle).ok()?;
-    let least_s = cycle.time_of(way.cycles());
     match speed {
-        IndependentSpeed::Time(t) if least_s > t + cycle.seconds() => {
-            Some(format!("a stroke in {t} s requires {least_s} s"))
-        }
+        IndependentSpeed::Time(t) => longer_than(t, [first, second], slope, &dynamics, cycle)
+            .map(|least_s| format!("a stroke in {t} s requires {least_s} s")),
         IndependentSpeed::Feed(v) if v > dynamics.v_max_mm_s * (1.0 + 1e-9) => {
             Some(format!("a feed of {v} mm/s is limited to {} mm/s", dynamics.v_max_mm_s))
         }

@@ -13,9 +13,9 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// Words that begin a list in a row.
-const LISTS: [&str; 14] = [
+const LISTS: [&str; 15] = [
     "path", "length", "arc", "feed", "end", "ratio", "late", "slope", "acc", "vector", "contour",
-    "spline", "steps", "does",
+    "spline", "angle", "steps", "does",
 ];
 
 /// Results of a run, by the word that introduces them in a row; messages have no such word.
@@ -43,6 +43,7 @@ fn found(word: &str, run: &Run) -> Vec<String> {
             blocks.map(|b| value(limits(b).vel_mm_s) + "," + &value(limits(b).acc_mm_s2)).collect()
         }
         "contour" => blocks.map(|block| contour(block.contour.map(|c| c.mode))).collect(),
+        "angle" => blocks.map(|block| value(block.spline.map(|s| s.max_angle_deg))).collect(),
         "spline" => blocks.map(|block| value(block.spline.map(|s| s.path_dev_mm))).collect(),
         "steps" => run.steps.iter().filter_map(step).collect(),
         "does" => run.events().into_iter().filter_map(done).collect(),

@@ -173,8 +173,7 @@ pub(super) fn look_ahead(p: &Parameters, start_up: &Parameters) -> u32 {
 
 /// Settings of `#HSC [BSPLINE]` at program start (P-CHAN-00122 to 00130).
 ///
-/// Assumption: an angle of 0, the default of P-CHAN-00125, is no limit, as for the other limits; read literally it would end a
-/// spline at every block. Rapid blocks end a spline unless the list states P-CHAN-00128.
+/// Assumption: rapid blocks end a spline unless the list states P-CHAN-00128.
 pub(super) fn spline(p: &Parameters) -> SplineSettings {
     let angle_deg = p.get(hsc::MAX_ANGLE) / 1e4;
     SplineSettings {
@@ -184,6 +183,6 @@ pub(super) fn spline(p: &Parameters) -> SplineSettings {
         off_at_track_dev: p.get(hsc::OFF_AT_TRACK_DEVIATION),
         off_at_rapid: p.get(hsc::OFF_AT_RAPID).is_none_or(|on| on > 0.0),
         max_length_mm: p.get(hsc::MAX_LENGTH),
-        max_angle_deg: if angle_deg > 0.0 { angle_deg.min(180.0) } else { 180.0 },
+        max_angle_deg: SplineSettings::angle_limit_deg(angle_deg),
     }
 }
