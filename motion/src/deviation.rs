@@ -23,8 +23,12 @@
 //!
 //! Between two samples (a) is evaluated where it can be larger than at both of them: where the nearest point moves from
 //! one block to another, and at the middle of a curved block. (b) is evaluated at block boundaries with a kink and, on
-//! curved blocks, at the interpolated points. Along a straight block (b) follows from (a) by continuity, as long as all
-//! axes have the same filter; otherwise the interpolated points are evaluated there as well.
+//! curved blocks, at the interpolated points. Along a straight block (b) is not longer than (a) by continuity, as long as
+//! all axes have the same filter, and has about its direction. Where the vector of (a) turns from one cycle to the next,
+//! beside a corner, (b) has directions between, and the interpolated points that the filters hold are evaluated on
+//! straight blocks as well; with unequal filters all of them. Between two of them: where the nearest point passes to
+//! another part of the set path, because the vector then turns, and on curved blocks whose points are far apart. The
+//! planner chooses its points by a bound on what lies between them.
 
 mod between;
 mod component;

@@ -2,7 +2,8 @@
 
 use super::{Excursion, SetPath};
 use crate::axis::AxisVec;
-use crate::contour::{Contour, Sight};
+use crate::contour::{Contour, ROUNDING_MM, Sight};
+use smallvec::SmallVec;
 
 /// Deviation in both directions, cycle by cycle, for the output.
 #[derive(Clone, Debug, Default)]
@@ -16,10 +17,65 @@ pub(crate) struct Gauge {
     sight: Sight,
     /// Number of the last block that has left the filters.
     left: u64,
+    /// The last cycle in which the shortest vector to the set point has turned.
+    turned: Option<u64>,
+    /// Cycle and place of the last point of the contour that was examined.
+    foot: Option<(u64, Foot)>,
     /// Last cycle whose set point differed from the interpolated one.
     filtered: Option<u64>,
     /// Shortest vector to the last set point with its length in mm.
     shortest: Option<(f64, AxisVec)>,
+}
+
+/// Cosine of the angle between the shortest vectors of two cycles up to which no component between their directions is
+/// larger than both of theirs, but for the eighth part of the square of the angle (0.05 rad).
+const SAME_DIRECTION: f64 = 0.998_75;
+/// Length of a vector in mm below which its direction does not matter.
+const SHORT_MM: f64 = 1e-7;
+/// Movement of the nearest set point, as a multiple of that along the contour, from which on it has passed to another
+/// part of the set path: then a point between may be missed by more, or along another axis.
+const JUMP: f64 = 1.5;
+/// Halvings of the contour in one cycle in the search for this place.
+const HALVINGS: u32 = 10;
+/// Share of a vector up to which it is the mean of those on both sides.
+const EVEN: f64 = 1e-3;
+
+/// A point of the contour and the vector to the nearest set point.
+#[derive(Clone, Debug)]
+struct Foot {
+    of: AxisVec,
+    vector: AxisVec,
+}
+
+impl Foot {
+    /// Whether a point of the contour between this and another point may be missed by more than both of them, or along
+    /// another axis. `bend` is that of the contour between them.
+    fn may_hide_more(&self, other: &Self, bend: f64) -> bool {
+        let square =
+            |f: &dyn Fn(usize) -> f64| (0..self.of.len()).map(|i| f(i) * f(i)).sum::<f64>();
+        let way = square(&|i| other.of[i] - self.of[i]).sqrt();
+        let moved = square(&|i| other.of[i] + other.vector[i] - self.of[i] - self.vector[i]).sqrt();
+        let [own, its] = [self, other].map(|foot| square(&|i| foot.vector[i]).sqrt());
+        let both = self.vector.iter().zip(other.vector.iter()).map(|(a, b)| a * b).sum::<f64>();
+        let most = own.max(its);
+        way > ROUNDING_MM
+            && most > SHORT_MM
+            && (moved > JUMP * way
+                || both < SAME_DIRECTION * own * its
+                // set path and contour are chord and arc
+                || bend * way * way > EVEN * most)
+    }
+
+    /// Whether this point is missed as the points on both sides of it are, which are equally far away.
+    fn is_mean_of(&self, low: &Self, high: &Self) -> bool {
+        let (mut off, mut most) = (0.0, 0.0);
+        for (i, v) in self.vector.iter().enumerate() {
+            let apart = v - 0.5 * (low.vector[i] + high.vector[i]);
+            off += apart * apart;
+            most += v * v;
+        }
+        off <= EVEN * EVEN * most
+    }
 }
 
 impl Gauge {
@@ -84,7 +140,14 @@ impl Gauge {
         let (reach, moment) = (self.reach as f64, k as f64);
         let within = (moment - reach, moment);
         if let Some(least_mm) = least_mm {
-            self.shortest = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
+            let now = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
+            let before = std::mem::replace(&mut self.shortest, now);
+            if let (Some((a, from)), Some((b, to))) = (&before, &self.shortest) {
+                let both = from.iter().zip(to.iter()).map(|(a, b)| a * b).sum::<f64>();
+                if both < SAME_DIRECTION * a * b && a.max(*b) > SHORT_MM {
+                    self.turned = Some(k);
+                }
+            }
             self.let_go(contour, k, least_mm);
         } else {
             let mut vector = AxisVec::zeros(set.len());
@@ -110,28 +173,95 @@ impl Gauge {
         let passed = k as f64 - self.reach as f64 - 1.0;
         let entered = contour.entered_near(passed, contour.index(self.left).unwrap_or_default());
         self.left = contour.number(entered);
+        let bend = contour.bend(passed - 1.0, entered);
+        let turned = self.turned.is_some_and(|at| k <= at + self.reach + 2);
+        let first = k.checked_sub(self.reach + 1).filter(|_| self.every || bend > 0.0 || turned);
+        let mut last = first.and_then(|first| self.foot_before(contour, k, first, least_mm));
         for (moment, point) in contour.kinks(passed - 1.0, entered) {
             let first = moment.floor().max(0.0) as u64;
-            self.miss(contour, k, &point, (first, first + self.reach + 2), least_mm);
+            let among = (first, first + self.reach + 2);
+            last = self.follow(contour, (k, passed), point, among, (last, bend), least_mm);
         }
-        if let Some(first) = k.checked_sub(self.reach + 1)
-            && (self.every || contour.is_bent(entered))
+        if let Some(first) = first
             && let Some(point) = self.path.get(first).map(AxisVec::from_slice)
         {
-            self.miss(contour, k, &point, (first, k), least_mm);
+            let among = (first, k);
+            last = self.follow(contour, (k, passed), point, among, (last, bend), least_mm);
+            self.foot = last.map(|foot| (k, foot));
         }
+    }
+
+    /// The point of the contour that was interpolated before cycle `first`.
+    fn foot_before(
+        &mut self,
+        contour: &Contour,
+        k: u64,
+        first: u64,
+        least_mm: f64,
+    ) -> Option<Foot> {
+        if let Some((at, foot)) = self.foot.take()
+            && at + 1 == k
+        {
+            return Some(foot);
+        }
+        let before = first.checked_sub(1)?;
+        let point = AxisVec::from_slice(self.path.get(before)?);
+        self.miss(contour, k, point, (before, k), least_mm)
+    }
+
+    /// Examines a point of the contour, and the points between it and the last one where another one may be missed by
+    /// more.
+    fn follow(
+        &mut self,
+        contour: &Contour,
+        (k, passed): (u64, f64),
+        point: AxisVec,
+        among: (u64, u64),
+        (last, bend): (Option<Foot>, f64),
+        least_mm: f64,
+    ) -> Option<Foot> {
+        let foot = self.miss(contour, k, point, among, least_mm)?;
+        if let Some(last) = last.filter(|last| last.may_hide_more(&foot, bend)) {
+            let mut open: SmallVec<[(Foot, Foot, u32); 4]> = SmallVec::new();
+            open.push((last, foot.clone(), HALVINGS));
+            while let Some((low, high, halvings)) = open.pop() {
+                let mut middle: AxisVec =
+                    low.of.iter().zip(high.of.iter()).map(|(a, b)| 0.5 * (a + b)).collect();
+                if bend > 0.0 {
+                    // the middle of a chord lies beside the block
+                    let mut aside = AxisVec::zeros(middle.len());
+                    contour.nearest(&middle, passed - 1.0, passed, &mut aside);
+                    middle.iter_mut().zip(aside.iter()).for_each(|(m, a)| *m -= a);
+                }
+                let Some(middle) = self.miss(contour, k, middle, among, least_mm) else { continue };
+                if halvings == 0 || middle.is_mean_of(&low, &high) {
+                    continue;
+                }
+                open.push((middle.clone(), high, halvings - 1));
+                open.push((low, middle, halvings - 1));
+            }
+        }
+        Some(foot)
     }
 
     /// Adds the vector from a point of the contour to the set path between two cycles: the shortest one or, if that
     /// exceeds the tolerance of the blocks that the filters held, the one with the smallest largest component. Vectors
     /// up to `least_mm`, the least tolerance of the run, do not exceed any.
-    fn miss(&mut self, contour: &Contour, k: u64, point: &[f64], among: (u64, u64), least_mm: f64) {
-        let mut shortest = Excursion::none(point.len());
-        self.set.misses(point, among, f64::INFINITY, &mut shortest);
+    fn miss(
+        &mut self,
+        contour: &Contour,
+        k: u64,
+        of: AxisVec,
+        among: (u64, u64),
+        least_mm: f64,
+    ) -> Option<Foot> {
+        let mut shortest = Excursion::none(of.len());
+        let (_, vector) = self.set.misses(&of, among, f64::INFINITY, &mut shortest)?;
         let exceeds = shortest.largest() > least_mm
             && loosest(contour, k, self.reach).is_some_and(|(mm, _)| shortest.largest() > mm);
-        let least = exceeds.then(|| self.set.reaches(point, among)).flatten();
+        let least = exceeds.then(|| self.set.reaches(&of, among)).flatten();
         self.found.take(&least.unwrap_or(shortest.vector));
+        Some(Foot { of, vector })
     }
 }
 
