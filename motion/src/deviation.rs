@@ -241,11 +241,13 @@ impl SetPath {
     }
 
     /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest and
-    /// the vector to it. Beyond `wary_mm` every vector that may count as the shortest is included.
+    /// the vector to it. Beyond `wary_mm` every vector that may count as the shortest is included. `near`: a cycle that
+    /// may come near; it does not change the result.
     pub(crate) fn misses(
         &self,
         point: &[f64],
         (first, last): (u64, u64),
+        near: Option<u64>,
         wary_mm: f64,
         out: &mut Excursion,
     ) -> Option<(u64, AxisVec)> {
@@ -256,7 +258,7 @@ impl SetPath {
         // a first guess rules out most other lines: between neighbouring lines a distance falls by their length at
         // most. The remaining ones are examined from both ends: the line lies between them, so that each end rules out
         // its half at once
-        let guess = first.midpoint(last);
+        let guess = near.map_or(first.midpoint(last), |k| k.clamp(first + 1, last) - 1);
         let guessed = self.to_line(guess, point).0;
         let mut search = Search { best: (guessed, guess), alike: (1.0 + ALIKE) * guessed.sqrt() };
         // the shortest vector found so far is not shorter than the one found in the end
@@ -360,19 +362,13 @@ impl SetPath {
             self.values.get(at..at + 2 * n)
         });
         let Some((a, b)) = ends.map(|ends| ends.split_at(n)) else { return (f64::INFINITY, 0.0) };
-        let (mut dot, mut norm) = (0.0, 0.0);
-        for i in 0..n {
-            let d = b[i] - a[i];
-            dot += (point[i] - a[i]) * d;
-            norm += d * d;
+        // the numbers of axes that occur have loops of known length
+        match n {
+            2 => foot(&a[..2], &b[..2], &point[..2]),
+            3 => foot(&a[..3], &b[..3], &point[..3]),
+            4 => foot(&a[..4], &b[..4], &point[..4]),
+            _ => foot(a, b, point),
         }
-        let u = if norm > 0.0 { (dot / norm).clamp(0.0, 1.0) } else { 0.0 };
-        let mut d2 = 0.0;
-        for i in 0..n {
-            let c = a[i] + u * (b[i] - a[i]) - point[i];
-            d2 += c * c;
-        }
-        (d2, u)
     }
 
     /// The shortest vector from a point to the line between cycle `k` and cycle `k + 1`.
@@ -383,4 +379,24 @@ impl SetPath {
             *v = a + u * (b - a) - p;
         }
     }
+}
+
+/// Square of the distance in mm2 of a point from the line between two others, and the position on the line.
+#[inline(always)]
+fn foot(a: &[f64], b: &[f64], point: &[f64]) -> (f64, f64) {
+    let n = a.len();
+    let (b, point) = (&b[..n], &point[..n]);
+    let (mut dot, mut norm) = (0.0, 0.0);
+    for i in 0..n {
+        let d = b[i] - a[i];
+        dot += (point[i] - a[i]) * d;
+        norm += d * d;
+    }
+    let u = if norm > 0.0 { (dot / norm).clamp(0.0, 1.0) } else { 0.0 };
+    let mut d2 = 0.0;
+    for i in 0..n {
+        let c = a[i] + u * (b[i] - a[i]) - point[i];
+        d2 += c * c;
+    }
+    (d2, u)
 }

@@ -256,7 +256,7 @@ impl Gauge {
         least_mm: f64,
     ) -> Option<Foot> {
         let mut shortest = Excursion::none(of.len());
-        let (_, vector) = self.set.misses(&of, among, f64::INFINITY, &mut shortest)?;
+        let (_, vector) = self.set.misses(&of, among, None, f64::INFINITY, &mut shortest)?;
         let exceeds = shortest.largest() > least_mm
             && loosest(contour, k, self.reach).is_some_and(|(mm, _)| shortest.largest() > mm);
         let least = exceeds.then(|| self.set.reaches(&of, among)).flatten();
