@@ -27,8 +27,10 @@
 //! all axes have the same filter, and has about its direction. Where the vector of (a) turns from one cycle to the next,
 //! beside a corner, (b) has directions between, and the interpolated points that the filters hold are evaluated on
 //! straight blocks as well; with unequal filters all of them. Between two of them: where the nearest point passes to
-//! another part of the set path, because the vector then turns, and on curved blocks whose points are far apart. The
-//! planner chooses its points by a bound on what lies between them.
+//! another part of the set path, because the vector then turns, and on curved blocks whose points are far apart. In the
+//! output, these points are evaluated only where they may be larger than the largest ones of the run so far, or exceed a
+//! tolerance: what counts is the largest value of a run, not that of each cycle. The planner chooses its points by a
+//! bound on what lies between them.
 
 mod between;
 mod component;

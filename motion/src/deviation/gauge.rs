@@ -14,6 +14,8 @@ pub(crate) struct Gauge {
     set: SetPath,
     path: SetPath,
     found: Excursion,
+    /// Largest absolute components found so far in the run, in mm.
+    most: AxisVec,
     sight: Sight,
     /// Number of the last block that has left the filters.
     left: u64,
@@ -40,22 +42,38 @@ const HALVINGS: u32 = 10;
 /// Share of a vector up to which it is the mean of those on both sides.
 const EVEN: f64 = 1e-3;
 
+/// Multiple of a way along the contour by which a component of the vector changes at most, unless the nearest set point
+/// passes to another part of the set path.
+const STEEP: f64 = 3.0;
+
 /// A point of the contour and the vector to the nearest set point.
 #[derive(Clone, Debug)]
 struct Foot {
     of: AxisVec,
     vector: AxisVec,
+    /// Cycle after that of the nearest set point.
+    cycle: u64,
+}
+
+fn length(vector: &[f64]) -> f64 {
+    vector.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 impl Foot {
     /// Whether a point of the contour between this and another point may be missed by more than both of them, or along
     /// another axis. `bend` is that of the contour between them.
     fn may_hide_more(&self, other: &Self, bend: f64) -> bool {
-        let square =
-            |f: &dyn Fn(usize) -> f64| (0..self.of.len()).map(|i| f(i) * f(i)).sum::<f64>();
-        let way = square(&|i| other.of[i] - self.of[i]).sqrt();
-        let moved = square(&|i| other.of[i] + other.vector[i] - self.of[i] - self.vector[i]).sqrt();
-        let [own, its] = [self, other].map(|foot| square(&|i| foot.vector[i]).sqrt());
+        let way = distance(&self.of, &other.of);
+        let square = |i: usize| {
+            let moved = other.of[i] + other.vector[i] - self.of[i] - self.vector[i];
+            moved * moved
+        };
+        let moved = (0..self.of.len()).map(square).sum::<f64>().sqrt();
+        let [own, its] = [self, other].map(|foot| length(&foot.vector));
         let both = self.vector.iter().zip(other.vector.iter()).map(|(a, b)| a * b).sum::<f64>();
         let most = own.max(its);
         way > ROUNDING_MM
@@ -64,6 +82,13 @@ impl Foot {
                 || both < SAME_DIRECTION * own * its
                 // set path and contour are chord and arc
                 || bend * way * way > EVEN * most)
+    }
+
+    /// Largest component in mm along an axis of the vectors from the points between this and another one.
+    fn potential(&self, other: &Self, way: f64, axis: usize) -> f64 {
+        let [own, its] = [self, other].map(|foot| length(&foot.vector));
+        let component = self.vector[axis].abs().max(other.vector[axis].abs());
+        (component + STEEP * way).min(0.5 * (own + its + way))
     }
 
     /// Whether this point is missed as the points on both sides of it are, which are equally far away.
@@ -79,9 +104,9 @@ impl Foot {
 }
 
 impl Gauge {
-    /// For filters that reach back `reach` cycles; `every`: they differ between the axes.
-    pub(crate) fn new(reach: u32, every: bool) -> Self {
-        Self { reach: u64::from(reach), every, ..Self::default() }
+    /// Continues with filters that reach back `reach` cycles; `every`: they differ between the axes.
+    pub(crate) fn with(&self, reach: u32, every: bool) -> Self {
+        Self { reach: u64::from(reach), every, most: self.most.clone(), ..Self::default() }
     }
 
     /// Forgets known distances, because the contour was replaced.
@@ -118,6 +143,7 @@ impl Gauge {
             }
         } else {
             self.found.clear();
+            self.foot = None;
             self.set.restart(k, point);
             self.path.restart(k, point);
         }
@@ -141,6 +167,7 @@ impl Gauge {
         let within = (moment - reach, moment);
         if let Some(least_mm) = least_mm {
             let now = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
+            self.keep();
             let before = std::mem::replace(&mut self.shortest, now);
             if let (Some((a, from)), Some((b, to))) = (&before, &self.shortest) {
                 let both = from.iter().zip(to.iter()).map(|(a, b)| a * b).sum::<f64>();
@@ -176,18 +203,46 @@ impl Gauge {
         let bend = contour.bend(passed - 1.0, entered);
         let turned = self.turned.is_some_and(|at| k <= at + self.reach + 2);
         let first = k.checked_sub(self.reach + 1).filter(|_| self.every || bend > 0.0 || turned);
-        let mut last = first.and_then(|first| self.foot_before(contour, k, first, least_mm));
+        let point = first.and_then(|first| self.path.get(first)).map(AxisVec::from_slice);
+        let examined = first.zip(point).filter(|(_, point)| {
+            // the distance changes at most by the way along the contour
+            let last = self.foot.as_ref().map(|(_, foot)| foot);
+            last.is_none_or(|foot| {
+                let mm = length(&foot.vector) + distance(&foot.of, point);
+                self.matters(least_mm, |_| mm)
+            })
+        });
+        let mut last = None;
+        if let Some((first, _)) = &examined {
+            last = self.foot_before(contour, k, *first, least_mm);
+        }
         for (moment, point) in contour.kinks(passed - 1.0, entered) {
             let first = moment.floor().max(0.0) as u64;
             let among = (first, first + self.reach + 2);
             last = self.follow(contour, (k, passed), point, among, (last, bend), least_mm);
         }
-        if let Some(first) = first
-            && let Some(point) = self.path.get(first).map(AxisVec::from_slice)
-        {
+        if let Some((first, point)) = examined {
             let among = (first, k);
             last = self.follow(contour, (k, passed), point, among, (last, bend), least_mm);
             self.foot = last.map(|foot| (k, foot));
+        }
+    }
+
+    /// Whether components up to some mm per axis may be larger than the largest ones so far, or exceed a tolerance.
+    fn matters(&self, least_mm: f64, mm: impl Fn(usize) -> f64) -> bool {
+        // an axis that deviates anywhere does so at a set point first
+        let mut known = self.most.iter().enumerate().filter(|(_, most)| **most > 0.0);
+        known.any(|(axis, most)| mm(axis) > most.min(least_mm))
+    }
+
+    /// Keeps the largest components found in this cycle.
+    fn keep(&mut self) {
+        let found = &self.found.vector;
+        if self.most.len() != found.len() {
+            self.most = AxisVec::zeros(found.len());
+        }
+        for (most, found) in self.most.iter_mut().zip(found.iter()) {
+            *most = most.max(found.abs());
         }
     }
 
@@ -206,7 +261,7 @@ impl Gauge {
         }
         let before = first.checked_sub(1)?;
         let point = AxisVec::from_slice(self.path.get(before)?);
-        self.miss(contour, k, point, (before, k), least_mm)
+        self.miss(contour, k, point, (before, k), None, least_mm)
     }
 
     /// Examines a point of the contour, and the points between it and the last one where another one may be missed by
@@ -220,11 +275,16 @@ impl Gauge {
         (last, bend): (Option<Foot>, f64),
         least_mm: f64,
     ) -> Option<Foot> {
-        let foot = self.miss(contour, k, point, among, least_mm)?;
+        let hint = last.as_ref().map(|foot| foot.cycle);
+        let foot = self.miss(contour, k, point, among, hint, least_mm)?;
         if let Some(last) = last.filter(|last| last.may_hide_more(&foot, bend)) {
             let mut open: SmallVec<[(Foot, Foot, u32); 4]> = SmallVec::new();
             open.push((last, foot.clone(), HALVINGS));
             while let Some((low, high, halvings)) = open.pop() {
+                let way = distance(&low.of, &high.of);
+                if !self.matters(least_mm, |axis| low.potential(&high, way, axis)) {
+                    continue;
+                }
                 let mut middle: AxisVec =
                     low.of.iter().zip(high.of.iter()).map(|(a, b)| 0.5 * (a + b)).collect();
                 if bend > 0.0 {
@@ -233,7 +293,9 @@ impl Gauge {
                     contour.nearest(&middle, passed - 1.0, passed, &mut aside);
                     middle.iter_mut().zip(aside.iter()).for_each(|(m, a)| *m -= a);
                 }
-                let Some(middle) = self.miss(contour, k, middle, among, least_mm) else { continue };
+                let hint = Some(low.cycle);
+                let middle = self.miss(contour, k, middle, among, hint, least_mm);
+                let Some(middle) = middle else { continue };
                 if halvings == 0 || middle.is_mean_of(&low, &high) {
                     continue;
                 }
@@ -253,15 +315,18 @@ impl Gauge {
         k: u64,
         of: AxisVec,
         among: (u64, u64),
+        near: Option<u64>,
         least_mm: f64,
     ) -> Option<Foot> {
         let mut shortest = Excursion::none(of.len());
-        let (_, vector) = self.set.misses(&of, among, None, f64::INFINITY, &mut shortest)?;
+        let found = self.set.misses(&of, among, near, f64::INFINITY, &mut shortest);
+        let (cycle, vector) = found?;
         let exceeds = shortest.largest() > least_mm
             && loosest(contour, k, self.reach).is_some_and(|(mm, _)| shortest.largest() > mm);
         let least = exceeds.then(|| self.set.reaches(&of, among)).flatten();
         self.found.take(&least.unwrap_or(shortest.vector));
-        Some(Foot { of, vector })
+        self.keep();
+        Some(Foot { of, vector, cycle })
     }
 }
 

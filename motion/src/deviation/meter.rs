@@ -104,7 +104,7 @@ impl Meter {
             What::Leave(count) => self.contour.forget(count),
             What::Kernels { reach_cycles, differ, at } => {
                 self.reach_cycles = reach_cycles;
-                self.gauge = Gauge::new(reach_cycles, differ);
+                self.gauge = self.gauge.with(reach_cycles, differ);
                 // the line to the next set point starts here
                 if let Some((k, position)) = at {
                     self.gauge.unfiltered(&self.contour, k, &position, self.wanted_mm());

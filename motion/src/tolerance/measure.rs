@@ -147,39 +147,49 @@ impl View<'_> {
                 (first, first + length + 2)
             };
             // a neighbouring point leads to the nearest set point
-            let mut look = |point: &[f64], near: (u64, u64), moment: f64, s: f64, by: Option<&Foot>| {
-                let tolerance_mm = self.tolerance(moment, moment + reach);
-                let wary_mm = certain(tolerance_mm);
-                let all = all(moment);
-                let hint = by.map(|foot| foot.cycle);
-                let mut out = Excursion::none(n);
-                let excluded = by.is_some_and(|foot| foot.excludes(point, near, wary_mm));
-                let mut nearest = None;
-                if near == all || !excluded {
-                    nearest = set.misses(point, near, hint, wary_mm, &mut out);
-                }
-                let is_local = near != all && !excluded && out.length <= wary_mm;
-                if near != all && !is_local {
-                    out = Excursion::none(n);
-                    nearest = set.misses(point, all, hint, wary_mm, &mut out);
-                }
-                let (cycle, vector) = nearest?;
-                let deviation_mm = out.largest();
-                if deviation_mm > within(tolerance_mm) {
-                    let axis = out.axis();
-                    let vector = out.vector.clone();
-                    let missed = Some((AxisVec::from_slice(point), s));
-                    harvest.take(
-                        Violation { cycle, deviation_mm, tolerance_mm, axis, vector, missed },
-                        &record,
-                    );
-                }
-                let of = AxisVec::from_slice(point);
-                let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
-                let among = if is_local { near } else { all };
-                let among = (among.0, among.1.min(set.end() - 1));
-                Some(Foot { s, of, cycle, length: out.length, deviation_mm, point, among, is_local })
-            };
+            let mut look =
+                |point: &[f64], near: (u64, u64), moment: f64, s: f64, by: Option<&Foot>| {
+                    let tolerance_mm = self.tolerance(moment, moment + reach);
+                    let wary_mm = certain(tolerance_mm);
+                    let all = all(moment);
+                    let hint = by.map(|foot| foot.cycle);
+                    let mut out = Excursion::none(n);
+                    let excluded = by.is_some_and(|foot| foot.excludes(point, near, wary_mm));
+                    let mut nearest = None;
+                    if near == all || !excluded {
+                        nearest = set.misses(point, near, hint, wary_mm, &mut out);
+                    }
+                    let is_local = near != all && !excluded && out.length <= wary_mm;
+                    if near != all && !is_local {
+                        out = Excursion::none(n);
+                        nearest = set.misses(point, all, hint, wary_mm, &mut out);
+                    }
+                    let (cycle, vector) = nearest?;
+                    let deviation_mm = out.largest();
+                    if deviation_mm > within(tolerance_mm) {
+                        let axis = out.axis();
+                        let vector = out.vector.clone();
+                        let missed = Some((AxisVec::from_slice(point), s));
+                        harvest.take(
+                            Violation { cycle, deviation_mm, tolerance_mm, axis, vector, missed },
+                            &record,
+                        );
+                    }
+                    let of = AxisVec::from_slice(point);
+                    let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
+                    let among = if is_local { near } else { all };
+                    let among = (among.0, among.1.min(set.end() - 1));
+                    Some(Foot {
+                        s,
+                        of,
+                        cycle,
+                        length: out.length,
+                        deviation_mm,
+                        point,
+                        among,
+                        is_local,
+                    })
+                };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
                 if at > 0 && mark.is_kink() && suspects.way_at(mark.s_mm).is_some() {
