@@ -242,9 +242,16 @@ impl Contour {
         })
     }
 
-    /// Whether the last of the first `end` blocks is curved.
-    pub(crate) fn is_bent(&self, end: usize) -> bool {
-        end.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
+    /// Largest `|q''|` in 1/mm of those of the first `end` blocks that had not been left at `from`.
+    pub(crate) fn bend(&self, from: f64, end: usize) -> f64 {
+        let mut bend = 0.0_f64;
+        for passed in self.blocks.iter().take(end).rev() {
+            bend = bend.max(passed.queued.bend);
+            if passed.cycles <= from {
+                break;
+            }
+        }
+        bend
     }
 
     /// Reads points of the contour, fastest for points close to the previous one.

@@ -23,8 +23,14 @@
 //!
 //! Between two samples (a) is evaluated where it can be larger than at both of them: where the nearest point moves from
 //! one block to another, and at the middle of a curved block. (b) is evaluated at block boundaries with a kink and, on
-//! curved blocks, at the interpolated points. Along a straight block (b) follows from (a) by continuity, as long as all
-//! axes have the same filter; otherwise the interpolated points are evaluated there as well.
+//! curved blocks, at the interpolated points. Along a straight block (b) is not longer than (a) by continuity, as long as
+//! all axes have the same filter, and has about its direction. Where the vector of (a) turns from one cycle to the next,
+//! beside a corner, (b) has directions between, and the interpolated points that the filters hold are evaluated on
+//! straight blocks as well; with unequal filters all of them. Between two of them: where the nearest point passes to
+//! another part of the set path, because the vector then turns, and on curved blocks whose points are far apart. In the
+//! output, these points are evaluated only where they may be larger than the largest ones of the run so far, or exceed a
+//! tolerance: what counts is the largest value of a run, not that of each cycle. The planner chooses its points by a
+//! bound on what lies between them.
 
 mod between;
 mod component;
@@ -237,11 +243,13 @@ impl SetPath {
     }
 
     /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest and
-    /// the vector to it. Beyond `wary_mm` every vector that may count as the shortest is included.
+    /// the vector to it. Beyond `wary_mm` every vector that may count as the shortest is included. `near`: a cycle that
+    /// may come near; it does not change the result.
     pub(crate) fn misses(
         &self,
         point: &[f64],
         (first, last): (u64, u64),
+        near: Option<u64>,
         wary_mm: f64,
         out: &mut Excursion,
     ) -> Option<(u64, AxisVec)> {
@@ -252,7 +260,7 @@ impl SetPath {
         // a first guess rules out most other lines: between neighbouring lines a distance falls by their length at
         // most. The remaining ones are examined from both ends: the line lies between them, so that each end rules out
         // its half at once
-        let guess = first.midpoint(last);
+        let guess = near.map_or(first.midpoint(last), |k| k.clamp(first + 1, last) - 1);
         let guessed = self.to_line(guess, point).0;
         let mut search = Search { best: (guessed, guess), alike: (1.0 + ALIKE) * guessed.sqrt() };
         // the shortest vector found so far is not shorter than the one found in the end
@@ -356,19 +364,13 @@ impl SetPath {
             self.values.get(at..at + 2 * n)
         });
         let Some((a, b)) = ends.map(|ends| ends.split_at(n)) else { return (f64::INFINITY, 0.0) };
-        let (mut dot, mut norm) = (0.0, 0.0);
-        for i in 0..n {
-            let d = b[i] - a[i];
-            dot += (point[i] - a[i]) * d;
-            norm += d * d;
+        // the numbers of axes that occur have loops of known length
+        match n {
+            2 => foot(&a[..2], &b[..2], &point[..2]),
+            3 => foot(&a[..3], &b[..3], &point[..3]),
+            4 => foot(&a[..4], &b[..4], &point[..4]),
+            _ => foot(a, b, point),
         }
-        let u = if norm > 0.0 { (dot / norm).clamp(0.0, 1.0) } else { 0.0 };
-        let mut d2 = 0.0;
-        for i in 0..n {
-            let c = a[i] + u * (b[i] - a[i]) - point[i];
-            d2 += c * c;
-        }
-        (d2, u)
     }
 
     /// The shortest vector from a point to the line between cycle `k` and cycle `k + 1`.
@@ -379,4 +381,24 @@ impl SetPath {
             *v = a + u * (b - a) - p;
         }
     }
+}
+
+/// Square of the distance in mm2 of a point from the line between two others, and the position on the line.
+#[inline(always)]
+fn foot(a: &[f64], b: &[f64], point: &[f64]) -> (f64, f64) {
+    let n = a.len();
+    let (b, point) = (&b[..n], &point[..n]);
+    let (mut dot, mut norm) = (0.0, 0.0);
+    for i in 0..n {
+        let d = b[i] - a[i];
+        dot += (point[i] - a[i]) * d;
+        norm += d * d;
+    }
+    let u = if norm > 0.0 { (dot / norm).clamp(0.0, 1.0) } else { 0.0 };
+    let mut d2 = 0.0;
+    for i in 0..n {
+        let c = a[i] + u * (b[i] - a[i]) - point[i];
+        d2 += c * c;
+    }
+    (d2, u)
 }

@@ -12,6 +12,7 @@ mod kinks;
 mod late_braking;
 mod limits;
 mod lookahead;
+mod measured;
 mod monitored_time;
 mod optimum;
 mod promise;

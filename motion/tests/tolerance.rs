@@ -287,6 +287,8 @@ fn told_of_output(points: &[[f64; 2]], moved: impl Fn([f64; 2]) -> [f64; 2]) -> 
         meter.filtered(at.k, &set, &at.position, &mut [0.0; 2]);
         told.extend(meter.take_exceeded());
     }
+    meter.end();
+    told.extend(meter.take_exceeded());
     assert!(planner.take_unkept().is_empty());
     told
 }

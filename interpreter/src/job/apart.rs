@@ -4,7 +4,7 @@
 
 use super::stretch::Stretch;
 use crate::record::Asked;
-use crate::sim::{Measuring, Messages, Samples, Simulation};
+use crate::sim::{Measuring, Samples, Simulation};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
@@ -25,8 +25,6 @@ pub(super) struct Apart {
     /// Memory for reuse.
     free: Option<Stretch>,
     over: bool,
-    /// Messages raised after the last cycle.
-    closing: Option<Messages>,
 }
 
 impl Apart {
@@ -57,7 +55,6 @@ impl Apart {
             computed: VecDeque::new(),
             free: None,
             over: false,
-            closing: None,
         })
     }
 
@@ -69,17 +66,13 @@ impl Apart {
             let mut stretch = self.free.take().unwrap_or_default();
             stretch.samples = std::mem::take(&mut samples);
             self.over = !stretch.compute(simulation, Stretch::ROOM, self.asked);
-            if stretch.count > 0 {
-                // a missing thread is noticed below
-                let _ = self.to_measure.send(std::mem::take(&mut stretch.samples));
-                self.computed.push_back(stretch);
-            } else {
-                self.closing = stretch.messages.take();
-            }
+            // a missing thread is noticed below
+            let _ = self.to_measure.send(std::mem::take(&mut stretch.samples));
+            self.computed.push_back(stretch);
         }
         (current.count, current.taken) = (0, 0);
         let Some(next) = self.computed.pop_front() else {
-            current.messages = self.closing.take();
+            current.messages = None;
             return;
         };
         let Ok(samples) = self.measured.recv() else {

@@ -284,16 +284,14 @@ impl Run {
         let Self { simulation, stretch, raised, .. } = self;
         let Stretch { samples, messages, taken, .. } = stretch;
         let said = samples.said_at().unwrap_or(usize::MAX);
-        let exceeded = samples.first_exceeded().filter(|at| at < taken);
-        if let Some(at) = exceeded
-            && at < said
-        {
+        let exceeded = samples.exceeded_after().filter(|after| after <= taken);
+        if exceeded.is_some_and(|after| after <= said) {
             raised.extend(simulation.exceeded(samples));
         }
         if stretch.taken == stretch.count {
             raised.absorb(messages.take());
         }
-        if exceeded.is_some_and(|at| at >= said) {
+        if exceeded.is_some_and(|after| after > said) {
             raised.extend(simulation.exceeded(samples));
         }
     }

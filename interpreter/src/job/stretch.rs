@@ -48,6 +48,7 @@ impl Stretch {
                 break;
             }
         }
+        samples.ends = !more;
         if self.count > 0 {
             self.last.clone_from(simulation.record());
         }

@@ -25,10 +25,22 @@ pub(crate) struct Samples {
     values: Vec<f64>,
     /// Changes of the contour, each with the number of the first sample after it.
     changes: Vec<(usize, Change)>,
-    /// The first excess of a run, and the number of its sample.
-    exceeded: Option<(usize, Unkept)>,
+    /// The first excess of a run.
+    exceeded: Option<Exceeded>,
+    /// Whether the run ends with these samples.
+    pub(crate) ends: bool,
     /// The first sample in whose cycle messages were raised.
     said_at: Option<usize>,
+}
+
+/// An excess of a tolerance in the output.
+#[derive(Clone, Copy, Debug)]
+struct Exceeded {
+    unkept: Unkept,
+    /// The block that was interpolated where it is largest.
+    at: SourceRef,
+    /// Number of samples after which it is known.
+    after: usize,
 }
 
 /// One cycle among them.
@@ -58,7 +70,7 @@ impl Samples {
         self.cycles.clear();
         self.values.clear();
         self.changes.clear();
-        (self.exceeded, self.said_at) = (None, None);
+        (self.exceeded, self.ends, self.said_at) = (None, false, None);
     }
 
     /// Writes the results into the rows of their cycles.
@@ -94,9 +106,9 @@ impl Samples {
         }
     }
 
-    /// The first cycle that exceeds a tolerance of its blocks, until [`Simulation::exceeded`] has taken it.
-    pub(crate) fn first_exceeded(&self) -> Option<usize> {
-        self.exceeded.map(|(at, _)| at)
+    /// Number of cycles after which an excess of a tolerance is known, until [`Simulation::exceeded`] has taken it.
+    pub(crate) fn exceeded_after(&self) -> Option<usize> {
+        self.exceeded.map(|exceeded| exceeded.after)
     }
 
     /// The first cycle in which messages were raised.
@@ -155,11 +167,11 @@ impl Simulation {
         rows.push(&self.record);
     }
 
-    /// The message about the first sample that exceeds a tolerance, returned once.
+    /// The message about the first corner that exceeds a tolerance, returned once.
     pub(crate) fn exceeded(&mut self, samples: &mut Samples) -> Option<Diagnostic> {
-        let (i, exceeded) = samples.exceeded.take()?;
-        let mut d = fault::exceeded(&exceeded);
-        d.source = self.executor.locate(samples.cycles[i].at);
+        let exceeded = samples.exceeded.take()?;
+        let mut d = fault::exceeded(&exceeded.unkept);
+        d.source = self.executor.locate(exceeded.at);
         Some(d)
     }
 }
@@ -169,6 +181,8 @@ impl Simulation {
 pub(crate) struct Measuring {
     meter: Meter,
     vector: AxisVec,
+    /// The block that was interpolated in the cycle that exceeds a tolerance most.
+    exceeded_at: Option<SourceRef>,
 }
 
 impl Measuring {
@@ -207,8 +221,21 @@ impl Measuring {
                     found.get(p).map_or(dev.abs(), |d| d.abs().max(dev.abs()))
                 });
             }
-            if let Some(exceeded) = self.meter.take_exceeded() {
-                samples.exceeded = Some((i, exceeded));
+            if self.meter.exceeds_most_at() == Some(sample.k) {
+                self.exceeded_at = Some(sample.at);
+            }
+            if let Some(unkept) = self.meter.take_exceeded()
+                && let Some(at) = self.exceeded_at
+            {
+                samples.exceeded = Some(Exceeded { unkept, at, after: i + 1 });
+            }
+        }
+        if samples.ends {
+            self.meter.end();
+            if let Some(unkept) = self.meter.take_exceeded()
+                && let Some(at) = self.exceeded_at
+            {
+                samples.exceeded = Some(Exceeded { unkept, at, after: samples.cycles.len() });
             }
         }
     }

@@ -67,12 +67,17 @@ pub struct Meter {
 }
 
 /// State of the search for an excess in the output.
+///
+/// A corner is exceeded in many cycles: while the set path leaves the contour beside it, and again when the points of the
+/// contour around it leave the filters.
 #[derive(Clone, Copy, Debug, Default)]
 enum Excess {
     /// No cycle has exceeded the tolerance of its blocks.
     #[default]
     None,
-    /// One has, and it has not been taken yet.
+    /// A corner is exceeded, so far by most in cycle `worst`, the last time in cycle `last`.
+    Growing { most: Unkept, worst: u64, last: u64 },
+    /// The largest excess of this corner is known; it has not been taken yet.
     Found(Unkept),
     /// An excess, or a plan that does not keep the tolerance, has been reported; later ones are not searched for.
     Told,
@@ -99,14 +104,18 @@ impl Meter {
             What::Leave(count) => self.contour.forget(count),
             What::Kernels { reach_cycles, differ, at } => {
                 self.reach_cycles = reach_cycles;
-                self.gauge = Gauge::new(reach_cycles, differ);
+                self.gauge = self.gauge.with(reach_cycles, differ);
                 // the line to the next set point starts here
                 if let Some((k, position)) = at {
                     self.gauge.unfiltered(&self.contour, k, &position, self.wanted_mm());
                 }
             }
             What::Tolerance(mm) => self.least_tolerance_mm = Some(mm),
-            What::Told => self.excess = Excess::Told,
+            What::Told => {
+                if let Excess::None = self.excess {
+                    self.excess = Excess::Told;
+                }
+            }
         }
     }
 
@@ -149,21 +158,45 @@ impl Meter {
 
     /// Compares the output with the loosest tolerance of the blocks that the filters hold.
     fn judge(&mut self, k: u64) {
-        let most = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let looked_for = matches!(self.excess, Excess::None);
-        if !looked_for || most <= self.least_mm() {
+        let reach = u64::from(self.reach_cycles);
+        let growing = match self.excess {
+            Excess::None => None,
+            Excess::Growing { most, last, .. } if k > last + reach + 2 => {
+                self.excess = Excess::Found(most);
+                return;
+            }
+            Excess::Growing { most, worst, .. } => Some((most, worst)),
+            Excess::Found(_) | Excess::Told => return,
+        };
+        let largest = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        if largest <= self.least_mm() {
             return;
         }
-        let Some((tolerance_mm, seq)) = loosest(&self.contour, k, u64::from(self.reach_cycles))
-        else {
-            return;
-        };
-        if most > ALLOWANCE * tolerance_mm + ALLOWANCE_MM {
-            self.excess = Excess::Found(Unkept { seq, deviation_mm: most, tolerance_mm });
+        let Some((tolerance_mm, seq)) = loosest(&self.contour, k, reach) else { return };
+        if largest > ALLOWANCE * tolerance_mm + ALLOWANCE_MM {
+            let here = Unkept { seq, deviation_mm: largest, tolerance_mm };
+            let over = |u: &Unkept| u.deviation_mm - u.tolerance_mm;
+            let before = growing.filter(|(most, _)| over(most) >= over(&here));
+            let (most, worst) = before.unwrap_or((here, k));
+            self.excess = Excess::Growing { most, worst, last: k };
         }
     }
 
-    /// The first measured excess in the output of a plan that keeps the tolerance; at most one per run.
+    /// The cycle of the largest excess of a corner whose remainder may exceed the tolerance by more.
+    pub fn exceeds_most_at(&self) -> Option<u64> {
+        let Excess::Growing { worst, .. } = self.excess else { return None };
+        Some(worst)
+    }
+
+    /// Ends the output: nothing more can be exceeded.
+    pub fn end(&mut self) {
+        if let Excess::Growing { most, .. } = self.excess {
+            self.excess = Excess::Found(most);
+        }
+    }
+
+    /// The largest excess of the first corner that exceeds the tolerance in the output of a plan that keeps it, once this
+    /// corner has left the filters or the output has ended; at most one per run.
     pub fn take_exceeded(&mut self) -> Option<Unkept> {
         let Excess::Found(unkept) = self.excess else { return None };
         self.excess = Excess::Told;

@@ -24,6 +24,7 @@ proptest! {
         point in prop::array::uniform2(-3.0..3.0f64),
         (ahead, rests) in (0.0..0.5f64, prop::bool::ANY),
         (skip, more) in (0_u64..4, 0_u64..4),
+        near in prop::option::of(0_u64..60),
     ) {
         let (mut at, mut points) = ([0.0; 2], vec![[0.0; 2]]);
         for (step, i) in steps.iter().zip(0..) {
@@ -41,7 +42,7 @@ proptest! {
         let lines = &lines[skip.min(lines.len() as u64) as usize..];
         for wary_mm in [0.0, f64::INFINITY] {
             let mut out = Excursion::none(2);
-            let found = set.misses(&point, (first, last), wary_mm, &mut out);
+            let found = set.misses(&point, (first, last), near, wary_mm, &mut out);
             let least = lines.iter().map(length).fold(f64::INFINITY, f64::min);
             let Some((k, vector)) = found else {
                 prop_assert!(lines.is_empty());

@@ -77,7 +77,7 @@ impl Rest<'_> {
             set.push(point);
         }
         let mut out = Excursion::none(n);
-        set.misses(self.mark.point(), (0, set.end()), tolerance, &mut out);
+        set.misses(self.mark.point(), (0, set.end()), None, tolerance, &mut out);
         out.largest() <= within(tolerance)
     }
 

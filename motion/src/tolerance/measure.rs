@@ -7,6 +7,7 @@ use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
+use crate::contour::ROUNDING_MM;
 use crate::deviation::Unkept;
 use crate::deviation::{ALIKE, Excursion, SetPath};
 use smallvec::{SmallVec, smallvec};
@@ -47,14 +48,22 @@ struct Foot {
     deviation_mm: f64,
     /// The set point.
     point: AxisVec,
-    /// Whether it was searched for only near the one of a neighbouring point; another part of the set path may be
-    /// closer.
+    /// First and last cycle among which it was searched for.
+    among: (u64, u64),
+    /// Whether these are only those near the one of a neighbouring point; another part of the set path may be closer.
     is_local: bool,
 }
 
 impl Foot {
     fn apart(&self, other: &Self) -> f64 {
         distance(&self.point, &other.point)
+    }
+
+    /// Whether no set point of some cycles is within a distance in mm of another point of the contour.
+    fn excludes(&self, of: &[f64], (first, last): (u64, u64), mm: f64) -> bool {
+        self.among.0 <= first
+            && last <= self.among.1
+            && distance(&self.of, &self.point) - distance(&self.of, of) > mm + ROUNDING_MM
     }
 
     /// Distance along the contour in mm over all axes; the path length counts only those of the feed group.
@@ -137,36 +146,54 @@ impl View<'_> {
                 let first = moment.floor().max(0.0) as u64;
                 (first, first + length + 2)
             };
-            let mut look = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
-                let tolerance_mm = self.tolerance(moment, moment + reach);
-                let wary_mm = certain(tolerance_mm);
-                let all = all(moment);
-                let mut out = Excursion::none(n);
-                let mut nearest = set.misses(point, near, wary_mm, &mut out);
-                let is_local = out.length <= wary_mm && near != all;
-                if out.length > wary_mm && near != all {
-                    out = Excursion::none(n);
-                    nearest = set.misses(point, all, wary_mm, &mut out);
-                }
-                let (cycle, vector) = nearest?;
-                let deviation_mm = out.largest();
-                if deviation_mm > within(tolerance_mm) {
-                    let axis = out.axis();
-                    let vector = out.vector.clone();
-                    let missed = Some((AxisVec::from_slice(point), s));
-                    harvest.take(
-                        Violation { cycle, deviation_mm, tolerance_mm, axis, vector, missed },
-                        &record,
-                    );
-                }
-                let of = AxisVec::from_slice(point);
-                let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
-                Some(Foot { s, of, cycle, length: out.length, deviation_mm, point, is_local })
-            };
+            // a neighbouring point leads to the nearest set point
+            let mut look =
+                |point: &[f64], near: (u64, u64), moment: f64, s: f64, by: Option<&Foot>| {
+                    let tolerance_mm = self.tolerance(moment, moment + reach);
+                    let wary_mm = certain(tolerance_mm);
+                    let all = all(moment);
+                    let hint = by.map(|foot| foot.cycle);
+                    let mut out = Excursion::none(n);
+                    let excluded = by.is_some_and(|foot| foot.excludes(point, near, wary_mm));
+                    let mut nearest = None;
+                    if near == all || !excluded {
+                        nearest = set.misses(point, near, hint, wary_mm, &mut out);
+                    }
+                    let is_local = near != all && !excluded && out.length <= wary_mm;
+                    if near != all && !is_local {
+                        out = Excursion::none(n);
+                        nearest = set.misses(point, all, hint, wary_mm, &mut out);
+                    }
+                    let (cycle, vector) = nearest?;
+                    let deviation_mm = out.largest();
+                    if deviation_mm > within(tolerance_mm) {
+                        let axis = out.axis();
+                        let vector = out.vector.clone();
+                        let missed = Some((AxisVec::from_slice(point), s));
+                        harvest.take(
+                            Violation { cycle, deviation_mm, tolerance_mm, axis, vector, missed },
+                            &record,
+                        );
+                    }
+                    let of = AxisVec::from_slice(point);
+                    let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
+                    let among = if is_local { near } else { all };
+                    let among = (among.0, among.1.min(set.end() - 1));
+                    Some(Foot {
+                        s,
+                        of,
+                        cycle,
+                        length: out.length,
+                        deviation_mm,
+                        point,
+                        among,
+                        is_local,
+                    })
+                };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
                 if at > 0 && mark.is_kink() && suspects.way_at(mark.s_mm).is_some() {
-                    look(mark.point(), all(mark.cycles), mark.cycles, mark.s_mm);
+                    look(mark.point(), all(mark.cycles), mark.cycles, mark.s_mm, None);
                 }
                 at += 1;
             }
@@ -206,7 +233,7 @@ impl View<'_> {
                 // the nearest set point is close to the last one found
                 hint = if last.is_some() { hint } else { way.cycle }.max(held);
                 let near = (hint.saturating_sub(HINT).max(held), hint + HINT);
-                let foot = look(&between, near, held as f64, s);
+                let foot = look(&between, near, held as f64, s, last.as_ref());
                 hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
                 let before = std::mem::replace(&mut last, foot);
                 let (Some(low), Some(high)) = (before, last.clone()) else { continue };
@@ -218,7 +245,8 @@ impl View<'_> {
                         for foot in [&mut low, &mut high].into_iter().filter(|foot| foot.is_local) {
                             let held = record.leaves(foot.s).min(passed);
                             let moment = held as f64;
-                            if let Some(other) = look(&foot.of, all(moment), moment, foot.s) {
+                            let by = Some(&*foot);
+                            if let Some(other) = look(&foot.of, all(moment), moment, foot.s, by) {
                                 *foot = other;
                             }
                         }
@@ -234,7 +262,8 @@ impl View<'_> {
                         around[0].min(around[1]).saturating_sub(HINT).max(held),
                         around[0].max(around[1]) + HINT,
                     );
-                    let Some(foot) = look(&between, near, held as f64, mid) else { break };
+                    let by = Some(&low);
+                    let Some(foot) = look(&between, near, held as f64, mid, by) else { break };
                     open.push((foot.clone(), high, halvings - 1));
                     open.push((low, foot, halvings - 1));
                 }
