@@ -49,7 +49,7 @@ fn a_wait_that_cannot_end() {
 
 /// An axis that the block does not move has no stop, but a force on it holds the program all the same.
 #[test]
-fn an_axis_beside_the_block_that_stands_outside() {
+fn an_axis_outside_of_the_block_and_its_window() {
     let run = run_with_inputs(machine(&[]), G60, &[(0.0, "Z_force_mm_s2", 1000.0)]);
     assert_eq!(only(&run).0, Id::Kontur(130));
     assert_eq!(only(&run).1, "Z");

@@ -35,7 +35,7 @@ const ONE_BLOCK: &str = "N10 G90 G00 X0 Y0\nN20 G108\nN30 G01 X90 Y90 F2000\nN40
     N50 G01 X200 Y150 F1200\nN60 M30\n";
 
 #[test]
-fn the_path_stops_behind_the_surface_and_continues() {
+fn the_path_stops_after_the_surface_and_continues() {
     let program = format!("#SLOPE [TYPE=STEP]\n{ONE_BLOCK}");
     let run = run_with_inputs(banding(&[]), &program, &[(0.0, "X_probe_mm", 120.0)]);
     assert!(run.errors().is_empty() && !run.totals.aborted, "{:?}", run.diagnostics);

@@ -44,7 +44,7 @@ fn slope_of_its_own() {
 
 /// The distance that the axis has moved alone is in the coordinates: lines and arcs continue from there.
 #[test]
-fn coordinates_go_on() {
+fn coordinates_continue() {
     let run = go(
         "X[INDP_SYN G90 G01 FEED=6000 POS=20]\nG90 G01 X30 Y10 F6000\nX20 Y0\nG02 X40 Y0 I10 J0\nG91 G01 X-5",
     );

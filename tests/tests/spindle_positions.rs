@@ -13,7 +13,7 @@ fn turns(deg: f64) -> f64 {
 
 /// The program of the page (spindle-specific positioning, 208198923), with a pause after each block so that the block can end.
 #[test]
-fn the_angle_holds_and_the_way_round_is_told() {
+fn the_angle_is_held_and_the_direction_is_the_commanded_one() {
     let run = run(
         "%P\nS[REV100 POS45 M19 M3]\nG04 1\nS[M03 REV1000]\nG04 1\nS[M19 M4 REV150]\nG04 2\nS[M05]\nG04 0.5\n\
          S[M19]\nG04 0.5\nS[REV200 M19 POS90]\nG04 1\nS[M03 REV1000]\nG04 1\nS[M05]\nG04 1\nM30\n",

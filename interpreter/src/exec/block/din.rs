@@ -19,7 +19,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::report::{Report, Subject};
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
-use insertions::inserts_behind;
+use insertions::inserts_after;
 use offsets::axis_functions;
 
 /// Actions after a block: first a call, then the point where the program continues.
@@ -133,7 +133,7 @@ impl Decoder {
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
         }
-        if inserts_behind(&words) {
+        if inserts_after(&words) {
             self.insertions(&words);
         }
         if let Some(at) = banding {
@@ -246,7 +246,7 @@ impl Decoder {
             };
             self.report.keep(outcome);
         }
-        if !inserts_behind(words) {
+        if !inserts_after(words) {
             self.insertions(words);
         }
     }
