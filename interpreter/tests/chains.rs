@@ -177,7 +177,7 @@ fn both_spellings_of_a_stage() {
 }
 
 #[test]
-fn spindles_stand_behind_the_path_axes() {
+fn spindles_come_after_the_path_axes() {
     let chains = silent("two_spindles", &[]);
     assert_eq!(chains.len(), 5);
     chains[..3].iter().for_each(is_xyz_axis);

@@ -36,6 +36,12 @@ impl Write for Buffer {
     }
 }
 
+/// Asserts that a number of a summary or table differs by `tolerance` at most.
+#[track_caller]
+pub fn near(value: &serde_json::Value, want: f64, tolerance: f64) {
+    kontur_kit::near(value.as_f64().unwrap(), want, tolerance);
+}
+
 /// Runs `kontur` with the given words.
 pub fn command<W: Into<OsString>>(words: impl IntoIterator<Item = W>) -> Output {
     let (out, err) = (Buffer::default(), Buffer::default());

@@ -60,6 +60,26 @@ impl Run {
         self.records.iter().map(|r| f(&r.axes[i])).collect()
     }
 
+    /// Whether nothing shapes an axis: set and interpolated position are the same bits in every cycle.
+    pub fn is_unshaped(&self, axis: usize) -> bool {
+        self.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
+    }
+
+    /// Cycles by which `set` of X is later than `ipo` in the middle of the motion of a line along X, at constant speed.
+    pub fn delay_cycles(&self, line: u32) -> f64 {
+        let of_line: Vec<_> = self.records.iter().filter(|r| r.line == line).collect();
+        assert!(!of_line.is_empty(), "{:?}", self.diagnostics);
+        let middle = of_line[of_line.len() / 2];
+        assert!(middle.path.a_mm_s2.abs() < 1e-9, "{middle:?}");
+        (middle.axes[0].ipo - middle.axes[0].set) / (middle.path.v_mm_s * self.cycle_s)
+    }
+
+    /// Speeds of the spindle of the built-in machine in rev/min during a line of the program.
+    pub fn spindle_rpm(&self, line: u32) -> Vec<f64> {
+        let of_line = self.records.windows(2).filter(|w| w[1].line == line);
+        of_line.map(|w| (w[1].axes[3].set - w[0].axes[3].set) / self.cycle_s / 6.0).collect()
+    }
+
     /// Set positions of the first `n` axes.
     pub fn set(&self, n: usize) -> Vec<Vec<f64>> {
         self.records.iter().map(|r| r.axes[..n].iter().map(|a| a.set).collect()).collect()
@@ -83,6 +103,13 @@ impl ListFiles for Folder {
 pub fn machine(settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
     let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
     Machine::builtin(&overrides).unwrap()
+}
+
+/// The built-in machine with settings, and with 1000 mm/s2 in all stages of the linear slope of the path axes.
+pub fn linear_machine(settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let stages = ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"];
+    let all = stages.map(|stage| format!("X,Y,Z.getriebe[0].lslope_profil.{stage}=1000"));
+    machine(&all.iter().map(String::as_str).chain(settings.iter().copied()).collect::<Vec<_>>())
 }
 
 /// A machine of `programs/machines` with settings.
@@ -137,6 +164,11 @@ pub fn there_and_back(random: &mut Random) -> Vec<[f64; 2]> {
         [if i % 2 == 0 { random.between(5.0, 60.0) } else { random.between(-5.0, 5.0) }, across]
     };
     (0..many).map(point).collect()
+}
+
+/// Largest difference between successive values.
+pub fn largest_step(values: &[f64]) -> f64 {
+    values.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
 }
 
 /// Shortest vector from a polyline to a point.

@@ -3,7 +3,7 @@
 mod sweeps;
 
 use kontur::Exit;
-use kontur_tests::command::command;
+use kontur_tests::command::{command, near};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -35,11 +35,6 @@ impl Folder {
     fn text(&self) -> String {
         command(["run", &self.path("part.nc")]).out
     }
-}
-
-fn near(value: &Value, want: f64, tolerance: f64) {
-    let is = value.as_f64().unwrap();
-    assert!((is - want).abs() <= tolerance, "{is}, not {want}");
 }
 
 const PART: &str = "N10 G01 X10 F6000\nN20 L corner.nc\nN30 X0 Y0\nM30\n";

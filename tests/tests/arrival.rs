@@ -49,7 +49,7 @@ fn a_wait_that_cannot_end() {
 
 /// An axis that the block does not move has no stop, but a force on it holds the program all the same.
 #[test]
-fn an_axis_beside_the_block_that_stands_outside() {
+fn an_axis_outside_of_the_block_and_its_window() {
     let run = run_with_inputs(machine(&[]), G60, &[(0.0, "Z_force_mm_s2", 1000.0)]);
     assert_eq!(only(&run).0, Id::Kontur(130));
     assert_eq!(only(&run).1, "Z");
@@ -207,31 +207,6 @@ fn spindles_stop_with_the_axes() {
     let last = run.records.last().unwrap().axes[3];
     assert!(last.vel.abs() < 1e-9, "{} deg/s", last.vel);
     assert!(run.axis(3, |a| a.acc).iter().all(|a| a.abs() <= 60_000.0 * 1.0001));
-}
-
-/// `main_spindle_name` addresses the main spindle as well as its own name does.
-#[test]
-fn a_named_main_spindle() {
-    let machine = || {
-        sample_machine(
-            "two_spindles",
-            &[
-                "channel.spindel[0].bezeichnung=S2",
-                "channel.spindel[1].bezeichnung=S1",
-                "channel.main_spindle_ax_nr=5",
-                "channel.main_spindle_name=S",
-            ],
-        )
-    };
-    let (m, _) = machine();
-    let numbers: Vec<_> = m.all_axes().map(|a| (a.name().to_owned(), a.number())).collect();
-    assert!(numbers.contains(&("S1".to_owned(), 5)), "{numbers:?}");
-    let index = numbers.iter().position(|n| n.0 == "S1").unwrap();
-    for text in ["S1000 M3", "S1=1000 M3", "S[M3 REV1000]", "S1[M3 REV1000]"] {
-        let run = run_on(machine(), &format!("%P\n{text}\nG04 2\nM30\n"));
-        let most = run.axis(index, |a| a.vel / 6.0).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        assert!((most - 1000.0).abs() < 1e-6, "{text}: {most} {:?}", run.diagnostics);
-    }
 }
 
 /// `#CHANNEL INIT [ACTPOS]` (206709515): the actual position becomes the set position. The set position goes back by the lag, and the

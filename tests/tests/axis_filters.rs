@@ -1,6 +1,6 @@
 //! Axis filters and HSC filters in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_tests::{Run, run};
+use kontur_tests::{Run, largest_step, run};
 
 /// A low-pass of order 4 at 15 Hz in one axis.
 fn low_pass(axis: &str) -> [String; 3] {
@@ -29,25 +29,9 @@ fn set(run: &Run, axis: usize) -> Vec<f64> {
     run.axis(axis, |a| a.set)
 }
 
-fn largest_step(values: &[f64]) -> f64 {
-    values.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
-}
-
 /// First cycle within 1 um (0.001 deg) of a value.
 fn reaches(values: &[f64], end: f64) -> usize {
     values.iter().position(|x| (x - end).abs() < 1e-3).unwrap()
-}
-
-fn equal(run: &Run, axis: usize) -> bool {
-    run.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
-}
-
-/// By how many cycles `set` is later than `ipo` in the middle of the motion of a line, at constant speed.
-fn delay(run: &Run, line: u32) -> f64 {
-    let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
-    let middle = of_line[of_line.len() / 2];
-    assert!(middle.path.a_mm_s2.abs() < 1e-9, "{middle:?}");
-    (middle.axes[0].ipo - middle.axes[0].set) / (middle.path.v_mm_s * run.cycle_s)
 }
 
 /// `TIME_DELAY` of 2000 us in an axis: the interpolated position of two cycles before, bit for bit. Conformance: A065.
@@ -58,7 +42,7 @@ fn an_axis_is_two_cycles_late() {
     let run = on("%P\nG90 G01 X10 Y10 F6000\nG02 X20 Y0 J-10\nG01 X0 Y0\nM30\n", &settings);
     let (x, set_x) = (ipo(&run, 0), set(&run, 0));
     assert!(x.len() > 300, "{}", x.len());
-    assert!(equal(&run, 1), "Y has no filter");
+    assert!(run.is_unshaped(1), "Y has no filter");
     for k in 2..x.len() {
         assert_eq!(set_x[k].to_bits(), x[k - 2].to_bits(), "cycle {k}");
     }
@@ -71,7 +55,7 @@ fn set_follows_the_interpolated_position() {
     let (x, set_x) = (ipo(&run, 0), set(&run, 0));
     assert!(reaches(&set_x, 10.0) > reaches(&x, 10.0) + 20);
     assert!((set_x.last().unwrap() - 10.0).abs() < 1e-4);
-    assert!(equal(&run, 1) && !equal(&run, 0));
+    assert!(run.is_unshaped(1) && !run.is_unshaped(0));
 }
 
 /// Rotary axes, and modulo axes through 360 degrees. Conformance: A004, A005.
@@ -86,7 +70,7 @@ fn rotary_axes() {
     settings.push("Z.kenngr.achs_mode=0x4".to_owned());
     let run = on("%P\nG91 G01 Z400 F20000\nM30\n", &settings);
     let set = set(&run, 2);
-    assert!(!equal(&run, 2));
+    assert!(!run.is_unshaped(2));
     let unwrapped = |w: &[f64]| (w[1] - w[0] + 180.0).rem_euclid(360.0) - 180.0;
     let steps: Vec<f64> = set.windows(2).map(unwrapped).collect();
     assert!(steps.iter().all(|s| s.abs() <= 20000.0 / 60.0 * 1e-3 + 1e-9));
@@ -125,12 +109,12 @@ fn the_command_makes_hsc_effective() {
     let without = "%P\nG90 G01 X100 F6000\nM30\n";
     let with = "%P\n#FILTER ON[HSC]\nG90 G01 X100 F6000\nM30\n";
     for entries in ["type=8 order=20 enable=1", "type=8 order=20 enable=0"] {
-        assert!(equal(&on(without, &hsc(entries)), 0), "{entries}");
+        assert!(on(without, &hsc(entries)).is_unshaped(0), "{entries}");
         let run = on(with, &hsc(entries));
-        assert!((delay(&run, 3) - 10.0).abs() < 1e-6, "{entries}: {}", delay(&run, 3));
+        assert!((run.delay_cycles(3) - 10.0).abs() < 1e-6, "{entries}: {}", run.delay_cycles(3));
     }
     let run = on(with, &hsc("type=8"));
-    assert!((delay(&run, 3) - 5.0).abs() < 1e-6, "{}", delay(&run, 3));
+    assert!((run.delay_cycles(3) - 5.0).abs() < 1e-6, "{}", run.delay_cycles(3));
 }
 
 /// Conformance: A071.
@@ -152,11 +136,11 @@ fn hsc_switches_between_blocks() {
         &settings,
     );
     assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-    assert!((delay(&run, 3) - 10.0).abs() < 1e-6);
+    assert!((run.delay_cycles(3) - 10.0).abs() < 1e-6);
     for r in run.records.iter().filter(|r| r.line == 5) {
         assert_eq!(r.axes[0].set.to_bits(), r.axes[0].ipo.to_bits());
     }
-    assert!((delay(&run, 7) - 20.0).abs() < 1e-6);
+    assert!((run.delay_cycles(7) - 20.0).abs() < 1e-6);
     assert!(largest_step(&set(&run, 0)) <= largest_step(&ipo(&run, 0)) + 1e-12);
 }
 

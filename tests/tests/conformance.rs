@@ -100,7 +100,7 @@ fn sources() -> Vec<PathBuf> {
 }
 
 /// The functions with `#[test]`, with the attributes and documentation above them, down to the closing brace, which in formatted code
-/// stands in the column of the first line.
+/// is in the column of the first line.
 fn tests_of(text: &str) -> Vec<(String, String)> {
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();

@@ -120,7 +120,7 @@ fn stops_suppress_contouring() {
     }
 }
 
-/// `#FLUSH CONTINUE` keeps the corner where it stands and stops nowhere: this corner is passed like that of G260, the next one is
+/// `#FLUSH CONTINUE` leaves the corner where it is and does not stop: this corner is passed like that of G260, the next one is
 /// rounded. Source: TF5200 programming manual 207042443.
 #[test]
 fn flush_continue_keeps_its_corner() {

@@ -78,36 +78,6 @@ fn the_path_keeps_the_limits_of_slaves() {
     assert!(coupled > of("Z", contour) + 100);
 }
 
-/// The distance moved by slaves counts when they are released, and in the next group.
-#[test]
-fn slaves_stay_where_they_are() {
-    let run = go(
-        &[],
-        "#AX LINK [1, [C=X, -1, 1]]\n#AX LINK [2, C=Y]\nG00 X1 Y2 C3\n#AX LINK ON [1]\nX11\n#AX LINK OFF\nX20\nY30
-#AX LINK ON [2]\nY35\n#AX LINK OFF ALL\nG91 C4\nG90",
-    );
-    let last = [0, 1, 2].map(|axis| *set(&run, axis).last().unwrap());
-    // 3 - 10, then + 5, then + 4
-    for (is, want) in last.into_iter().zip([20.0, 35.0, 2.0]) {
-        assert!((is - want).abs() < 1e-9, "{is} instead of {want}");
-    }
-}
-
-/// The limits of the slave apply: 100 less than its master.
-#[test]
-fn software_limits_of_slaves() {
-    let settings = ["Z.kenngr.swe_pos=1000000", "Z.kenngr.swe_neg=-1000000"];
-    let program = |x: f64| {
-        format!(
-            "{SETUP}#SET AX LINK [1, C=X]\nG00 X0 C50\n#ENABLE AX LINK [1]\nG01 X{x} F5000\nM30\n"
-        )
-    };
-    assert_eq!(run_on(machine(&settings), &program(49.9)).diagnostics, []);
-    let run = run_on(machine(&settings), &program(50.1));
-    assert_eq!(run.said(), ["21897"]);
-    assert!(run.diagnostics[0].text.contains("150.1") || run.diagnostics[0].text.contains("100.1"));
-}
-
 /// `SET_POSITION` moves nothing: speeds and lag are those of the same motions without it, and so is the deviation under a Vibration
 /// Guard.
 #[test]

@@ -7,21 +7,16 @@ use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::record::CycleRecord;
 use kontur_kit::{Random, count, near};
-use kontur_tests::{Run, machine, run_with_inputs};
+use kontur_tests::{Run, linear_machine, run_with_inputs};
 
 /// The built-in machine with a linear slope of 1000 mm/s2, M97 at the signal, 5 mm after it.
 fn banding(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
-    let stages = ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"];
-    let mut settings: Vec<String> =
-        stages.iter().map(|s| format!("X,Y.getriebe[0].lslope_profil.{s}=1000")).collect();
-    let own = ["X,Y.kenngr.kasto_achse=1", "channel.m_synch[97]=MNE_SNS"];
-    let way = "channel.kasto_residual_path=50000";
-    settings.extend(own.iter().chain([&way]).chain(more).map(ToString::to_string));
-    machine(&settings.iter().map(String::as_str).collect::<Vec<_>>())
-}
-
-fn errors(run: &Run) -> Vec<String> {
-    run.diagnostics.iter().filter(|d| d.is_error()).map(|d| d.id.to_string()).collect()
+    let own = [
+        "X,Y.kenngr.kasto_achse=1",
+        "channel.m_synch[97]=MNE_SNS",
+        "channel.kasto_residual_path=50000",
+    ];
+    linear_machine(&[&own[..], more].concat())
 }
 
 fn at(record: &CycleRecord) -> [f64; 2] {
@@ -40,10 +35,10 @@ const ONE_BLOCK: &str = "N10 G90 G00 X0 Y0\nN20 G108\nN30 G01 X90 Y90 F2000\nN40
     N50 G01 X200 Y150 F1200\nN60 M30\n";
 
 #[test]
-fn the_path_stops_behind_the_surface_and_continues() {
+fn the_path_stops_after_the_surface_and_continues() {
     let program = format!("#SLOPE [TYPE=STEP]\n{ONE_BLOCK}");
     let run = run_with_inputs(banding(&[]), &program, &[(0.0, "X_probe_mm", 120.0)]);
-    assert!(errors(&run).is_empty() && !run.totals.aborted, "{:?}", run.diagnostics);
+    assert!(run.errors().is_empty() && !run.totals.aborted, "{:?}", run.diagnostics);
     let stop = rests(&run, 5);
     let place = 120.0 + 5.0 / 2.0_f64.sqrt();
     assert!(!stop.is_empty());
@@ -78,7 +73,7 @@ fn the_lag_does_not_move_the_stop() {
         let settings = [gain, "channel.kasto_residual_path=100000"];
         let inputs = [(0.0, "X_probe_mm", 120.0)];
         let run = run_with_inputs(banding(&settings), ONE_BLOCK, &inputs);
-        assert!(errors(&run).is_empty(), "{:?}", run.diagnostics);
+        assert!(run.errors().is_empty(), "{:?}", run.diagnostics);
         let before = run.records.iter().rfind(|r| r.axes[0].act < 120.0 && r.line == 4).unwrap();
         (at(rests(&run, 4)[0]), before.axes[0].lag)
     };
@@ -96,7 +91,7 @@ fn along_an_arc_with_the_way_of_the_program() {
     let program =
         "N10 G90 G00 X-60 Y0\nN20 V.G.RW = 12\nN30 G108\nN40 G02 X60 Y0 I60 F1500 M97\nN50 M30\n";
     let run = run_with_inputs(banding(&[]), program, &[(0.0, "X_probe_mm", 0.0)]);
-    assert!(errors(&run).is_empty(), "{:?}", run.diagnostics);
+    assert!(run.errors().is_empty(), "{:?}", run.diagnostics);
     let angle = 12.0_f64 / 60.0;
     let [x, y] = at(rests(&run, 4)[0]);
     // the measured point lies slightly inside the arc: the lag on an arc shortens its radius, not its angle
@@ -123,31 +118,31 @@ fn the_time_of_the_function() {
 fn what_fails() {
     let probe = [(0.0, "X_probe_mm", 120.0)];
     // no signal on the block
-    assert_eq!(errors(&run_with_inputs(banding(&[]), ONE_BLOCK, &[])), ["K-0133"]);
+    assert_eq!(run_with_inputs(banding(&[]), ONE_BLOCK, &[]).errors(), ["K-0133"]);
     // 60 mm to the end of the block
     let long = ["channel.kasto_residual_path=600000"];
-    assert_eq!(errors(&run_with_inputs(banding(&long), ONE_BLOCK, &probe)), ["50655"]);
+    assert_eq!(run_with_inputs(banding(&long), ONE_BLOCK, &probe).errors(), ["50655"]);
     // nothing left for braking
     let none = ["channel.kasto_residual_path=0"];
-    assert_eq!(errors(&run_with_inputs(banding(&none), ONE_BLOCK, &probe)), ["50655"]);
+    assert_eq!(run_with_inputs(banding(&none), ONE_BLOCK, &probe).errors(), ["50655"]);
     let on = [(0.0, "probe", 1.0)];
-    assert_eq!(errors(&run_with_inputs(banding(&[]), ONE_BLOCK, &on)), ["50052"]);
+    assert_eq!(run_with_inputs(banding(&[]), ONE_BLOCK, &on).errors(), ["50052"]);
     let no_axis = ["X,Y.kenngr.kasto_achse=0"];
-    assert_eq!(errors(&run_with_inputs(banding(&no_axis), ONE_BLOCK, &probe)), ["50398"]);
+    assert_eq!(run_with_inputs(banding(&no_axis), ONE_BLOCK, &probe).errors(), ["50398"]);
     let one = ["Y.kenngr.kasto_achse=0"];
-    assert_eq!(errors(&run_with_inputs(banding(&one), ONE_BLOCK, &probe)), ["50263"]);
+    assert_eq!(run_with_inputs(banding(&one), ONE_BLOCK, &probe).errors(), ["50263"]);
     let two = ONE_BLOCK.replace("M97", "M97 M98");
     let both = ["channel.m_synch[98]=0x20"];
-    assert_eq!(errors(&run_with_inputs(banding(&both), &two, &probe)), ["20156"]);
+    assert_eq!(run_with_inputs(banding(&both), &two, &probe).errors(), ["20156"]);
     let over_blocks = ["channel.kasto_multi_block=1"];
-    assert_eq!(errors(&run_with_inputs(banding(&over_blocks), ONE_BLOCK, &probe)), ["K-0019"]);
+    assert_eq!(run_with_inputs(banding(&over_blocks), ONE_BLOCK, &probe).errors(), ["K-0019"]);
     let nowhere = ONE_BLOCK.replace("X150 Y150 F1200\nN50", "X90 Y90 F1200\nN50");
-    assert_eq!(errors(&run_with_inputs(banding(&[]), &nowhere, &probe)), ["K-0135"]);
+    assert_eq!(run_with_inputs(banding(&[]), &nowhere, &probe).errors(), ["K-0135"]);
     // without G108, or after G107, M97 is an M function like any other
     for off in [ONE_BLOCK.replace("G108", "G04 0.1"), ONE_BLOCK.replace("G108", "G108\nG107")] {
         let run = run_with_inputs(banding(&[]), &off, &probe);
         assert!(
-            errors(&run).is_empty() && rests(&run, run.records.last().unwrap().line).is_empty()
+            run.errors().is_empty() && rests(&run, run.records.last().unwrap().line).is_empty()
         );
     }
 }
@@ -186,7 +181,7 @@ fn random_lines() {
         ];
         let run = run_with_inputs(banding(&[]), &program, &inputs);
         if run.totals.aborted {
-            assert_eq!(errors(&run), ["50655"], "{case}: {:?}", run.diagnostics);
+            assert_eq!(run.errors(), ["50655"], "{case}: {:?}", run.diagnostics);
             continue;
         }
         stopped += 1;
@@ -220,7 +215,7 @@ fn beside_an_exact_stop_and_an_independent_axis() {
              N40 {exact} G01 X150 Y0 F3000 M97\nN50 X150 Y40\nN60 M30\n"
         );
         let run = run_with_inputs(banding(&[]), &program, &[(0.0, "X_probe_mm", 50.0)]);
-        assert!(errors(&run).is_empty() && !run.totals.aborted, "{:?}", run.diagnostics);
+        assert!(run.errors().is_empty() && !run.totals.aborted, "{:?}", run.diagnostics);
         run
     };
     let (run, without) = (of("G60"), of(""));

@@ -203,7 +203,7 @@ fn the_sample_program_of_the_spindles() {
 
 /// G135 between blocks that run on causes a step in the speed command of the moving axis; after an exact stop it does not.
 #[test]
-fn switching_in_motion_is_told() {
+fn switching_in_motion_is_reported() {
     let switched = |first: &str| {
         let run = run(&program(&[first, "G135", "G01 X100 F6000"]), &[]);
         let found =
@@ -317,7 +317,7 @@ fn weights_return_with_an_exchange() {
 /// The path rests while the axis is still moving after its filter, or moves alone: switching causes a step in its command of the share
 /// times its speed, and K-0022 names that jump. When both are at rest there is no message.
 #[test]
-fn a_switch_behind_filters_is_told() {
+fn a_switch_with_filters_is_reported() {
     let guard = ["X.vib_guard.active=1", "X.vib_guard.mode=3", "X.vib_guard.freq=3"];
     let low_pass = [
         "X.filter[0].enable=1",

@@ -2,18 +2,12 @@
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
-use kontur_tests::{Run, machine, run, run_on, run_with_inputs};
+use kontur_kit::near;
+use kontur_tests::{Run, largest_step, linear_machine, run, run_on, run_with_inputs};
 
-/// The built-in machine with 1000 mm/s2 in every stage of the linear slope of X, Y, Z, and the linear slope as default.
+/// The linear slope as default.
 fn linear(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
-    let mut settings = vec!["channel.prog_start.slope.profile=0".to_owned()];
-    for axis in ["X", "Y", "Z"] {
-        for stage in ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"] {
-            settings.push(format!("{axis}.getriebe[0].lslope_profil.{stage}=1000"));
-        }
-    }
-    settings.extend(more.iter().map(ToString::to_string));
-    machine(&settings.iter().map(String::as_str).collect::<Vec<_>>())
+    linear_machine(&[&["channel.prog_start.slope.profile=0"][..], more].concat())
 }
 
 fn go(program: &str) -> Run {
@@ -38,35 +32,27 @@ fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
     k.map_or(f64::INFINITY, |k| k as f64 * run.cycle_s)
 }
 
-fn near(a: f64, b: f64) {
-    assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
-}
-
-fn largest_step(run: &Run, axis: usize) -> f64 {
-    ipo(run, axis).windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
-}
-
 /// With the ramps of the list, 30 ms, and 3500 mm/s2: `100 / 100 + 2 sqrt(100 / j)`, `j = 3500 / 0.03`; full acceleration is not reached.
 #[test]
 fn slope_of_its_own() {
     let run = go("X[INDP_SYN G90 G01 FEED=6000 POS=100 SLOPE_TYPE=TRAPEZ]");
     let change_s = 2.0 * (100.0 * 0.03 / 3500.0_f64).sqrt();
     let cycles = ((1.0 + change_s) / run.cycle_s).ceil();
-    near(arrival_s(&run, 0, 100.0), cycles * run.cycle_s);
-    near(at(&run, 0, 0.5), 100.0 * (0.5 - change_s / 2.0));
+    near(arrival_s(&run, 0, 100.0), cycles * run.cycle_s, 1e-9);
+    near(at(&run, 0, 0.5), 100.0 * (0.5 - change_s / 2.0), 1e-9);
 }
 
 /// The distance that the axis has moved alone is in the coordinates: lines and arcs continue from there.
 #[test]
-fn coordinates_go_on() {
+fn coordinates_continue() {
     let run = go(
         "X[INDP_SYN G90 G01 FEED=6000 POS=20]\nG90 G01 X30 Y10 F6000\nX20 Y0\nG02 X40 Y0 I10 J0\nG91 G01 X-5",
     );
     let arc = run.records.iter().filter(|r| r.line == 5);
     let radius = arc.map(|r| libm::hypot(r.axes[0].ipo - 30.0, r.axes[1].ipo));
     assert!(radius.clone().count() > 100 && radius.into_iter().all(|r| (r - 10.0).abs() < 1e-9));
-    near(run.records.last().unwrap().axes[0].ipo, 35.0);
-    assert!(largest_step(&run, 0) < 0.1 + 1e-9);
+    near(run.records.last().unwrap().axes[0].ipo, 35.0, 1e-9);
+    assert!(largest_step(&ipo(&run, 0)) < 0.1 + 1e-9);
 }
 
 /// The path does not depend on the motion: its setpoints are the same bit for bit, also through rounded corners.
@@ -82,9 +68,9 @@ fn the_path_is_the_same() {
     let (a, b) = (bits(&plain), bits(&with));
     assert!(a.len() <= b.len() && a.len() > 500);
     assert_eq!(a[..], b[..a.len()]);
-    near(with.records.last().unwrap().axes[2].ipo, -3.0);
+    near(with.records.last().unwrap().axes[2].ipo, -3.0, 1e-9);
     let error = |run: &Run| run.records.iter().map(|r| r.contour_err_mm).fold(0.0, f64::max);
-    near(error(&with), error(&plain));
+    near(error(&with), error(&plain), 1e-9);
 }
 
 /// A filter delays the axis; that is not a deviation from the contour of the path, and joins wait until it has settled.
@@ -102,8 +88,8 @@ fn filtered() {
     let set = run.axis(0, |a| a.set);
     assert!(ipo(&run, 0).iter().zip(&set[5..]).all(|(a, b)| a.to_bits() == b.to_bits()));
     assert!(run.records.iter().all(|r| r.contour_err_mm <= 1e-12));
-    near(arrival_s(&run, 0, 20.0), 2.01);
-    near(arrival_s(&run, 1, 0.0), 2.015 + 0.6);
+    near(arrival_s(&run, 0, 20.0), 2.01, 1e-9);
+    near(arrival_s(&run, 1, 0.0), 2.015 + 0.6, 1e-9);
 }
 
 /// An oscillation of 20 mm at 20 mm/s is held from 1 s to 2 s; at half the override a stroke takes twice as long.
@@ -113,14 +99,14 @@ fn an_oscillation_under_feedhold_and_override() {
     let free = run_on(linear(&[]), program);
     let inputs = [(1.0, "feedhold", 1.0), (2.0, "feedhold", 0.0)];
     let held = run_with_inputs(linear(&[]), program, &inputs);
-    near(at(&held, 0, 1.1), at(&held, 0, 1.9));
+    near(at(&held, 0, 1.1), at(&held, 0, 1.9), 1e-9);
     let reversal = |run: &Run| arrival_s(run, 0, 10.0);
     // of this second, braking covers the distance of 0.01 s at full speed; speeding up again loses the same amount
-    near(reversal(&held), reversal(&free) + 1.0);
+    near(reversal(&held), reversal(&free) + 1.0, 1e-9);
     let half = run_with_inputs(linear(&[]), program, &[(0.0, "override_percent", 50.0)]);
     // to -10 mm and back to 10 mm, each way with a ramp of v / 1000
-    near(reversal(&free), 10.0 / 20.0 + 20.0 / 20.0 + 2.0 * 0.02);
-    near(reversal(&half), 10.0 / 10.0 + 20.0 / 10.0 + 2.0 * 0.01);
+    near(reversal(&free), 10.0 / 20.0 + 20.0 / 20.0 + 2.0 * 0.02, 1e-9);
+    near(reversal(&half), 10.0 / 10.0 + 20.0 / 10.0 + 2.0 * 0.01, 1e-9);
 }
 
 /// An error of another axis stops an independent axis on its own path, within its limits.

@@ -1,36 +1,6 @@
-//! `#MAIN SPINDLE`: the spindle that S and M3 to M5 are for.
+//! When the words of the main spindle take effect: before, with or after the motion of their block.
 
-use kontur_tests::{Run, run_on, sample_machine};
-
-/// Speed of a spindle in rev/min at the end of a line of the program.
-fn rpm(run: &Run, spindle: usize, line: u32) -> f64 {
-    let last = run.records.iter().rposition(|r| r.line == line).unwrap();
-    let set = |k: usize| run.records[k].axes[3 + spindle].set;
-    (set(last) - set(last - 1)) / run.cycle_s / 6.0
-}
-
-/// After the example of the manual (changing the main spindle): by name, by logical number, and back to the one of the lists.
-#[test]
-fn the_main_spindle_changes() {
-    let run = run_on(
-        sample_machine("two_spindles", &[]),
-        "S100 M3 S2[REV200 M3]\nG04 0.5\n#MAIN SPINDLE [S2]\nS110 M3\nG04 0.5\n#MAIN SPINDLE [4]\n\
-         S120 M4\nG04 0.5\n#MAIN SPINDLE [5]\nM5\n#MAIN SPINDLE\nS150 M3\nG04 0.5\nM5\nG04 0.5\nM30\n",
-    );
-    assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
-    for (line, speeds) in [
-        (2, [100.0, 200.0]),
-        (5, [100.0, 110.0]),
-        (8, [-120.0, 110.0]),
-        (13, [150.0, 0.0]),
-        (15, [0.0, 0.0]),
-    ] {
-        for (spindle, want) in speeds.into_iter().enumerate() {
-            let is = rpm(&run, spindle, line);
-            assert!((is - want).abs() < 1e-6, "line {line}, spindle {spindle}: {is}, not {want}");
-        }
-    }
-}
+use kontur_tests::{run_on, sample_machine};
 
 /// With MVS_SVS for M3 (P-CHAN-00045) the motion in the same block begins when the spindle has reached its speed (M and H functions
 /// 286059787).
@@ -83,25 +53,6 @@ fn functions_act_when_the_list_says() {
                 None => assert!(is(first, 2000.0) && is(last, 2000.0), "{case}"),
             }
             assert_eq!(is(next, there), waits, "{case}");
-        }
-    }
-}
-
-/// Programmable override (208269707): it scales only the speed of its own spindle, at once, for M3 and M4, until it is changed.
-#[test]
-fn an_override_acts_on_its_spindle_alone() {
-    let run = run_on(
-        sample_machine("two_spindles", &[]),
-        "S[M3 REV500] S2[M3 REV200]\nG04 1\nS[OVERRIDE SPEED_FACT=20]\nG04 1\nS[REV400 M4]\nG04 1\n\
-         S[OVERRIDE SPEED_FACT=100]\nG04 1\nM5\nS2[M5]\nG04 1\nM30\n",
-    );
-    assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
-    for (line, speeds) in
-        [(2, [500.0, 200.0]), (4, [100.0, 200.0]), (6, [-80.0, 200.0]), (8, [-400.0, 200.0])]
-    {
-        for (spindle, want) in speeds.into_iter().enumerate() {
-            let is = rpm(&run, spindle, line);
-            assert!((is - want).abs() < 1e-6, "line {line}, spindle {spindle}: {is}, not {want}");
         }
     }
 }

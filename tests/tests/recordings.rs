@@ -1,7 +1,7 @@
 //! `kontur diff` between a program and the recording of a machine, in the export format of TwinCAT Scope.
 
 use kontur::Exit;
-use kontur_tests::command::command;
+use kontur_tests::command::{command, near};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -100,11 +100,6 @@ impl Bench {
         let done = command(&words);
         (done.exit, serde_json::from_str(&done.out).unwrap_or_else(|_| panic!("{}", done.err)))
     }
-}
-
-fn near(value: &serde_json::Value, want: f64, tolerance: f64) {
-    let is = value.as_f64().unwrap();
-    assert!((is - want).abs() <= tolerance, "{is}, not {want}");
 }
 
 /// Another unit and sign, a beginning 12 cycles earlier or 3.4 ms later, other sampling times, noise below 0.1 um: equal.

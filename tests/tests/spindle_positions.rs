@@ -7,21 +7,13 @@ fn angle(run: &Run, line: u32) -> f64 {
     run.records[run.records.iter().rposition(|r| r.line == line).unwrap()].axes[3].set
 }
 
-/// Speeds of the spindle in rev/min during a line of the program.
-fn speeds(run: &Run, line: u32) -> Vec<f64> {
-    let at = |w: &[kontur_interpreter::record::CycleRecord]| {
-        (w[1].line == line).then(|| (w[1].axes[3].set - w[0].axes[3].set) / run.cycle_s / 6.0)
-    };
-    run.records.windows(2).filter_map(at).collect()
-}
-
 fn turns(deg: f64) -> f64 {
     deg.rem_euclid(360.0)
 }
 
 /// The program of the page (spindle-specific positioning, 208198923), with a pause after each block so that the block can end.
 #[test]
-fn the_angle_holds_and_the_way_round_is_told() {
+fn the_angle_is_held_and_the_direction_is_the_commanded_one() {
     let run = run(
         "%P\nS[REV100 POS45 M19 M3]\nG04 1\nS[M03 REV1000]\nG04 1\nS[M19 M4 REV150]\nG04 2\nS[M05]\nG04 0.5\n\
          S[M19]\nG04 0.5\nS[REV200 M19 POS90]\nG04 1\nS[M03 REV1000]\nG04 1\nS[M05]\nG04 1\nM30\n",
@@ -29,43 +21,27 @@ fn the_angle_holds_and_the_way_round_is_told() {
     );
     assert_eq!(run.diagnostics, []);
     assert!((angle(&run, 3) - 45.0).abs() < 1e-9, "{}", angle(&run, 3));
-    assert!(speeds(&run, 3).iter().all(|v| *v >= 0.0));
+    assert!(run.spindle_rpm(3).iter().all(|v| *v >= 0.0));
     // counter-clockwise after M3: it stops first, and arrives from above
     assert!((turns(angle(&run, 7)) - 45.0).abs() < 1e-6, "{}", angle(&run, 7));
-    let least = speeds(&run, 7).into_iter().fold(0.0, f64::min);
+    let least = run.spindle_rpm(7).into_iter().fold(0.0, f64::min);
     assert!((least + 150.0).abs() < 1e-6, "{least}");
     // it is already where M19 would turn it
     assert!((angle(&run, 11) - angle(&run, 9)).abs() < 1e-9);
     assert!((angle(&run, 13) - angle(&run, 11) - 45.0).abs() < 1e-6);
-    let most = speeds(&run, 13).into_iter().fold(0.0, f64::max);
+    let most = run.spindle_rpm(13).into_iter().fold(0.0, f64::max);
     // 45 deg are too short for the 200 rev/min, and for the acceleration: two halves of 2 sqrt(v / j)
     let jerk = 60_000.0_f64 / 0.03;
     let peak = libm::pow(45.0 / 2.0 * jerk.sqrt(), 2.0 / 3.0) / 6.0;
     assert!(most <= peak + 1e-6 && most > peak - 0.5, "{most}, not {peak}");
 }
 
-/// From rest the shorter way, from rotation in the direction of rotation, with M3 or M4 in the direction of these.
+/// From rotation in its direction.
 #[test]
-fn the_shorter_way_and_the_direction_of_rotation() {
-    for (block, want) in [
-        ("M19 S200 S.POS100", 100.0),
-        ("M19 S200 S.POS=100", 100.0),
-        ("M19 S200 S.POS 100", 100.0),
-        ("M19 S200 S.POS270", -90.0),
-        ("M19 M3 S200 S.POS270", 270.0),
-        ("M4 M19 S200 S.POS100", -260.0),
-        ("S[M19 REV200 POS=200]", -160.0),
-        ("S[M19 REV200 POS180]", 180.0),
-        ("M19 S200", 0.0),
-    ] {
-        let run = run(&format!("%P\n{block}\nG04 1\nM30\n"), &[]);
-        assert_eq!(run.diagnostics, [], "{block}");
-        let is = angle(&run, 3);
-        assert!((is - want).abs() < 1e-9, "{block}: {is}, not {want}");
-    }
+fn a_turning_spindle_is_positioned_in_its_direction() {
     let run = run("%P\nM4 S500\nG04 1\nM19 S.POS10\nG04 2\nM30\n", &[]);
     assert!((turns(angle(&run, 5)) - 10.0).abs() < 1e-6);
-    assert!(speeds(&run, 5).iter().all(|v| *v <= 1e-9));
+    assert!(run.spindle_rpm(5).iter().all(|v| *v <= 1e-9));
 }
 
 /// S[G130=70]: what is driven at full acceleration takes 1 / 0.7 of the time.

@@ -33,7 +33,7 @@ impl Folder {
     }
 }
 
-/// The beginning of the block is blanks or a comment, and the motion stands beyond the limit.
+/// The beginning of the block is blanks or a comment, and the motion begins beyond the limit.
 #[test]
 fn a_first_block_that_is_too_long_does_not_vanish() {
     for begin in [" ".repeat(4100), format!("({})", "x".repeat(4100)), ";".repeat(4100)] {

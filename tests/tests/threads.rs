@@ -307,7 +307,7 @@ fn the_last_speed_counts_for_tapping() {
 /// Z and the spindle are in the same place of the thread only after the same filters and with the same lag: K-0112 reports where not, and
 /// then Z is off by what delay and lag give; equal entries in both give no message.
 #[test]
-fn tapping_behind_filters_and_lags() {
+fn tapping_with_filters_and_lags() {
     let of = |axes: &[&str], entries: &[&str]| -> Vec<String> {
         axes.iter().flat_map(|a| entries.iter().map(move |e| format!("{a}.{e}"))).collect()
     };

@@ -1,30 +1,63 @@
-//! The tables of `tests/suite/timing`: short programs under real-time inputs, and the positions of their axes at given times. The form is
-//! that of `interpreter/tests/language`, with the heads `inputs TIME SIGNAL VALUE, ..` and `always with SETTING` for everything that
-//! follows. After the messages a row says
+//! The tables of `tests/suite/timing`: short programs under real-time inputs, and what their axes do at given times. The form is
+//! that of `interpreter/tests/language`, with three more heads: `inputs TIME SIGNAL VALUE, ..`, `machine NAME` for one of
+//! `programs/machines` or `tests/suite/machines`, and `always with SETTING` for everything that follows. After the messages a row says
 //!
 //! ```text
 //! at 0.5 X45 Y0        where the axes are interpolated to at this time in s
-//! end X100             the same for the last cycle
+//! line 3 X45           the same in the last cycle of this line of the row
+//! middle 3 X45         the same in the middle of this line
+//! end X100             the same in the last cycle
+//! X8..8.2              between these positions
+//! S2=45                an axis or spindle whose name may end with a digit
+//! add X0.5             another quantity of the axes: set, act, load, lag, add, reference, err, dev, or rpm, the speed of a spindle in
+//!                      rev/min; `ipo` leads back
 //! arrives X100 1.6     the first time at which an axis has come to a position
 //! steps X0.1           what an axis goes at most in a cycle
 //! held 0.4             how long the path is held
 //! by Stop              what limits the path at that time
 //! within 0.6           the run does not last longer
 //! aborted              the run ends with an error
+//! "text"               all texts of `#MSG`
 //! ```
 
+use kontur_interpreter::diag::Condition;
 use kontur_interpreter::record::Rest;
 use kontur_kit::rows::{Row, fits, rows};
 use kontur_tests::suite::{files, folder, name};
-use kontur_tests::{Run, machine, run_with_inputs};
+use kontur_tests::{Run, machine, programs, run_with_inputs, sample_machine, suite_machine};
 use std::fmt::Write as _;
+use std::ops::RangeInclusive;
 
 /// mm, deg or s.
 const NEAR: f64 = 1e-9;
 
-fn axis(word: &str) -> (usize, f64) {
-    let axis = ["X", "Y", "Z"].iter().position(|name| word.starts_with(name)).expect(word);
-    (axis, word[1..].parse().expect(word))
+/// rev/min: a difference of angles, divided by the cycle time.
+const NEAR_RPM: f64 = 1e-6;
+
+/// Axis and position, or the ends of a range of positions, from `X45`, `X8..8.2` or `S2=45`.
+fn axis(word: &str, axes: &[String]) -> Option<(usize, RangeInclusive<f64>)> {
+    let first = word.chars().next()?.len_utf8();
+    let (name, value) = word.split_once('=').unwrap_or_else(|| word.split_at(first));
+    let (low, high) = value.split_once("..").unwrap_or((value, value));
+    let range = low.parse().ok()?..=high.parse().ok()?;
+    Some((axes.iter().position(|axis| axis == name)?, range))
+}
+
+/// A quantity of an axis in a cycle.
+fn quantity(run: &Run, name: &str, k: usize, axis: usize) -> f64 {
+    let of = |k: usize| &run.records[k].axes[axis];
+    match name {
+        "ipo" => of(k).ipo,
+        "set" => of(k).set,
+        "act" => of(k).act,
+        "load" => of(k).load,
+        "lag" => of(k).lag,
+        "add" => of(k).add,
+        "reference" => of(k).reference,
+        "err" => of(k).err,
+        "dev" => of(k).dev,
+        _ => (of(k).set - of(k - 1).set) / run.cycle_s / 6.0,
+    }
 }
 
 /// First time at which an axis has been away from a position and is there.
@@ -39,17 +72,42 @@ fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
 fn faults(row: &Row) -> Vec<String> {
     let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
     let inputs: Vec<_> = row.inputs.iter().map(|(t, name, x)| (*t, name.as_str(), *x)).collect();
-    let run = run_with_inputs(machine(&settings), &format!("%P\n{}", row.program), &inputs);
+    let machine = match row.machine.as_deref() {
+        None => machine(&settings),
+        Some(name) if programs().join("machines").join(name).is_dir() => {
+            sample_machine(name, &settings)
+        }
+        Some(name) => suite_machine(name, &settings),
+    };
+    let axes: Vec<String> = machine.0.all_axes().map(|axis| axis.name().to_owned()).collect();
+    let run = run_with_inputs(machine, &format!("%P\n{}", row.program), &inputs);
     let (mut wrong, mut ids, mut aborted) = (Vec::new(), Vec::new(), false);
     let mut found = Vec::new();
-    let mut at = run.records.len() - 1;
-    let mut words = row.expected.split_whitespace();
+    let (mut at, mut what) = (run.records.len().saturating_sub(1), "ipo");
+    let (words, texts) =
+        row.expected.split_at(row.expected.find('"').unwrap_or(row.expected.len()));
+    let mut words = words.split_whitespace();
     while let Some(word) = words.next() {
         let mut number = || -> f64 { words.next().and_then(|w| w.parse().ok()).expect(&row.text) };
         match word {
             "ok" => {}
             "at" => at = (number() / run.cycle_s).round() as usize,
+            "line" | "middle" => {
+                // %P is before the first line of a row
+                let line = number() as u32 + 1;
+                let of_line: Vec<usize> =
+                    (0..run.records.len()).filter(|k| run.records[*k].line == line).collect();
+                let last = of_line.len().saturating_sub(1);
+                match of_line.get(if word == "line" { last } else { last / 2 }) {
+                    Some(k) => at = *k,
+                    None => wrong.push(format!("line {} has no cycle", line - 1)),
+                }
+            }
             "end" => at = run.records.len() - 1,
+            "ipo" | "set" | "act" | "load" | "lag" | "add" | "reference" | "err" | "dev"
+            | "rpm" => {
+                what = word;
+            }
             "held" => found.push((word, run.rested(Rest::Held) as f64 * run.cycle_s, number())),
             "within" => {
                 let limit_s = number();
@@ -63,28 +121,42 @@ fn faults(row: &Row) -> Vec<String> {
             }
             "aborted" => aborted = true,
             "steps" => {
-                let (i, limit) = axis(words.next().expect(&row.text));
+                let (i, limit) = words.next().and_then(|w| axis(w, &axes)).expect(&row.text);
                 let steps =
                     run.records.windows(2).map(|w| (w[1].axes[i].ipo - w[0].axes[i].ipo).abs());
-                found.push((word, steps.fold(limit, f64::max), limit));
+                found.push((word, steps.fold(*limit.end(), f64::max), *limit.end()));
             }
             "arrives" => {
                 let target = words.next().expect(&row.text);
-                let (i, position) = axis(target);
+                let (i, position) = axis(target, &axes).expect(&row.text);
                 let time_s = words.next().and_then(|w| w.parse().ok()).expect(&row.text);
-                found.push((target, arrival_s(&run, i, position), time_s));
+                found.push((target, arrival_s(&run, i, *position.end()), time_s));
             }
-            _ if word.starts_with(['X', 'Y', 'Z']) => {
-                let (i, want) = axis(word);
-                found.push((word, run.records[at].axes[i].ipo, want));
-            }
-            id => ids.push(id),
+            _ => match axis(word, &axes) {
+                Some((i, want)) if at < run.records.len() => {
+                    let is = quantity(&run, what, at, i);
+                    let near = if what == "rpm" { NEAR_RPM } else { NEAR };
+                    if is < want.start() - near || is > want.end() + near {
+                        wrong.push(format!("{what} {word}: {is}"));
+                    }
+                }
+                Some(_) => wrong.push("nothing moves".to_owned()),
+                None => ids.push(word),
+            },
         }
     }
     let differs = |(_, is, want): &(&str, f64, f64)| (is - want).abs() > NEAR;
     wrong.extend(found.into_iter().filter(differs).map(|(what, is, _)| format!("{what}: {is}")));
-    if !fits(&ids, &run.said()) || aborted != run.totals.aborted {
-        wrong.push(format!("says {:?}, aborted {}", run.said(), run.totals.aborted));
+    let (said, written): (Vec<_>, Vec<_>) =
+        run.diagnostics.iter().partition(|d| d.id != Condition::Message);
+    let said: Vec<String> = said.into_iter().map(|d| d.id.to_string()).collect();
+    if !fits(&ids, &said) || aborted != run.totals.aborted {
+        wrong.push(format!("says {said:?}, aborted {}", run.totals.aborted));
+    }
+    let written: Vec<&str> = written.into_iter().map(|d| d.text.as_str()).collect();
+    let texts: Vec<&str> = texts.trim_matches('"').split("\" \"").collect();
+    if texts != [""] && texts != written {
+        wrong.push(format!("writes {written:?}"));
     }
     wrong
 }
@@ -94,7 +166,7 @@ fn axes_are_where_the_rows_say() {
     let mut wrong = String::new();
     for file in files(&folder("timing"), "txt") {
         let rows = rows(&std::fs::read_to_string(&file).unwrap());
-        assert!(rows.len() > 5, "{}", name(&file));
+        assert!(!rows.is_empty(), "{}", name(&file));
         for row in rows {
             let faults = faults(&row);
             if !faults.is_empty() {
@@ -116,8 +188,18 @@ fn wrong_rows_are_found() {
         faults(&rows(&table)[0]).is_empty()
     };
     assert!(of("ok at 0.1 X5 Y0 arrives X10 0.2 end X10 held 0"));
+    assert!(of(
+        "at 0.1 X4.9..5.1 Y=0 set X5 lag X0.1..9 end act X9.98..10.02 rpm S=0 middle 2 ipo X1..9"
+    ));
     for wrong in [
         "at 0.1 X5.1",
+        "at 0.1 X5.01..5.1",
+        "X=9",
+        "at 0.1 act X5",
+        "line 1 X9",
+        "middle 2 X10",
+        "rpm S=1",
+        "\"text\"",
         "arrives X10 0.201",
         "arrives X11 0.2",
         "end X9",

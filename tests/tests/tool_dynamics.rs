@@ -22,17 +22,9 @@ const TOOLS: [&str; 14] = [
     "tool.wz[4].a_max=1000000000",
 ];
 
-/// Speeds of the spindle in rev/min during a line of the program.
-fn speeds(run: &Run, line: u32) -> Vec<f64> {
-    let at = |w: &[kontur_interpreter::record::CycleRecord]| {
-        (w[1].line == line).then(|| (w[1].axes[3].set - w[0].axes[3].set) / run.cycle_s / 6.0)
-    };
-    run.records.windows(2).filter_map(at).collect()
-}
-
 /// Its speed at the end of a line.
 fn last(run: &Run, line: u32) -> f64 {
-    *speeds(run, line).last().unwrap()
+    *run.spindle_rpm(line).last().unwrap()
 }
 
 #[test]
@@ -43,7 +35,8 @@ fn the_tool_limits_speed_and_acceleration() {
     assert!((last(&run, 4) - 500.0).abs() < 1e-6, "{}", last(&run, 4));
     assert!((last(&run, 6) - 10.0).abs() < 1e-6, "{}", last(&run, 6));
     assert!(last(&run, 8).abs() < 1e-6);
-    let all: Vec<f64> = [4, 5, 6, 7, 8].into_iter().flat_map(|line| speeds(&run, line)).collect();
+    let all: Vec<f64> =
+        [4, 5, 6, 7, 8].into_iter().flat_map(|line| run.spindle_rpm(line)).collect();
     let most = all.windows(2).map(|v| (v[1] - v[0]).abs() * 6.0 / run.cycle_s).fold(0.0, f64::max);
     assert!(most <= 3000.0 + 1e-3, "{most}");
     assert!(most > 2999.0, "{most}");
@@ -54,7 +47,7 @@ fn the_tool_limits_speed_and_acceleration() {
 fn the_weight_of_the_acceleration_acts_on_the_list_and_not_on_the_tool() {
     for (percent, most) in [(50.0, 3000.0), (2.0, 1200.0)] {
         let run = run(&format!("%P\nD1\nS[G130={percent}]\nM3 S400\nG04 3\nM30\n"), &TOOLS);
-        let all = speeds(&run, 5);
+        let all = run.spindle_rpm(5);
         let is =
             all.windows(2).map(|v| (v[1] - v[0]).abs() * 6.0 / run.cycle_s).fold(0.0, f64::max);
         assert!((is - most).abs() < most * 1e-3, "{is}, not {most}");
@@ -117,7 +110,7 @@ fn positioning_has_the_largest_speed_alone() {
     for (s, want) in [(5, 5.0), (2000, 500.0)] {
         let run = run(&format!("%P\nD1\nM19 S{s} M3 S.POS350\nG04 15\nM30\n"), &TOOLS);
         assert_eq!(run.diagnostics, [], "S{s}");
-        let most = speeds(&run, 4).into_iter().fold(0.0, f64::max);
+        let most = run.spindle_rpm(4).into_iter().fold(0.0, f64::max);
         let reached = if s == 5 { want } else { most };
         assert!(most <= want + 1e-6 && (most - reached).abs() < 1e-6, "S{s}: {most}");
     }

@@ -2,7 +2,7 @@
 
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_tests::{Run, run, run_on, sample_machine};
+use kontur_tests::{Run, largest_step, run, run_on, sample_machine};
 
 /// Square of 1 mm from the present position of the axes, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
@@ -35,25 +35,8 @@ fn refused_for(run: &Run) -> Vec<String> {
     errors.map(|d| d.axis.as_ref().map_or("?".to_owned(), |a| a.name.clone())).collect()
 }
 
-fn follows(run: &Run, axis: usize) -> bool {
-    run.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
-}
-
 fn largest(run: &Run, f: impl Fn(&kontur_interpreter::record::CycleRecord) -> f64) -> f64 {
     run.records.iter().map(|r| f(r).abs()).fold(0.0, f64::max)
-}
-
-fn largest_step(values: &[f64]) -> f64 {
-    values.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
-}
-
-/// By how many cycles `set` is later than `ipo` in the middle of a long motion of X.
-fn delay(run: &Run, line: u32) -> f64 {
-    let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
-    assert!(!of_line.is_empty(), "{:?}", run.diagnostics);
-    let middle = of_line[of_line.len() / 2];
-    assert!(middle.path.a_mm_s2.abs() < 1e-9, "{middle:?}");
-    (middle.axes[0].ipo - middle.axes[0].set) / (middle.path.v_mm_s * run.cycle_s)
 }
 
 /// The same for a kernel.
@@ -71,7 +54,7 @@ fn near(is: f64, want: f64) {
 fn lists_activate_single_axes() {
     let lines = ["G01 X100 Y100 F6000"];
     let run = on(&lines, &strings(&["X.vib_guard.active=1"]));
-    assert!(!follows(&run, 0) && follows(&run, 1));
+    assert!(!run.is_unshaped(0) && run.is_unshaped(1));
     let unequal = [
         "X.vib_guard.active=1",
         "X.vib_guard.freq=20",
@@ -109,8 +92,8 @@ fn the_command_activates_all_axes() {
         near(behind(0), behind(2));
     }
     let diagonal = kernel_delay(2, 40.0, 0.1) / 3.0_f64.sqrt();
-    near(delay(&run, 4), diagonal);
-    near(delay(&run, 5), -diagonal);
+    near(run.delay_cycles(4), diagonal);
+    near(run.delay_cycles(5), -diagonal);
     for r in run.records.iter().filter(|r| r.line == 7) {
         assert_eq!(r.axes[0].set.to_bits(), r.axes[0].ipo.to_bits());
     }
@@ -165,13 +148,13 @@ fn the_tolerance_acts_only_where_it_must() {
 fn lists_and_program() {
     let motion = "G01 X100 F6000";
     let run = on(&["#VIB GUARD ON", motion], &listed("mode=3 freq=20"));
-    near(delay(&run, 4), kernel_delay(3, 20.0, 0.1));
+    near(run.delay_cycles(4), kernel_delay(3, 20.0, 0.1));
     let active = listed("active=1 mode=1 freq=30");
     let run =
         on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], &active);
-    near(delay(&run, 3), kernel_delay(1, 30.0, 0.1));
-    near(delay(&run, 5), kernel_delay(4, 50.0, 0.1));
-    near(delay(&run, 7), 0.0);
+    near(run.delay_cycles(3), kernel_delay(1, 30.0, 0.1));
+    near(run.delay_cycles(5), kernel_delay(4, 50.0, 0.1));
+    near(run.delay_cycles(7), 0.0);
 }
 
 /// On, other values, off between blocks: no jump, every block ends where it should. Conformance: V030.
@@ -238,7 +221,7 @@ fn conflicts_with_lists() {
     assert!(refused_for(&command).contains(&"Y".to_owned()));
     let allowed = with(&fir("X"), Some(guard("Y")), &[motion]);
     assert!(!allowed.totals.aborted, "{:?}", allowed.diagnostics);
-    assert!(!follows(&allowed, 0) && !follows(&allowed, 1));
+    assert!(!allowed.is_unshaped(0) && !allowed.is_unshaped(1));
     for command in ["#VIB GUARD OFF", "#FILTER OFF"] {
         let both = with(&fir("X"), Some(guard("Y")), &[command, motion]);
         assert!(!refused_for(&both).is_empty(), "{command}");
@@ -250,16 +233,16 @@ fn conflicts_with_lists() {
 fn axis_exchange() {
     let motion = "G01 X100 F6000";
     let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", motion], &[]);
-    assert!(follows(&run, 0) && !run.totals.aborted);
+    assert!(run.is_unshaped(0) && !run.totals.aborted);
     assert!(
         run.diagnostics.iter().any(|d| d.text.contains("Vibration Guard")),
         "{:?}",
         run.diagnostics
     );
     let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", "#VIB GUARD ON", motion], &[]);
-    near(delay(&run, 6), kernel_delay(1, 30.0, 0.1));
+    near(run.delay_cycles(6), kernel_delay(1, 30.0, 0.1));
     let run = on(&["#PUT AX [Z]", motion], &listed("active=1"));
-    near(delay(&run, 4), kernel_delay(1, 30.0, 0.1));
+    near(run.delay_cycles(4), kernel_delay(1, 30.0, 0.1));
 }
 
 /// Keys in any order, defaults, ranges. Conformance: V043, V045, V046, V047, V052.
@@ -268,7 +251,7 @@ fn keys_of_the_command() {
     let records = |command: &str| on(&[command, SQUARE], &[]).records;
     assert_eq!(records("#VIB GUARD ON [FREQ=6 MODE=2]"), records("#VIB GUARD ON [MODE=2 FREQ=6]"));
     let motion = "G01 X100 F6000";
-    near(delay(&on(&["#VIB GUARD ON", motion], &[]), 4), kernel_delay(1, 30.0, 0.1));
+    near(on(&["#VIB GUARD ON", motion], &[]).delay_cycles(4), kernel_delay(1, 30.0, 0.1));
     for (key, id) in [
         ("MODE=5", "22062"),
         ("FREQ=0.5", "K-0034"),

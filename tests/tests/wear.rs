@@ -33,22 +33,6 @@ fn square(otc: &str, side: &str) -> String {
 }
 
 #[test]
-fn wear_from_outside_moves_the_wheel_towards_the_contour() {
-    let wear = [(0.0, "wear_mm", 0.5)];
-    let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
-    assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
-    // the wheel is below, to the right of, above and to the left of the square
-    near(added(&run, 4), [0.0, 0.5, 0.0]);
-    near(added(&run, 5), [-0.5, 0.0, 0.0]);
-    near(added(&run, 6), [0.0, -0.5, 0.0]);
-    near(added(&run, 7), [0.5, 0.0, 0.0]);
-    let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G41"), &wear);
-    near(added(&run, 4), [0.5, 0.0, 0.0]);
-    near(added(&run, 5), [0.0, -0.5, 0.0]);
-    near(added(&run, 6), [-0.5, 0.0, 0.0]);
-}
-
-#[test]
 fn the_ways_to_the_contour_and_back_are_without_wear() {
     let wear = [(0.0, "wear_mm", 0.5)];
     let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
@@ -96,14 +80,6 @@ fn automatic_is_the_sum() {
 }
 
 #[test]
-fn the_length_needs_no_contour() {
-    let text = "D1 F6000\n#OTC [DISC]\n#OTC ON\nX50\n#OTC OFF\nG04 0.2\nM30\n";
-    let run = run_with_inputs(grinding(), text, &[(0.0, "wear_mm", 0.25)]);
-    near(added(&run, 4), [0.0, 0.0, -0.25]);
-    near(added(&run, 6), [0.0; 3]);
-}
-
-#[test]
 fn a_change_is_followed_within_the_acceleration_of_the_axis() {
     for percent in [100.0, 5.0] {
         let text = square(&format!("#OTC ON [RADIUS DISC ACC_WEIGHT={percent}]"), "G42");
@@ -120,20 +96,6 @@ fn a_change_is_followed_within_the_acceleration_of_the_axis() {
             }
         }
     }
-}
-
-#[test]
-fn what_the_tool_does_not_allow_is_said() {
-    let text = square("#OTC ON [RADIUS DISC]", "G42");
-    // 2 mm at most
-    let run = run_with_inputs(grinding(), &text, &[(0.0, "wear_mm", 3.0)]);
-    assert_eq!(run.said(), ["K-0138"]);
-    near(added(&run, 4), [0.0, 2.0, 0.0]);
-    // a cutter, no tool at all, and a cutter while compensation is on
-    let cutter = run_with_inputs(grinding(), &text.replace("D1", "D2"), &[]);
-    assert_eq!(cutter.said(), ["21391"]);
-    let later = "D1 F6000\n#OTC ON\nX10\nD2\nX20\nM30\n";
-    assert_eq!(run_with_inputs(grinding(), later, &[]).said(), ["21391"]);
 }
 
 /// The built-in machine whose X moves to a fixed stop: 2 mm of lag.

@@ -99,8 +99,8 @@ fn feedforward_settles_soon() {
         Profile::rest().ramp(200.0, 1000.0, 0.001).then(0.5, 0.0).ramp(-200.0, 1000.0, 0.001);
     let last = (profile.end_s() * 1e3).round() as u32;
     let (cycles, faults) = stop(axis, |k| profile.at(f64::from(k) * 1e-3), last);
-    let behind_buffer = cycles - delay;
-    assert!((12..=20).contains(&behind_buffer), "{behind_buffer}");
+    let after_buffer = cycles - delay;
+    assert!((12..=20).contains(&after_buffer), "{after_buffer}");
     assert_eq!(faults, []);
 }
 

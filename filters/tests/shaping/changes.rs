@@ -18,7 +18,7 @@ proptest! {
     /// position and reaches the input: no step of a low-pass of at least 2 Hz is larger than the first step of its
     /// response to the whole distance.
     #[test]
-    fn a_changed_filter_goes_on_from_where_the_axis_is(
+    fn a_changed_filter_continues_from_where_the_axis_is(
         order in 1..=4_u32, before_hz in 2.0..20.0_f64, after_hz in 2.0..20.0_f64, cycles in 1..400_u32, added: bool,
     ) {
         let mut shaping = Shaping::new(vec![low_pass(order, before_hz)], 0.0);

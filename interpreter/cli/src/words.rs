@@ -100,7 +100,7 @@ fn places(text: &[u8], name: &str) -> Vec<Place> {
                 && text[at..].len() >= name.len()
                 && text[at..at + name.len()].eq_ignore_ascii_case(name.as_bytes()) =>
             {
-                if let Some(from) = behind_equals(text, at + name.len()) {
+                if let Some(from) = after_equals(text, at + name.len()) {
                     places.push(Place { line, number: number(text, from) });
                 }
             }
@@ -120,7 +120,7 @@ fn skip_spaces(text: &[u8], from: usize) -> usize {
 }
 
 /// Position of the value, if `=` follows.
-fn behind_equals(text: &[u8], from: usize) -> Option<usize> {
+fn after_equals(text: &[u8], from: usize) -> Option<usize> {
     let at = skip_spaces(text, from);
     let next = text.get(at + 1);
     (text.get(at) == Some(&b'=') && next != Some(&b'=')).then(|| skip_spaces(text, at + 1))

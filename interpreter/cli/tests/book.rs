@@ -72,7 +72,7 @@ fn commands_run() {
 }
 
 #[test]
-fn commands_with_further_tools_stand_in_ci() {
+fn commands_that_need_further_tools_are_in_ci() {
     let ci = std::fs::read_to_string(root().join(".ci/run")).unwrap();
     for block in blocks().into_iter().filter(|b| b.info == "sh ci") {
         for line in block.text.lines().filter(|line| !line.trim().is_empty()) {

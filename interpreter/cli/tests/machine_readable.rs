@@ -134,7 +134,7 @@ fn sarif_names_rule_place_and_level() {
 }
 
 #[test]
-fn workflow_commands_stand_at_the_line() {
+fn workflow_commands_name_the_line() {
     let f = Folder::new();
     let (exit, out, _) = f.call(&["check", "@bad.nc", "--format", "github"]);
     assert_eq!(exit, Exit::Aborted);

@@ -243,7 +243,7 @@ fn a_kill_at_any_moment_leaves_a_trace() {
 }
 
 #[test]
-fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
+fn a_killed_sweep_continues_where_it_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let f = folder.path();
     fs::write(f.join("a.nc"), "G01 X20 F600\nM30\n").unwrap();

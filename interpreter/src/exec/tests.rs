@@ -155,6 +155,19 @@ pub(super) fn clean(text: &str) -> Run {
     run
 }
 
+/// Points of every motion of a program.
+pub(super) fn points(text: &str) -> Vec<[f64; 3]> {
+    let mut points = Vec::new();
+    for block in clean(text).blocks() {
+        for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let mut q = [0.0; 3];
+            block.path.position(share * block.path.length(), &mut q);
+            points.push(q);
+        }
+    }
+    points
+}
+
 pub(super) fn shown(diagnostics: &[Diagnostic]) -> Vec<String> {
     diagnostics.iter().map(|d| format!("{} {}", d.id, d.text)).collect()
 }

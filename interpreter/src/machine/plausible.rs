@@ -14,7 +14,7 @@ use super::table::{
 };
 use super::table::{axis_drive, axis_functions, axis_general, kontur};
 use super::value::Value;
-use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};
+use crate::diag::{AxisRef, Condition, Diagnostic, Named, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
 
 /// An end of a numeric range: the value, and whether the value itself is permitted.
@@ -63,7 +63,7 @@ pub(super) fn check(
         check_together(parameters, axis, diagnostics);
         // P-AXIS-00515: if one of the two velocity weights is 0, both are set to 1
         let weights = [axis_drive::FF_SPEED_NUM, axis_drive::FF_SPEED_DENOM];
-        let wrong = |d: &Diagnostic| matches!(d.parameter, Some("P-AXIS-00514" | "P-AXIS-00515"));
+        let wrong = |d: &Diagnostic| weights.iter().any(|weight| d.parameter == weight.id());
         if diagnostics.iter().skip(first).any(wrong) {
             for param in weights {
                 parameters.set(param.place().row, [0; 2], Value::Number(1.0), None);
@@ -208,19 +208,7 @@ fn check_together(
     axis: Option<&AxisRef>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    // P-AXIS-00079; Assumption: the page of 3210 names gear changes of programs only
-    let stage = parameters.get(axis_general::GEAR_STAGE);
-    if gears::of_number(parameters, stage).is_none() {
-        let place = axis_general::GEAR_STAGE.place();
-        let text = format!("kenngr.getriebe_stufe: no gear stage has the number {stage}");
-        let diagnostic = Diagnostic::new(Condition::GearUnknown, text).value(
-            ValueKind::Wrong,
-            f64::from(stage),
-            "-",
-        );
-        let at = parameters.set_by(place).and_then(|s| s.at.clone());
-        diagnostics.push(finish(diagnostic, place.row, at, axis));
-    }
+    check_gear_stage(parameters, axis, diagnostics);
 
     let mut put = |parameters: &mut Parameters,
                    condition: Condition,
@@ -252,41 +240,13 @@ fn check_together(
     }
 
     // P-AXIS-00015: modes of spindles, and undefined modes
-    let (mode, is_linear) =
-        (parameters.get(axis_general::MODE), kind_of(parameters) == AxisKind::Linear);
-    let wrong = if parameters.set_by(axis_general::MODE).is_none() {
-        None
-    } else if kind_of(parameters) == AxisKind::Spindle && mode & bits::MODULO == 0 {
-        Some((Condition::SpindleMode, "is not valid for a spindle", mode & !0x3 | bits::MODULO))
-    } else if mode & bits::C_AXIS != 0 && mode & bits::MODULO == 0 {
-        Some((
-            Condition::CAxisWithoutModulo,
-            "is that of a C axis but not of a modulo axis",
-            mode | bits::MODULO,
-        ))
-    } else if mode < 0x40 && [0x1, 0x2, 0x4].iter().all(|bit| mode & bit == 0) {
-        Some((Condition::AxisMode, "is unknown", if is_linear { 0x1 } else { 0x4 }))
-    } else {
-        None
-    };
-    if let Some((condition, what, used)) = wrong {
+    if let Some((condition, what, used)) = wrong_mode(parameters) {
+        let mode = parameters.get(axis_general::MODE);
         let text = format!("kenngr.achs_mode: {mode} {what}, {used} is used");
         put(parameters, condition, axis_general::MODE.place(), text, f64::from(used));
     }
 
-    // P-AXIS-00557 has precedence over the axis mode; K-0075 where it cannot, see `inert`
-    let calculation = number(parameters, axis_functions::MODULO_CALCULATION);
-    if kind_of(parameters) == AxisKind::Rotary && calculation >= 0.0 {
-        let mode = parameters.get(axis_general::MODE);
-        let used = if calculation > 0.0 {
-            mode | bits::MODULO
-        } else {
-            mode & !bits::MODULO | bits::LINEAR
-        };
-        let Place { row, indices } = axis_general::MODE.place();
-        let at = parameters.set_by(axis_functions::MODULO_CALCULATION).and_then(|s| s.at.clone());
-        parameters.set(row, indices, Value::Number(f64::from(used)), at);
-    }
+    select_modulo_calculation(parameters);
 
     // P-AXIS-00566 permits velocity feedforward only
     let flags = parameters.get(axis_drive::FEEDFORWARD);
@@ -313,6 +273,60 @@ fn check_together(
         );
         put(parameters, Condition::SimulationDamping, numerator.place(), text, 0.999 * n);
     }
+}
+
+/// A gear stage at start-up (P-AXIS-00079) that the list does not have.
+fn check_gear_stage(
+    parameters: &Parameters,
+    axis: Option<&AxisRef>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    // Assumption: the page of 3210 names gear changes of programs only
+    let stage = parameters.get(axis_general::GEAR_STAGE);
+    if gears::of_number(parameters, stage).is_some() {
+        return;
+    }
+    let place = axis_general::GEAR_STAGE.place();
+    let text = format!("kenngr.getriebe_stufe: no gear stage has the number {stage}");
+    let diagnostic = Diagnostic::new(Condition::GearUnknown, text).value(
+        ValueKind::Wrong,
+        f64::from(stage),
+        "-",
+    );
+    let at = parameters.set_by(place).and_then(|s| s.at.clone());
+    diagnostics.push(finish(diagnostic, place.row, at, axis));
+}
+
+/// What is wrong with the axis mode of the list (P-AXIS-00015), and the mode that is used instead.
+fn wrong_mode(parameters: &Parameters) -> Option<(Condition, &'static str, u32)> {
+    parameters.set_by(axis_general::MODE)?;
+    let (mode, kind) = (parameters.get(axis_general::MODE), kind_of(parameters));
+    let has = |flags: u32| mode & flags != 0;
+    if kind == AxisKind::Spindle && !has(bits::MODULO) {
+        Some((Condition::SpindleMode, "is not valid for a spindle", mode & !0x3 | bits::MODULO))
+    } else if has(bits::C_AXIS) && !has(bits::MODULO) {
+        let what = "is that of a C axis but not of a modulo axis";
+        Some((Condition::CAxisWithoutModulo, what, mode | bits::MODULO))
+    } else if mode < 0x40 && !has(0x1 | 0x2 | 0x4) {
+        let used = if kind == AxisKind::Linear { 0x1 } else { 0x4 };
+        Some((Condition::AxisMode, "is unknown", used))
+    } else {
+        None
+    }
+}
+
+/// P-AXIS-00557 has precedence over the axis mode; K-0075 where it cannot, see `inert`.
+fn select_modulo_calculation(parameters: &mut Parameters) {
+    let calculation = parameters.listed(axis_functions::MODULO_CALCULATION).unwrap_or_default();
+    if kind_of(parameters) != AxisKind::Rotary || calculation < 0.0 {
+        return;
+    }
+    let mode = parameters.get(axis_general::MODE);
+    let used =
+        if calculation > 0.0 { mode | bits::MODULO } else { mode & !bits::MODULO | bits::LINEAR };
+    let Place { row, indices } = axis_general::MODE.place();
+    let at = parameters.set_by(axis_functions::MODULO_CALCULATION).and_then(|s| s.at.clone());
+    parameters.set(row, indices, Value::Number(f64::from(used)), at);
 }
 
 /// K-0032: the sampling time in the list for the simulated drive (P-AXIS-00239 / P-AXIS-00238) differs from the cycle,

@@ -4,6 +4,8 @@
 /// A row of a table.
 #[derive(Clone, Debug, Default)]
 pub struct Row {
+    /// Machine with its own lists, or the built-in one.
+    pub machine: Option<String>,
     /// Settings of the lists.
     pub settings: Vec<String>,
     /// Other files: name and text.
@@ -38,6 +40,8 @@ pub fn rows(table: &str) -> Vec<Row> {
             always.push(setting.to_owned());
         } else if let Some(setting) = line.strip_prefix("with ") {
             here.settings.push(setting.to_owned());
+        } else if let Some(name) = line.strip_prefix("machine ") {
+            here.machine = Some(name.to_owned());
         } else if let Some(text) = line.strip_prefix("before ") {
             before = lines(text);
         } else if let Some(text) = line.strip_prefix("after ") {

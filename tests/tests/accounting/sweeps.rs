@@ -35,7 +35,7 @@ fn axes_vary_together() {
 
 /// What a program sets itself does not vary: the sweep says so.
 #[test]
-fn a_value_that_the_program_sets_itself_is_told() {
+fn a_value_that_the_program_sets_itself_is_reported() {
     let own = format!("#VIB GUARD ON [MODE=1 FREQ=30]\n{SQUARE}");
     let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
     assert_eq!(rows[0][1..], rows[1][1..]);

@@ -8,7 +8,7 @@ use super::model::axes_of;
 use super::tree::{Expr, Function, Kind, Motion, Operator, Program, Statement, Subroutine, Word};
 use kontur_kit::Random;
 
-/// Where a statement stands.
+/// Place of a statement.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Subroutines with smaller numbers may be called.

@@ -102,7 +102,7 @@ pub struct Contour {
     pub radius: f64,
     /// Another radius from this element on; the element is a line, which leads to that radius.
     pub change: Option<(usize, f64)>,
-    /// G41 or G42, and G40, stand in the blocks of the motions.
+    /// G41 or G42, and G40, are in the blocks of the motions.
     pub in_block: bool,
     pub approach: Motion,
     pub elements: Vec<Motion>,

@@ -229,7 +229,7 @@ mod tests {
 
     /// Announced before the last step or right after it: the same cycle.
     #[test]
-    fn a_stop_told_behind_the_last_step() {
+    fn a_stop_reported_after_the_last_step() {
         let mut m = monitor(Some(0.2));
         (1..=10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
         m.expect(1.0);
@@ -238,7 +238,7 @@ mod tests {
 
     /// A stop expected again while the axis settles, as by a dwell or a block without motion, keeps its t1.
     #[test]
-    fn a_stop_told_again_keeps_its_time() {
+    fn a_stop_reported_again_keeps_its_time() {
         let mut m = monitor(Some(0.2));
         (1..10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
         m.expect(1.0);

@@ -1,5 +1,6 @@
 //! The picture of a sweep: results over the first parameter, one curve for each combination of the others.
 
+use super::Vary;
 use super::rows::Rows;
 use crate::Error;
 use crate::args::SweepArgs;
@@ -38,40 +39,16 @@ pub(super) fn draw(
     let is_choice = numbers.is_none();
     let values =
         numbers.unwrap_or_else(|| (0_u32..).map(f64::from).take(first.values.len()).collect());
-    let mut series: Vec<Series<'_>> = Vec::new();
-    for (row, combination) in combinations.iter().enumerate() {
-        let (&i, rest) = combination.split_first().unwrap_or((&0, &[]));
-        let point = (values[i], row);
-        match series.iter_mut().find(|s| s.rest == rest) {
-            Some(s) => s.points.push(point),
-            None => series.push(Series { rest, points: vec![point] }),
-        }
-    }
+    let series = series_of(combinations, &values);
     if series.len() > MOST_CURVES {
         let text = format!("--vary: {} curves in a picture, maximum: {MOST_CURVES}", series.len());
         return Err(Error::Usage(text));
-    }
-    for s in &mut series {
-        s.points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     // the first result column follows the parameters
     let state = args.vary.len();
     let finished =
         |row: usize| rows.cells[row][state] == Cell::Word(State::Finished.name().to_owned());
-    let legend = series.iter().map(|s| {
-        let names =
-            others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
-        let mut name = names.collect::<Vec<_>>().join(", ");
-        if let Some(end) = end(s, finished) {
-            let comma = if name.is_empty() { "" } else { ": " };
-            name = format!("{name}{comma}{end}");
-        }
-        name
-    });
-    let mut legend: Vec<String> = legend.collect();
-    if legend.iter().all(String::is_empty) {
-        legend.clear();
-    }
+    let legend = legend(&series, others, finished);
     let shown = |name: &&String| {
         if args.columns.is_empty() {
             USUAL.contains(&name.as_str()) || args.amplitude.iter().any(|a| a.text == **name)
@@ -81,19 +58,15 @@ pub(super) fn draw(
     };
     let panels =
         rows.header.iter().enumerate().filter(|(_, name)| shown(name)).map(|(column, name)| {
-            let lines: Vec<Line<Points>> = series
-                .iter()
-                .enumerate()
-                .map(|(number, s)| {
-                    let value = |row: usize| {
-                        let cell = rows.cells[row][column].number();
-                        // values of an aborted run are not results
-                        cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
-                    };
-                    let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
-                    Line::series(number, points)
-                })
-                .collect();
+            // values of an aborted run are not results
+            let value = |row: usize| {
+                rows.cells[row][column].number().filter(|_| finished(row)).unwrap_or(f64::NAN)
+            };
+            let line = |(number, s): (usize, &Series<'_>)| {
+                let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
+                Line::series(number, points)
+            };
+            let lines: Vec<Line<Points>> = series.iter().enumerate().map(line).collect();
             let x = if is_choice {
                 Scale::categories(first.key.clone(), first.values.clone())
             } else {
@@ -118,6 +91,41 @@ pub(super) fn draw(
         panels,
     };
     Ok(plot.draw())
+}
+
+/// The runs by the values of all parameters but the first one, whose `values` are the abscissas.
+fn series_of<'a>(combinations: &'a [Vec<usize>], values: &[f64]) -> Vec<Series<'a>> {
+    let mut series: Vec<Series<'_>> = Vec::new();
+    for (row, combination) in combinations.iter().enumerate() {
+        let (&i, rest) = combination.split_first().unwrap_or((&0, &[]));
+        let point = (values[i], row);
+        match series.iter_mut().find(|s| s.rest == rest) {
+            Some(s) => s.points.push(point),
+            None => series.push(Series { rest, points: vec![point] }),
+        }
+    }
+    for s in &mut series {
+        s.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    series
+}
+
+/// Names of the series by the values of their parameters, and where their runs end; none if there is nothing to name.
+fn legend(
+    series: &[Series<'_>],
+    others: &[Vary],
+    finished: impl Fn(usize) -> bool + Copy,
+) -> Vec<String> {
+    let name = |s: &Series<'_>| {
+        let names =
+            others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
+        let name = names.collect::<Vec<_>>().join(", ");
+        let Some(end) = end(s, finished) else { return name };
+        let comma = if name.is_empty() { "" } else { ": " };
+        format!("{name}{comma}{end}")
+    };
+    let legend: Vec<String> = series.iter().map(name).collect();
+    if legend.iter().all(String::is_empty) { Vec::new() } else { legend }
 }
 
 /// The value up to which the runs of a series finish, if some do not.

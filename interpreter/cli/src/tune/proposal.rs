@@ -175,7 +175,7 @@ mod tests {
     /// Half of a vibration of the other frequency is far more than 5 % of the strongest one, but not if it is a tenth
     /// as strong.
     #[test]
-    fn a_second_vibration_that_stays_is_told() {
+    fn a_second_vibration_that_remains_is_reported() {
         let other = |peak_ratio| {
             let e = |value| Estimate { value, half_width: 0.0 };
             Mode { freq: e(31.0), damping: e(0.1), peak_ratio }

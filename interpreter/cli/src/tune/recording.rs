@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn agreement_is_told() {
+    fn agreement_is_reported() {
         let e = |value, half_width| Estimate { value, half_width };
         let same = together(&[e(6.0, 0.02), e(6.01, 0.02)], "frequency", "Hz", 2);
         assert!(same.starts_with("agree"), "{same}");

@@ -19,7 +19,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::report::{Report, Subject};
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
-use insertions::inserts_behind;
+use insertions::inserts_after;
 use offsets::axis_functions;
 
 /// Actions after a block: first a call, then the point where the program continues.
@@ -133,7 +133,7 @@ impl Decoder {
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
         }
-        if inserts_behind(&words) {
+        if inserts_after(&words) {
             self.insertions(&words);
         }
         if let Some(at) = banding {
@@ -246,7 +246,7 @@ impl Decoder {
             };
             self.report.keep(outcome);
         }
-        if !inserts_behind(words) {
+        if !inserts_after(words) {
             self.insertions(words);
         }
     }
@@ -264,14 +264,7 @@ impl Decoder {
             }
             Act::Manual => self.manual_mode(g, words)?,
             Act::Gear => self.change_gears(g, words)?,
-            Act::CornerDeceleration(on) => {
-                if on && self.motion.corner.is_none() {
-                    let text = "G13 without the values of #CORNER PARAM";
-                    return Err(Fault::new(Condition::NoCornerParameters, text, g.span)
-                        .with(|d| d.value(ValueKind::Current, 13, "-")));
-                }
-                self.modal.corner_deceleration = on;
-            }
+            Act::CornerDeceleration(on) => self.corner_deceleration(on, g.span)?,
             Act::EngagementFeed(on) => {
                 self.modal.engagement_feed = on;
                 if on {
@@ -295,44 +288,14 @@ impl Decoder {
                 let ratio = weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
-            Act::Feedforward(on) if self.motion.feedforward.on != on => {
-                if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
-                    let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
-                    let fault = Fault::new(Condition::ListNoEffect, text, g.span)
-                        .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
-                    self.report.note_once(Subject::G(135), fault);
-                }
-                self.motion.feedforward.on = on;
-                self.contour.event(self.motion.feedforward.event());
-            }
+            Act::Feedforward(on) => self.feedforward(on, g.span),
             // Assumption: without axes, every transition is a stop; the pages do not define the values of the axes
             Act::StopAtTransitions(_) if !words.axes.is_empty() => {
                 let what = format!("G{} with axes", g.row.number);
                 return Err(Fault::unsupported(what, g.span));
             }
-            Act::StopAtTransitions(stop) => {
-                let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
-                if self.modal.look_ahead != mode {
-                    self.modal.look_ahead = mode;
-                    self.motion.dynamics_changed();
-                }
-            }
-            Act::LookAheadFunctions => {
-                let value = g.value.unwrap_or_default();
-                let number = crate::exec::values::number::whole(value, 0, LOOK_AHEAD_FORMAT);
-                if number.is_none_or(|number| number > 14) {
-                    let condition = match number {
-                        Some(_) => Condition::LookAheadRange,
-                        None => Condition::LookAheadFormat,
-                    };
-                    let text = format!("G115={value}, allowed: 0 to 14");
-                    return Err(Fault::new(condition, text, g.span)
-                        .with(|d| d.value(ValueKind::Wrong, value, "-")));
-                }
-                let text = "G115: single functions of the look-ahead cannot be switched off";
-                self.report
-                    .note_once(Subject::G(115), Fault::new(Condition::Fallback, text, g.span));
-            }
+            Act::StopAtTransitions(stop) => self.stop_at_transitions(stop),
+            Act::LookAheadFunctions => self.look_ahead_functions(g)?,
             Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
@@ -358,6 +321,60 @@ impl Decoder {
             }
             _ => {}
         }
+        Ok(())
+    }
+
+    /// G12, G13.
+    fn corner_deceleration(&mut self, on: bool, span: Span) -> Outcome<()> {
+        if on && self.motion.corner.is_none() {
+            let text = "G13 without the values of #CORNER PARAM";
+            return Err(Fault::new(Condition::NoCornerParameters, text, span)
+                .with(|d| d.value(ValueKind::Current, 13, "-")));
+        }
+        self.modal.corner_deceleration = on;
+        Ok(())
+    }
+
+    /// G135, G137.
+    fn feedforward(&mut self, on: bool, span: Span) {
+        if self.motion.feedforward.on == on {
+            return;
+        }
+        if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
+            let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
+            let fault = Fault::new(Condition::ListNoEffect, text, span)
+                .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
+            self.report.note_once(Subject::G(135), fault);
+        }
+        self.motion.feedforward.on = on;
+        self.contour.event(self.motion.feedforward.event());
+    }
+
+    /// G116, G117.
+    fn stop_at_transitions(&mut self, stop: bool) {
+        let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
+        if self.modal.look_ahead != mode {
+            self.modal.look_ahead = mode;
+            self.motion.dynamics_changed();
+        }
+    }
+
+    /// G115.
+    fn look_ahead_functions(&mut self, g: &GWord) -> Outcome<()> {
+        let value = g.value.unwrap_or_default();
+        let number = crate::exec::values::number::whole(value, 0, LOOK_AHEAD_FORMAT);
+        if number.is_none_or(|number| number > 14) {
+            let condition = match number {
+                Some(_) => Condition::LookAheadRange,
+                None => Condition::LookAheadFormat,
+            };
+            let text = format!("G115={value}, allowed: 0 to 14");
+            return Err(
+                Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Wrong, value, "-"))
+            );
+        }
+        let text = "G115: single functions of the look-ahead cannot be switched off";
+        self.report.note_once(Subject::G(115), Fault::new(Condition::Fallback, text, g.span));
         Ok(())
     }
 }

@@ -9,6 +9,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::contouring::{ContourParameters, Mode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::report::Report;
 use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 use kontur_motion::block::{CurveJerk, SplineSettings};
@@ -161,65 +162,83 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         at_least_an_increment(condition, "PRE_DIST", keys.pre_dist, unit)?;
         at_least_an_increment(condition, "POST_DIST", keys.post_dist, unit)?;
     }
-    set(&mut settings.path_dev_mm, keys.path_dev, unit);
-    set(&mut settings.pre_mm, keys.pre_dist, unit);
-    set(&mut settings.post_mm, keys.post_dist, unit);
-    set(&mut settings.path_dist_mm, keys.path_dist, unit);
-    let common = &mut settings.common;
-    set(&mut common.relevant_path_mm, keys.relevant_path, unit);
-    set(&mut common.track_dev_deg, keys.track_dev, 1.0);
-    set(&mut common.relevant_track_deg, keys.relevant_track, 1.0);
-    if let Some((percent, _)) = keys.remain_part {
-        common.remain_ratio = percent / 100.0;
-    }
-    set(&mut common.max_angle_deg, keys.max_angle, 1.0);
-    switch(&mut common.constant_velocity, keys.const_vel);
-    if let Some((mode, _)) = keys.check_jerk {
-        common.curve_jerk =
-            Some(match crate::exec::values::number::whole(mode.unwrap_or(1.0), 0, 3) {
-                Some(0) => CurveJerk::Unlimited,
-                Some(2) => CurveJerk::Ramps,
-                _ => CurveJerk::Geometric,
-            });
-    }
-    let old = decoder.contour.contouring.mode;
-    let soft = old == Mode::DistSoft || settings.mode == Mode::DistSoft;
-    if decoder.modal.contouring && soft && old != settings.mode {
-        let text = "#CONTOUR MODE to or from DIST_SOFT while contouring is active (G261)";
-        return Err(Fault::new(Condition::SoftContouringActive, text, call.span()));
-    }
-    let master = decoder.machine.axes.iter().find(|axis| axis.is_gantry_master());
-    if let (Mode::DistSoft, Some(master)) = (settings.mode, master) {
-        let text = format!("#CONTOUR MODE [DIST_SOFT]: {} is a gantry master", master.name());
-        return Err(Fault::new(Condition::SoftContouringOfMaster, text, call.span()));
-    }
+    keys.set_numbers(&mut settings, unit);
+    check_change_of_mode(decoder, settings.mode, call.span())?;
     decoder.contour.contouring = settings;
-    for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
-        if let Some(span) = at {
-            let text = format!("{action}: functions act at the corner here");
-            decoder.report.note_once(action, Fault::new(Condition::Fallback, text, span));
-        }
-    }
-    for (key, span) in keys.without_effect() {
-        let text = format!("#CONTOUR MODE: {key} has no effect");
-        decoder.report.note_once(key, Fault::new(Condition::Fallback, text, span));
-    }
-    for (mode, key, span) in keys.of_another_mode() {
-        let text = format!("#CONTOUR MODE: {mode} does not use {key}");
-        decoder.report.note_once(
-            format!("{mode} {key}").as_str(),
-            Fault::new(Condition::Fallback, text, span),
-        );
-    }
-    if matches!(settings.mode, Mode::DistSoft | Mode::DistMaster) {
-        let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
-        decoder.report.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, call.span()));
-    }
+    report_unused(&mut decoder.report, &keys, settings.mode, call.span());
     if let Some(on) = call.command.on {
         decoder.modal.contouring = on;
         decoder.modal.exact_stop &= !on;
     }
     Ok(())
+}
+
+impl ContourArguments {
+    /// Changes the settings that are given as numbers; lengths in `unit`.
+    fn set_numbers(&self, settings: &mut ContourParameters, unit: f64) {
+        set(&mut settings.path_dev_mm, self.path_dev, unit);
+        set(&mut settings.pre_mm, self.pre_dist, unit);
+        set(&mut settings.post_mm, self.post_dist, unit);
+        set(&mut settings.path_dist_mm, self.path_dist, unit);
+        let common = &mut settings.common;
+        set(&mut common.relevant_path_mm, self.relevant_path, unit);
+        set(&mut common.track_dev_deg, self.track_dev, 1.0);
+        set(&mut common.relevant_track_deg, self.relevant_track, 1.0);
+        if let Some((percent, _)) = self.remain_part {
+            common.remain_ratio = percent / 100.0;
+        }
+        set(&mut common.max_angle_deg, self.max_angle, 1.0);
+        switch(&mut common.constant_velocity, self.const_vel);
+        if let Some((mode, _)) = self.check_jerk {
+            common.curve_jerk =
+                Some(match crate::exec::values::number::whole(mode.unwrap_or(1.0), 0, 3) {
+                    Some(0) => CurveJerk::Unlimited,
+                    Some(2) => CurveJerk::Ramps,
+                    _ => CurveJerk::Geometric,
+                });
+        }
+    }
+}
+
+/// `DIST_SOFT` begins and ends only while contouring is off, and is not for gantry masters.
+fn check_change_of_mode(decoder: &Decoder, mode: Mode, span: Span) -> Outcome<()> {
+    let old = decoder.contour.contouring.mode;
+    let soft = old == Mode::DistSoft || mode == Mode::DistSoft;
+    if decoder.modal.contouring && soft && old != mode {
+        let text = "#CONTOUR MODE to or from DIST_SOFT while contouring is active (G261)";
+        return Err(Fault::new(Condition::SoftContouringActive, text, span));
+    }
+    let master = decoder.machine.axes.iter().find(|axis| axis.is_gantry_master());
+    if let (Mode::DistSoft, Some(master)) = (mode, master) {
+        let text = format!("#CONTOUR MODE [DIST_SOFT]: {} is a gantry master", master.name());
+        return Err(Fault::new(Condition::SoftContouringOfMaster, text, span));
+    }
+    Ok(())
+}
+
+/// Notes about keys that change nothing, and about modes whose curve is not published.
+fn report_unused(report: &mut Report, keys: &ContourArguments, mode: Mode, span: Span) {
+    for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
+        if let Some(span) = at {
+            let text = format!("{action}: functions act at the corner here");
+            report.note_once(action, Fault::new(Condition::Fallback, text, span));
+        }
+    }
+    for (key, span) in keys.without_effect() {
+        let text = format!("#CONTOUR MODE: {key} has no effect");
+        report.note_once(key, Fault::new(Condition::Fallback, text, span));
+    }
+    for (mode, key, span) in keys.of_another_mode() {
+        let text = format!("#CONTOUR MODE: {mode} does not use {key}");
+        report.note_once(
+            format!("{mode} {key}").as_str(),
+            Fault::new(Condition::Fallback, text, span),
+        );
+    }
+    if matches!(mode, Mode::DistSoft | Mode::DistMaster) {
+        let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
+        report.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, span));
+    }
 }
 
 /// Applies a number if it is given, converted from its unit.

@@ -42,6 +42,43 @@ impl ContourLines {
     }
 }
 
+/// The other coordinate of the end of a line from `here` in the direction of `angle`, both in the plane, whose coordinate
+/// number `known` (0 or 1) is `value` there; K-0127 if the line does not reach it.
+fn end_of_line(angle: f64, here: [f64; 2], known: usize, value: f64, span: Span) -> Outcome<f64> {
+    let direction = [cos_deg(angle), sin_deg(angle)];
+    let way = value - here[known];
+    // the end lies in the direction of the angle, and the line is not parallel to the other axis
+    if direction[known] * way <= 0.0 {
+        let text = format!("a line of {angle} deg does not reach the coordinate");
+        return Err(Fault::new(Condition::ContourLineMissed, text, span));
+    }
+    Ok(here[1 - known] + way / direction[known] * direction[1 - known])
+}
+
+/// Point of the plane in which two lines meet, the first one from `here` and the second one to `end`, by their angles;
+/// 21892 if they are parallel, K-0127 if they do not meet on the way to the end.
+fn corner_of_lines(
+    [before, angle]: [f64; 2],
+    here: [f64; 2],
+    end: [f64; 2],
+    span: Span,
+) -> Outcome<[f64; 2]> {
+    let [d, direction] = [before, angle].map(|angle| [cos_deg(angle), sin_deg(angle)]);
+    let sine = d[0] * direction[1] - d[1] * direction[0];
+    if sine.abs() < PARALLEL {
+        let text = format!("two contour lines of {before} and {angle} deg never meet");
+        return Err(Fault::new(Condition::ContourLineParallel, text, span));
+    }
+    let way = [end[0] - here[0], end[1] - here[1]];
+    let to_corner = (way[0] * direction[1] - way[1] * direction[0]) / sine;
+    let to_end = (d[0] * way[1] - d[1] * way[0]) / sine;
+    if to_corner <= 0.0 || to_end <= 0.0 {
+        let text = "the two contour lines do not meet on the way to the end";
+        return Err(Fault::new(Condition::ContourLineMissed, text, span));
+    }
+    Ok([here[0] + to_corner * d[0], here[1] + to_corner * d[1]])
+}
+
 impl Decoder {
     /// Applies `#ANG` to the current block.
     pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
@@ -84,7 +121,6 @@ impl Decoder {
                 (if absolute { value } else { from + value }, absolute)
             })
         });
-        let direction = [cos_deg(angle), sin_deg(angle)];
         match (self.motion.contour_line.open.take(), end) {
             (None, [None, None]) => {
                 let [insertion, transition] = [Group::Insertion, Group::Transition];
@@ -102,21 +138,16 @@ impl Decoder {
                 let text = "#ANG with both coordinates of the plane";
                 Err(Fault::new(Condition::ContourLineTwice, text, span))
             }
-            (None, [x, y]) => {
-                let (known, axis, value) = match (x, y) {
-                    (Some((x, _)), _) => (0, second, x),
-                    (_, Some((y, _))) => (1, first, y),
-                    (None, None) => return Ok(ContourLine::Single),
-                };
-                let way = value - here[known];
-                // the end lies in the direction of the angle, and the line is not parallel to the other axis
-                if direction[known] * way <= 0.0 {
-                    let text = format!("a line of {angle} deg does not reach the coordinate");
-                    return Err(Fault::new(Condition::ContourLineMissed, text, span));
-                }
-                let other = here[1 - known] + way / direction[known] * direction[1 - known];
+            (None, [Some((value, _)), None]) => {
+                let end = end_of_line(angle, here, 0, value, span)?;
                 self.motion.contour_line.targets =
-                    vec![Target { axis, value: other, absolute: true }];
+                    vec![Target { axis: second, value: end, absolute: true }];
+                Ok(ContourLine::Single)
+            }
+            (None, [None, Some((value, _))]) => {
+                let end = end_of_line(angle, here, 1, value, span)?;
+                self.motion.contour_line.targets =
+                    vec![Target { axis: first, value: end, absolute: true }];
                 Ok(ContourLine::Single)
             }
             (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
@@ -129,20 +160,7 @@ impl Decoder {
                     let what = "a chamfer or rounding in a block of two contour lines";
                     return Err(Fault::unsupported(what, span));
                 }
-                let d = [cos_deg(before), sin_deg(before)];
-                let sine = d[0] * direction[1] - d[1] * direction[0];
-                if sine.abs() < PARALLEL {
-                    let text = format!("two contour lines of {before} and {angle} deg never meet");
-                    return Err(Fault::new(Condition::ContourLineParallel, text, span));
-                }
-                let way = [x - here[0], y - here[1]];
-                let to_corner = (way[0] * direction[1] - way[1] * direction[0]) / sine;
-                let to_end = (d[0] * way[1] - d[1] * way[0]) / sine;
-                if to_corner <= 0.0 || to_end <= 0.0 {
-                    let text = "the two contour lines do not meet on the way to the end";
-                    return Err(Fault::new(Condition::ContourLineMissed, text, span));
-                }
-                let corner = [here[0] + to_corner * d[0], here[1] + to_corner * d[1]];
+                let corner = corner_of_lines([before, angle], here, [x, y], span)?;
                 Ok(ContourLine::Corner(corner, source))
             }
             (Some(_), _) => {

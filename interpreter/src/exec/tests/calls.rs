@@ -38,7 +38,7 @@ fn a_program_of_the_list_runs_before_every_end() {
 }
 
 #[test]
-fn conditions_of_a_block_that_changes_the_level_stand_in_its_file() {
+fn conditions_of_a_block_that_changes_the_level_name_its_file() {
     let place = |run: &Run| {
         let place = run.diagnostics[0].source.as_ref().unwrap();
         (place.file.to_string(), place.line)

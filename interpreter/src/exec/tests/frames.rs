@@ -1,20 +1,6 @@
 //! Mirroring, rotation and coordinate systems transform the complete path: arcs, helices, chamfers and compensation.
 
-use super::{assert_near, clean, said};
-
-/// Points of every motion of a program.
-fn points(text: &str) -> Vec<[f64; 3]> {
-    let run = clean(text);
-    let mut points = Vec::new();
-    for block in run.blocks() {
-        for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
-            let mut q = [0.0; 3];
-            block.path.position(share * block.path.length(), &mut q);
-            points.push(q);
-        }
-    }
-    points
-}
+use super::{assert_near, clean, points, said};
 
 const PROGRAMS: &[&str] = &[
     "X5 Y2\nG02 X15 Y2 I5\nG03 X15 Y12 R5 Z4\nG02 I3 J1\nG161 G03 X10 Y20 Z9 I12.5 J16 K2\n",

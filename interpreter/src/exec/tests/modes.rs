@@ -56,7 +56,7 @@ fn an_acceleration_of_nothing_becomes_the_least_one() {
 }
 
 #[test]
-fn functions_before_and_behind_the_motion() {
+fn functions_before_and_after_the_motion() {
     let run = clean("X1 F100 M200=800 H5\nM00\nM1\nT5\nM30\n");
     assert_eq!(
         run.syncs(),

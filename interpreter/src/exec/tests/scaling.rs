@@ -1,20 +1,7 @@
 //! `#SCALE` has the same effect as a program in which the coordinates are written larger or smaller.
 
-use super::clean;
+use super::{clean, points};
 use kontur_kit::Random;
-
-/// Points of every motion of a program.
-fn points(text: &str) -> Vec<[f64; 3]> {
-    let mut points = Vec::new();
-    for block in clean(text).blocks() {
-        for share in [0.0, 0.3, 0.5, 0.8, 1.0] {
-            let mut q = [0.0; 3];
-            block.path.position(share * block.path.length(), &mut q);
-            points.push(q);
-        }
-    }
-    points
-}
 
 #[track_caller]
 fn assert_alike(a: &str, b: &str) {

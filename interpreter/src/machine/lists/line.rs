@@ -78,7 +78,7 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     if raw == Raw::Code {
         return Parts { value: Some(code(rest)).filter(|code| !code.is_empty()), dropped: None };
     }
-    let rest = if raw == Raw::Text { rest } else { behind_remarks(rest) };
+    let rest = if raw == Raw::Text { rest } else { after_remarks(rest) };
     if rest.is_empty() || is_comment(rest) {
         return Parts { value: None, dropped: None };
     }
@@ -122,7 +122,7 @@ fn code(rest: &str) -> &str {
 }
 
 /// The text after remarks in closed brackets: the documents print some between key and value.
-fn behind_remarks(mut rest: &str) -> &str {
+fn after_remarks(mut rest: &str) -> &str {
     while let Some((_, behind)) = rest.strip_prefix('(').and_then(|r| r.split_once(')')) {
         let behind = behind.trim_start();
         if behind.is_empty() {

@@ -242,9 +242,9 @@ impl Builder<'_> {
                 && name.bytes().all(|b| b.is_ascii_uppercase() || b == b'_')
         };
         // `(MODE=2)`, `(DEV PATH_DEV=0.1)`
-        let behind_flag = remark[..key].bytes().all(|b| b.is_ascii_uppercase())
+        let after_flag = remark[..key].bytes().all(|b| b.is_ascii_uppercase())
             && keys.split_ascii_whitespace().nth(1).is_some_and(has_value);
-        if is_key && (remark[key..].trim_ascii_start().starts_with('=') || behind_flag) {
+        if is_key && (remark[key..].trim_ascii_start().starts_with('=') || after_flag) {
             let start = end + behind.len() - behind.trim_ascii_start().len();
             let text = "a remark that looks like keys: it has no effect";
             let problem = Problem::new(Condition::Odd, Span::new(start, start + 1), text)

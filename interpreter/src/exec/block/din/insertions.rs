@@ -14,7 +14,7 @@ use crate::syntax::ast::Span;
 /// `#CHR`, `#CHF` and `#RND` in a motion apply to the corner at its end; as separate blocks they lie between two motions.
 ///
 /// Source: TF5200 diagnosis 256490379 (`#ANG=30 #RND=3 Z25`).
-pub(super) fn inserts_behind(words: &Words<'_>) -> bool {
+pub(super) fn inserts_after(words: &Words<'_>) -> bool {
     let of_corner = |name: &str| matches!(name, "CHR" | "CHF" | "RND");
     // an arc may return to its start, or have an angle instead of its end
     let moves = !words.axes.is_empty()
