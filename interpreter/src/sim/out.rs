@@ -159,7 +159,7 @@ impl Simulation {
     pub(crate) fn exceeded(&mut self, samples: &mut Samples) -> Option<Diagnostic> {
         let (i, exceeded) = samples.exceeded.take()?;
         let mut d = fault::exceeded(&exceeded);
-        d.source = self.executor.locate(samples.cycles[i].at);
+        d.source = self.program.locate(samples.cycles[i].at);
         Some(d)
     }
 }
