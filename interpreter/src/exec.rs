@@ -10,6 +10,7 @@ mod contour;
 mod decoder;
 mod fault;
 mod geometry;
+mod live;
 mod motion;
 mod names;
 mod options;
@@ -22,13 +23,15 @@ mod values;
 pub(crate) use block::dialect::unknown_g;
 pub(crate) use block::groups::unsupported as unsupported_function;
 pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value};
+pub(crate) use program::ahead::{Ahead, Decoded, connection};
 pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
+pub(crate) use program::places::Places;
 pub(crate) use step::{
     Approach, BandingRun, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion,
     OscillatingMotion, Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion,
-    SpindleState, Step, Sync, WearSetting, WornPart,
+    SpindleState, Step, Sync, TimerCall, Told, WearSetting, WornPart,
 };
 pub(crate) use values::system::{meaning_of, meanings};
 

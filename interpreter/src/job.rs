@@ -35,8 +35,7 @@ pub use crate::exec::{
     Access, Checked, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value,
 };
 pub use crate::record::facts::{Apart, AxisFacts, Facts, FileNames};
-pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
-pub use apart::Work;
+pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals, Work};
 pub use lists::MachineLists;
 pub use run::{Run, Sink};
 

@@ -17,11 +17,13 @@ mod inputs;
 mod out;
 mod patience;
 mod probe;
+mod program;
 mod real_time;
 mod smoothing;
 mod spindle;
 mod start;
 mod steps;
+mod thread;
 mod totals;
 mod wait;
 mod wear;
@@ -29,9 +31,11 @@ mod wear;
 pub use inputs::{Change, Changes, Signal};
 pub(crate) use out::{Measuring, Messages, Samples};
 pub(crate) use start::impossible_axes;
+pub use thread::Work;
+pub(crate) use thread::give;
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::exec::{EndReason, Event, Executor, SourceRef, Sync};
+use crate::exec::{EndReason, Event, SourceRef, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion, RowBuffer};
 use axes::Driver;
@@ -45,6 +49,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use probe::Probing;
+use program::Program;
 use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
@@ -101,7 +106,7 @@ enum After {
 pub(crate) struct Simulation {
     machine: Arc<Machine>,
     cycle: CycleTime,
-    executor: Executor,
+    program: Program,
     smoothing: Smoothing,
     planner: Planner,
     /// Path axes, spindles, gantry slaves.
@@ -178,9 +183,14 @@ impl Simulation {
         self.record.omit_deviation(path_axes);
     }
 
+    /// Decodes the program on another thread from here on, if `start` can start one.
+    pub(crate) fn decode_ahead(&mut self, start: impl FnOnce(Work) -> bool) {
+        self.program.decode_ahead(start);
+    }
+
     /// Names of the source files, in the order of [`CycleRecord::file`].
     pub(crate) fn files(&self) -> &[Arc<str>] {
-        self.executor.files()
+        self.program.files()
     }
 
     /// Path axes, then spindles.
@@ -190,15 +200,12 @@ impl Simulation {
 
     /// Messages since the last call, if there are any.
     pub(crate) fn take_messages(&mut self) -> Option<Messages> {
-        if self.executor.has_diagnostics() {
-            self.messages.program = self.executor.take_diagnostics();
-        }
         (!self.messages.is_empty()).then(|| std::mem::take(&mut self.messages))
     }
 
     /// Whether [`Self::take_messages`] would return messages.
     fn has_messages(&self) -> bool {
-        self.executor.has_diagnostics() || !self.messages.is_empty()
+        !self.messages.is_empty()
     }
 
     /// Number of path axes.
@@ -339,7 +346,7 @@ impl Simulation {
         let mut late = fault::out_of_time(last, self.max_time_s, self.cycle);
         let waits = matches!(self.phase, Phase::Waiting(_));
         let block = if waits { self.waits_at } else { self.current };
-        late.source = self.executor.locate(block);
+        late.source = self.program.locate(block);
         self.messages.own.push(late);
         self.totals.aborted = true;
         self.phase = Phase::Done;

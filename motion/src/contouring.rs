@@ -265,6 +265,9 @@ impl Contouring {
             same && (a.feed, a.feed_ratio) == (b.feed, b.feed_ratio)
         });
         let joined = |group: &[Timed]| {
+            if let [single] = group {
+                return Some((single.block.clone(), single.v));
+            }
             let pieces = group.iter().map(|timed| timed.piece.clone()).collect();
             let path = Path::Curve(Box::new(PolyPath::through(pieces, &feed_axes)?));
             let slowest = group.iter().map(|timed| timed.v).fold(f64::INFINITY, f64::min);

@@ -7,13 +7,14 @@ use super::block::modal::Modal;
 use super::contour::Contour;
 use super::fault::Fault;
 use super::geometry::Geometry;
+use super::live::Live;
 use super::motion::state::{MotionState, Straight};
 use super::names::AxisNames;
 use super::options::Options;
 use super::program::state::Calls;
 use super::report::Report;
 use super::shaping::{ShapingState, Worked};
-use super::step::{Feedback, Sync};
+use super::step::Sync;
 use super::values::Values;
 use crate::diag::{Condition, Diagnostic};
 use crate::machine::{Axis, Machine};
@@ -37,7 +38,7 @@ pub(super) struct Signal {
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,
-    pub(super) feedback: Feedback,
+    pub(super) live: Live,
     pub(super) names: AxisNames,
     pub(super) report: Report,
     pub(super) modal: Modal,
@@ -64,7 +65,7 @@ impl Decoder {
         let forced = options.guard.is_some();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
-            feedback: Feedback::default(),
+            live: Live::default(),
             names: AxisNames::new(&machine.axes),
             report: Report::default(),
             modal: Modal::start(
@@ -124,8 +125,9 @@ impl Decoder {
     /// Assumption: coupled axes keep their setpoints, so that slaves stay at the positions given by their masters.
     pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
         self.motion.independent.all_arrived();
+        let lags_mm = self.live.feedback().lag_mm.clone();
         for axis in 0..self.geometry.coordinates.target().len() {
-            let lag_mm = self.feedback.lag_mm.get(axis).copied().unwrap_or(0.0);
+            let lag_mm = lags_mm.get(axis).copied().unwrap_or(0.0);
             let named = axes.is_empty() || axes.contains(&axis);
             if named && lag_mm.abs() > 0.0 && self.motion.couplings.group_of(axis).is_none() {
                 self.shift_position(axis, -lag_mm, true);

@@ -4,6 +4,7 @@
 //! state of the decoder only the values of conditions and the results of a call.
 
 mod actual;
+pub(super) mod ahead;
 pub(super) mod calls;
 pub(super) mod check;
 pub(super) mod cycle_end;
@@ -14,6 +15,7 @@ pub(super) mod index;
 pub(super) mod info;
 mod jumps;
 mod levels;
+pub(super) mod places;
 mod reached;
 pub(super) mod sequence;
 pub(super) mod state;

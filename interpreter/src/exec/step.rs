@@ -3,7 +3,8 @@
 mod event;
 
 pub(crate) use event::{
-    Approach, BandingRun, CuttingSpeed, Event, SpindleMotion, TimerAct, WearSetting, WornPart,
+    Approach, BandingRun, CuttingSpeed, Event, SpindleMotion, TimerAct, TimerCall, WearSetting,
+    WornPart,
 };
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;
@@ -251,6 +252,21 @@ pub(crate) struct OscillatingMotion {
     pub count: Option<u32>,
     /// Its block.
     pub source: SourceRef,
+}
+
+/// News of the machine for the program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Told {
+    /// The state when the next step is requested; without it, the last one remains valid.
+    pub feedback: Option<Feedback>,
+    /// Operations of `#TIMER .. SYN` since the last news.
+    pub timers: Vec<TimerCall>,
+}
+
+impl From<Feedback> for Told {
+    fn from(feedback: Feedback) -> Self {
+        Self { feedback: Some(feedback), timers: Vec::new() }
+    }
 }
 
 /// State of the simulation when it requests the next step.

@@ -122,7 +122,7 @@ pub(super) fn run_with(
     let mut steps = Vec::new();
     loop {
         let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
-        let step = executor.next(Some(feedback));
+        let step = executor.next(feedback.into());
         let ended = matches!(step, Step::End { .. });
         steps.push(step);
         if ended {

@@ -1,6 +1,6 @@
 //! Values of expressions: numbers, texts, functions, variables and the readable state of the control.
 //!
-//! Owns the variables and timers. Reads the state shown by system variables, and changes it only through the few system
+//! Owns the variables. Reads the state shown by system variables, and changes it only through the few system
 //! variables that may be written.
 
 pub(super) mod every_axis;
@@ -13,7 +13,6 @@ pub(super) mod variables;
 
 use super::options::External;
 use std::collections::BTreeMap;
-use timers::Timers;
 use variables::scopes::Variables;
 
 /// State owned by this module.
@@ -22,7 +21,6 @@ pub(super) struct Values {
     pub(super) variables: Variables,
     /// `V.G.KIN..` under `--identity-trafo`, by their names with indices; stored without effect.
     kinematics: BTreeMap<String, f64>,
-    pub(super) timers: Timers,
     /// `V.TLM.TIME_FACT` and `V.TLM.DIST_FACT`; stored without effect. Source: TF5200 programming manual, 208584843.
     tool_life: [f64; 2],
 }
@@ -31,11 +29,6 @@ impl Values {
     /// State at program start.
     pub(super) fn new(external: BTreeMap<String, External>) -> Self {
         let variables = Variables::new(external);
-        Self {
-            variables,
-            kinematics: BTreeMap::new(),
-            timers: Timers::default(),
-            tool_life: [1.0; 2],
-        }
+        Self { variables, kinematics: BTreeMap::new(), tool_life: [1.0; 2] }
     }
 }

@@ -4,12 +4,9 @@
 
 use super::stretch::Stretch;
 use crate::record::Asked;
-use crate::sim::{Measuring, Samples, Simulation};
+use crate::sim::{Measuring, Messages, Samples, Simulation, Work, give};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-
-/// Work for another thread, see [`Run::to_end_on_threads`](super::Run::to_end_on_threads).
-pub type Work = Box<dyn FnOnce() + Send>;
 
 /// Number of stretches that are being measured or waiting for it.
 const AHEAD: usize = 2;
@@ -32,13 +29,11 @@ impl Apart {
     pub(super) fn begin(
         asked: Option<Asked>,
         measuring: &mut Measuring,
-        start: impl FnOnce(&'static str, Work) -> bool,
+        start: impl FnOnce(Work) -> bool,
     ) -> Option<Self> {
-        let (hand_over, handed_over) = sync_channel::<Measuring>(1);
         let (to_measure, samples) = sync_channel::<Samples>(AHEAD);
         let (back, measured) = sync_channel(AHEAD);
-        let work = move || {
-            let Ok(mut measuring) = handed_over.recv() else { return };
+        let work = move |mut measuring: Measuring| {
             for mut samples in samples {
                 measuring.measure(&mut samples);
                 if back.send(samples).is_err() {
@@ -46,9 +41,11 @@ impl Apart {
                 }
             }
         };
-        let started = start("deviation", Box::new(work))
-            && hand_over.try_send(std::mem::take(measuring)).is_ok();
-        started.then(|| Self {
+        if let Err(back) = give(std::mem::take(measuring), work, start) {
+            *measuring = back;
+            return None;
+        }
+        Some(Self {
             to_measure,
             measured,
             asked,

@@ -1,11 +1,11 @@
 //! A running program, and the one loop over its cycles.
 
-use super::apart::{Apart, Work};
+use super::apart::Apart;
 use super::stretch::Stretch;
 use super::{Changes, Facts, Stop, Totals};
 use crate::diag::{Condition, Diagnostic};
 use crate::record::{Asked, CycleRecord, Rows};
-use crate::sim::{Measuring, Messages, Simulation};
+use crate::sim::{Measuring, Messages, Simulation, Work};
 use crate::source::Sources;
 use std::convert::Infallible;
 use std::fmt;
@@ -182,8 +182,8 @@ impl Run {
         }
     }
 
-    /// The same on two threads: a second one measures the cycles against the contour. Cycles and messages are the same
-    /// bit for bit.
+    /// The same on several threads: one decodes the program ahead of the machine, and another one measures the cycles
+    /// against the contour. Cycles and messages are the same bit for bit.
     ///
     /// `start` starts a thread with a name; if it fails, the work is done on this thread.
     ///
@@ -208,12 +208,16 @@ impl Run {
     /// The reason why the sink stops; the run then has no more cycles.
     pub fn to_end_on_threads<S: Sink>(
         &mut self,
-        start: impl FnOnce(&'static str, Work) -> bool,
+        mut start: impl FnMut(&'static str, Work) -> bool,
         sink: &mut S,
     ) -> Result<(), S::Stop> {
-        if !self.over && self.simulation.is_measured() {
-            let asked = sink.reads();
-            self.apart = Apart::begin(asked, &mut self.measuring, start);
+        if !self.over {
+            self.simulation.decode_ahead(|work| start("program", work));
+            if self.simulation.is_measured() {
+                let asked = sink.reads();
+                let start = |work| start("deviation", work);
+                self.apart = Apart::begin(asked, &mut self.measuring, start);
+            }
         }
         let ended = self.to_end(sink);
         self.over |= self.apart.take().is_some();

@@ -72,26 +72,51 @@ fn one_loop_however_it_is_cut() {
     });
 }
 
-/// A run on two threads gives the same bits and messages: with a tolerance from some block on, replanned by an
-/// override, with messages in many blocks, ended by an error or by a permanent standstill, and where no thread can be
-/// started.
+/// A run on several threads gives the same bits and messages: with a tolerance from some block on, replanned by an
+/// override, with messages in many blocks, ended by an error, by a fault of an axis or by a permanent standstill, and
+/// where threads cannot be started. The same holds where the program reads the machine: positions, timers during
+/// motions, measured values, and changed machine data.
 #[test]
-fn a_second_thread_changes_nothing() {
+fn other_threads_change_nothing() {
     let guard = "#VIB GUARD ON [MODE=2 FREQ=20]\n";
     let square = "G01 X5 F3000\nY5\nX0 Y0\n";
     let talk = "$FOR P1 = 1, 400, 1\n#MSG [\"%d\", P1]\nX[P1 * 0.01]\n$ENDFOR\n";
-    let programs = [
-        format!("{guard}{square}M30\n"),
-        format!("{guard}{square}#VIB GUARD ON [AX_DEV=0.05]\n{square}G04 0.3\n{square}M30\n"),
-        format!("{guard}#SLOPE [TYPE=HSC]\nG01 F6000\n{talk}M30\n"),
-        format!("{guard}{square}G00 X1e6\n$IF V.A.ACT_POS.X > 1\nP1=1/0\n$ENDIF\nM30\n"),
-        "G01 F1000\nX0\nM30\n".to_owned(),
-        "G99\nM30\n".to_owned(),
-    ];
+    let tolerance =
+        format!("{guard}{square}#VIB GUARD ON [AX_DEV=0.05]\n{square}G04 0.3\n{square}M30\n");
     let feedholds = "t_s,override_percent,feedhold\n0.05,40,\n0.3,90,1\n0.5,,0\n2,100,1\n";
-    for (text, inputs) in programs.iter().zip([None, Some(feedholds), None, None, None, None]) {
+    // many more steps than wait to be taken, each depending on positions or on a timer
+    let asks = "$FOR P1 = 1, 40, 1\nX[V.A.ACT_POS.X + 0.1]\n$ENDFOR\n";
+    let times = "$FOR P1 = 1, 900, 1\n#TIMER START SYN [ID=1]\nX[P1 * 0.02]\n#TIMER READ SYN [ID=1]\nY[V.G.TIMER[1] / 1000]\n#TIMER READ [ID=2]\nZ[V.G.TIMER[2] / 5000]\n$ENDFOR\n";
+    let kv = "#MACHINE DATA [AX=X AXPARAM=\"getriebe[0].kv 3000\"]\n";
+    let many = "$FOR P1 = 1, 3000, 1\nX[P1 * 0.01] Y[SIN[P1]]\n$ENDFOR\n";
+    let measured = "G100 X10 Y20\nG01 X[V.A.MESS.X] Y0\n$IF V.A.MERF.X\nZ1\n$ENDIF\n";
+    let lags = ["X.getriebe[0].slep_ueberw_typ=4", "X.getriebe[0].slep_max=30000"];
+    let probes = ["X.kenngr.messachse=1", "Y.kenngr.messachse=1"];
+    let programs: [(String, &[&str], Option<&str>); 12] = [
+        (format!("{guard}{square}M30\n"), &[], None),
+        (tolerance, &[], Some(feedholds)),
+        (format!("{guard}#SLOPE [TYPE=HSC]\nG01 F6000\n{talk}M30\n"), &[], None),
+        (
+            format!("{guard}{square}G00 X1e6\n$IF V.A.ACT_POS.X > 1\nP1=1/0\n$ENDIF\nM30\n"),
+            &[],
+            None,
+        ),
+        ("G01 F1000\nX0\nM30\n".to_owned(), &[], None),
+        ("G99\nM30\n".to_owned(), &[], None),
+        (format!("G01 F6000\n{asks}#GET ACTPOS [P2=X]\nX[P2 + 1]\nM30\n"), &[], None),
+        (format!("#TIMER START [ID=2]\nG01 F6000\n{times}M30\n"), &[], Some(feedholds)),
+        (format!("G01 F6000\n{square}{kv}{square}M30\n"), &[], None),
+        (format!("G01 F6000\n{many}G00 X300\n{many}M30\n"), &lags, None),
+        (
+            format!("#MEAS [TYPE=1]\nG01 F6000\n{measured}M30\n"),
+            &probes,
+            Some("t_s,X_probe_mm\n0,5\n"),
+        ),
+        (format!("G01 F6000\n{many}P1=1/V.A.ACT_POS.Z\n{many}M30\n"), &[], None),
+    ];
+    for (text, settings, inputs) in &programs {
         let start = || {
-            let job = job(text, &[], Options::default());
+            let job = job(text, settings, Options::default());
             let files: Vec<_> =
                 inputs.iter().map(|text: &&str| ("a.csv", || Ok(text.as_bytes()))).collect();
             job.start().unwrap().with_inputs(inputs::open(&files, job.machine()).unwrap())
@@ -105,10 +130,10 @@ fn a_second_thread_changes_nothing() {
         let alone = outcome(start(), &|run, records| {
             let Ok(()) = run.to_end(&mut |r: &CycleRecord| records.push(r.clone()));
         });
-        for can_start in [true, false] {
+        for can_start in [&["program", "deviation"][..], &["program"], &["deviation"], &[]] {
             let thread = |name: &str, work: Work| {
                 let spawn = || std::thread::Builder::new().name(name.to_owned()).spawn(work);
-                can_start && spawn().is_ok()
+                can_start.contains(&name) && spawn().is_ok()
             };
             let together = outcome(start(), &|run, records| {
                 let mut sink = |r: &CycleRecord| records.push(r.clone());
@@ -118,6 +143,53 @@ fn a_second_thread_changes_nothing() {
             assert!(alone == together, "{text}");
         }
     }
+}
+
+/// The program's thread ends when its run does, however that ends: a sink that stops, a run that is dropped while its
+/// program waits for an answer, a program that is over long before the machine.
+#[test]
+fn the_programs_thread_ends_with_the_run() {
+    struct Stops(u64);
+    impl Sink for Stops {
+        type Stop = ();
+        fn rows(&mut self, rows: &Rows<'_>) -> Result<(), ()> {
+            self.0 = self.0.saturating_sub(rows.len() as u64);
+            if self.0 == 0 { Err(()) } else { Ok(()) }
+        }
+    }
+    let many = "$FOR P1 = 1, 3000, 1\nX[P1 * 0.01]\n$ENDFOR\n";
+    let asks = "$FOR P1 = 1, 3000, 1\nX[V.A.ACT_POS.X + 0.1]\n$ENDFOR\n";
+    for text in [format!("{many}M30\n"), format!("{asks}M30\n"), "X100\nM30\n".to_owned()] {
+        let mut threads = Vec::new();
+        let mut run = job(&format!("G01 F600\n{text}"), &[], Options::default()).start().unwrap();
+        let start = |_: &str, work: Work| {
+            threads.push(std::thread::spawn(work));
+            true
+        };
+        assert_eq!(run.to_end_on_threads(start, &mut Stops(100)), Err(()), "{text}");
+        assert!(run.is_over());
+        drop(run);
+        assert_eq!(threads.len(), 2);
+        for thread in threads {
+            thread.join().unwrap();
+        }
+    }
+}
+
+/// A run whose program is lost with its thread ends with a message.
+#[test]
+fn a_lost_thread_is_reported() {
+    let mut run = job("G01 X10 F600\nM30\n", &[], Options::default()).start().unwrap();
+    let start = |name: &str, work: Work| {
+        if name == "program" {
+            // as if it had panicked
+            drop(work);
+        }
+        name == "program"
+    };
+    let Ok(()) = run.to_end_on_threads(start, &mut |_: &CycleRecord| ());
+    let said = run.take_diagnostics();
+    assert!(run.totals().aborted && said.iter().any(Diagnostic::is_error), "{said:?}");
 }
 
 /// A run whose cycles are not read is at the same state at each pause, raises the same messages and ends alike: under

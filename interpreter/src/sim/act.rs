@@ -5,7 +5,7 @@ use super::axes::Driver;
 use super::chain::AxisChain;
 use super::out::MESSAGES_MAX;
 use crate::diag::{Condition, Diagnostic};
-use crate::exec::{Event, ShapingSetup};
+use crate::exec::{Event, ShapingSetup, TimerCall};
 use crate::machine::ChainSetup;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
@@ -77,7 +77,10 @@ impl Simulation {
                     spindle.limit(limits);
                 }
             }
-            Event::Timer { id, act } => self.executor.timer(id, act, self.cycle.time_of(k)),
+            Event::Timer { id, act } => {
+                let time_s = self.cycle.time_of(k);
+                self.program.timer(TimerCall { id, act, time_s });
+            }
             other => {
                 let block = match &other {
                     Event::Message { source, .. } => Some(*source),
@@ -89,7 +92,7 @@ impl Simulation {
                         self.messages.unshown += 1;
                         return;
                     }
-                    message.source = block.and_then(|block| self.executor.locate(block));
+                    message.source = block.and_then(|block| self.program.locate(block));
                     self.messages.own.push(message);
                 }
             }
@@ -166,14 +169,14 @@ impl Simulation {
     /// feedforward of one axis delays all of them, and gantry slaves take parameters from their master.
     pub(super) fn machine_data(&mut self) {
         let (before, _) = self.machine.chains();
-        self.machine = Arc::clone(self.executor.machine());
+        self.machine = Arc::clone(self.program.machine());
         let (setups, _) = self.machine.chains();
         for (i, (old, new)) in before.iter().zip(setups).enumerate() {
             if *old != new {
                 self.replace(i, old, &new);
             }
         }
-        let setup = self.executor.shaping().clone();
+        let setup = self.program.shaping().clone();
         self.swap_kernels(&setup);
     }
 

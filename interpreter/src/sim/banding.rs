@@ -95,7 +95,7 @@ impl Simulation {
         let k = self.planner.setpoint().k;
         let mut d = Diagnostic::new(condition, text);
         (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
-        d.source = self.banding.as_ref().and_then(|b| self.executor.locate(b.source));
+        d.source = self.banding.as_ref().and_then(|b| self.program.locate(b.source));
         self.messages.own.push(d);
         self.stop(Vec::new());
     }

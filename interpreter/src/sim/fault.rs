@@ -171,7 +171,7 @@ impl Simulation {
         let k = self.planner.setpoint().k;
         (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
         let at = self.stops_at[chain];
-        d.source = self.executor.locate(if at.line > 0 { at } else { self.waits_at });
+        d.source = self.program.locate(if at.line > 0 { at } else { self.waits_at });
         self.messages.own.push(d);
         self.totals.aborted = true;
         self.phase = Phase::Done;
@@ -213,7 +213,7 @@ impl Simulation {
         // the next blocks may already be running when a stop turns out to be late
         let late = matches!(fault, Fault::SettlingTimeout { .. });
         let at = if late { self.stops_at[chain] } else { self.current };
-        diagnostic.source = self.executor.locate(at);
+        diagnostic.source = self.program.locate(at);
         diagnostic
     }
 }
@@ -307,7 +307,7 @@ impl Simulation {
             let mut d = d.value(ValueKind::Current, v, if unit == "mm" { "mm/s" } else { "deg/s" });
             d.cycle = Some(self.record.k + 1);
             d.time_s = Some(self.cycle.time_of(self.record.k + 1));
-            d.source = self.executor.locate(at);
+            d.source = self.program.locate(at);
             self.messages.own.push(d);
         }
     }
@@ -322,7 +322,7 @@ impl Simulation {
             );
             let mut d = Diagnostic::new(Condition::OscillationEnded, text)
                 .axis(self.machine.axes[axis].number(), name);
-            d.source = self.executor.locate(at);
+            d.source = self.program.locate(at);
             self.messages.own.push(d);
         }
     }
@@ -340,7 +340,7 @@ impl Simulation {
         .value(ValueKind::Limit, unkept.tolerance_mm, "mm");
         let source =
             self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
-        d.source = self.executor.locate(source);
+        d.source = self.program.locate(source);
         self.messages.own.push(d);
         self.stop(Vec::new());
     }
@@ -388,7 +388,7 @@ impl Simulation {
                 let mut d =
                     Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))
                         .severity(severity);
-                d.source = self.executor.locate(source);
+                d.source = self.program.locate(source);
                 self.messages.own.push(d);
             }
         }

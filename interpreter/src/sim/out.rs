@@ -171,7 +171,7 @@ impl Simulation {
     pub(crate) fn exceeded(&mut self, samples: &mut Samples) -> Option<Diagnostic> {
         let exceeded = samples.exceeded.take()?;
         let mut d = fault::exceeded(&exceeded.unkept);
-        d.source = self.executor.locate(exceeded.at);
+        d.source = self.program.locate(exceeded.at);
         Some(d)
     }
 }

@@ -43,7 +43,7 @@ impl Simulation {
             thread.broken = true;
             let at = self.current;
             let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
-            d.source = self.executor.locate(at);
+            d.source = self.program.locate(at);
             self.messages.own.push(d);
         }
     }

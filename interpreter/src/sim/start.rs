@@ -5,13 +5,14 @@ use super::batch::Batch;
 use super::chain::AxisChain;
 use super::independent::IndependentAxes;
 use super::inputs::Inputs;
+use super::program::Program;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
 use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use super::{Messages, Phase, Simulation, fault};
 use crate::diag::Diagnostic;
-use crate::exec::{Executor, Options, SourceRef};
+use crate::exec::{Options, SourceRef};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
@@ -36,9 +37,8 @@ impl Simulation {
         let (setups, diagnostics) = machine.chains();
         let max_time_s = options.max_time_s;
         let max_cycles = cycles_in(max_time_s, cycle);
-        let executor = Executor::new(sources, program, Arc::clone(&machine), options);
+        let (program, start, found) = Program::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
-        let start = executor.start_position();
         let drivers = drivers(&machine);
         let mut chains = Vec::with_capacity(setups.len());
         for (i, setup) in setups.into_iter().enumerate() {
@@ -90,11 +90,11 @@ impl Simulation {
             planned: start[..n].iter().copied().collect(),
             max_cycles,
             max_time_s,
-            messages: Messages { own: diagnostics, ..Messages::default() },
+            messages: Messages { own: diagnostics, program: found, ..Messages::default() },
             progress: Progress::default(),
             machine,
             cycle,
-            executor,
+            program,
         };
         let mode = simulation.machine.channel.overrides.mode;
         simulation.planner.set_override_mode(mode);
@@ -102,7 +102,7 @@ impl Simulation {
         for spindle in 0..simulation.spindles.len() {
             simulation.spindle_feedforward(spindle, false, 1.0);
         }
-        let setup = simulation.executor.shaping().clone();
+        let setup = simulation.program.shaping().clone();
         for i in 0..simulation.chains.len() {
             if matches!(simulation.drivers[i], Driver::Spindle(_)) {
                 simulation.set_kernel(i, &setup);

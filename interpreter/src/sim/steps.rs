@@ -11,8 +11,10 @@ use kontur_motion::block::{Block, SlopeKind};
 impl Simulation {
     /// Takes the next step of the program.
     pub(super) fn pull(&mut self) {
-        let feedback = self.feedback();
-        match self.executor.next(feedback) {
+        if let Some(feedback) = self.feedback() {
+            self.program.tell(feedback);
+        }
+        match self.program.next(&mut self.messages.program) {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {
                 let measures = match &what {
@@ -33,7 +35,7 @@ impl Simulation {
     }
 
     pub(super) fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
-        let programmed = Programmed::new(&block, self.executor.blocks());
+        let programmed = Programmed::new(&block, self.program.blocks());
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         let motion = Motion::of(&block);
         let (seq, target) = (block.seq, block.path.end().clone());
@@ -72,7 +74,7 @@ impl Simulation {
             self.pull();
             return;
         };
-        self.progress.complete(self.executor.blocks(), &mut self.smoothing.changed);
+        self.progress.complete(self.program.blocks(), &mut self.smoothing.changed);
         self.waits_at = source;
         let k = self.planner.setpoint().k;
         for event in events {

@@ -50,12 +50,37 @@ fn add_product(out: &mut Poly, factor: f64, a: &[f64], b: &[f64]) {
     if out.len() < a.len() + b.len() - 1 {
         out.resize(a.len() + b.len() - 1, 0.0);
     }
-    let out = &mut out[..];
-    for (i, a) in a.iter().enumerate() {
-        let a = factor * a;
-        for (o, b) in out[i..].iter_mut().zip(b) {
-            *o += a * b;
+    // the factors of pieces of degree three to five
+    match b.len() {
+        4 => add_rows::<4>(out, factor, a, b),
+        5 => add_rows::<5>(out, factor, a, b),
+        6 => add_rows::<6>(out, factor, a, b),
+        7 => add_rows::<7>(out, factor, a, b),
+        8 => add_rows::<8>(out, factor, a, b),
+        9 => add_rows::<9>(out, factor, a, b),
+        _ => {
+            for (i, a) in a.iter().enumerate() {
+                add_scaled(&mut out[i..], factor * a, b);
+            }
         }
+    }
+}
+
+/// As [`add_product`], with a factor whose length is known: without loops and calls inside.
+#[inline]
+fn add_rows<const N: usize>(out: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
+    let Some(b) = b.first_chunk::<N>() else { return };
+    for (i, a) in a.iter().enumerate() {
+        if let Some(out) = out[i..].first_chunk_mut::<N>() {
+            add_scaled(out, factor * a, b);
+        }
+    }
+}
+
+#[inline]
+fn add_scaled(out: &mut [f64], a: f64, b: &[f64]) {
+    for (o, b) in out.iter_mut().zip(b) {
+        *o += a * b;
     }
 }
 

@@ -10,7 +10,7 @@ use super::extremes;
 use super::piece::{self, Coefficients, Pace, PolyPiece, section, slope, value};
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Agreement of the integral over a sub-interval with that over its halves, relative to the length of the curve.
 const SPLIT: f64 = 1e-13;
@@ -43,8 +43,6 @@ struct Cell {
     to: f64,
     /// Path length at `from`.
     s: f64,
-    /// Largest `|q''|` of an axis in 1/mm, rounded up.
-    bend: f64,
     /// Radius in mm over all axes, around the point at the middle of the parameter, that contains the whole
     /// sub-interval.
     radius: f64,
@@ -66,8 +64,17 @@ struct Derivatives {
     third: AxisVec,
 }
 
+/// The largest derivatives of a curve.
+#[derive(Clone, Debug)]
+struct Extremes {
+    /// Largest absolute derivatives with respect to `s`, see [`PolyPath::extremes`].
+    derivatives: [AxisVec; 3],
+    /// For each sub-interval, the largest `|q''|` of an axis in 1/mm, rounded up.
+    bends: Box<[f64]>,
+}
+
 /// A curve of polynomials, `s` measured over the feed axes (over all axes if none of them moves).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct PolyPath {
     start: AxisVec,
     end: AxisVec,
@@ -79,8 +86,19 @@ pub struct PolyPath {
     /// Points at the middle of the cells' parameters, axis by axis, with which every search begins.
     middles: Arc<[f64]>,
     length: f64,
-    /// Largest absolute derivatives with respect to `s`, see [`Self::extremes`].
-    extremes: [AxisVec; 3],
+    /// Searched when first needed: a check of the program, and curves that are dropped in favour of a corner, do without
+    /// them.
+    extremes: Arc<OnceLock<Extremes>>,
+}
+
+impl PartialEq for PolyPath {
+    /// Whether both are the same curve; everything else follows from that.
+    fn eq(&self, other: &Self) -> bool {
+        self.start == other.start
+            && self.end == other.end
+            && self.pieces == other.pieces
+            && self.measured == other.measured
+    }
 }
 
 impl PolyPath {
@@ -134,7 +152,7 @@ impl PolyPath {
             cells: Arc::from([]),
             middles: Arc::from([]),
             length: 0.0,
-            extremes: [AxisVec::zeros(n), AxisVec::zeros(n), AxisVec::zeros(n)],
+            extremes: Arc::default(),
         };
         let coarse: f64 = (0..path.pieces.len()).map(|p| path.gauss(p, 0.0, 1.0)).sum();
         if !(coarse.is_finite() && coarse > 0.0) {
@@ -144,7 +162,6 @@ impl PolyPath {
         for p in 0..path.pieces.len() {
             path.subdivide(p, (0.0, 1.0), coarse, 0, &mut cells);
         }
-        path.find_extremes(&mut cells);
         let mut middles = vec![0.0; n * cells.len()];
         for (cell, middle) in cells.iter().zip(middles.chunks_exact_mut(n)) {
             path.point(cell.piece, cell.middle(), middle);
@@ -215,7 +232,7 @@ impl PolyPath {
         } else {
             let radius = nearest::radius(&self.pieces[piece], from, to);
             let rates = [from, to].map(|x| self.rate(piece, x));
-            cells.push(Cell { piece, from, to, s: self.length, bend: 0.0, radius, rates });
+            cells.push(Cell { piece, from, to, s: self.length, radius, rates });
             self.length += whole;
         }
     }
@@ -347,31 +364,38 @@ impl PolyPath {
 
     /// Largest `|q'|`, `|q''|` in 1/mm and `|q'''|` in 1/mm2 of every axis over the curve.
     pub(crate) fn extremes(&self) -> &[AxisVec; 3] {
-        &self.extremes
+        &self.found_extremes().derivatives
     }
 
-    fn find_extremes(&mut self, cells: &mut [Cell]) {
+    fn found_extremes(&self) -> &Extremes {
+        self.extremes.get_or_init(|| self.find_extremes())
+    }
+
+    fn find_extremes(&self) -> Extremes {
+        let zeros = || AxisVec::zeros(self.start.len());
+        let mut largest = [zeros(), zeros(), zeros()];
         // the values at the ends make most of the search inside unnecessary
-        let last = cells.last().map(|c| (c.piece, c.to));
-        for (piece, x) in cells.iter().map(|c| (c.piece, c.from)).chain(last) {
+        let last = self.cells.last().map(|c| (c.piece, c.to));
+        for (piece, x) in self.cells.iter().map(|c| (c.piece, c.from)).chain(last) {
             let Derivatives { first, second, third } = self.derivatives(piece, x);
-            for (extreme, d) in self.extremes.iter_mut().zip([first, second, third]) {
+            for (extreme, d) in largest.iter_mut().zip([first, second, third]) {
                 for (extreme, d) in extreme.iter_mut().zip(d.iter()) {
                     *extreme = extreme.max(d.abs());
                 }
             }
         }
-        for cell in cells {
+        let inside = |cell: &Cell| {
             let piece = &self.pieces[cell.piece];
-            let part = (cell.from, cell.to);
-            cell.bend = extremes::raise(&mut self.extremes, piece, &self.measured, part);
-        }
+            extremes::raise(&mut largest, piece, &self.measured, (cell.from, cell.to))
+        };
+        let bends = self.cells.iter().map(inside).collect();
+        Extremes { derivatives: largest, bends }
     }
 
     /// Sub-intervals as the path length at their ends and the largest `|q''|` of an axis in 1/mm, rounded up.
     pub(crate) fn bends(&self) -> impl Iterator<Item = (f64, f64)> {
         let ends = self.cells.iter().skip(1).map(|c| c.s).chain([self.length]);
-        ends.zip(self.cells.iter().map(|c| c.bend))
+        ends.zip(self.found_extremes().bends.iter().copied())
     }
 }
 

@@ -237,7 +237,7 @@ fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(call.unexpected(word));
     };
     if !synchronous {
-        decoder.values.timers.act(id, act, decoder.feedback.time_s);
+        decoder.live.timer(id, act);
         return Ok(());
     }
     decoder.contour.event(Event::Timer { id, act });

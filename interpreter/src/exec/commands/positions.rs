@@ -51,7 +51,7 @@ fn command_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// The executor has waited for the actual positions before this block.
 fn actual_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let actual = |d: &Decoder, axis: usize| {
-        let known = d.feedback.actual_mm.get(axis).copied();
+        let known = d.live.feedback().actual_mm.get(axis).copied();
         known.unwrap_or_else(|| d.geometry.coordinates.target()[axis])
     };
     assign(decoder, call, actual)

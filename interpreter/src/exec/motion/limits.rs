@@ -139,20 +139,20 @@ impl Decoder {
 
     /// Checks compensated motions against the software limits, and all motions against the control areas.
     pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
-        let driven = self.contour.take_driven();
-        let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
-            extents_mm.iter().enumerate().flat_map(|(axis, (low, high))| {
+        let mut faults = Vec::new();
+        for Driven { extents_mm, source, span } in self.contour.take_driven() {
+            for (axis, (low, high)) in extents_mm.into_iter().enumerate() {
                 let limits = self.limits();
-                if let Some(fault) = limits.outside_format(axis, *low, *high, *span) {
-                    return vec![*fault.in_block(*source)];
+                if let Some(fault) = limits.outside_format(axis, low, high, span) {
+                    faults.push(*fault.in_block(source));
+                    continue;
                 }
-                let slaves = limits.slaves_outside(axis, *low, *high, *span);
-                let own = limits.outside(axis, *low, *high, None, || *span);
+                let slaves = limits.slaves_outside(axis, low, high, span);
+                let own = limits.outside(axis, low, high, None, || span);
                 let all = own.map(|fault| *fault).into_iter().chain(slaves);
-                all.map(|fault| *Box::new(fault).in_block(*source)).collect()
-            })
-        });
-        let mut faults: Vec<Fault> = faults.collect();
+                faults.extend(all.map(|fault| *Box::new(fault).in_block(source)));
+            }
+        }
         faults.extend(self.contour.take_violations());
         faults
     }

@@ -198,7 +198,7 @@ impl Decoder {
         let pending = self.motion.measuring.pending.take()?;
         let Pending { axes, target, needs_signal, jump, source, span } = *pending;
         // a check has no probe: the surface is assumed at the target
-        let (signal, rest) = match self.feedback.measured.take() {
+        let (signal, rest) = match self.live.take_measured() {
             Some(probed) => (probed.signal_mm, Some(probed.rest_mm)),
             None => (Some(self.geometry.coordinates.target().clone()), None),
         };

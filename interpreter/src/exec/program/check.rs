@@ -4,7 +4,7 @@ use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::contour::programmed_time_s;
 use crate::exec::options::{GuardCommands, Options};
-use crate::exec::step::{Feedback, SourceRef, Step, Sync};
+use crate::exec::step::{Feedback, SourceRef, Step, Sync, Told};
 use crate::machine::Machine;
 use crate::source::Sources;
 use std::sync::Arc;
@@ -56,7 +56,7 @@ pub(crate) fn check(
             continue;
         }
         let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
-        match executor.next(Some(feedback)) {
+        match executor.next(Told::from(feedback)) {
             Step::End { .. } => {
                 executor.check_unreached();
                 return Checked {

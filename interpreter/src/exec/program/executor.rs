@@ -8,14 +8,15 @@ mod run;
 
 use self::budget::Budget;
 use self::found::Found;
+use super::ahead::{Decoded, Opened, Rare};
 use super::files::Files;
+use super::places::position;
 use super::reached::Reached;
 use super::state::{Level, Sequences, Target};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels};
-use crate::exec::step::TimerAct;
-use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step};
+use crate::exec::step::{EndReason, ShapingSetup, SourceRef, Step, Sync, Told};
 use crate::machine::Machine;
 use crate::machine::table::channel as of;
 use crate::source::{Position, Sources};
@@ -193,12 +194,29 @@ impl Executor {
         }
     }
 
-    /// The next step of the program; after [`Step::End`] always that again. Without feedback, the last one remains
-    /// valid.
-    pub(crate) fn next(&mut self, feedback: Option<Feedback>) -> Step {
-        if let Some(feedback) = feedback {
-            self.decoder.feedback = feedback;
-        }
+    /// The next step of the program, decoded with this state of the machine; after [`Step::End`] always that again.
+    pub(crate) fn next(&mut self, told: Told) -> Step {
+        self.tell(told);
+        self.step()
+    }
+
+    /// The next step, with everything that a simulation has to know about it.
+    pub(crate) fn decode(&mut self) -> Decoded {
+        let step = self.step();
+        let changes = matches!(&step, Step::Sync { what: Sync::MachineData { .. }, .. });
+        let rare = self.found.any() || self.files.has_opened() || changes;
+        let rare = rare.then(|| {
+            let changed = (Arc::clone(&self.decoder.machine), self.decoder.shaping.setup.clone());
+            Box::new(Rare {
+                diagnostics: self.found.take(),
+                files: self.files.take_opened(),
+                changed: changes.then_some(changed),
+            })
+        });
+        Decoded { step, blocks: self.budget.blocks(), rare }
+    }
+
+    fn step(&mut self) -> Step {
         loop {
             if let Some(step) = self.decoder.contour.pop() {
                 if step.takes_time(self.decoder.machine.cycle) {
@@ -227,9 +245,14 @@ impl Executor {
         }
     }
 
-    /// Whether [`Self::take_diagnostics`] would return any.
-    pub(crate) fn has_diagnostics(&self) -> bool {
-        self.found.any()
+    /// Takes news of the machine, before the next step is decoded.
+    pub(crate) fn tell(&mut self, told: Told) {
+        self.decoder.live.tell(told);
+    }
+
+    /// Files opened since the last call, unless [`Self::decode`] has returned them.
+    pub(crate) fn take_opened(&mut self) -> Vec<Opened> {
+        self.files.take_opened()
     }
 
     /// Diagnostics since the last call.
@@ -247,8 +270,7 @@ impl Executor {
         if source.line == 0 {
             return None;
         }
-        let position = Position { offset: source.offset, line: source.line };
-        let mut location = self.files.locate_block(source.file as usize, position)?;
+        let mut location = self.files.locate_block(source.file as usize, position(source))?;
         location.block = source.block;
         Some(location)
     }
@@ -261,21 +283,6 @@ impl Executor {
     /// The settings of the Vibration Guard by the commands executed so far.
     pub(crate) fn guard_commands(&self) -> &GuardCommands {
         &self.decoder.shaping.commands
-    }
-
-    /// `#TIMER .. SYN` at a program time in s.
-    pub(crate) fn timer(&mut self, id: u32, act: TimerAct, now_s: f64) {
-        self.decoder.values.timers.act(id, act, now_s);
-    }
-
-    /// The machine as seen by the program: with the values of `#MACHINE DATA` up to the last step returned.
-    pub(crate) fn machine(&self) -> &Arc<Machine> {
-        &self.decoder.machine
-    }
-
-    /// Blocks executed so far.
-    pub(crate) fn blocks(&self) -> u64 {
-        self.budget.blocks()
     }
 
     /// Rest position of the axes at program start.

@@ -1,7 +1,9 @@
 //! Open program files: text, structure, and the parsed blocks that run more than once.
 
 use super::actual::needs_actual;
+use super::ahead::Opened;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
+use super::places::whole_block;
 use super::state::Numbers;
 use super::unusable::{FileError, is_foreign};
 use crate::diag::{Condition, Diagnostic, Location};
@@ -95,6 +97,8 @@ pub(in crate::exec) enum Look {
 pub(in crate::exec) struct Files {
     open: Vec<ProgramFile>,
     names: Vec<Arc<str>>,
+    /// Those that have not been taken by [`Self::take_opened`].
+    opened: Vec<Opened>,
     cached: usize,
     /// The last plain block read.
     plain: Plain,
@@ -107,6 +111,7 @@ impl Files {
         Self {
             open: Vec::new(),
             names: Vec::new(),
+            opened: Vec::new(),
             cached: 0,
             plain: Plain::default(),
             resolved: BTreeMap::new(),
@@ -120,6 +125,16 @@ impl Files {
 
     pub(in crate::exec) fn names(&self) -> &[Arc<str>] {
         &self.names
+    }
+
+    /// Whether files have been opened since the last call of [`Self::take_opened`].
+    pub(in crate::exec) fn has_opened(&self) -> bool {
+        !self.opened.is_empty()
+    }
+
+    /// Files opened since the last call, in the order of [`Self::names`].
+    pub(in crate::exec) fn take_opened(&mut self) -> Vec<Opened> {
+        std::mem::take(&mut self.opened)
     }
 
     pub(in crate::exec) fn file(&self, file: usize) -> &ProgramFile {
@@ -157,6 +172,11 @@ impl Files {
             let (index, diagnostics) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
             let index = Arc::new(index);
             self.names.push(Arc::clone(&full));
+            self.opened.push(Opened {
+                name: Arc::clone(&full),
+                written: Box::from(name),
+                caller: caller_name,
+            });
             self.open.push(ProgramFile { name: full, reader, index, cache: BTreeMap::new() });
             (self.open.len() - 1, diagnostics)
         };
@@ -311,11 +331,7 @@ impl Files {
         position: Position,
     ) -> Option<Location> {
         let ProgramFile { name, reader, .. } = self.open.get_mut(file)?;
-        reader.seek(position);
-        let raw = reader.next_block().ok()??;
-        let end = raw.text.trim_end().len();
-        let start = end - raw.text[..end].trim_start().len();
-        Some(raw.locate(name, Span::new(start, end)))
+        whole_block(reader, name, position)
     }
 
     /// Position of a span within the block.

@@ -244,6 +244,17 @@ pub(crate) struct WearSetting {
     pub(crate) acceleration_ratio: f64,
 }
 
+/// An operation on a timer that was executed during a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TimerCall {
+    /// Number.
+    pub id: u32,
+    /// The operation.
+    pub act: TimerAct,
+    /// Program time in s.
+    pub time_s: f64,
+}
+
 /// Operation on a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TimerAct {

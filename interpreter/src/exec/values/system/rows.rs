@@ -41,7 +41,7 @@ fn text(s: &str) -> Outcome<Value> {
 fn actual_coordinate(d: &Decoder, axis: usize) -> f64 {
     let coordinates = &d.geometry.coordinates;
     let mut position = coordinates.target().clone();
-    for (position, actual_mm) in position.iter_mut().zip(d.feedback.actual_mm.iter()) {
+    for (position, actual_mm) in position.iter_mut().zip(d.live.feedback().actual_mm.iter()) {
         *position = *actual_mm;
     }
     coordinates.program_at(&position)[axis]
@@ -138,7 +138,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["G", "MAX_MOTION_BLOCKS_AHEAD"], meaning: "limit of the motion blocks read ahead", read: |d, _| number(d.calls.blocks_ahead[1]) },
     Row { name: &["G", "T_AKT"], meaning: "T word in force", read: |d, _| number(f64::from(d.geometry.tools.tool)) },
     Row { name: &["G", "D_AKT"], meaning: "D word in force", read: |d, _| number(f64::from(d.geometry.tools.data)) },
-    Row { name: &["G", "TIMER"], meaning: "stored time of timer i in ms (#TIMER)", read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.latched_ms(i)) } },
+    Row { name: &["G", "TIMER"], meaning: "stored time of timer i in ms (#TIMER)", read: |d, p| { let i = p.index(d, 1, 127)?; number(d.live.latched_ms(i)) } },
     Row { name: &["G", "RANDOM"], meaning: "a random number; here always 0.5, so that runs repeat", read: |_, _| number(0.5) },
     Row { name: &["G", "MAIN_FILE_NAME"], meaning: "file of the main program", read: |d, _| text(&d.calls.info.main_file) },
     Row { name: &["G", "MAIN_PROG_NAME"], meaning: "name of the main program", read: |d, _| text(&d.calls.info.main_program) },
