@@ -25,12 +25,12 @@
 //! one block to another, and at the middle of a curved block. (b) is evaluated at block boundaries with a kink and, on
 //! curved blocks, at the interpolated points. Along a straight block (b) is not longer than (a) by continuity, as long as
 //! all axes have the same filter, and has about its direction. Where the vector of (a) turns from one cycle to the next,
-//! beside a corner, (b) has directions between, and the interpolated points that the filters hold are evaluated on
-//! straight blocks as well; with unequal filters all of them. Between two of them: where the nearest point passes to
-//! another part of the set path, because the vector then turns, and on curved blocks whose points are far apart. In the
-//! output, these points are evaluated only where they may be larger than the largest ones of the run so far, or exceed a
-//! tolerance: what counts is the largest value of a run, not that of each cycle. The planner chooses its points by a
-//! bound on what lies between them.
+//! beside a corner, (b) has directions between. In the output of a run without a tolerance, the interpolated points that
+//! the filters hold are evaluated there on straight blocks as well, and points between them: where the nearest point
+//! passes to another part of the set path, because the vector then turns, and on curved blocks whose points are far apart;
+//! all of them only where they may be larger than the largest ones of the run so far, because what counts is the largest
+//! value of a run. With unequal filters the interpolated points are evaluated on all blocks. The planner chooses its
+//! points by a bound on what lies between them.
 
 mod between;
 mod component;
@@ -384,7 +384,7 @@ impl SetPath {
 }
 
 /// Square of the distance in mm2 of a point from the line between two others, and the position on the line.
-#[inline(always)]
+#[inline]
 fn foot(a: &[f64], b: &[f64], point: &[f64]) -> (f64, f64) {
     let n = a.len();
     let (b, point) = (&b[..n], &point[..n]);

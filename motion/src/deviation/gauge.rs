@@ -202,37 +202,43 @@ impl Gauge {
         self.left = contour.number(entered);
         let bend = contour.bend(passed - 1.0, entered);
         let turned = self.turned.is_some_and(|at| k <= at + self.reach + 2);
-        let first = k.checked_sub(self.reach + 1).filter(|_| self.every || bend > 0.0 || turned);
+        // under a tolerance the planner has examined the points between
+        let free = least_mm.is_infinite();
+        let is_examined = self.every || bend > 0.0 || turned && free;
+        let first = k.checked_sub(self.reach + 1).filter(|_| is_examined);
         let point = first.and_then(|first| self.path.get(first)).map(AxisVec::from_slice);
         let examined = first.zip(point).filter(|(_, point)| {
             // the distance changes at most by the way along the contour
             let last = self.foot.as_ref().map(|(_, foot)| foot);
-            last.is_none_or(|foot| {
-                let mm = length(&foot.vector) + distance(&foot.of, point);
-                self.matters(least_mm, |_| mm)
-            })
+            !free
+                || last.is_none_or(|foot| {
+                    let mm = length(&foot.vector) + distance(&foot.of, point);
+                    self.matters(|_| mm)
+                })
         });
         let mut last = None;
-        if let Some((first, _)) = &examined {
+        if let Some((first, _)) = examined.as_ref().filter(|_| free) {
             last = self.foot_before(contour, k, *first, least_mm);
         }
         for (moment, point) in contour.kinks(passed - 1.0, entered) {
             let first = moment.floor().max(0.0) as u64;
             let among = (first, first + self.reach + 2);
-            last = self.follow(contour, (k, passed), point, among, (last, bend), least_mm);
+            let from = last.filter(|_| free);
+            last = self.follow(contour, (k, passed), point, among, (from, bend), least_mm);
         }
         if let Some((first, point)) = examined {
             let among = (first, k);
-            last = self.follow(contour, (k, passed), point, among, (last, bend), least_mm);
+            let from = last.filter(|_| free);
+            last = self.follow(contour, (k, passed), point, among, (from, bend), least_mm);
             self.foot = last.map(|foot| (k, foot));
         }
     }
 
-    /// Whether components up to some mm per axis may be larger than the largest ones so far, or exceed a tolerance.
-    fn matters(&self, least_mm: f64, mm: impl Fn(usize) -> f64) -> bool {
+    /// Whether components up to some mm per axis may be larger than the largest ones so far.
+    fn matters(&self, mm: impl Fn(usize) -> f64) -> bool {
         // an axis that deviates anywhere does so at a set point first
         let mut known = self.most.iter().enumerate().filter(|(_, most)| **most > 0.0);
-        known.any(|(axis, most)| mm(axis) > most.min(least_mm))
+        known.any(|(axis, most)| mm(axis) > *most)
     }
 
     /// Keeps the largest components found in this cycle.
@@ -277,12 +283,14 @@ impl Gauge {
     ) -> Option<Foot> {
         let hint = last.as_ref().map(|foot| foot.cycle);
         let foot = self.miss(contour, k, point, among, hint, least_mm)?;
+        // between the last cycle and this one the path passed everything that lies between two points
+        let inside = (k.saturating_sub(self.reach + 2), k);
         if let Some(last) = last.filter(|last| last.may_hide_more(&foot, bend)) {
             let mut open: SmallVec<[(Foot, Foot, u32); 4]> = SmallVec::new();
             open.push((last, foot.clone(), HALVINGS));
             while let Some((low, high, halvings)) = open.pop() {
                 let way = distance(&low.of, &high.of);
-                if !self.matters(least_mm, |axis| low.potential(&high, way, axis)) {
+                if !self.matters(|axis| low.potential(&high, way, axis)) {
                     continue;
                 }
                 let mut middle: AxisVec =
@@ -294,7 +302,7 @@ impl Gauge {
                     middle.iter_mut().zip(aside.iter()).for_each(|(m, a)| *m -= a);
                 }
                 let hint = Some(low.cycle);
-                let middle = self.miss(contour, k, middle, among, hint, least_mm);
+                let middle = self.miss(contour, k, middle, inside, hint, least_mm);
                 let Some(middle) = middle else { continue };
                 if halvings == 0 || middle.is_mean_of(&low, &high) {
                     continue;
