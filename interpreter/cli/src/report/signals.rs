@@ -57,11 +57,6 @@ pub(super) fn report(
         return Err(Error::Usage(text));
     }
     let (mut runs, mut aborted) = (Vec::<Recorded>::new(), false);
-    let (most_values, most_samples) = if args.spectrum.is_some() {
-        (MOST_TRANSFORMED, MOST_SAMPLES)
-    } else {
-        (MOST_VALUES, MOST_VALUES)
-    };
     for (program, values, request) in requests(args)? {
         // the headline contains the name of a single program
         let label = match (args.programs.len(), values.is_empty()) {
@@ -70,48 +65,9 @@ pub(super) fn report(
             (_, false) => format!("{program}, {values}"),
         };
         let opened = request.open().map_err(|e| announce_lists(e, console))?;
-        let Opened { mut run, reads } = opened;
-        keep_apart(&reads.so_far(), &[output.to_owned()])?;
-        let mut summary = Collector::new(run.facts());
-        let mut recorded = Recorded::new(label, names, run.facts())?;
-        let values: usize = runs.iter().map(Recorded::values).sum();
-        let most =
-            most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
-        let asked = asked(&recorded.columns);
-        let take = |rows: &Rows<'_>| {
-            let t_s = |k: u64| k as f64 * recorded.cycle_s;
-            let is_shown = |k| args.window.is_none_or(|(from, to)| (from..to).contains(&t_s(k)));
-            let shown = rows.during(is_shown);
-            if recorded.times.len() + shown.len() > most {
-                let text = format!(
-                    "--signals: more than {most_samples} cycles, or {most_values} values in total; use --window to show a part"
-                );
-                return Err(Error::Usage(text));
-            }
-            recorded.times.extend(shown.cycles().iter().map(|cycle| t_s(cycle.k)));
-            for (samples, column) in recorded.samples.iter_mut().zip(&recorded.columns) {
-                column.content.extend(samples, &shown, 1);
-            }
-            Ok(())
-        };
-        let take = Some((asked, take));
-        drive(&mut run, Shown::ALONE, console, Some(&mut summary), take)?;
-        // including the subroutines that the run reached
-        keep_apart(&reads.so_far(), &[output.to_owned()])?;
-        aborted |= run.totals().aborted;
-        if recorded.times.is_empty() && summary.cycles() > 0 {
-            let end_s = summary.cycles().saturating_sub(1) as f64 * recorded.cycle_s;
-            let text = format!("--window: the run of {} ends at {end_s:.3} s", recorded.label);
-            return Err(Error::Usage(text));
-        }
-        let highest_hz = 0.5 / recorded.cycle_s;
-        if args.spectrum.is_some_and(|(low_hz, _)| low_hz >= highest_hz) {
-            let text = format!(
-                "--spectrum: a cycle of {} s allows frequencies up to {highest_hz} Hz",
-                recorded.cycle_s
-            );
-            return Err(Error::Usage(text));
-        }
+        let values = runs.iter().map(Recorded::values).sum();
+        let (recorded, is_aborted) = record(args, names, label, values, opened, output, console)?;
+        aborted |= is_aborted;
         runs.push(recorded);
     }
     // refused programs have nothing to show
@@ -128,6 +84,62 @@ pub(super) fn report(
         }
     }
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+/// Runs a program and keeps the values that are shown, beside the number of `values` of the runs before it; whether the run was
+/// aborted.
+fn record(
+    args: &ReportArgs,
+    names: &str,
+    label: String,
+    values: usize,
+    Opened { mut run, reads }: Opened,
+    output: &Path,
+    console: &mut Console,
+) -> Result<(Recorded, bool), Error> {
+    keep_apart(&reads.so_far(), &[output.to_owned()])?;
+    let mut summary = Collector::new(run.facts());
+    let mut recorded = Recorded::new(label, names, run.facts())?;
+    let (most_values, most_samples) = if args.spectrum.is_some() {
+        (MOST_TRANSFORMED, MOST_SAMPLES)
+    } else {
+        (MOST_VALUES, MOST_VALUES)
+    };
+    let most = most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
+    let asked = asked(&recorded.columns);
+    let take = |rows: &Rows<'_>| {
+        let t_s = |k: u64| k as f64 * recorded.cycle_s;
+        let is_shown = |k| args.window.is_none_or(|(from, to)| (from..to).contains(&t_s(k)));
+        let shown = rows.during(is_shown);
+        if recorded.times.len() + shown.len() > most {
+            let text = format!(
+                "--signals: more than {most_samples} cycles, or {most_values} values in total; use --window to show a part"
+            );
+            return Err(Error::Usage(text));
+        }
+        recorded.times.extend(shown.cycles().iter().map(|cycle| t_s(cycle.k)));
+        for (samples, column) in recorded.samples.iter_mut().zip(&recorded.columns) {
+            column.content.extend(samples, &shown, 1);
+        }
+        Ok(())
+    };
+    drive(&mut run, Shown::ALONE, console, Some(&mut summary), Some((asked, take)))?;
+    // including the subroutines that the run reached
+    keep_apart(&reads.so_far(), &[output.to_owned()])?;
+    if recorded.times.is_empty() && summary.cycles() > 0 {
+        let end_s = summary.cycles().saturating_sub(1) as f64 * recorded.cycle_s;
+        let text = format!("--window: the run of {} ends at {end_s:.3} s", recorded.label);
+        return Err(Error::Usage(text));
+    }
+    let highest_hz = 0.5 / recorded.cycle_s;
+    if args.spectrum.is_some_and(|(low_hz, _)| low_hz >= highest_hz) {
+        let text = format!(
+            "--spectrum: a cycle of {} s allows frequencies up to {highest_hz} Hz",
+            recorded.cycle_s
+        );
+        return Err(Error::Usage(text));
+    }
+    Ok((recorded, run.totals().aborted))
 }
 
 impl Recorded {
