@@ -267,7 +267,9 @@ fn check_together(
             "getriebe[0].moduloo: the modulo range {high} - {low} is {what}, the defaults are used"
         );
         put(parameters, condition, upper.place(), text.clone(), 3_600_000.0);
-        put(parameters, condition, lower.place(), text, 0.0);
+        if parameters.set_by(lower).is_some() {
+            put(parameters, condition, lower.place(), text, 0.0);
+        }
     }
 
     // P-AXIS-00015: modes of spindles, and undefined modes
