@@ -134,7 +134,7 @@ pub struct ChannelDynamics {
     pub curve_jerk: CurveJerk,
     /// `#VECTOR LIMIT`.
     pub vector: VectorLimits,
-    /// P-CHAN-00350: the path acceleration limit also applies to arcs.
+    /// P-CHAN-00350: the path acceleration limit also applies to the centripetal acceleration.
     pub vector_acc_on_arcs: bool,
     /// `#TRANSVELMIN ON`: lower bound of kink velocities in mm/s.
     pub transition_velocity_min_mm_s: f64,
@@ -203,6 +203,9 @@ pub struct Block {
     pub contour: Option<ContourSettings>,
     /// Part of a run that becomes a spline (`#HSC ON [BSPLINE]`), see [`crate::spline`].
     pub spline: Option<SplineSettings>,
+    /// An element inserted at an almost tangential corner: its curvature does not slow the path below the speed that the kink in
+    /// its place would permit.
+    pub tangential: bool,
 }
 
 impl Block {
@@ -226,6 +229,7 @@ impl Block {
             tolerance: Tolerance::default(),
             contour: None,
             spline: None,
+            tangential: false,
         }
     }
 }

@@ -195,15 +195,17 @@ pub(crate) fn curvature_step_velocity(
     {
         return f64::INFINITY;
     }
-    let curvature =
-        |ends: &Ends, at: usize, i: usize| ends.curvatures.as_ref().map_or(0.0, |c| c[at][i]);
+    // what is inserted in place of a kink counts as straight
+    let curvature = |block: &Block, ends: &Ends, at: usize, i: usize| {
+        ends.curvatures.as_ref().filter(|_| !block.tangential).map_or(0.0, |c| c[at][i])
+    };
     if a.curvatures.is_none() && b.curvatures.is_none() {
         return f64::INFINITY;
     }
     let t = cycle.seconds();
     let mut v2 = f64::INFINITY;
     for i in 0..a.tangent_out.len() {
-        let dk = (curvature(b, 0, i) - curvature(a, 1, i)).abs();
+        let dk = (curvature(to, b, 0, i) - curvature(from, a, 1, i)).abs();
         if dk <= TANGENT {
             continue;
         }

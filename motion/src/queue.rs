@@ -16,7 +16,7 @@
 
 use crate::block::{Block, Feed, SlopeKind};
 use crate::cap::Cap;
-use crate::junction::Ends;
+use crate::junction::{Ends, kink_velocity};
 use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::path::{Ball, Path};
 use crate::profile::SlopeLimits;
@@ -97,12 +97,18 @@ impl Queued {
     /// Derives the limits of a block with its table, under a real-time override.
     pub(crate) fn with(block: Box<Block>, table: &SlopeTable, ratios: &Override) -> Self {
         let x = PathExtremes::of(&block.path);
-        let speeds = PathSpeeds::of(&block, &x);
+        let ends = Ends::of(&block);
+        let mut speeds = PathSpeeds::of(&block, &x);
+        if block.tangential {
+            let (from, to) = (&ends.tangent_in, &ends.tangent_out);
+            let kink = kink_velocity(&block, &block, from, to, table.cycle, false);
+            speeds.curve_mm_s = speeds.curve_mm_s.max(kink);
+        }
         let (velocity, ceiling) = rated(&block, &speeds, ratios);
         Self {
             offset: 0.0,
             speeds,
-            ends: Ends::of(&block),
+            ends,
             length: block.path.length(),
             velocity,
             ceiling,

@@ -16,6 +16,7 @@ mod figures;
 mod hostile_input;
 mod improved_position_control;
 mod independent_axes;
+mod inserted_arcs;
 mod main_spindle;
 mod measuring;
 mod optimality;

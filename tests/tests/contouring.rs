@@ -250,3 +250,28 @@ fn a_sharp_turn_does_not_slow_down_the_spline() {
     }
     assert!(compared > 0);
 }
+
+/// Line and arc that touch, also where the last decimal of a coordinate turns the joint by 1e-7 rad: such transitions are
+/// not contoured (475086859), and the path stays on the contour.
+#[test]
+fn what_touches_is_not_contoured() {
+    for x in ["90", "90.00001", "89.99999"] {
+        let program = format!(
+            "G01 X30 F3000\n#CONTOUR MODE ON [DEV PATH_DEV=0.1]\nG01 X60\nG03 X{x} Y30 I0 J30\n\
+             #CONTOUR MODE OFF\nG01 Y60\nM30\n"
+        );
+        let run = run(&program, &[]);
+        assert_eq!(run.ids(), Vec::<u32>::new(), "{x}");
+        for r in &run.records {
+            let (x, y) = (r.axes[0].ipo, r.axes[1].ipo);
+            let off = if y > 30.0 {
+                (x - 90.0).abs()
+            } else if x > 60.0 {
+                (libm::hypot(x - 60.0, y - 30.0) - 30.0).abs()
+            } else {
+                y.abs()
+            };
+            assert!(off < 2e-5, "{off} mm at X{x} Y{y}");
+        }
+    }
+}

@@ -108,6 +108,21 @@ impl Geometry {
         self.coordinates.set_tool(offsets);
     }
 
+    /// The first axis with an offset of the active tool that a coordinate system turns, unless the tool is fixed: the pages do
+    /// not say where such an offset lies (P-TOOL-00010).
+    pub(in crate::exec) fn turned_offset(&self) -> Option<usize> {
+        let tool = &self.tools.active;
+        if tool.is_fixed || self.coordinates.systems() == 0 {
+            return None;
+        }
+        let turned = |axis: usize| {
+            let main = self.coordinates.main_index(axis);
+            main.is_some_and(|main| !self.coordinates.keeps_direction(main))
+        };
+        let offsets = tool.offsets_mm.iter().filter(|(_, offset)| **offset != 0.0);
+        offsets.map(|(axis, _)| *axis).find(|axis| turned(*axis))
+    }
+
     /// 20136 and 21555 for a plane that lacks one of its axes, or contains a modulo axis.
     pub(in crate::exec) fn plane_has_axes(
         &self,

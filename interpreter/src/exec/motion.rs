@@ -49,6 +49,7 @@ use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::MotionState;
 use crate::exec::report::{Report, Subject};
+use crate::machine::table::tool;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed, SlopeKind};
 use kontur_motion::path::{LinePath, Path};
@@ -116,13 +117,17 @@ impl MotionState {
     ///
     /// Source: TF5200 diagnosis 265098635.
     fn contouring_fits(&self, coordinates: &Coordinates, span: Span) -> Outcome<()> {
-        let feed = &self.feed_axes;
-        let is_main = |axis: usize| coordinates.main_index(axis).is_some();
-        if (0..feed.len()).all(|axis| feed[axis] == is_main(axis)) {
+        if self.feeds_main_axes(coordinates) {
             return Ok(());
         }
         let text = "contouring, but the feed axes (#FGROUP, P-CHAN-00011) are not the main axes";
         Err(Fault::new(Condition::ContouringFeedGroup, text, span))
+    }
+
+    /// Whether the feed rate refers to the main axes.
+    fn feeds_main_axes(&self, coordinates: &Coordinates) -> bool {
+        let is_main = |axis: usize| coordinates.main_index(axis).is_some();
+        (0..self.feed_axes.len()).all(|axis| self.feed_axes[axis] == is_main(axis))
     }
 }
 
@@ -229,6 +234,15 @@ impl Decoder {
         self.join_named(words);
         let before = self.geometry.coordinates.programmed_point();
         let start = self.program_targets(words)?;
+        if let Some(axis) = self.geometry.turned_offset() {
+            let text = format!(
+                "the offset of the tool along {} is that of the machine axis in a turned coordinate system",
+                self.names.name(axis)
+            );
+            let fault =
+                Fault::new(Condition::Fallback, text, span).with(|d| d.parameter(tool::FIXED));
+            self.report.note_once("tool_fixed", fault.hint("as with wz[i].tool_fixed 1"));
+        }
         let path = if self.modal.path == PathMode::ArcInSpace {
             Some(self.arc_in_space(start, before, words, span)?)
         } else if is_arc {
@@ -290,6 +304,13 @@ impl Decoder {
         if rounds {
             self.motion.contouring_fits(&self.geometry.coordinates, span)?;
         }
+        if self.contour.hsc.spline().is_some()
+            && !self.machine.channel.spline_feed_of_group
+            && !self.motion.feeds_main_axes(&self.geometry.coordinates)
+        {
+            let what = "a feed group other than the main axes on a B-spline (P-CHAN-00240 = 0)";
+            return Err(Fault::unsupported(what, span));
+        }
         let course = self.feed_course(words, &path, feed, rounds, span)?;
         let shaped = rounds
             || self.contour.hsc.contour().is_some()
@@ -322,6 +343,7 @@ impl Decoder {
                 self.contour.hsc.contour()
             },
             spline: self.contour.hsc.spline(),
+            tangential: false,
         });
         feed::check_time(&block, at, &mut self.report);
         let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;

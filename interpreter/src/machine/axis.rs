@@ -301,6 +301,11 @@ impl Axis {
         self.get(axis_general::TOOL_SPEED_CHECKED)
     }
 
+    /// Deviation from its speed, relative to it, within which a spindle has reached it (P-AXIS-00217).
+    pub(crate) fn speed_band(&self) -> f64 {
+        self.get(axis_functions::SPEED_BAND)
+    }
+
     /// Whether the list configures any feedforward (P-AXIS-00223).
     pub(crate) fn has_feedforward(&self) -> bool {
         self.get(axis_drive::FEEDFORWARD) > 0

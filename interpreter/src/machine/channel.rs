@@ -8,7 +8,7 @@ pub(super) mod programs;
 pub(super) mod running;
 
 use super::parameters::Parameters;
-use super::table::channel as of;
+use super::table::{channel as of, channel_hsc};
 use couplings::{DefaultCoupling, default_couplings};
 use functions::{FunctionEntries, SpindleEntries};
 use kontur_motion::block::SplineSettings;
@@ -73,6 +73,8 @@ pub struct Channel {
     pub(crate) look_ahead_blocks: u32,
     /// Settings of `#HSC [BSPLINE]` at program start (P-CHAN-00122 to 00130).
     pub(crate) spline: SplineSettings,
+    /// The feed of B-splines is that of the feed group instead of the main axes (P-CHAN-00240).
+    pub(crate) spline_feed_of_group: bool,
     /// Shortest length and smallest radius in mm of a tool that D accepts (P-CHAN-00156, P-CHAN-00157); 0: any.
     pub(crate) least_tool_mm: [f64; 2],
     /// Messages to the diagnosis receiver (P-CHAN-00518).
@@ -106,6 +108,7 @@ impl Channel {
             limit_warnings: p.get(of::LIMIT_WARNINGS),
             look_ahead_blocks: look_ahead(p, &start_up),
             spline: spline(p),
+            spline_feed_of_group: p.get(channel_hsc::FEED_GROUP),
             least_tool_mm: [p.get(of::MIN_TOOL_LENGTH), p.get(of::MIN_TOOL_RADIUS)],
             diagnosis_messages: match p.get(of::DIAGNOSIS_MESSAGES).as_deref() {
                 Some("DISABLED") => DiagnosisMessages::Disabled,

@@ -19,16 +19,20 @@ const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00021", "the backlash (P-AXIS-00103) is not compensated at reversal"),
     ("P-AXIS-00043", "the axes of a collision pair are not stopped before they meet"),
     ("P-AXIS-00047", "cross compensation is not added to the set position"),
+    ("P-AXIS-00071", "differences between gantry axes are not monitored"),
+    ("P-AXIS-00072", "differences between gantry axes are not monitored"),
     ("P-AXIS-00073", "a gantry slave has the set position of its master"),
+    ("P-AXIS-00113", "the probe signals at its rising edge"),
+    ("P-AXIS-00114", "a measuring run without a signal ends at its target"),
     ("P-AXIS-00120", "the modulo circle has no error to be compensated"),
     ("P-AXIS-00174", "plane compensation is not added to the set position"),
     ("P-AXIS-00175", "leadscrew error compensation is not added to the set position"),
     ("P-AXIS-00179", "actual positions are not checked against the software limits"),
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
-    ("P-AXIS-00217", "the path waits until the spindle has the whole of its speed"),
     ("P-AXIS-00220", "the spindle is in position control at every speed"),
     ("P-AXIS-00224", "the spindle turns in both directions"),
     ("P-AXIS-00231", "the sign of the drive command is not changed"),
+    ("P-AXIS-00265", "the spindle is in position control at every speed"),
     ("P-AXIS-00271", "temperature compensation is not added to the set position"),
     ("P-AXIS-00431", "the limits of the axis do not depend on the length of a motion"),
     ("P-AXIS-00438", "lr_param.add_interface.filter[0] filters the additional interface"),
@@ -37,8 +41,10 @@ const INERT: &[(&str, &str)] = &[
         "set positions are checked against the software limits only during preparation",
     ),
     ("P-AXIS-00522", "friction is not compensated"),
+    ("P-AXIS-00767", "the spindle is in position control at every speed"),
     ("P-AXIS-00789", "crosstalk between axes is not compensated"),
     ("P-AXIS-00833", "the drive does not weight the velocity feedforward"),
+    ("P-AXIS-00838", "the spindle has reached its speed within P-AXIS-00217 at every speed"),
     (
         "P-STUP-00018",
         "programs and subroutines are searched for next to the main program and in the folders of --path",
@@ -112,6 +118,14 @@ pub(super) fn check(
                 behaviour == Some(Value::Text("ERROR_LR".to_owned())),
                 "ERROR_LR acts as ERROR, a position outside the software limits ends the program",
                 "WARNING lets the program run and the axis cross the limit",
+            );
+            let place = axis_functions::PROBE_EDGE.place();
+            let edge = parameters.of(place.row, place.indices);
+            values(
+                place,
+                edge == Some(Value::Text("NEG".to_owned())),
+                "the probe signals at its rising edge",
+                HINT,
             );
             let kind = kind_of(parameters);
             let place = axis_functions::MODULO_CALCULATION.place();

@@ -202,6 +202,9 @@ fn default_of(row: &Row) -> Option<f64> {
     }
 }
 
+/// Largest modulo range in 0.0001 deg (TF5200 diagnosis 262874763).
+const MODULO_RANGE_MAX: f64 = 2_147_483_647.0;
+
 /// Rules over several parameters of one axis.
 fn check_together(
     parameters: &mut Parameters,
@@ -237,6 +240,24 @@ fn check_together(
         );
         put(parameters, Condition::SoftwareLimitRange, lower.place(), text.clone(), -1e8);
         put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
+    }
+
+    // P-AXIS-00126, P-AXIS-00127: a modulo range without or beyond its format
+    let (upper, lower) = (axis_general::MODULO_UPPER, axis_general::MODULO_LOWER);
+    let (high, low) = (number(parameters, upper), number(parameters, lower));
+    let wrong = match high - low {
+        range if range <= 0.0 => Some((Condition::ModuloRangeEmpty, "not above 0")),
+        range if range > MODULO_RANGE_MAX => Some((Condition::ModuloRangeTooLarge, "too large")),
+        _ => None,
+    };
+    if let Some((condition, what)) = wrong.filter(|_| kind_of(parameters) != AxisKind::Linear) {
+        let text = format!(
+            "getriebe[0].moduloo: the modulo range {high} - {low} is {what}, the defaults are used"
+        );
+        put(parameters, condition, upper.place(), text.clone(), 3_600_000.0);
+        if parameters.set_by(lower).is_some() {
+            put(parameters, condition, lower.place(), text, 0.0);
+        }
     }
 
     // P-AXIS-00015: modes of spindles, and undefined modes

@@ -64,6 +64,8 @@ pub(crate) struct Tool {
     pub(crate) length_mm: f64,
     /// Offsets by the index of the axis in the channel, in mm or deg (P-TOOL-00006).
     pub(crate) offsets_mm: BTreeMap<usize, f64>,
+    /// The offsets belong to the machine axes in a coordinate system, too (P-TOOL-00010).
+    pub(crate) is_fixed: bool,
     /// Free parameters (P-TOOL-00007).
     pub(crate) parameters: BTreeMap<u32, f64>,
     /// P-TOOL-00005; data written by a program are valid.
@@ -88,6 +90,7 @@ impl Default for Tool {
             radius_mm: 0.0,
             length_mm: 0.0,
             offsets_mm: BTreeMap::new(),
+            is_fixed: false,
             parameters: BTreeMap::new(),
             is_valid: true,
             spindle: 0,
@@ -160,6 +163,7 @@ fn tool_of(list: &Parameters, i: u32) -> Tool {
     Tool {
         radius_mm: list.get(tool::RADIUS.at(i)) * scale,
         length_mm: list.get(tool::LENGTH.at(i)) * scale,
+        is_fixed: list.get(tool::FIXED.at(i)),
         is_valid: list.get(tool::VALID.at(i)),
         kind: match list.get(tool::KIND.at(i)) {
             1 => ToolKind::Turning,

@@ -27,6 +27,8 @@ pub(super) struct Spindle {
     /// Weight of the acceleration (G130).
     acc_ratio: f64,
     v_max_deg_s: f64,
+    /// Deviation from its speed, relative to it, within which it counts as having reached it (P-AXIS-00217).
+    band: f64,
     /// Limits of its tool.
     tool: Option<SpindleLimits>,
     position_deg: f64,
@@ -56,6 +58,7 @@ impl Spindle {
             slope: dynamics.feed,
             acc_ratio: 1.0,
             v_max_deg_s: dynamics.v_max_mm_s,
+            band: 0.0,
             tool: None,
             position_deg: 0.0,
             turning: Turning::default(),
@@ -65,6 +68,11 @@ impl Spindle {
             following: None,
             cutting: None,
         }
+    }
+
+    /// Counts as having reached its speed within this deviation, relative to it.
+    pub(super) fn within(self, band: f64) -> Self {
+        Self { band, ..self }
     }
 
     /// Replaces the limits of its list (G112).
@@ -174,6 +182,16 @@ impl Spindle {
         }
         let speed = self.turning.speed_deg_s();
         self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits()
+    }
+
+    /// Whether it has reached its speed within the deviation of its list, rests, or is at a commanded position.
+    ///
+    /// Assumption: the set speed counts; the vendor's actual speed follows it by the lag of the position control.
+    pub(super) fn has_reached(&self) -> bool {
+        let target = self.target_deg_s();
+        let away = (self.turning.speed_deg_s() - target).abs();
+        self.is_as_told()
+            || (!self.positions() && away <= self.band * target.abs() && target != 0.0)
     }
 
     /// Whether neither the path nor an angle determines its position.

@@ -52,8 +52,11 @@ impl Simulation {
             }
         }
         let window = machine.channel.look_ahead_blocks as usize;
-        let spindles: Vec<_> =
-            machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
+        let spindles: Vec<_> = machine
+            .spindles
+            .iter()
+            .map(|a| Spindle::new(&a.dynamics()).within(a.speed_band()))
+            .collect();
         let records = chains.iter().map(AxisChain::at_start).collect();
         let mut simulation = Self {
             smoothing: Smoothing::new(cycle),

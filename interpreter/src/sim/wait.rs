@@ -189,7 +189,7 @@ impl Wait {
             Until::Spindle(spindle, state) => {
                 !parts.spindles.get(*spindle).is_none_or(|s| match state {
                     SpindleState::Rest => s.rests(),
-                    SpindleState::Reached => s.is_as_told(),
+                    SpindleState::Reached => s.has_reached(),
                     SpindleState::Mark { deg, .. } => s.mark_ahead(*deg, parts.cycle).is_some(),
                 })
             }

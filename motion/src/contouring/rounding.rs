@@ -4,7 +4,6 @@ use super::blend::{Blend, End};
 use super::{Held, NoContour, is_feed};
 use crate::axis::AxisVec;
 use crate::block::{Block, ContourMode, ContourSettings};
-use crate::junction::TANGENT;
 use crate::path::{Path, piece};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -53,6 +52,12 @@ fn longest(path: &Path, settings: &ContourSettings) -> f64 {
     }
 }
 
+/// Change of direction up to which a transition counts as tangential: it is not contoured (TF5200 programming manual 475086859).
+///
+/// Assumption: the page prints no angle. The rounding of coordinates in steps of 0.00001 mm stays below it; a program that the
+/// manual prints turns by 0.00001 rad and counts as a corner (15556713099).
+const TANGENTIAL: f64 = 1e-6;
+
 /// The curve at the corner between two blocks; `None` if there is no corner.
 pub(super) fn curve(
     held: &Held,
@@ -71,7 +76,7 @@ pub(super) fn curve(
     if corner.mixed {
         return Err(NoContour::NotPossible);
     }
-    if skipped.is_empty() && corner.jump <= TANGENT {
+    if skipped.is_empty() && corner.jump <= TANGENTIAL {
         return Ok(None);
     }
     if corner.angle_rad >= PI - NEEDLE_RAD {

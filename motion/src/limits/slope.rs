@@ -18,6 +18,8 @@ pub(crate) struct SlopeTable {
     dynamics: Arc<ChannelDynamics>,
     slope: Slope,
     rapid: bool,
+    /// Cycle time.
+    pub(crate) cycle: CycleTime,
     /// Limits by axis, each different row once.
     rows: Vec<AxisVec>,
     /// Rows of acceleration and deceleration in mm/s2.
@@ -34,6 +36,7 @@ impl SlopeTable {
             dynamics: Arc::clone(&block.dynamics),
             slope: block.slope,
             rapid,
+            cycle,
             rows: Vec::new(),
             plateaus: [0; 2],
             jerks: [0; 4],

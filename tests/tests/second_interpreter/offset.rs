@@ -170,16 +170,29 @@ pub fn compensated(contour: &Contour, pieces: &[Piece], plane: Plane) -> Option<
     match contour.change {
         None => all.extend(parallels(contour, elements, distance, plane)?),
         Some((i, radius)) => {
-            // the line between the two parts leads from one distance to the other
-            let (before, after) = (&elements[..i], &elements[i + 1..]);
+            // element i leads from its own corner at one distance to that at the other; extended tangents stay outside it
+            let (line, number) = (&elements[i], elements[i].number);
             end = side(radius);
-            let from = above(before.last().unwrap(), 1.0, distance, plane);
-            let to = above(&after[0], 0.0, end, plane);
-            let to = placed(elements[i].at(1.0), flat(to, plane), plane);
-            all.extend(parallels(contour, before, distance, plane)?);
-            all.push(Piece::line(elements[i].number, from, to));
             let other = Contour { radius, ..contour.clone() };
-            all.extend(parallels(&other, after, end, plane)?);
+            let mut before = parallels(contour, &elements[..=i], distance, plane)?;
+            let mut after = parallels(&other, &elements[i..], end, plane)?;
+            let (from, to) = (before.pop().unwrap().at(0.0), after.remove(0).at(1.0));
+            let (foot, head) = (above(line, 0.0, distance, plane), above(line, 1.0, end, plane));
+            let t = direction(line, 0.0, plane);
+            let ahead = |p: Point, q: Point| {
+                let (p, q) = (flat(p, plane), flat(q, plane));
+                product([q[0] - p[0], q[1] - p[1]], t) > 0.0
+            };
+            all.extend(before);
+            let mut way = vec![from];
+            way.extend(ahead(from, foot).then_some(foot));
+            way.extend(ahead(head, to).then_some(head));
+            way.push(to);
+            if !way.is_sorted_by(|p, q| !ahead(*q, *p)) {
+                return None;
+            }
+            all.extend(way.windows(2).map(|two| Piece::line(number, two[0], two[1])));
+            all.extend(after);
         }
     }
     let stop = above(last, 1.0, end, plane);

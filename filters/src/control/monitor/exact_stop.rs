@@ -1,7 +1,7 @@
 //! Position monitoring: the axis must be inside the exact-stop window in time.
 //!
 //! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, after all
-//! filters, reaches the target of the stop; it ends (t2) when the actual position is inside the window.
+//! filters, has reached the target of the stop and the path is no longer interpolated; it ends (t2) when the actual position is inside the window.
 //!
 //! A window of 0 means half an increment: the vendor compares whole increments, and an actual position that is off by
 //! less than half an increment counts as the same one.

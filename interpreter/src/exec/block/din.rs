@@ -137,7 +137,7 @@ impl Decoder {
             self.insertions(&words);
         }
         if let Some(at) = banding {
-            self.banding_moves(at);
+            self.banding_moves(&words, at);
         }
         self.join_synchronous();
         if let Some((speed, span)) = late_speed {

@@ -7,8 +7,11 @@
 //! Assumptions: the parameter is the chord length over the feed axes, or over all axes if none of them moves; if the weights of
 //! both sides are 0, both chords have equal weight; a given tangent has the length 1.
 //!
-//! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`); 120112. Assumption: after
-//! a rest there is no direction, and a tangential start is automatic; the vendor asks for a motion before it alone.
+//! A spline of two points needs both tangents (K-0151).
+//!
+//! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`; 207216267); 120112.
+//! Assumption: after a rest there is no direction, and a tangential start is automatic; the vendor asks for a motion before it
+//! alone.
 
 use super::motion::{Driven, Motion};
 use crate::diag::Condition;
@@ -54,6 +57,18 @@ pub(in crate::exec) struct End {
 }
 
 impl End {
+    /// Whether the program states the tangent, in every axis that moves along the chord.
+    fn is_stated(&self, chord: &[f64]) -> bool {
+        match self.transition {
+            Transition::Auto => false,
+            Transition::Tangential => true,
+            Transition::User => {
+                let named = |axis: usize| self.vector.iter().any(|(named, _)| *named == axis);
+                chord.iter().enumerate().all(|(axis, way)| *way == 0.0 || named(axis))
+            }
+        }
+    }
+
     /// Derivatives of single axes, or of all.
     fn tangent(&self, neighbour: Option<AxisVec>) -> Given {
         match (self.transition, neighbour) {
@@ -100,6 +115,8 @@ struct Run {
     start: Option<Given>,
     /// Derivative at the start of the first incomplete segment.
     tangent: Option<AxisVec>,
+    /// Whether it continues behind an arc.
+    behind_arc: bool,
 }
 
 /// A complete segment.
@@ -296,7 +313,8 @@ impl Akima {
         let (_, slope) = chord(&motion);
         let run = self.run.get_or_insert_with(|| {
             let neighbour = before.map(|before| direction(&before.block.path, true));
-            let given = match (std::mem::take(&mut self.behind_arc), &neighbour) {
+            let behind_arc = std::mem::take(&mut self.behind_arc);
+            let given = match (behind_arc, &neighbour) {
                 (true, Some(direction)) => Given::All(direction.clone()),
                 _ => self.start.tangent(neighbour),
             };
@@ -305,6 +323,7 @@ impl Akima {
                 slopes: VecDeque::new(),
                 start: Some(given),
                 tangent: None,
+                behind_arc,
             })
         });
         run.waiting.push_back(motion);
@@ -321,6 +340,16 @@ impl Akima {
         let neighbour = behind.map(|behind| direction(&behind.block.path, false));
         let is_arc = behind.is_some_and(|b| !b.block.path.is_straight());
         self.behind_arc = self.selected && is_arc;
+        if let ([motion], [chord]) = (run.waiting.make_contiguous(), run.slopes.make_contiguous())
+            && run.start.is_some()
+            && !((run.behind_arc || self.start.is_stated(chord))
+                && (self.behind_arc || self.end.is_stated(chord)))
+        {
+            let text = "a spline of two points whose tangents are not both stated";
+            return Err(
+                Fault::new(Condition::SplineTooShort, text, motion.span).in_block(motion.source)
+            );
+        }
         let mut end = match (self.behind_arc, neighbour) {
             (true, Some(direction)) => Given::All(direction),
             (_, neighbour) => self.end.tangent(neighbour),

@@ -33,7 +33,7 @@ use crate::exec::step::{SourceRef, Sync};
 use crate::syntax::ast::Span;
 use active::Active;
 use corner::{above, straight_before};
-use element::{Element, moving_side, runs_back};
+use element::{Course, Element, moving_side, runs_back};
 use ends::line;
 use failure::Fallible;
 use inside::Closed;
@@ -150,7 +150,7 @@ impl Compensator {
         if motion
             .compensation
             .is_some_and(|c| c.reverse && c.distance_mm.to_bits() == (-active.distance).to_bits())
-            && !active.last.approach
+            && !active.last.course.approaches()
             && runs_back(&active.last.side, &side)
         {
             let mut found = None;
@@ -159,17 +159,24 @@ impl Compensator {
             return Ok(());
         }
         if let Some(c) = motion.compensation
-            && c.perpendicular_change
-            && c.distance_mm * active.distance > 0.0
-            && !active.last.approach
+            && c.distance_mm * active.distance >= 0.0
         {
-            let mut found = None;
-            let next = active.change_radius(motion, side, c.distance_mm, out, &mut found)?;
+            let (distance, mut found) = (c.distance_mm, None);
+            let next = if c.perpendicular_change {
+                active.change_across(motion, side, distance, out, &mut found)?
+            } else if matches!(side, Side::Line { .. }) {
+                active.change_along(motion, side, distance, out, &mut found)?
+            } else {
+                let text =
+                    "the tool radius changes before an arc: a straight motion must lead to it";
+                return Err(Fault::new(Condition::RadiusChangeInArc, text, motion.span)
+                    .in_block(motion.source));
+            };
             self.active = Some(Box::new(next));
             self.found(found);
             return Ok(());
         }
-        // a different side or radius, or none: connected by a line
+        // a different side, or none: connected by a line
         if active.perpendicular
             || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
         {
@@ -179,14 +186,6 @@ impl Compensator {
             return self.select(motion, None, out);
         }
         if !matches!(side, Side::Line { .. }) {
-            let changes =
-                motion.compensation.is_some_and(|c| c.distance_mm * active.distance > 0.0);
-            if changes {
-                let text =
-                    "the tool radius changes before an arc: a straight motion must lead to it";
-                return Err(Fault::new(Condition::RadiusChangeInArc, text, motion.span)
-                    .in_block(motion.source));
-            }
             return Err(circular(&motion));
         }
         let away = tangential.then(|| active.last.side.tangent(true));
@@ -295,7 +294,7 @@ impl Compensator {
             return Ok(());
         }
         let tilt = motion.tilt.clone();
-        let (start, approach) = if perpendicular {
+        let (start, course) = if perpendicular {
             let from = side.start_point();
             let start = above(from, side.tangent(false), distance);
             if let Some(mut there) =
@@ -304,14 +303,15 @@ impl Compensator {
                 there.events = std::mem::take(&mut motion.events);
                 out.push(Item::Motion(there));
             }
-            (start, false)
+            (start, Course::Parallel)
         } else if let Side::Line { from, .. } = side {
-            (at.map_or(from, |(tool, _)| tool), true)
+            let course = if tangential { Course::TangentialApproach } else { Course::Approach };
+            (at.map_or(from, |(tool, _)| tool), course)
         } else {
             return Err(circular(&motion));
         };
         let watch = Watch::default();
-        let last = Element { motion, side, start, approach, tangential };
+        let last = Element { motion, side, start, course };
         let between = Vec::new();
         let active = Active { distance, perpendicular, plane, tilt, last, between, watch };
         self.active = Some(Box::new(active));

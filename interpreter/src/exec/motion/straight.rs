@@ -181,6 +181,7 @@ impl Decoder {
             tolerance: shared.tolerance,
             contour: shared.contour,
             spline: shared.spline,
+            tangential: false,
         });
         let in_plane = InPlane { plane: shared.plane, tilt: None, compensation: None };
         self.send(block, in_plane, None, words.span);

@@ -330,6 +330,7 @@ impl Decoder {
             tolerance: self.shaping.tolerance(),
             contour: None,
             spline: None,
+            tangential: false,
         })
     }
 }

@@ -66,7 +66,7 @@ fn the_example_with_a_start_tangent() {
 /// Points on a line give a line, whatever their distances; a spline through two points is also a line.
 #[test]
 fn straight_points_stay_straight() {
-    for text in ["G151\nX1 Y2\nX3 Y6\nX4 Y8\nX10 Y20\nG150", "G151\nX1 Y2\nG150"] {
+    for text in ["G151\nX1 Y2\nX3 Y6\nX4 Y8\nX10 Y20\nG150", "G151\nX1 Y2\nX3 Y6\nG150"] {
         let run = clean(&format!("F1000\n{text}\nM30\n"));
         for block in run.blocks() {
             let mut at = block.path.start().clone();

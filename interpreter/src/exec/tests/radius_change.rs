@@ -1,13 +1,10 @@
-//! Change of the tool radius perpendicular to the contour (`#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`), suppressed compensation
-//! (`#TRC [SUPPRESS_TRC=1]`).
+//! Change of the tool radius along the next line, or perpendicular to the contour (`#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`).
 //!
-//! Expected points from elementary geometry, and distances from the contour by brute force over random contours.
+//! Distances from the contour by brute force over random contours.
 
 use super::{Step, run};
 use kontur_kit::Random;
 use std::fmt::Write as _;
-
-const TRC: &str = "#TRC [PERPENDICULAR_RADIUS_CHANGE=1]\nG138 F100\n";
 
 /// Distance of a point from a line between two others.
 fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -17,8 +14,22 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(p[0] - a[0] - t * d[0], p[1] - a[1] - t * d[1])
 }
 
+/// Whether the foot of a point lies between two others.
+fn is_beside(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
+    let d = [b[0] - a[0], b[1] - a[1]];
+    let t = ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+    (0.0..=1.0).contains(&t)
+}
+
 #[test]
 fn random_contours_are_nowhere_cut() {
+    are_nowhere_cut(false);
+    are_nowhere_cut(true);
+}
+
+/// `across`: the radius changes perpendicular to the contour instead of along the third element.
+fn are_nowhere_cut(across: bool) {
+    let option = u8::from(across);
     let mut random = Random::new(7);
     let mut driven = 0;
     for k in 0..300 {
@@ -33,7 +44,8 @@ fn random_contours_are_nowhere_cut() {
         let (first, second) = (random.between(1.0, 5.0), random.between(1.0, 5.0));
         let (side, corner) = (["G41", "G42"][k % 2], ["G25", "G26"][k / 2 % 2]);
         let mut text = format!(
-            "{TRC}{corner} V.G.WZ_AKT.R={first:.6}\nX{:.6} Y{:.6}\n{side} X0 Y0\n",
+            "#TRC [PERPENDICULAR_RADIUS_CHANGE={option}]\nG138 F100\n\
+             {corner} V.G.WZ_AKT.R={first:.6}\nX{:.6} Y{:.6}\n{side} X0 Y0\n",
             points[0][0] - 30.0,
             points[0][1]
         );
@@ -66,8 +78,14 @@ fn random_contours_are_nowhere_cut() {
                 // checked against its neighbours only: elements further away are covered by the warning K-0119
                 for i in at.saturating_sub(1).max(1)..=(at + 1).min(4) {
                     let far = distance(p, points[i - 1], points[i]);
-                    let least = if i > 2 && at > 2 { second } else { first.min(second) };
+                    let changed = i > 2 && at > if across { 2 } else { 3 };
+                    let least = if changed { second } else { first.min(second) };
                     assert!(far > least - 1e-6, "{far} instead of {least} at {p:?}\n{text}");
+                    // along the third element up to the larger radius, beyond that at corners only
+                    if !across && i == 3 && at == 3 && is_beside(p, points[2], points[3]) {
+                        let most = first.max(second);
+                        assert!(far < most + 1e-6, "{far} beyond {most} at {p:?}\n{text}");
+                    }
                 }
             }
         }

@@ -32,7 +32,7 @@ pub(crate) struct PathEntries {
     pub(crate) vector: VectorLimits,
     /// Unit of time in s of ACC, DEC, RADIAL_ACC and RADIAL_JERK in `#VECTOR LIMIT` (P-CHAN-00351): 60 or 1.
     pub(crate) vector_time_s: f64,
-    /// The path acceleration limit also applies to arcs (P-CHAN-00350).
+    /// The path acceleration limit also applies to the centripetal acceleration (P-CHAN-00350).
     pub(crate) vector_acc_on_arcs: bool,
 }
 
@@ -172,8 +172,6 @@ pub(super) fn look_ahead(p: &Parameters, start_up: &Parameters) -> u32 {
 }
 
 /// Settings of `#HSC [BSPLINE]` at program start (P-CHAN-00122 to 00130).
-///
-/// Assumption: rapid blocks end a spline unless the list states P-CHAN-00128.
 pub(super) fn spline(p: &Parameters) -> SplineSettings {
     let angle_deg = p.get(hsc::MAX_ANGLE) / 1e4;
     SplineSettings {
@@ -181,7 +179,7 @@ pub(super) fn spline(p: &Parameters) -> SplineSettings {
         track_dev_deg: p.get(hsc::TRACK_DEVIATION),
         off_at_path_dev: p.get(hsc::OFF_AT_PATH_DEVIATION),
         off_at_track_dev: p.get(hsc::OFF_AT_TRACK_DEVIATION),
-        off_at_rapid: p.get(hsc::OFF_AT_RAPID).is_none_or(|on| on > 0.0),
+        off_at_rapid: p.get(hsc::OFF_AT_RAPID),
         max_length_mm: p.get(hsc::MAX_LENGTH),
         max_angle_deg: SplineSettings::angle_limit_deg(angle_deg),
     }

@@ -29,7 +29,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::GearStageZero, Correction::Default)
         .source("TF5200 axis parameters 117429259"), as GEAR_STAGE: Whole;
     axis("P-AXIS-00126", "getriebe[i].moduloo", Raw::Sgn32, "upper end of the range of a modulo axis")
-        .range(Bound::BeyondOf("P-AXIS-00127"), Bound::None).default(3_600_000.0).unit("0.1um", "0.0001deg").axes("R")
+        .default(3_600_000.0).unit("0.1um", "0.0001deg").axes("R")
         .source("TF5200 axis parameters 117197963"), as MODULO_UPPER: Number;
     axis("P-AXIS-00127", "getriebe[i].modulou", Raw::Sgn32, "lower end of the range of a modulo axis")
         .default(0.0).unit("0.1um", "0.0001deg").axes("R")

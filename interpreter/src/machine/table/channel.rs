@@ -203,7 +203,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as INDEPENDENT_STOP: Whole;
     chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
         .default(0.0), as CONSTANT_RAMP_TIME: Switch;
-    chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "P-CHAN-00002 also limits arcs")
+    chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "1: P-CHAN-00002 also limits the centripetal acceleration on arcs")
         .default(0.0), as PATH_ACC_ON_ARCS: Switch;
     chan("P-CHAN-00351", "vector.acc_dec_unit", Raw::Word(&["MM_S2", "MM_M2"]), "unit of the accelerations vector.* and of ACC, DEC, RADIAL_ACC and RADIAL_JERK of #VECTOR LIMIT: MM_M2 mm/min2, MM_S2 mm/s2")
         .default_is(Default::Text("MM_M2")), as PATH_ACC_UNIT: Text;

@@ -18,8 +18,8 @@ parameters! {
         .source("TF5200 channel parameters 149371531"), as MAX_ANGLE: Number;
     chan("P-CHAN-00127", "hsc.bspline.merge_window", Raw::Uns32, "number of blocks from which MERGE merges them; no effect here, blocks are not merged")
         .default(5.0).source("TF5200 channel parameters 149374603");
-    chan("P-CHAN-00128", "hsc.bspline.auto_off_g00", Raw::Boolean, "AUTO_OFF_G00 of #HSC [BSPLINE] at program start; the page prints the default 0, a list that does not state it is read as 1 here")
-        .source("TF5200 channel parameters 149376139"), as OFF_AT_RAPID: Optional;
+    chan("P-CHAN-00128", "hsc.bspline.auto_off_g00", Raw::Boolean, "AUTO_OFF_G00 of #HSC [BSPLINE] at program start")
+        .default(0.0).source("TF5200 channel parameters 149376139"), as OFF_AT_RAPID: Switch;
     chan("P-CHAN-00129", "hsc.bspline.auto_off_path", Raw::Boolean, "AUTO_OFF_PATH of #HSC [BSPLINE] at program start")
         .default(0.0).source("TF5200 channel parameters 149377675"), as OFF_AT_PATH_DEVIATION: Switch;
     chan("P-CHAN-00130", "hsc.bspline.auto_off_track", Raw::Boolean, "AUTO_OFF_TRACK of #HSC [BSPLINE] at program start")
@@ -39,8 +39,8 @@ parameters! {
         .default(50.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 149397643");
     chan("P-CHAN-00217", "hsc.gen.on_delay_output_one_block", Raw::Boolean, "1: the first motion after #HSC ON is not part of the spline; not simulated")
         .default(0.0).source("TF5200 channel parameters 149406859");
-    chan("P-CHAN-00240", "hsc.bspline.fgroup", Raw::Boolean, "1: the feed on a B-spline is that of the feed group (#FGROUP), 0: that of the main axes; as with 1 here")
-        .default(0.0).source("TF5200 channel parameters 149383819");
+    chan("P-CHAN-00240", "hsc.bspline.fgroup", Raw::Boolean, "1: the feed on a B-spline is that of the feed group (#FGROUP), 0: that of the main axes; with 0, feed axes other than the main axes are refused")
+        .default(0.0).source("TF5200 channel parameters 149383819"), as FEED_GROUP: Switch;
     chan("P-CHAN-00405", "hsc.gen.max_track_ratio", Raw::Real64, "ratio of the ways of other axes and main axes at which a spline ends; not simulated")
         .range(Bound::Beyond(0.0), Bound::None).default(100.0).source("TF5200 channel parameters 149408395");
     chan("P-CHAN-00421", "hsc.bspline.auto_off_g60", Raw::Boolean, "1: a spline ends at G60 and G360; no effect here, it always does")

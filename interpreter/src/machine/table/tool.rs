@@ -20,8 +20,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
     tool("P-TOOL-00009", "wz[i].kinematic.param[j]", Raw::Real64, "offset j of the tool in a transformation; no effect here, #TRAFO is refused or has no kinematics")
         .default(0.0).unit("0.1um", "0.1um");
-    tool("P-TOOL-00010", "wz[i].tool_fixed", Raw::Boolean, "1: the offsets P-TOOL-00006 are those of the machine axes in a coordinate system, too; as with 1 here")
-        .default(0.0).source("TF5200 tool data 104787339");
+    tool("P-TOOL-00010", "wz[i].tool_fixed", Raw::Boolean, "1: the offsets P-TOOL-00006 are those of the machine axes in a coordinate system, too; as with 1 here, with 0 this is reported (K-0111)")
+        .default(0.0).source("TF5200 tool data 104787339"), as FIXED: Switch;
     tool("P-TOOL-00011", "wz[i].kin_id", Raw::Uns16, "kinematics of the tool; no effect here, #TRAFO is refused or has no kinematics")
         .default(0.0).source("TF5200 tool data 104788875");
     tool("P-TOOL-00012", "wz[i].log_ax_nr_spdl", Raw::Uns16, "logical number of the spindle that P-TOOL-00013 to 00015 limit, 0: none")

@@ -5,6 +5,7 @@ macro_rules! lists {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     DeadTime = Vendor 110040: Warning None 1 2, "dead time of the simulated drive above the maximum, limited to 5", cause "P-AXIS-00194", hint "write a value from 0 to 5 cycles";
+    ModuloRangeEmpty = Vendor 110052: Warning None 1 1, "modulo range not above 0, the defaults are used", cause "getriebe[0].moduloo 0", hint "write an upper end above the lower one", parameter "P-AXIS-00126";
     AxisNumberZero = Vendor 110076: Error JobAbort 7 2, "logical axis number is 0", cause "P-AXIS-00016", hint "write 1 or more in kopf.achs_nr";
     AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
     ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
@@ -23,6 +24,7 @@ macro_rules! lists {
     SpeedScaleDenominator = Vendor 110270: Error JobAbort 7 2, "denominator of the speed scaling is 0", cause "antr.v_reso_denom 0", hint "write 1 or more", parameter "P-AXIS-00205";
     GeometricRampTime = Vendor 110276: Warning None 1 2, "geometric ramp time below the shortest ramp time, limited", hint "raise P-AXIS-00199, or lower P-AXIS-00201", parameter "P-AXIS-00199";
     SpindleWithoutType = Vendor 110304: Error ProgramAbort 7 2, "spindle in the channel list whose axis list does not describe a spindle", hint "kenngr.achs_typ ACHSTYP_SPINDEL makes an axis a spindle", parameter "P-AXIS-00018";
+    ModuloRangeTooLarge = Vendor 110308: Warning None 1 1, "modulo range beyond the format, the defaults are used", cause "getriebe[0].moduloo 2147483647 with a negative lower end", hint "write a range of at most 2147483647", parameter "P-AXIS-00126";
     GantryMasterOfMaster = Vendor 110342: Error JobAbort 7 2, "gantry master that is itself a gantry slave", cause "kenngr.achs_mode with the bit 0x10000 beside kenngr.gantry_ax_nr", hint "set kenngr.gantry_ax_nr of the master to 0", parameter "P-AXIS-00070";
     SpindleMode = Vendor 110352: Warning None 1 2, "axis mode of a spindle is not modulo, modulo used", cause "kenngr.achs_mode 1 in the list of a spindle", hint "write 4 (modulo) for spindles", parameter "P-AXIS-00015";
     AxisMode = Vendor 110353: Warning None 1 2, "unknown axis mode, corrected", cause "kenngr.achs_mode 8", hint "write 1 (linear), 2 (optimised positioning) or 4 (modulo)", parameter "P-AXIS-00015";

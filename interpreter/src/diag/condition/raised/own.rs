@@ -111,6 +111,7 @@ macro_rules! own {
     AreaWrong = Kontur 148 "K-AREA-WRONG": Error ProgramAbort 3 1, "control area cannot be defined or selected in this way (no vendor ID known)", cause "a contour that is not closed, an ID that is not defined or is active", hint "write #CONTROL AREA BEGIN [ID=1 WORK POLY MIN_EXCUR=-50 MAX_EXCUR=50], closed lines, #CONTROL AREA END";
     FirAndHsc = Kontur 149 "K-FIR-AND-HSC": Warning None 1 1, "FIR and HSC filter active for the same axis, HSC filter without effect", cause "both act before the standard filters; the documents do not describe their combined effect", hint "write #FILTER OFF before #FILTER ON [HSC], or the reverse";
     IndependentBeforeSystem = Kontur 150 "K-INDEPENDENT-BEFORE-SYSTEM": Error ProgramAbort 3 1, "coordinate system or transformation selected while a main axis moves independently (no vendor ID known)", cause "Z[OSC ON ..] or Z[INDP_ASYN ..], then #CS ON", hint "end the motion first: Z[OSC OFF], #WAIT INDP ALL";
+    SplineTooShort = Kontur 151 "K-SPLINE-SHORT": Error ProgramAbort 3 0, "Akima spline of two points with automatic tangents (no vendor ID known)", cause "G151, G01 X20 Y5, G150", hint "program a third point, or both tangents by #AKIMA TRANS [START=TANGENTIAL END=TANGENTIAL]";
         }
     };
 }

@@ -221,7 +221,7 @@ impl Decoder {
             return true;
         }
         for (axis, value, _) in &words.axes {
-            let value = sets.then(|| value * self.modal.axis_unit(&self.machine.axes[*axis]));
+            let value = sets.then(|| self.preset_mm(*axis, *value));
             self.geometry.coordinates.preset_position(*axis, value);
         }
         if words.axes.is_empty() && !sets {
@@ -234,10 +234,16 @@ impl Decoder {
         true
     }
 
+    /// The coordinate of `#PSET` in mm, scaled like every coordinate of the axis: offsets are not scaled (207656459), so that
+    /// only then the axis need not move to be there (207101835).
+    fn preset_mm(&self, axis: usize, value: f64) -> f64 {
+        value * self.modal.axis_unit(&self.machine.axes[axis]) * self.geometry.scale.factor(axis)
+    }
+
     /// 20604 for a value of `#PSET` outside the data format, 20711 if the resulting offset is (251955595, 252303755).
     fn presets_fit(&self, words: &Words<'_>, sets: bool) -> Outcome<()> {
         for (axis, value, span) in words.axes.iter().filter(|_| sets) {
-            let value_mm = value * self.modal.axis_unit(&self.machine.axes[*axis]);
+            let value_mm = self.preset_mm(*axis, *value);
             let offset_mm = self.geometry.coordinates.target()[*axis] - value_mm;
             let (condition, what) = if value_mm.abs() > LARGEST_MM {
                 (Condition::PresetTooLarge, "the position")

@@ -1,7 +1,7 @@
 //! Active compensation: one element after another, with the corner between them.
 
 use super::corner::{above, corner_arc, inner_corner, straight, straight_corner};
-use super::element::{Element, emit_between};
+use super::element::{Course, Element, emit_between};
 use super::failure::{Fallible, too_tight};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
@@ -70,13 +70,13 @@ impl Active {
     fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
         let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
         let active = |start: Point, motion: Box<Motion>| {
-            let last = Element { motion, side, start, approach: false, tangential: false };
+            let last = Element::parallel(motion, side, start);
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
         let corner = side.start_point();
         let after = above(corner, side.tangent(false), distance);
-        if last.approach {
-            if last.tangential {
+        if last.course.approaches() {
+            if last.course == Course::TangentialApproach {
                 last.emit_arc(after, side.tangent(false), plane, out)?;
             } else {
                 last.emit(after, plane, distance, out)?;
@@ -122,9 +122,10 @@ impl Active {
             }
             None => SmallVec::from_slice(&[before]),
         };
-        // a line is extended, after an arc its tangent is inserted
+        // a line on its parallel is extended, after any other element its tangent is inserted
         let first = points[0];
-        let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
+        let extended = matches!(last.side, Side::Line { .. }) && last.course == Course::Parallel;
+        let end = if extended { first } else { before };
         let template = outside.then(|| last.motion.clone());
         last.emit(end, plane, distance, out)?;
         emit_between(between, end, plane, out);
@@ -158,7 +159,7 @@ impl Active {
         let Self { distance, perpendicular, plane, tilt, .. } = self;
         let (tilt, watch) = (tilt.clone(), Watch::default());
         let start = Self { tilt: None, ..self }.finish(out, cut)?;
-        let last = Element { motion, side, start, approach: false, tangential: false };
+        let last = Element::parallel(motion, side, start);
         let between = Vec::new();
         Ok(Self { distance: -distance, perpendicular, plane, tilt, last, between, watch })
     }
@@ -167,7 +168,7 @@ impl Active {
     pub(super) fn finish(mut self, out: &mut Vec<Item>, cut: &mut Option<Cut>) -> Fallible<Point> {
         let mut watched = Watched::new(&mut self, out);
         let Self { distance, plane, last, between, .. } = self;
-        if last.tangential {
+        if last.course == Course::TangentialApproach {
             let text = "G05: the approach is not followed by a contour";
             return Err(Fault::new(Condition::Compensation, text, last.motion.span)
                 .hint("its arc touches the following motion")
@@ -201,8 +202,8 @@ pub(super) struct Watched {
     pub(super) watch: Watch,
     side: Side,
     source: SourceRef,
-    /// The line of the approach is not checked.
-    approach: bool,
+    /// Approaches and changes of the radius are not checked: the tool leaves the parallel there.
+    checked: bool,
     plane: [usize; 2],
     radius: f64,
     done: usize,
@@ -214,7 +215,7 @@ impl Watched {
         Self {
             side: last.side,
             source: last.motion.source,
-            approach: last.approach,
+            checked: last.course == Course::Parallel,
             plane: active.plane,
             radius: active.distance.abs(),
             done: out.len(),
@@ -224,7 +225,7 @@ impl Watched {
 
     /// A bottleneck is recorded in `cut`.
     pub(super) fn compare(&mut self, out: &[Item], cut: &mut Option<Cut>) {
-        if !self.approach {
+        if self.checked {
             let way = &out[self.done..];
             let found = self.watch.element(self.side, self.source, way, self.plane, self.radius);
             *cut = cut.or(found);

@@ -9,6 +9,12 @@ use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
+/// Angle up to which an inserted element counts as tangential (TANGENTIAL_LIMIT of `#TRC`, 1067243147): 3 deg.
+///
+/// Assumption: an arc at such a corner does not slow the path below the speed that the kink in its place would permit; the
+/// page says only that a smaller limit means more braking.
+const TANGENTIAL_RAD: f64 = 3.0 * PI / 180.0;
+
 /// Points of an outer corner between extended tangents: their intersection or, if that is further than `reach` from the ends of
 /// the parallels, two points at this distance from them.
 pub(super) fn straight_corner(
@@ -99,6 +105,7 @@ pub(super) fn corner_arc(
     let mut arc = before.clone();
     arc.block.path = Path::Arc(path);
     arc.block.feed = before.feed_behind();
+    arc.block.tangential = angle.abs() <= TANGENTIAL_RAD;
     arc.engaged = Some(distance > 0.0);
     arc.events.clear();
     Some(Item::Motion(Box::new(arc)))

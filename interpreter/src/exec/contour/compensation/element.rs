@@ -20,13 +20,35 @@ pub(super) struct Element {
     pub(super) side: Side,
     /// Start of the tool centre path.
     pub(super) start: Point,
+    pub(super) course: Course,
+}
+
+/// How the tool follows an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Course {
+    /// On the parallel.
+    Parallel,
     /// The line that approaches the parallel: its direction differs from that of the contour.
-    pub(super) approach: bool,
-    /// Whether the approach is an arc that touches the parallel (G05).
-    pub(super) tangential: bool,
+    Approach,
+    /// An approach on an arc that touches the parallel (G05).
+    TangentialApproach,
+    /// A line that leads from the parallel of the tool radius before it to the parallel of the new one.
+    RadiusChange,
+}
+
+impl Course {
+    /// Whether the tool is not yet at the contour.
+    pub(super) fn approaches(self) -> bool {
+        matches!(self, Self::Approach | Self::TangentialApproach)
+    }
 }
 
 impl Element {
+    /// An element whose parallel the tool follows.
+    pub(super) fn parallel(motion: Box<Motion>, side: Side, start: Point) -> Self {
+        Self { motion, side, start, course: Course::Parallel }
+    }
+
     /// The approach on an arc to the start of the parallel, with direction `tangent` there.
     pub(super) fn emit_arc(
         self,
@@ -53,7 +75,8 @@ impl Element {
         distance: f64,
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
-        let Self { mut motion, side, start, approach, .. } = self;
+        let Self { mut motion, side, start, course } = self;
+        let approach = course.approaches();
         let source = motion.source;
         motion.engaged = (!approach).then_some(distance > 0.0);
         let path = match &side {

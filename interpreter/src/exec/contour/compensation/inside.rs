@@ -117,13 +117,7 @@ impl Closed {
                         perpendicular: false,
                         plane,
                         tilt: tilt.clone(),
-                        last: Element {
-                            motion,
-                            side,
-                            start: at,
-                            approach: false,
-                            tangential: false,
-                        },
+                        last: Element::parallel(motion, side, at),
                         between: Vec::new(),
                         watch: Watch::default(),
                     });

@@ -1,21 +1,27 @@
-//! Change of the tool radius by a line perpendicular to the contour: `#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`.
+//! Change of the tool radius: along the next line, or by a line perpendicular to the contour
+//! (`#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`).
 //!
-//! Source: TF5200 programming manual, TRC option PERPENDICULAR_RADIUS_CHANGE (483740299).
-//! Assumption: the figures do not show the position. The corner between the two elements is computed with the larger of the two
+//! Source: TF5200 programming manual, reaction to change in tool radius (207830795), TRC option PERPENDICULAR_RADIUS_CHANGE
+//! (483740299).
+//! Assumption: the pages show the positions in figures only. Along a line the distance changes linearly; the corner before it
+//! is that of the old radius and the corner after it that of the new one, so that the neighbouring elements keep their
+//! distances and the tool is never nearer to the contour than its smaller radius.
+//! Assumption: with the option the corner between the two elements is computed with the larger of the two
 //! radii, so that the tool never comes nearer to the contour than its smaller radius, and never nearer than its new radius to
 //! the following elements. A larger radius is applied perpendicular to the element before the corner, a smaller one
-//! perpendicular to the element after it.
+//! perpendicular to the element after it; after an approach, which ends perpendicular to the next element, either is applied
+//! there.
 
 use super::active::{Active, Watched, at_contour};
 use super::corner::{above, inner_corner, straight, straight_before};
-use super::element::{Element, emit_between};
+use super::element::{Course, Element, emit_between};
 use super::failure::{Fallible, too_tight};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
 use crate::exec::contour::item::Item;
 use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::planar::Side;
-use crate::exec::geometry::point::{Point, cross, sub};
+use crate::exec::geometry::point::{Point, cross, dot, sub};
 use kontur_motion::axis::AxisVec;
 
 /// Direction of an element where a point is on its normal.
@@ -32,8 +38,8 @@ fn tangent_at(side: &Side, p: Point) -> Point {
 }
 
 impl Active {
-    /// Continues with an element that has a different distance on the same side of the contour.
-    pub(super) fn change_radius(
+    /// Continues with a line along which the distance changes, on the same side of the contour.
+    pub(super) fn change_along(
         self,
         motion: Box<Motion>,
         side: Side,
@@ -41,14 +47,40 @@ impl Active {
         out: &mut Vec<Item>,
         cut: &mut Option<Cut>,
     ) -> Fallible<Self> {
-        if distance.abs() > self.distance.abs() {
+        let (before, plane) = (self.distance, self.plane);
+        let at = motion.block.path.start().clone();
+        let mut next = self.join(motion, side, out, cut)?;
+        let along = side.tangent(false);
+        let foot = above(side.start_point(), along, before);
+        // the lines of G25 reach beyond the start of the next one: the distance changes from there on
+        if dot(sub(foot, next.last.start), along) > 0.0 {
+            let from = std::mem::replace(&mut next.last.start, foot);
+            let line = straight_before(&next.last.motion, &at, plane, from, foot);
+            out.extend(line.map(|line| at_contour(line, before)));
+        }
+        next.last.course = Course::RadiusChange;
+        next.distance = distance;
+        next.watch = Watch::default();
+        Ok(next)
+    }
+
+    /// Continues with an element that has a different distance on the same side of the contour, reached by a perpendicular line.
+    pub(super) fn change_across(
+        self,
+        motion: Box<Motion>,
+        side: Side,
+        distance: f64,
+        out: &mut Vec<Item>,
+        cut: &mut Option<Cut>,
+    ) -> Fallible<Self> {
+        if distance.abs() > self.distance.abs() && !self.last.course.approaches() {
             self.grow(motion, side, distance, out, cut)
         } else {
             self.shrink(motion, side, distance, out, cut)
         }
     }
 
-    /// A smaller radius: the corner with the old one, then a line towards the element after it.
+    /// The corner with the old radius, then a line perpendicular to the element after it.
     fn shrink(
         self,
         motion: Box<Motion>,
@@ -101,7 +133,7 @@ impl Active {
         let line = straight(&template, &at, plane, from, to);
         out.extend(line.map(|line| at_contour(line, distance)));
         emit_between(between, to, plane, out);
-        let active = |last: Element| {
+        let active = |last| {
             let watch = Watch::default();
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
@@ -110,18 +142,9 @@ impl Active {
         match straight(&template, &at, plane, stub, corner).filter(|_| !inside) {
             Some(line) => {
                 let ends = Side::Line { from: stub, to: corner };
-                active(Element {
-                    motion: line,
-                    side: ends,
-                    start: to,
-                    approach: false,
-                    tangential: false,
-                })
-                .join(motion, side, out, cut)
+                active(Element::parallel(line, ends, to)).join(motion, side, out, cut)
             }
-            None => {
-                Ok(active(Element { motion, side, start: to, approach: false, tangential: false }))
-            }
+            None => Ok(active(Element::parallel(motion, side, to))),
         }
     }
 }

@@ -1,0 +1,15 @@
+; run: exit 0
+; page 207830795 change of the tool radius within a linear block
+; passes X100 Y30
+; passes X187.6393 Y40
+; passes X222.1115 Y108.9443
+; end X500 Y100
+N10 V.G.WZ_AKT.R = 10
+N20 G00 X0 Y0 Z0 F1000
+N25 G41 G1 X20 Y20
+N30 G01 X100
+N35 V.G.WZ_AKT.R = 20
+N40 G01 X200
+N50 X240 Y100
+N200 G40 X500
+N999 M30
