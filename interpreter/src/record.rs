@@ -149,7 +149,8 @@ pub struct AxisRecord {
     pub dev: f64,
     /// Largest component in mm (deg) of the two directions that `AX_DEV` bounds: how far the line to the set position
     /// leaves the contour, and by how much the set path has missed the part of the contour that has just left the
-    /// filters. The second one may be larger between two cycles if an earlier cycle has a larger value still.
+    /// filters. Between two cycles the second one may be larger, but without `AX_DEV` not larger than the largest one so
+    /// far.
     pub dev_both_ways: f64,
     /// Feedforward speed, at the controller output or as additive velocity of the drive.
     pub ff: f64,
