@@ -4,7 +4,7 @@
 
 use super::stretch::Stretch;
 use crate::record::Asked;
-use crate::sim::{Measuring, Messages, Samples, Simulation, Work, give};
+use crate::sim::{Measuring, Samples, Simulation, Work, give};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
