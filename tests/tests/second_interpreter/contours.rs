@@ -133,9 +133,9 @@ impl Writer<'_> {
         vec![Statement::Compensated(contour)]
     }
 
-    /// Points of a spline, far enough apart, as increments or absolute positions.
+    /// Points of a spline, far enough apart, as increments or absolute positions: with its start at least three.
     fn spline(&mut self) -> Statement {
-        let count = 1 + self.random.below(6);
+        let count = 2 + self.random.below(5);
         let motions = (0..count).map(|_| {
             let word = |axis| {
                 let way = self.random.between(1.0, 9.0);
