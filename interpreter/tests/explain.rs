@@ -261,7 +261,7 @@ fn system_variables_have_a_meaning() {
 /// Commands and functions about which there is nothing to say but how kontur treats them.
 #[test]
 fn commands_without_a_description_have_a_state() {
-    says("#TRAFO ON", &["#TRAFO", "kontur check"]);
+    says("#TRAFO ON", &["#TRAFO", "--identity-trafo"]);
     says("#GANTRY", &["refused"]);
     says("G141", &["contour masking", "refused"]);
     says("#SET DEC LR SOLL", &["kontur check"]);

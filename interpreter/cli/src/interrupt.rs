@@ -1,5 +1,7 @@
-//! Ctrl-C: a run stops after the present cycle, so that traces and summary are complete up to that cycle.
+//! Ctrl-C: a run stops after the present cycle or block, so that traces and summary are complete up to there.
 
+use kontur_interpreter::job::Stop;
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Nothing is running that would have to be completed.
@@ -8,6 +10,14 @@ const RUNNING: u8 = 1;
 const REQUESTED: u8 = 2;
 
 static STATE: AtomicU8 = AtomicU8::new(IDLE);
+
+/// Set by Ctrl-C: also ends a run that executes blocks without reaching a cycle.
+static STOP: LazyLock<Stop> = LazyLock::new(Stop::default);
+
+/// What Ctrl-C sets, for runs to read.
+pub(crate) fn stop() -> Stop {
+    STOP.clone()
+}
 
 /// Exit code of a process that Ctrl-C ended at once, as in shells: 128 + SIGINT.
 const ENDED: i32 = 130;
@@ -21,6 +31,7 @@ pub(crate) fn listen() {
         if asked.is_err() {
             std::process::exit(ENDED);
         }
+        STOP.set();
     });
     // without a handler Ctrl-C ends the process at once, as usual
     drop(listening);

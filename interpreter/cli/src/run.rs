@@ -185,7 +185,7 @@ impl<F: FnMut(&Rows<'_>) -> Result<(), Error>> Sink for Watch<'_, F> {
         let time_s = record.k as f64 * run.facts().cycle_s();
         self.progress
             .show(|| format!("{}t = {time_s:.1} s, line {}", self.shown.label, record.line));
-        if !run.is_over() && Running::is_interrupted() {
+        if Running::is_interrupted() {
             return Err(Error::Interrupted { time_s });
         }
         Ok(())

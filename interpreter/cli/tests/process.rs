@@ -57,7 +57,7 @@ fn splined_circle(chord_mm: f64, feed: u32) -> String {
     let jump = 2.0 * libm::sin(PI / n);
     let path_dev = 1.02 * 10.0 * jump * jump / 6.0;
     let mut text =
-        format!("#SLOPE [TYPE=HSC]\n#HSC ON [BSPLINE PATH_DEV={path_dev:.7}]\nG00 X10\n");
+        format!("#SLOPE [TYPE=HSC]\nG00 X10\n#HSC ON [BSPLINE PATH_DEV={path_dev:.7}]\n");
     for k in 1..=2 * n as u32 {
         let (sin, cos) = libm::sincos(2.0 * PI * f64::from(k) / n);
         writeln!(text, "G01 X{:.6} Y{:.6} F{feed}", 10.0 * cos, 10.0 * sin).unwrap();

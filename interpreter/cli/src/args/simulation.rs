@@ -82,8 +82,8 @@ pub struct SimulationArgs {
     #[arg(long, value_enum, default_value_t = MessageForm::Text)]
     pub diagnostics: MessageForm,
 
-    /// Ends check and run from another thread; nothing on the command line
-    #[arg(skip)]
+    /// Ends check and run from another thread; that of Ctrl-C on the command line
+    #[arg(skip = crate::interrupt::stop())]
     pub stop: Stop,
 }
 

@@ -55,7 +55,7 @@ impl Sink for Collected<'_> {
         for message in run.take_diagnostics() {
             self.summary.message(&message);
         }
-        if !run.is_over() && Running::is_interrupted() {
+        if Running::is_interrupted() {
             return Err(Failure::Interrupted);
         }
         Ok(())
