@@ -263,6 +263,10 @@ fn system_variables_have_a_meaning() {
 fn commands_without_a_description_have_a_state() {
     says("#TRAFO ON", &["#TRAFO", "--identity-trafo"]);
     says("#GANTRY", &["refused"]);
+    says("#CS DEF ACT", &["#CS DEF ACT", "refused"]);
+    says("#MCS TO WCS", &["#MCS TO WCS", "refused"]);
+    says("#CS DEF", &["defines a coordinate system"]);
+    says("#MCS", &["#MCS"]);
     says("G141", &["contour masking", "refused"]);
     says("#SET DEC LR SOLL", &["kontur check"]);
     says("#ELSE", &["#IF"]);

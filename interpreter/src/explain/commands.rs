@@ -101,24 +101,24 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     let function = |is: &dyn Fn(&str) -> bool| {
         functions().find(|c| c.names.iter().any(|name| is(name))).map(Command::explained)
     };
+    // a refused command may begin with the name of another one: `#MCS TO WCS`, `#CS DEF ACT`
+    let listed = wanted.strip_prefix('#').and_then(commands::state_of);
+    let is_longer = |name: &str| listed.is_some_and(|(listed, _)| listed.len() + 1 > name.len());
+    let whole = |name: &str| is_named(name) && !is_longer(name);
     // M8 and H12 have no entry of their own
     let letter = wanted.trim_end_matches(|c: char| c.is_ascii_digit());
     let numbered = |name: &str| matches!(letter, "M" | "H") && name == letter;
-    if let Some(function) = function(&is_named).or_else(|| function(&numbered)) {
+    if let Some(function) = function(&whole).or_else(|| function(&numbered)) {
         return Some(function);
     }
     // the longest name: `#CS DEF` is not `#CS`
     let named = commands::explained()
-        .filter(|row| is_named(&format!("#{}", row.name)))
+        .filter(|row| whole(&format!("#{}", row.name)))
         .max_by_key(|row| row.name.len());
-    // a refused command may begin with the name of another one: `#MCS TO WCS`
-    let listed = wanted.strip_prefix('#').and_then(commands::state_of);
-    let shorter =
-        |row: &&commands::Row| listed.is_none_or(|(name, _)| name.len() <= row.name.len());
-    match named {
-        Some(row) if shorter(&row) => Some(of_row(row)),
-        Some(_) => state(wanted),
-        None => family(wanted).or_else(|| state(wanted)),
+    match (named, listed) {
+        (Some(row), _) => Some(of_row(row)),
+        (None, Some((name, _))) if name.contains(' ') => state(wanted),
+        (None, _) => family(wanted).or_else(|| state(wanted)),
     }
 }
 

@@ -301,9 +301,11 @@ impl Axis {
         self.get(axis_general::TOOL_SPEED_CHECKED)
     }
 
-    /// Deviation from its speed, relative to it, within which a spindle has reached it (P-AXIS-00217).
+    /// Deviation from its speed, relative to it, within which a spindle has reached it (P-AXIS-00217); 0 counts as the
+    /// default (diagnosis 262570123).
     pub(crate) fn speed_band(&self) -> f64 {
-        self.get(axis_functions::SPEED_BAND)
+        let band = self.get(axis_functions::SPEED_BAND);
+        if band > 0.0 { band } else { 0.1 }
     }
 
     /// Whether the list configures any feedforward (P-AXIS-00223).

@@ -56,6 +56,8 @@ pub(crate) struct AxisChain {
     set: f64,
     vel: f64,
     acc: f64,
+    /// Way of the actual position in the last cycle.
+    act_step: f64,
     cycle_s: f64,
     /// Number of cycles in the last row in which it did not rest.
     moved: usize,
@@ -95,6 +97,7 @@ impl AxisChain {
             set: x,
             vel: 0.0,
             acc: 0.0,
+            act_step: 0.0,
             cycle_s: cycle.seconds(),
             moved: 0,
             faulty: false,
@@ -186,6 +189,11 @@ impl AxisChain {
         let window_mm = self.control.exact_stop().config().window_mm;
         let remaining = Remaining { distance_mm, window_mm, filters: false };
         (remaining.excess_mm() > 0.0).then_some(remaining)
+    }
+
+    /// Actual speed in the last cycle in mm/s (deg/s).
+    pub(crate) fn actual_speed(&self) -> f64 {
+        self.act_step / self.cycle_s
     }
 
     /// Whether the set position is at the target of a stop and the actual position not yet inside the window.

@@ -184,14 +184,14 @@ impl Spindle {
         self.turning.is_steady() && speed.to_bits() == self.target_deg_s().to_bits()
     }
 
-    /// Whether it has reached its speed within the deviation of its list, rests, or is at a commanded position.
-    ///
-    /// Assumption: the set speed counts; the vendor's actual speed follows it by the lag of the position control.
-    pub(super) fn has_reached(&self) -> bool {
+    /// Whether its actual speed in deg/s is within the deviation of its list, it rests, or it is at a commanded position
+    /// (axis parameters 117211787).
+    pub(super) fn has_reached(&self, actual_deg_s: f64) -> bool {
         let target = self.target_deg_s();
-        let away = (self.turning.speed_deg_s() - target).abs();
-        self.is_as_told()
-            || (!self.positions() && away <= self.band * target.abs() && target != 0.0)
+        if self.positions() || target == 0.0 {
+            return self.is_as_told();
+        }
+        (actual_deg_s - target).abs() <= self.band * target.abs()
     }
 
     /// Whether neither the path nor an angle determines its position.

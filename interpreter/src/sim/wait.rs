@@ -67,6 +67,15 @@ pub(super) struct Parts<'a> {
     pub(super) cycle: CycleTime,
 }
 
+impl Parts<'_> {
+    /// Actual speed of a spindle in deg/s.
+    fn speed_of(&self, spindle: usize) -> f64 {
+        let mut chains = self.chains.iter().zip(self.drivers);
+        let is = |driver: &Driver| matches!(driver, Driver::Spindle(s) if *s == spindle);
+        chains.find(|(_, driver)| is(driver)).map_or(0.0, |(chain, _)| chain.actual_speed())
+    }
+}
+
 /// A wait with its action.
 #[derive(Debug)]
 pub(super) struct Wait {
@@ -189,7 +198,7 @@ impl Wait {
             Until::Spindle(spindle, state) => {
                 !parts.spindles.get(*spindle).is_none_or(|s| match state {
                     SpindleState::Rest => s.rests(),
-                    SpindleState::Reached => s.has_reached(),
+                    SpindleState::Reached => s.has_reached(parts.speed_of(*spindle)),
                     SpindleState::Mark { deg, .. } => s.mark_ahead(*deg, parts.cycle).is_some(),
                 })
             }

@@ -102,7 +102,7 @@ pub(in crate::exec) fn by_centre(
     let (centre, shift) = if correct {
         corrected(start, chord, length, centre, limits)?
     } else {
-        uncorrected(start, end, centre, limits)?;
+        radii_agree(start, end, centre, limits)?;
         (centre, [0.0; 2])
     };
     let sweep_rad = sweep(sub(start, centre), sub(end, centre), counter_clockwise);
@@ -133,7 +133,7 @@ fn corrected(
 }
 
 /// G164: the radii at start and end must agree within the limits.
-fn uncorrected(
+pub(in crate::exec) fn radii_agree(
     start: Point,
     end: Point,
     centre: Point,

@@ -10,7 +10,7 @@ use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
-use crate::exec::geometry::arc::{self, ArcError};
+use crate::exec::geometry::arc::{self, Arc, ArcError};
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::report::Subject;
 use crate::exec::values::number::LARGEST_MM;
@@ -99,7 +99,20 @@ impl Decoder {
         let found = if has_centre {
             let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
             let limits = &self.machine.channel.arc_centre;
-            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
+            let arc = arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits);
+            if let (Ok(Arc { shift, .. }), Err(ArcError::RadiiDiffer { start, end, .. })) =
+                (&arc, arc::radii_agree(s, e, centre, limits))
+            {
+                let text = format!(
+                    "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
+                    (start - end).abs(),
+                    libm::hypot(shift[0], shift[1])
+                );
+                let g = words.group(Group::Path).map_or(span, |g| g.span);
+                let fault = Fault::new(Condition::Odd, text, g);
+                self.report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
+            }
+            arc
         } else if let Some(radius) = self.modal.radius_mm {
             arc::by_radius(s, e, radius * scale, ccw)
         } else {

@@ -72,7 +72,7 @@ impl AxisChain {
         mut columns: AxisColumns<'_>,
     ) -> usize {
         let mut rested = 0;
-        self.faulty = false;
+        (self.faulty, self.act_step) = (false, 0.0);
         if self.rests_under(ipo[0], gain, jerk_limited) {
             rested = ipo.iter().take_while(|x| x.to_bits() == ipo[0].to_bits()).count();
             self.shaping.rest(rested);
@@ -92,12 +92,14 @@ impl AxisChain {
         let Self { control, ipo: past, delay, cycle_s, .. } = self;
         let mut derived = Derived::new(set, [self.set, self.vel, self.acc], *cycle_s);
         let mut shown = ShownControl::of(&mut columns, ipo.len());
-        let shown_from = if shown.is_some() { 0 } else { last };
+        let shown_from = if shown.is_some() { 0 } else { last.saturating_sub(1) };
         let mut faulty = false;
+        let mut act = [record.act; 2];
         let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
             if let Some(shown) = &mut shown {
                 shown.put(i, &out);
             }
+            act = [act[1], out.act_mm];
             if i < last && !out.faulty {
                 return;
             }
@@ -108,6 +110,7 @@ impl AxisChain {
         });
         let [vel, acc, _] = derived.at(last);
         (self.set, self.vel, self.acc) = (set[last], vel, acc);
+        self.act_step = act[1] - act[0];
         self.faulty = faulty;
         rested + count
     }
@@ -157,7 +160,7 @@ impl AxisChain {
         jerk_limited: bool,
         record: &mut AxisRecord,
     ) {
-        self.faulty = false;
+        (self.faulty, self.act_step) = (false, 0.0);
         if self.rests_under(ipo, gain, jerk_limited) {
             self.shaping.rest(1);
             return;
@@ -172,6 +175,7 @@ impl AxisChain {
         self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
         let out = self.control.step(set, gain, jerk_limited);
         self.faulty = out.faulty;
+        self.act_step = out.act_mm - record.act;
         let err = set - aligned(&self.ipo, self.delay, 0);
         *record = recorded([ipo, set, vel, acc, jerk, err], additional_mm, &out);
     }
