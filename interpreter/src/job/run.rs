@@ -239,11 +239,6 @@ impl Run {
                 self.look_for_changes();
                 break;
             }
-            // the program was cut off meanwhile: these cycles may brake for an end that it does not have
-            if self.stop.is_set() {
-                self.over = true;
-                break;
-            }
             let before = self.stretch.taken;
             let taken = self.hand_over(most, sink);
             left -= (self.stretch.taken - before) as u64;
