@@ -3,31 +3,33 @@
 use kontur_tests::{run_on, sample_machine};
 
 /// With MVS_SVS for M3 (P-CHAN-00045) the motion in the same block begins when the spindle has reached its speed (M and H functions
-/// 286059787): its actual speed is 0.9 times that of the program, or what P-AXIS-00217 says (117211787).
+/// 286059787): its actual speed is 0.9 times that of the program, or what P-AXIS-00217 says (117211787), or the set speed is whole.
 #[test]
 fn a_motion_waits_for_its_spindle() {
-    let first_moved = |settings: &[&str]| {
+    let waits = "channel.spindel[0].m3_synch=MVS_SVS";
+    // actual and set speed in rpm some cycles before the path begins
+    let before = |settings: &[&str], cycles: usize| {
         let run = run_on(sample_machine("two_spindles", settings), "S1000 M3 G01 F1000 X10\nM30\n");
         let moved = run.records.iter().position(|r| r.path.v_mm_s > 0.0).unwrap();
-        // the last cycles of rest
-        let rpm = |k: usize| {
-            (run.records[k].axes[3].act - run.records[k - 1].axes[3].act) / run.cycle_s / 6.0
-        };
-        [rpm(moved.max(4) - 3), rpm(moved.max(4) - 1)]
+        let speed = |at: [f64; 2]| (at[1] - at[0]) / run.cycle_s / 6.0;
+        let k = moved.max(cycles + 1) - cycles;
+        let axis = [k - 1, k].map(|k| run.records[k].axes[3]);
+        (speed(axis.map(|a| a.act)), speed(axis.map(|a| a.set)))
     };
-    assert!(first_moved(&[])[1] < 500.0);
-    let begins_at = |percent: &str, share: f64| {
-        let band = format!("S.kenngr.vb_prozent={percent}");
-        let [before, reached] = first_moved(&["channel.spindel[0].m3_synch=MVS_SVS", &band]);
-        assert!(
-            before < 1000.0 * share && reached >= 1000.0 * share,
-            "{percent}: {before} {reached}"
-        );
-    };
+    assert!(before(&[], 0).0 < 500.0);
     // 0 is the default (diagnosis 262570123)
     for (percent, share) in [("100", 0.9), ("0", 0.9), ("500", 0.5), ("10", 0.99)] {
-        begins_at(percent, share);
+        let band = format!("S.kenngr.vb_prozent={percent}");
+        let has_reached = |(act, set): (f64, f64)| act >= 1000.0 * share || set > 999.5;
+        let [early, reached] = [3, 1].map(|cycles| before(&[waits, &band], cycles));
+        assert!(!has_reached(early) && has_reached(reached), "{percent}: {early:?} {reached:?}");
     }
+    let (_, set) = before(&[waits, "S.kenngr.vb_prozent=500"], 1);
+    assert!(set < 1000.0, "the actual speed decides: {set}");
+    // an encoder that turns on by 0 or 0.1 deg in a cycle, at 0.06 deg per cycle
+    let coarse = [waits, "S.getriebe[0].wegaufn=1000", "S.getriebe[0].wegaufz=1"];
+    let run = run_on(sample_machine("two_spindles", &coarse), "S10 M3 G01 F1000 X10\nM30\n");
+    assert!(run.records.len() < 2000, "{}", run.records.len());
 }
 
 /// Kinds of synchronisation (149163787, 287516299): with MVS_SVS the state is reached before the motion of the block, MVS_SNS and MOS
