@@ -220,6 +220,10 @@ impl Parser {
             let invalid = masked.invalid.iter();
             problems.extend(invalid.map(|s| problem::invalid(text, *s).severity(severity)));
         }
+        if let (Some(bracket), true) = (masked.open_remark, mode != Mode::Inactive) {
+            let text = "a remark without `)` extends to the end of the block";
+            problems.push(Problem::new(Condition::Odd, bracket, text).hint("close it with )"));
+        }
         if let Some(at) = masked.too_deep {
             problems.push(problem::too_deep(text, at));
             return Block::default();

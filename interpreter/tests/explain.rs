@@ -1,6 +1,9 @@
 //! Output of `explain`, compared with the parameter tables and remarks of the function manuals.
 
-use kontur_interpreter::explain::explain;
+use kontur_interpreter::explain::{Kind, all, explain};
+use kontur_interpreter::job::{Job, MachineLists};
+use kontur_interpreter::source::MemorySources;
+use std::sync::Arc;
 
 /// Fails unless the explanation of `thing` contains each of `parts`.
 #[track_caller]
@@ -271,4 +274,75 @@ fn commands_without_a_description_have_a_state() {
     says("#SET DEC LR SOLL", &["kontur check"]);
     says("#ELSE", &["#IF"]);
     assert!(explain("#NOTHING").is_err() && explain("G999").is_err());
+}
+
+/// Blocks before and after the examples of commands that are part of a longer program.
+const AROUND: [(&str, &str, &str); 24] = [
+    ("$BREAK, $CONTINUE", "$WHILE 1", "$ENDWHILE"),
+    ("$DO, $ENDDO", "P1=5\n$DO", ""),
+    ("$FOR, $ENDFOR", "", "$ENDFOR"),
+    ("$GOTO", "", "[END]"),
+    ("$IF, $ELSEIF, $ELSE, $ENDIF", "#VAR\nV.L.N=1\n#ENDVAR", "$ENDIF"),
+    ("$REPEAT, $UNTIL", "P1=5\n$REPEAT", ""),
+    ("$SWITCH, $CASE, $DEFAULT, $ENDSWITCH", "P1=1", "$CASE 1\n$ENDSWITCH"),
+    ("$WHILE, $ENDWHILE", "P1=0", "P1=5\n$ENDWHILE"),
+    ("%, %L", "", "M29\n%MAIN"),
+    ("#COMMENT", "", "#COMMENT END"),
+    ("#CONTROL AREA BEGIN", "", "G01 X50 Y0 F1000\nY50\nX0\nX50 Y0\n#CONTROL AREA END"),
+    ("#CS SET", "#CS ADD [WCS] [1,0,0,0,0,0]", ""),
+    ("#CS SELECT", "#CS ADD [WCS] [1,0,0,0,0,0]", ""),
+    ("#MSG", "P1=3", ""),
+    ("#VAR, #ENDVAR, #DELETE", "#VAR\nV.P.NAME=1\n#ENDVAR", ""),
+    ("EXIST, SIZEOF", "", "$ENDIF"),
+    ("G05", "", "Y20\nX30"),
+    ("G310", "#MEAS MODE [5]", ""),
+    ("G33", "S500 M03", ""),
+    ("L SEQUENCE", "N10 G04 1\nN50 G04 1", ""),
+    ("L, LL, L CYCLE", "%L DRILL\nM29\n%MAIN", ""),
+    ("M17, M29", "%L SUB", "%MAIN\nLL SUB\n[END]"),
+    ("MACRO_CONTENT, MACRO_LENGTH", "\"NAME\" = \"X10\"", ""),
+    ("MOD, AND, OR, XOR, NOT, INV", "P1=1\nP2=1", "$ENDIF"),
+];
+
+/// Examples for other machines than the built-in one or with files, and their errors here.
+const NEEDS_MORE: [(&str, &[&str]); 11] = [
+    ("#AX LINK", &["K-0137"]),
+    ("#ENABLE AX LINK", &["K-0137"]),
+    ("#ERROR", &["455"]),
+    ("#IF, #ELSE, #ENDIF", &["21387", "K-0012"]),
+    ("#MAIN SPINDLE", &["21306"]),
+    ("#OTC", &["21391"]),
+    ("#SET AX LINK", &["20797"]),
+    ("@P1, @P", &["K-0013"]),
+    ("G112", &["3210"]),
+    ("G80, G81, G82, G83, G84, G85, G86, G87, G88, G89", &["20131"]),
+    ("G96, G97", &["20634"]),
+];
+
+/// Every example is a block that runs, where it is not part of a longer program, as it is printed.
+#[test]
+fn examples_run_as_printed() {
+    let (machine, _) = MachineLists::default().load().unwrap();
+    let machine = Arc::new(machine);
+    let mut wrong = Vec::new();
+    let (mut around, mut needing) = (AROUND.to_vec(), NEEDS_MORE.to_vec());
+    for e in all(Kind::Command) {
+        let Some(example) = &e.example else { continue };
+        let mut take = |title: &str| {
+            around.iter().position(|(t, ..)| *t == title).map(|i| around.swap_remove(i))
+        };
+        let (_, before, after) = take(&e.title).unwrap_or_default();
+        let place = needing.iter().position(|(t, _)| *t == e.title);
+        let expected = place.map_or(&[][..], |i| needing.swap_remove(i).1);
+        let text = format!("{before}\n{example}\n{after}\nM30\n");
+        let sources = MemorySources::new().with("main.nc", text.clone());
+        let checked = Job::new(Arc::clone(&machine), sources, "main.nc").check();
+        let errors = checked.diagnostics.iter().filter(|d| d.is_error());
+        let errors: Vec<String> = errors.map(|d| d.id.to_string()).collect();
+        if errors != expected {
+            wrong.push((e.title, text, errors));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(around.is_empty() && needing.is_empty(), "not explained: {around:?} {needing:?}");
 }

@@ -24,7 +24,7 @@ pub(crate) mod vary;
 use clap::{Parser, Subcommand, ValueEnum};
 use kontur_interpreter::record::columns::DEFAULT_SIGNALS;
 use std::path::PathBuf;
-use values::span;
+use values::{span, whole};
 
 pub use diff::{DiffArgs, OutputForm, Pairing, Tolerance};
 pub use response::ResponseArgs;
@@ -127,7 +127,7 @@ pub struct RunArgs {
     pub signals: String,
 
     /// Write only every N-th cycle
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), requires = "output")]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u64>(1, u64::MAX), allow_negative_numbers = true, requires = "output")]
     pub decimate: u64,
 
     /// Form of the summary on stdout (stderr with `-o -`)

@@ -69,9 +69,10 @@ fn comment(bytes: &[u8]) -> (Region, usize) {
     (Region::Comment { closed: false }, bytes.len())
 }
 
-/// Length of the comment that begins with the first byte.
-pub(crate) fn comment_length(bytes: &[u8]) -> usize {
-    comment(bytes).1
+/// Length of the comment that begins with the first byte, if it is closed.
+pub(crate) fn closed_comment(bytes: &[u8]) -> Option<usize> {
+    let (region, length) = comment(bytes);
+    (region == Region::Comment { closed: true }).then_some(length)
 }
 
 /// Length of a string with its quotes, `None` if the closing one is missing.

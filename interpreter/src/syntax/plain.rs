@@ -12,7 +12,7 @@ use super::ast::{
     WordKind,
 };
 use super::number::short_decimal;
-use scan::{blanks, integer};
+use scan::{before_words, blanks, integer};
 use smallvec::SmallVec;
 
 /// A plain block.
@@ -63,7 +63,7 @@ pub(crate) enum PlainValue {
 /// stops the reading; the words passed on until then are void.
 #[inline]
 pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Option<PlainFrame> {
-    let mut at = blanks(bytes, 0);
+    let mut at = before_words(bytes, 0);
     let begin = at;
     let mut frame = PlainFrame { remarks: at > 1, ..PlainFrame::default() };
     if matches!(bytes.get(at), Some(b'N' | b'n')) {
@@ -81,7 +81,7 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
         }
     }
     let (mut end, mut empty) = (at, true);
-    at = blanks(bytes, at);
+    at = before_words(bytes, at);
     frame.remarks |= at > end + 1;
     while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
         let (start, letter) = (at, letter.to_ascii_uppercase());

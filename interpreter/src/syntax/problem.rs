@@ -2,6 +2,7 @@
 
 mod around;
 mod expected;
+mod hints;
 mod statements;
 
 use self::around::{
@@ -164,7 +165,8 @@ pub(super) fn from_error(
     let unclosed = masked[offset..].find(scan::UNCLOSED).map(|quote| offset + quote);
     if let Some(quote) = unclosed.filter(|quote| *quote <= at) {
         let problem = Problem::syntax(Span::new(quote, quote + 1), "string without closing `\"`");
-        return refine(problem, &masked[offset..quote], "\"", context, masked, &expected);
+        return refine(problem, &masked[offset..quote], "\"", context, masked, &expected)
+            .hint("close the text with \"");
     }
     let rest = masked[at..].trim_ascii_end();
     if expected.contains(&VALUE) && starts_with(rest, FORMATTED_TEXT) {
@@ -199,29 +201,29 @@ pub(super) fn from_error(
                 true => Condition::BlockNumberTwice,
                 false => Condition::Syntax,
             };
-            Problem { condition, ..problem }
+            let problem = Problem { condition, ..problem };
+            if condition == Condition::Syntax
+                && masked[start..].bytes().take(length).all(|b| b.is_ascii_alphabetic())
+            {
+                problem.hint("remarks begin with ; or are written in ( )")
+            } else {
+                problem
+            }
         }
         _ => refine(problem, before, rest, context, masked, &expected),
     };
-    match (&problem.hint, unbalanced(masked)) {
-        (None, Some(hint)) => problem.hint(hint),
-        _ => problem,
+    let asks = problem.hint.is_none();
+    match asks.then(|| hints::hint(context, masked, before, rest, &expected)).flatten() {
+        Some(hint) => problem.hint(hint),
+        None if asks && problem.condition == Condition::Syntax && context == Context::Words => {
+            problem.hint(WORDS)
+        }
+        None => problem,
     }
 }
 
-/// The bracket of a block that is not closed or not opened, in words.
-fn unbalanced(masked: &str) -> Option<String> {
-    let code = scan::without_texts(masked);
-    let mut open = Vec::new();
-    for (at, bracket) in code.match_indices(['[', ']']) {
-        if bracket == "[" {
-            open.push(at);
-        } else if open.pop().is_none() {
-            return Some(format!("the ] in column {} closes no bracket", at + 1));
-        }
-    }
-    open.last().map(|at| format!("close the bracket that is opened in column {}", at + 1))
-}
+/// Hint of K-0002 for words where nothing in particular is known about the mistake.
+const WORDS: &str = "write words as an address and a value (G01 X10.5 F1000), remarks with ;";
 
 /// The vendor's number for faults common to all kinds of blocks.
 fn misplaced(before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {

@@ -24,6 +24,8 @@ pub(super) struct Masked {
     pub(super) invalid: Vec<Span>,
     /// First bracket that is nested too deeply.
     pub(super) too_deep: Option<usize>,
+    /// The `(` of a remark after words that is not closed.
+    pub(super) open_remark: Option<Span>,
 }
 
 /// Masks a block; `names` are configured names in upper case, longest first.
@@ -32,10 +34,18 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
     let mut out = bytes.to_vec();
     let mut invalid: Vec<Span> = Vec::new();
     let mut too_deep = None;
+    let mut open_remark = None;
     let mut depth = 0_usize;
     for (region, range) in regions(text) {
         match region {
-            Region::Comment { .. } => out[range].fill(b' '),
+            Region::Comment { closed } => {
+                // blocks are commented out by a single `(`, so it is usual at their beginning, also after their number
+                let begins = text[..range.start].bytes().all(|b| b"/Nn:0123456789 \t".contains(&b));
+                if !closed && !begins && bytes[range.start] == b'(' {
+                    open_remark = Some(Span::new(range.start, range.start + 1));
+                }
+                out[range].fill(b' ');
+            }
             Region::Text => {}
             Region::Code => {
                 for i in range {
@@ -66,7 +76,7 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
     }
     // whole characters were replaced, or ASCII by ASCII, so the bytes are valid UTF-8
     let text = String::from_utf8(out).unwrap_or_default();
-    Masked { text, invalid, too_deep }
+    Masked { text, invalid, too_deep, open_remark }
 }
 
 /// The masked text with its strings blanked out; it is then ASCII only.

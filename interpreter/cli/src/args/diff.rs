@@ -22,7 +22,7 @@ pub struct DiffArgs {
     pub map: Vec<Pairing>,
 
     /// Samples per second of the recording [default: from its column `t_s`, `time` or `t` in seconds]
-    #[arg(long, value_name = "HZ", requires = "map", value_parser = above_zero)]
+    #[arg(long, value_name = "HZ", requires = "map", value_parser = above_zero, allow_negative_numbers = true)]
     pub rate: Option<f64>,
 
     /// Tolerances by unit
@@ -55,19 +55,19 @@ pub enum OutputForm {
 #[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
 pub struct Tolerance {
     /// Positions in mm or deg
-    #[arg(long = "tol-mm", value_name = "MM", default_value = "1e-6", value_parser = tolerance)]
+    #[arg(long = "tol-mm", value_name = "MM", default_value = "1e-6", value_parser = tolerance, allow_negative_numbers = true)]
     pub mm: f64,
     /// Speeds in mm/s or deg/s
-    #[arg(long = "tol-mm-s", value_name = "MM/S", default_value = "1e-3", value_parser = tolerance)]
+    #[arg(long = "tol-mm-s", value_name = "MM/S", default_value = "1e-3", value_parser = tolerance, allow_negative_numbers = true)]
     pub mm_s: f64,
     /// Accelerations in mm/s2 or deg/s2
-    #[arg(long = "tol-mm-s2", value_name = "MM/S2", default_value = "1", value_parser = tolerance)]
+    #[arg(long = "tol-mm-s2", value_name = "MM/S2", default_value = "1", value_parser = tolerance, allow_negative_numbers = true)]
     pub mm_s2: f64,
     /// Jerks in mm/s3 or deg/s3
-    #[arg(long = "tol-mm-s3", value_name = "MM/S3", default_value = "1000", value_parser = tolerance)]
+    #[arg(long = "tol-mm-s3", value_name = "MM/S3", default_value = "1000", value_parser = tolerance, allow_negative_numbers = true)]
     pub mm_s3: f64,
     /// Everything else: drive counts, Nm
-    #[arg(long = "tol-other", value_name = "X", default_value = "1e-3", value_parser = tolerance)]
+    #[arg(long = "tol-other", value_name = "X", default_value = "1e-3", value_parser = tolerance, allow_negative_numbers = true)]
     pub other: f64,
 }
 

@@ -1,6 +1,6 @@
 //! The arguments of `kontur response`.
 
-use super::values::{Numbers, feed, setting};
+use super::values::{Numbers, feed, setting, whole};
 use clap::ArgGroup;
 use kontur_filters::iir::FilterKind;
 use kontur_filters::iir::prototype::Prototype;
@@ -107,7 +107,7 @@ pub struct ResponseArgs {
     pub residual: bool,
 
     /// Contour at a 90 degree corner at this feed in mm/min (`F1000`) instead of frequency response
-    #[arg(long, value_name = "FEED", value_parser = feed)]
+    #[arg(long, value_name = "FEED", value_parser = feed, allow_negative_numbers = true)]
     pub corner: Option<f64>,
 
     /// Damping of the vibration for --residual [default: that of the guard, 0.1 for other shapers]
@@ -131,7 +131,7 @@ pub struct ResponseArgs {
     pub set: Vec<String>,
 
     /// Cycle time in microseconds [default: that of the machine, 1000 without --axis]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(100, 20_000), allow_negative_numbers = true)]
     pub cycle_us: Option<u32>,
 }
 

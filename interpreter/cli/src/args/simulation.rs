@@ -1,6 +1,6 @@
 //! Options that every command with a simulation has.
 
-use super::values::{after_external, setting};
+use super::values::{after_external, setting, whole};
 use clap::ValueEnum;
 use kontur_interpreter::job::Stop;
 use std::path::PathBuf;
@@ -42,7 +42,7 @@ pub struct SimulationArgs {
     pub input: Vec<PathBuf>,
 
     /// Cycle time in microseconds [default: that of the machine]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(100, 20_000), allow_negative_numbers = true)]
     pub cycle_us: Option<u32>,
 
     /// Start positions in mm (deg), e.g. `X10,Y5`
@@ -54,11 +54,11 @@ pub struct SimulationArgs {
     pub skip: Vec<u8>,
 
     /// Stop after this program time in seconds
-    #[arg(long, value_name = "S", default_value = "86400", value_parser = positive)]
+    #[arg(long, value_name = "S", default_value = "86400", value_parser = positive, allow_negative_numbers = true)]
     pub max_time: f64,
 
     /// Stop after this number of executed blocks
-    #[arg(long, value_name = "N", default_value_t = 100_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 100_000_000, value_parser = whole::<u64>(1, u64::MAX), allow_negative_numbers = true)]
     pub max_blocks: u64,
 
     /// Refuse list keys that are not modelled

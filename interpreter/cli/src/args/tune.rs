@@ -24,7 +24,7 @@ Examples:
 )]
 pub struct TuneArgs {
     /// Natural frequencies in Hz measured at several positions of the machine
-    #[arg(long, value_name = "HZ,..", value_delimiter = ',', value_parser = above_zero)]
+    #[arg(long, value_name = "HZ,..", value_delimiter = ',', value_parser = above_zero, allow_negative_numbers = true)]
     pub freq: Vec<f64>,
 
     /// Acceleration recording of a decaying vibration, one per position: CSV with comma, semicolon or tab, any header, or
@@ -37,7 +37,7 @@ pub struct TuneArgs {
     pub column: Option<String>,
 
     /// Samples per second of the recordings [default: from their column `t_s`, `time` or `t` in seconds]
-    #[arg(long, value_name = "HZ", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = above_zero)]
+    #[arg(long, value_name = "HZ", requires = "recording", conflicts_with_all = ["freq", "order_for"], value_parser = above_zero, allow_negative_numbers = true)]
     pub rate: Option<f64>,
 
     /// Evaluate only these frequencies of the recordings
@@ -53,23 +53,23 @@ pub struct TuneArgs {
     pub output: Option<PathBuf>,
 
     /// Damping ratio of the vibration [default: that of the recordings, otherwise 0.1]
-    #[arg(long, value_name = "RATIO", value_parser = damping)]
+    #[arg(long, value_name = "RATIO", value_parser = damping, allow_negative_numbers = true)]
     pub damping: Option<f64>,
 
     /// Also evaluate the modes at this frequency [default: the median of the measured ones]
-    #[arg(long, value_name = "HZ", value_parser = above_zero)]
+    #[arg(long, value_name = "HZ", value_parser = above_zero, allow_negative_numbers = true)]
     pub at: Option<f64>,
 
     /// Maximum acceptable residual vibration in percent
-    #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = above_zero)]
+    #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = above_zero, allow_negative_numbers = true)]
     pub max_residual: f64,
 
     /// Feed in mm/min at which a 90 degree corner is evaluated
-    #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = feed)]
+    #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = feed, allow_negative_numbers = true)]
     pub feed: f64,
 
     /// Find the maximum order of a mean or Gauss filter whose contour error at a corner stays within this, in mm
-    #[arg(long, value_name = "MM", value_parser = above_zero, conflicts_with_all = ["program", "damping", "at", "max_residual"])]
+    #[arg(long, value_name = "MM", value_parser = above_zero, allow_negative_numbers = true, conflicts_with_all = ["program", "damping", "at", "max_residual"])]
     pub order_for: Option<f64>,
 
     /// Run this NC program with each choice: deviation from the contour and machining time
@@ -77,7 +77,7 @@ pub struct TuneArgs {
     pub program: Option<PathBuf>,
 
     /// Maximum deviation of an axis from the contour, in mm (deg): AX_DEV of the proposed command, limit in --program
-    #[arg(long, value_name = "MM", conflicts_with = "order_for", value_parser = above_zero)]
+    #[arg(long, value_name = "MM", conflicts_with = "order_for", value_parser = above_zero, allow_negative_numbers = true)]
     pub max_dev: Option<f64>,
 
     /// Machine and cycle; what else is simulated in --program

@@ -55,6 +55,20 @@ impl Numbers {
     }
 }
 
+/// A parser for whole numbers from `least` to `most`.
+pub(super) fn whole<T: TryFrom<u64>>(
+    least: u64,
+    most: u64,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync {
+    move |text| {
+        let number = text.trim().parse().ok().filter(|n| (least..=most).contains(n));
+        number.and_then(|n| T::try_from(n).ok()).ok_or_else(|| match most {
+            u64::MAX => format!("a whole number from {least} is expected"),
+            _ => format!("a whole number from {least} to {most} is expected"),
+        })
+    }
+}
+
 pub(super) fn above_zero(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(v) if v.is_finite() && v > 0.0 => Ok(v),

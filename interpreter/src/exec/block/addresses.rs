@@ -66,7 +66,7 @@ impl Decoder {
                 b'F' => Fault::new(Condition::FeedTwice, text, span),
                 b'I'..=b'K' => Fault::new(Condition::CentreTwice, text, span),
                 b'D' => Fault::new(Condition::ToolDataTwice, text, span),
-                _ => Fault::new(Condition::Syntax, text, span),
+                _ => Fault::new(Condition::Syntax, text, span).hint("remove one of the two"),
             });
         }
         Ok(())
@@ -116,6 +116,10 @@ impl Decoder {
                 _ => false,
             };
             block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
+        } else if sign.is_some_and(|sign| has_another_sign(sign, value)) {
+            let text = format!("{} has several signs", self.names.name(axis));
+            let hint = "write a single sign: X--5 is X5";
+            self.report.note(Fault::new(Condition::Odd, text, span).hint(hint));
         }
         let value = self.number(value)?;
         // a direction of a modulo axis applies to a single word
@@ -259,4 +263,16 @@ fn is_radius_of_parameter(decoder: &Decoder, name: &str, span: Span) -> Outcome<
         return Err(Fault::new(Condition::RadiusIndex, text, span));
     }
     Ok(true)
+}
+
+/// Whether a value of which `sign` is the first character has a sign after it.
+fn has_another_sign(sign: Sign, value: &Expr) -> bool {
+    let negative = match &value.kind {
+        ExprKind::Number(x) => x.is_sign_negative(),
+        ExprKind::Negate(_) => true,
+        // the signs belong to the first term of a sum
+        ExprKind::Binary(_) => return false,
+        _ => false,
+    };
+    negative != (sign == Sign::Minus)
 }

@@ -126,6 +126,15 @@ impl Seen {
                 report.note_once(Subject::G(g.row.number), fault);
             }
         }
+        if let (false, Some((tool @ 100.0..1000.0, span))) = (self.own, words.tool)
+            && span.len == 5
+        {
+            let text = format!(
+                "T with a leading zero is tool {tool} in this dialect: it is not a tool and its offset in two figures each"
+            );
+            let hint = "write T1 D1 for tool 1 with its offset 1";
+            report.note_once("T", Fault::new(Condition::Dialect, text, span).hint(hint));
+        }
         // a negative one is a separate error
         let end_feed = words.end_feed.filter(|(value, _)| *value >= 0.0);
         if let (false, Some((value, span))) = (self.own, end_feed) {

@@ -121,7 +121,8 @@ impl Decoder {
         words: &Words<'_>,
     ) -> Outcome<()> {
         if words.axes.is_empty() {
-            return Err(Fault::new(Condition::Syntax, "G136 without axis words", g.span));
+            return Err(Fault::new(Condition::Syntax, "G136 without axis words", g.span)
+                .hint("write the weights of the axes in percent: G136 X100 Y100"));
         }
         if let Some((_, value, span)) = words.axes.iter().find(|(_, value, _)| *value < 0.0) {
             let text = format!("feedforward weight {value} % is negative");

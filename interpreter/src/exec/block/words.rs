@@ -51,7 +51,8 @@ impl Code {
         }
         if let (Some(value), "M", 3..=5 | 40..=45) = (value, letter, number) {
             let text = format!("M{number:02} takes no value, not {value}");
-            return Err(Fault::new(Condition::Syntax, text, span));
+            return Err(Fault::new(Condition::Syntax, text, span)
+                .hint(format!("write M{number:02} alone, the speed with S")));
         }
         Ok(Self { number, value, span })
     }

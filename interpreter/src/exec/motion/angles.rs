@@ -95,7 +95,8 @@ impl Decoder {
         };
         let span = *span;
         let Some(angle) = angle.filter(|a| a.is_finite()) else {
-            return Err(Fault::new(Condition::Syntax, "#ANG without an angle", span));
+            return Err(Fault::new(Condition::Syntax, "#ANG without an angle", span)
+                .hint("write the angle to the first axis in deg: #ANG=30"));
         };
         let mode = match words.group(Group::Path).map(|g| g.row.act) {
             Some(crate::exec::block::groups::Act::Path(mode)) => mode,
@@ -128,6 +129,8 @@ impl Decoder {
                     || words.group(transition).is_some()
                     || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
                 if inserts || !words.axes.is_empty() {
+                    // the second line is not to be judged without this one
+                    self.motion.contour_line.open = Some((angle, span, self.report.source));
                     let what = "the first of two contour lines with other words of motion";
                     return Err(Fault::unsupported(what, span));
                 }

@@ -200,7 +200,8 @@ impl Decoder {
         let at = *at;
         if !is_arc {
             let text = "#CANG needs G02 or G03";
-            return Err(Fault::new(Condition::Syntax, text, at));
+            return Err(Fault::new(Condition::Syntax, text, at)
+                .hint("write the arc in this block: G02 I5 #CANG=90"));
         }
         let Some(angle) = angle.filter(|angle| *angle > 0.0 && *angle <= 360.0) else {
             let text = "#CANG needs an angle above 0 and up to 360 deg";

@@ -14,6 +14,9 @@ use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::Path;
 
+/// Hint for E with another feed than that of G94.
+const END_FEED: &str = "write G94 and a motion at feed rate: G94 G01 X10 F2000 E500";
+
 impl Modal {
     /// G95 at a spindle speed in rev/min.
     pub(super) fn feed_per_revolution(&self, machine: &Machine, path: &Path, rpm: f64) -> Feed {
@@ -32,10 +35,12 @@ impl Modal {
     ) -> Outcome<Option<f64>> {
         let Feed::PathVelocity(v) = feed else {
             let text = "E is only valid with G94 and not in rapid traverse";
-            return Err(Fault::new(Condition::Syntax, text, span));
+            return Err(Fault::new(Condition::Syntax, text, span).hint(END_FEED));
         };
         if self.feed_type != FeedType::PerMinute {
-            return Err(Fault::new(Condition::Syntax, "E is only valid with G94", span));
+            return Err(
+                Fault::new(Condition::Syntax, "E is only valid with G94", span).hint(END_FEED)
+            );
         }
         if value < 0.0 {
             let text = format!("E{value} is negative: E is the feed at the end of the block");

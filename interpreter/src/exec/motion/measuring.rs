@@ -9,7 +9,7 @@
 //! V.A.MERF to FALSE; types 3 to 6 treat a missing signal as type 1 does (P-CHAN-00176).
 
 use super::state::measuring::{Measured, Measuring, Pending};
-use crate::diag::{Condition, ValueKind};
+use crate::diag::{Condition, Severity, ValueKind};
 use crate::exec::block::choice::{Compensation, PathMode};
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
@@ -88,16 +88,22 @@ impl Decoder {
         self.sync(Sync::Measured { through, stops });
         let coordinates = &self.geometry.coordinates;
         let axes = 0..self.machine.axes.len();
-        let needs_signal = kind == 2
+        let is_error = kind == 2
             || self
                 .motion
                 .measuring
                 .missing_is_error
                 .unwrap_or(self.machine.channel.measuring.missing_signal_is_error);
+        let missing = match (is_error, interrupts) {
+            (true, _) => Some(Severity::Error),
+            (false, false) => Some(Severity::Note),
+            // a block that a signal may interrupt measures nothing by itself
+            (false, true) => None,
+        };
         self.motion.measuring.pending = Some(Box::new(Pending {
             axes: words.axes.iter().map(|(axis, _, _)| *axis).collect(),
             target: axes.map(|axis| coordinates.programmed(axis)).collect(),
-            needs_signal,
+            missing,
             jump: None,
             source: self.report.source,
             span: g.span,
@@ -198,7 +204,7 @@ impl Decoder {
     /// signalled.
     pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Jump> {
         let pending = self.motion.measuring.pending.take()?;
-        let Pending { axes, target, needs_signal, jump, source, span } = *pending;
+        let Pending { axes, target, missing, jump, source, span } = *pending;
         // a check has no probe: the surface is assumed at the target
         let (signal, rest) = match self.live.take_measured() {
             Some(probed) => (probed.signal_mm, Some(probed.rest_mm)),
@@ -220,10 +226,10 @@ impl Decoder {
             for axis in &axes {
                 self.motion.measuring.results[*axis].signalled = false;
             }
-            if needs_signal {
+            if let Some(severity) = missing {
                 let text = "the probe has not signalled on the way to the target";
                 let fault = Fault::new(Condition::NoProbeSignal, text, span);
-                self.report.note(fault.in_block(source));
+                self.report.note(fault.with(|d| d.severity(severity)).in_block(source));
             }
         }
         if let Some(rest) = rest {

@@ -183,7 +183,7 @@ impl Spindle {
         if self.index.is_none() {
             let text = "the machine has no spindle: speeds are stored without effect";
             report.note_once(Subject::Spindle, Fault::new(Condition::Ignored, text, span));
-        } else if self.is_turning() && self.rpm == 0.0 {
+        } else if self.is_turning() && self.rpm == 0.0 && !report.failed() {
             let text = "M03 and M04 have no effect at speed 0 before an S word";
             report.note_once("S", Fault::new(Condition::Odd, text, span));
         } else if matches!(self.turning, Turning::Positioned(_)) && self.rpm == 0.0 {

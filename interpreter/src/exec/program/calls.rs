@@ -40,7 +40,9 @@ impl Executor {
                 }
                 Ok(Value::Number(_)) => {
                     let text = "the variable holds a number, not the name of a program";
-                    self.decoder.report.note(Fault::new(Condition::Syntax, text, place.span));
+                    let fault = Fault::new(Condition::Syntax, text, place.span);
+                    let hint = "assign the name as a text: V.E.NAME = \"sub.nc\"";
+                    self.decoder.report.note(fault.hint(hint));
                 }
                 Err(fault) => self.decoder.report.note(fault),
             },
@@ -117,7 +119,12 @@ impl Executor {
                 Some(file)
             }
             Err(error) => {
-                let (text, hint) = error.text(path);
+                let index = self.levels.last().map(|level| &level.index);
+                // LLAB is L with the name LAB
+                let names = [Some(path), path.strip_prefix(['L', 'l'])];
+                let mut names = names.into_iter().flatten();
+                let local = index.and_then(|index| names.find(|name| index.local(name).is_some()));
+                let (text, hint) = error.text(path, local);
                 let fault = Fault::new(Condition::NoFile, format!("subroutine {text}"), span);
                 self.decoder.report.note(fault.hint(hint));
                 None

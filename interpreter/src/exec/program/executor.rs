@@ -182,7 +182,7 @@ impl Executor {
                 Some(file)
             }
             Err(error) => {
-                let (text, hint) = error.text(name);
+                let (text, hint) = error.text(name, None);
                 let diagnostic = Diagnostic::new(Condition::NoFile, text).hint(hint);
                 let diagnostic = match (self.levels.is_empty(), self.here(Span::default())) {
                     (false, Some(location)) => diagnostic.at(location),

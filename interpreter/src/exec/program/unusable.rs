@@ -18,11 +18,15 @@ pub(in crate::exec) enum FileError {
 
 impl FileError {
     /// Text and hint of K-0013 for a file that the program calls `name`.
-    pub(super) fn text(self, name: &str) -> (String, String) {
+    ///
+    /// `local`: the local subroutine that the call may mean.
+    pub(super) fn text(self, name: &str, local: Option<&str>) -> (String, String) {
         match self {
             Self::Open(e) => {
                 let searched = format!("searched: {}", e.searched.join(", "));
-                let hint = if is_vendor_cycle(&e.name) {
+                let hint = if let Some(local) = local {
+                    format!("LL {local} calls the local subroutine %L {local}; {searched}")
+                } else if is_vendor_cycle(&e.name) {
                     format!(
                         "a cycle of the vendor's library, not included in kontur: copy it from the control; {searched}"
                     )

@@ -42,7 +42,8 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
         let name = call.function.name();
         let text = format!("{name} takes {low} argument(s), found {n}");
         let condition = if n < low { Condition::TooFewArguments } else { Condition::Syntax };
-        return Err(Fault::new(condition, text, span));
+        return Err(Fault::new(condition, text, span)
+            .hint(format!("kontur explain {name} shows its arguments")));
     }
     let arg = |i: usize| {
         let argument = &call.arguments[i];

@@ -1,15 +1,27 @@
 //! Blanks and digits.
 
-use crate::source::regions::comment_length;
+use crate::source::regions::closed_comment;
 
 /// Position after blanks and comments in brackets, which are blanks for the grammar.
 pub(super) fn blanks(bytes: &[u8], mut at: usize) -> usize {
     loop {
         match bytes.get(at) {
             Some(b' ' | b'\t') => at += 1,
-            Some(b'(') => at += comment_length(&bytes[at..]),
+            // one that is not closed may be a mistake, which the grammar reports
+            Some(b'(') => match closed_comment(&bytes[at..]) {
+                Some(length) => at += length,
+                None => return at,
+            },
             _ => return at,
         }
+    }
+}
+
+/// As [`blanks`], where no word has been read: a remark that is not closed comments out the block.
+pub(super) fn before_words(bytes: &[u8], at: usize) -> usize {
+    match blanks(bytes, at) {
+        at if bytes.get(at) == Some(&b'(') => bytes.len(),
+        at => at,
     }
 }
 

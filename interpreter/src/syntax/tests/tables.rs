@@ -110,6 +110,25 @@ fn messages_say_what_was_expected() {
 }
 
 #[test]
+fn hints_fit_the_mistake() {
+    for (line, expected) in [
+        ("G01 X[2*[3+1] F100", "column 6"),
+        ("X2*3] F100", "the ] in column 5"),
+        ("#SLOPE TYPE=TRAPEZ", "#SLOPE [TYPE=TRAPEZ]"),
+        ("#MSG [\"a]", "close the text"),
+        ("G01 X F100", "X10.5"),
+        ("G01 X10 F1000 remark", "remarks begin with ;"),
+        ("P1=1)", "grouped by [ ]"),
+        ("N1.5", "integers: N1"),
+        ("X1 5", "address and a value"),
+    ] {
+        let (_, diagnostics) = parse(line);
+        let hint = diagnostics[0].hint.as_deref().unwrap_or_default();
+        assert!(hint.contains(expected), "{line}: {hint}");
+    }
+}
+
+#[test]
 fn the_rest_of_a_block_with_errors_is_used() {
     for (line, expected) in [
         ("N5 G1 X Y10 Z[1+*2] F5", "N5 G1 Y=10 F=5"),

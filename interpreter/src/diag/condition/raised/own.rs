@@ -5,7 +5,7 @@ macro_rules! own {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are only allowed in comments and strings";
-    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "syntax error in a block", hint "write words as an address and a value (G01 X10.5 F1000), remarks with ;";
+    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "syntax error in a block", hint "kontur explain shows how a word, a function or a command is written: kontur explain G02";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
     TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, M02 or M17, then more blocks", hint "move the end-of-program word to the end of the file, or delete the text after it";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "calls or control structures nested too deeply", hint "check whether a subroutine calls itself; assign part of a long expression to a parameter";
@@ -59,7 +59,7 @@ macro_rules! own {
     ListNoEffect = Kontur 75 "K-LIST-NOEFFECT": Warning None 1 2, "list value without effect", cause "kontur does not simulate what the value switches on, or the program overrides it: the text says which", hint "the entry may remain in the list, it does not change the result";
     InputFile = Kontur 76 "K-INPUT": Error JobAbort 3 0, "file of real-time inputs invalid or not readable", cause "--input FILE: CSV with the columns t_s and signals, times in ascending order", hint "write a header such as t_s,override_percent and rows of numbers, with times in ascending order";
     InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message states what the machine has switched off";
-    ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed";
+    ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed", hint "use the recommended value, unless the machine needs this one";
     PositionLoop = Kontur 79 "K-LOOP": Note None 1 2, "position loop not simulated as configured in the list", cause "P-AXIS-00320: loop in the drive, or none", hint "set kv (P-AXIS-00099) to the gain of the loop it replaces";
     AxDevNotKept = Kontur 80 "K-AX-DEV": Error ProgramAbort 3 0, "tolerance AX_DEV could not be kept", cause "neither a lower speed nor a stop keeps the tolerance", hint "give the axes the same filter, or allow more AX_DEV";
     Message = Kontur 81 "K-MSG": Note None 1 1, "message of the program (#MSG)";
@@ -68,7 +68,7 @@ macro_rules! own {
     Ignored = Kontur 100 "K-IGNORED": Warning None 1 1, "word without effect here, ignored", cause "the word does not affect the set positions, or its function is not simulated", hint "the result is the same without it";
     Dialect = Kontur 101 "K-DIALECT": Warning None 1 1, "word with a different meaning in other dialects", cause "e.g. G21 mirrors here; metric is G71", hint "check whether the file was written for another control";
     GuardExchanged = Kontur 102 "K-GUARD-EXCHANGED": Warning None 1 1, "axis exchange switched the Vibration Guard of the program off", cause "the axes of the channel have changed", hint "program #VIB GUARD ON again after it";
-    GuardStored = Kontur 103 "K-GUARD-STORED": Note None 1 1, "values of #VIB GUARD or #FILTER stored while it is off", cause "they act with the next #VIB GUARD ON or #FILTER ON";
+    GuardStored = Kontur 103 "K-GUARD-STORED": Note None 1 1, "values of #VIB GUARD or #FILTER stored while it is off", cause "they act with the next #VIB GUARD ON or #FILTER ON", hint "write #VIB GUARD ON or #FILTER ON if they are to act now";
     ListFirAndGuard = Kontur 104 "K-LIST-FIR-GUARD": Error ProgramAbort 3 1, "FIR filter and Vibration Guard active for the same axis", cause "P-AXIS-00586 and P-AXIS-00588; the Vibration Guard of the axis is off", hint "remove one of the two from the list";
     FilterWithListGuard = Kontur 105 "K-FILTER-LIST-GUARD": Error ProgramAbort 3 1, "#FILTER while a list activates the Vibration Guard", cause "P-AXIS-00588", hint "set vib_guard.active to 0, or use #VIB GUARD";
     GuardWithListFilter = Kontur 106 "K-GUARD-LIST-FILTER": Error ProgramAbort 3 1, "#VIB GUARD while a list configures a filter type", cause "P-AXIS-00586, P-AXIS-00153", hint "remove the filter type from the list, or use #FILTER";
@@ -80,7 +80,7 @@ macro_rules! own {
     UnequalKernels = Kontur 112 "K-ASYNCHRONOUS": Warning None 1 1, "axes of one group shaped with different delays", cause "settings of filters or Vibration Guard differ", hint "give all axes of the path the same settings";
     NoTool = Kontur 114 "K-NO-TOOL": Warning None 1 1, "tool data missing", cause "D without data: length and radius are 0", hint "set length and radius with V.G.WZ[n].L and V.G.WZ[n].R";
     Compensation = Kontur 115 "K-COMPENSATION": Error ProgramAbort 3 1, "tool radius compensation not possible", cause "contour too tight for the tool, or a word not allowed with the compensation", hint "use a smaller tool, or open the contour; intersections are only searched between adjacent blocks, so a block at an inside corner must be longer than the part that the corner removes";
-    TooMany = Kontur 116 "K-TOO-MANY": Note None 1 1, "too many errors, the rest is not reported";
+    TooMany = Kontur 116 "K-TOO-MANY": Note None 1 1, "too many errors, the rest is not reported", hint "correct the first errors and check again: later ones often follow from them";
     ArcCentre = Kontur 117 "K-ARC-CENTRE": Error ProgramAbort 3 1, "start point, end point and centre of an arc do not match", cause "G165; P-CHAN-00059, P-CHAN-00060", hint "check G161 (I, J, K absolute) and G162 (relative to the start point)", parameter "P-CHAN-00059";
     Unreached = Kontur 118 "K-UNREACHED": Warning None 3 1, "syntax error in a part of the program that is not executed", cause "branch not taken, block skipped, subroutine not called";
     Bottleneck = Kontur 119 "K-BOTTLENECK": Warning None 3 1, "compensated tool cuts its own contour at a bottleneck", cause "gap narrower than the tool, loop over several blocks";
@@ -112,6 +112,7 @@ macro_rules! own {
     FirAndHsc = Kontur 149 "K-FIR-AND-HSC": Warning None 1 1, "FIR and HSC filter active for the same axis, HSC filter without effect", cause "both act before the standard filters; the documents do not describe their combined effect", hint "write #FILTER OFF before #FILTER ON [HSC], or the reverse";
     IndependentBeforeSystem = Kontur 150 "K-INDEPENDENT-BEFORE-SYSTEM": Error ProgramAbort 3 1, "coordinate system or transformation selected while a main axis moves independently (no vendor ID known)", cause "Z[OSC ON ..] or Z[INDP_ASYN ..], then #CS ON", hint "end the motion first: Z[OSC OFF], #WAIT INDP ALL";
     SplineTooShort = Kontur 151 "K-SPLINE-SHORT": Error ProgramAbort 3 0, "Akima spline of two points with automatic tangents (no vendor ID known)", cause "G151, G01 X20 Y5, G150", hint "program a third point, or both tangents by #AKIMA TRANS [START=TANGENTIAL END=TANGENTIAL]";
+    NoList = Kontur 160 "K-NOLIST": Error JobAbort 3 2, "list cannot be read", cause "a start-up list, or a list that it names, is missing", hint "-m takes a folder with a start-up list, the list itself or a TwinCAT project";
         }
     };
 }

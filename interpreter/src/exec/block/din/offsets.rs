@@ -229,7 +229,10 @@ impl Decoder {
                 self.geometry.coordinates.preset_position(axis, None);
             }
         } else if words.axes.is_empty() {
-            self.report.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
+            self.report.note(
+                Fault::new(Condition::Syntax, "#PSET without axis words", at)
+                    .hint("write the axes and their coordinates: #PSET X0 Y0"),
+            );
         }
         true
     }
@@ -409,7 +412,10 @@ pub(super) fn axis_functions(words: &Words<'_>, report: &mut Report) -> Option<G
                 "G{} and G{} in one block: both require the axis words",
                 first.row.number, g.row.number
             );
-            report.note(Fault::new(Condition::Syntax, text, g.span));
+            report.note(
+                Fault::new(Condition::Syntax, text, g.span)
+                    .hint("write the second one with its axis words in a separate block"),
+            );
         } else {
             found = Some(*g);
         }
@@ -420,7 +426,8 @@ pub(super) fn axis_functions(words: &Words<'_>, report: &mut Report) -> Option<G
             "G{:02} with G{}: the axis words are arguments of G{}, not targets",
             motion.row.number, g.row.number, g.row.number
         );
-        report.note(Fault::new(Condition::Syntax, text, motion.span));
+        let hint = format!("write G{} with its axis words in a separate block", g.row.number);
+        report.note(Fault::new(Condition::Syntax, text, motion.span).hint(hint));
     }
     found
 }

@@ -89,11 +89,11 @@ impl Decoder {
             }
             (Some(GValue::Scalar(expr)), ValueRule::Never) => {
                 let text = format!("G{number:02} takes no value");
-                return Err(Fault::new(Condition::Syntax, text, expr.span));
+                return Err(Fault::new(Condition::Syntax, text, expr.span).hint(form(number)));
             }
             (Some(GValue::List(_)), _) => {
                 let text = format!("G{number:02} takes no list");
-                return Err(Fault::new(Condition::Syntax, text, span));
+                return Err(Fault::new(Condition::Syntax, text, span).hint(form(number)));
             }
             (None, _) => None,
         };
@@ -143,6 +143,11 @@ impl Decoder {
         }
         Ok(())
     }
+}
+
+/// Hint for a G function that is written in another form than its own.
+fn form(number: u32) -> String {
+    format!("kontur explain G{number:02} shows its form")
 }
 
 fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {

@@ -1,5 +1,6 @@
 //! State of measuring runs.
 
+use crate::diag::Severity;
 use crate::exec::step::SourceRef;
 use crate::machine::Channel;
 use crate::syntax::ast::{Jump, Span};
@@ -27,8 +28,8 @@ pub(in crate::exec::motion) struct Pending {
     pub(in crate::exec::motion) axes: Vec<usize>,
     /// Programmed coordinates of the target.
     pub(in crate::exec::motion) target: AxisVec,
-    /// Whether a missing signal is an error.
-    pub(in crate::exec::motion) needs_signal: bool,
+    /// Severity of the message if the signal is missing.
+    pub(in crate::exec::motion) missing: Option<Severity>,
     pub(in crate::exec::motion) jump: Option<Jump>,
     pub(in crate::exec::motion) source: SourceRef,
     pub(in crate::exec::motion) span: Span,

@@ -280,7 +280,8 @@ impl Builder<'_> {
             }
             "ELSE" | "ENDIF" => {
                 let Some(open) = self.conditional_open.last().copied() else {
-                    let d = Diagnostic::new(Condition::Syntax, format!("#{name} without #IF"));
+                    let d = Diagnostic::new(Condition::Syntax, format!("#{name} without #IF"))
+                        .hint("write #IF before it, or remove it");
                     self.report(raw, head.at, name.len() + 1, d);
                     return;
                 };

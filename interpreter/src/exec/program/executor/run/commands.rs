@@ -13,7 +13,9 @@ impl Executor {
             let begins = command.is("VAR");
             if begins == declarations {
                 let text = if begins { "#VAR inside #VAR" } else { "#ENDVAR without #VAR" };
-                self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
+                let fault = Fault::new(Condition::Syntax, text, command.span);
+                let hint = "#VAR begins declarations, the next #ENDVAR ends them";
+                self.decoder.report.note(fault.hint(hint));
             }
             if let Some(level) = self.levels.last_mut() {
                 level.declarations = begins;
@@ -68,7 +70,8 @@ impl Executor {
             self.decoder.report.keep(outcome).unwrap_or(false)
         } else {
             let text = "#IF needs one condition";
-            self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
+            let fault = Fault::new(Condition::Syntax, text, command.span);
+            self.decoder.report.note(fault.hint("write an expression after it: #IF V.E.ROUGHING"));
             false
         };
         if condition {

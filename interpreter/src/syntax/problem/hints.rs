@@ -1,0 +1,70 @@
+//! What to write instead, for blocks that the grammar refuses, judged by the text around the position of the error.
+
+use super::around::last_word;
+use super::expected::{EQUALS, VALUE};
+use super::{Context, content, token};
+use crate::syntax::scan;
+
+/// A hint for the text `rest` of a block, which cannot follow `before`. `masked` is the whole block.
+pub(super) fn hint(
+    context: Context,
+    masked: &str,
+    before: &str,
+    rest: &str,
+    expected: &[&str],
+) -> Option<String> {
+    unbalanced(masked).or_else(|| match context {
+        Context::Command => bare_key(content(masked)),
+        Context::Words => in_words(before, rest, expected),
+        Context::Control => None,
+    })
+}
+
+/// The bracket of a block that is not closed or not opened, in words.
+fn unbalanced(masked: &str) -> Option<String> {
+    let code = scan::without_texts(masked);
+    let mut open = Vec::new();
+    for (at, bracket) in code.match_indices(['[', ']']) {
+        if bracket == "[" {
+            open.push(at);
+        } else if open.pop().is_none() {
+            return Some(format!("the ] in column {} closes no bracket", at + 1));
+        }
+    }
+    open.last().map(|at| format!("close the bracket that is opened in column {}", at + 1))
+}
+
+/// `#SLOPE TYPE=TRAPEZ`: the key of a command without its bracket.
+fn bare_key(content: &str) -> Option<String> {
+    let (head, value) = content.split_once('=')?;
+    let (name, key) = head.trim_ascii_end().rsplit_once([' ', '\t'])?;
+    let value = &value.trim_ascii_start()[..token(value.trim_ascii_start())];
+    let bare = !head.contains('[') && !value.is_empty() && key.bytes().all(is_name);
+    bare.then(|| format!("keys are written in brackets: {} [{key}={value}]", name.trim_ascii_end()))
+}
+
+fn in_words(before: &str, rest: &str, expected: &[&str]) -> Option<String> {
+    if rest.starts_with([')', '(']) {
+        return Some("expressions are grouped by [ ]; a remark is written in ( )".to_owned());
+    }
+    let word = last_word(before);
+    let is_number = word
+        .strip_prefix(['N', 'n'])
+        .is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()));
+    if is_number && rest.starts_with('.') {
+        return Some(format!("block numbers are integers: {word}"));
+    }
+    // 22A and the like are not addresses
+    let is_address = !word.is_empty() && word.bytes().all(|b| b.is_ascii_alphabetic());
+    match expected {
+        [EQUALS, ..] => None,
+        [VALUE, ..] if is_address && word.len() == 1 => {
+            Some(format!("write the value of {word} next to it: {word}10.5"))
+        }
+        _ => None,
+    }
+}
+
+const fn is_name(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}

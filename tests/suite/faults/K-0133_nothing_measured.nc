@@ -1,0 +1,7 @@
+; run: exit 0
+; note K-0133 at 3:1
+G100 X10 F1000
+#MEAS MODE [5]
+G310 G01 X20 $GOTO [END]
+[END]
+M30
