@@ -298,7 +298,10 @@ fn refused_words_are_named() {
         (&["run", "@corner.nc", "--start", "X1000"][..], "--start: X1000 is outside the limits"),
         (&["check", "@corner.nc", "--start", "Y-500.1"], "--start: Y-500.1 is outside the limits"),
         (&["run", "@corner.nc", "--cycle-us", "20001"], "--cycle-us"),
-        (&["run", "@corner.nc", "--cycle-us", "99"], "100..=20000"),
+        (&["run", "@corner.nc", "--cycle-us", "99"], "a whole number from 100 to 20000"),
+        (&["run", "@corner.nc", "--cycle-us", "-5"], "a whole number from 100 to 20000"),
+        (&["run", "@corner.nc", "--max-blocks", "0"], "a whole number from 1 is"),
+        (&["run", "@corner.nc", "--max-time", "-1"], "a number above 0"),
         (&["report", "@corner.nc", "-o", "@a.csv"], "with --signals"),
         (&["sweep", "@corner.nc", "--vary", "program.Q=1000,2000"], "with `=`, as in Q=1000"),
     ] {

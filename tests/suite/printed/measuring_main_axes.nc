@@ -1,5 +1,6 @@
 ; run --set X,Y,Z.kenngr.messachse=1: exit 0
 ; page 15556660363 measuring with the main axes (type 4)
+; note K-0133 at 8:5
 ; end X7 Y10
 N10 G00 X0 Y0 Z0
 N20 X5

@@ -1,5 +1,6 @@
 ; run --set X,Y,Z.kenngr.messachse=1: exit 0
 ; page 15556655755 measuring with several axes (type 1)
+; note K-0133 at 7:5
 ; end X7 Y10
 N10 G00 X0 Y0 Z0
 N20 X5

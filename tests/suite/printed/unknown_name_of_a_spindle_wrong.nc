@@ -1,7 +1,6 @@
 ; check: exit 1
 ; page 251015563 diagnosis 20180, wrong
-; error 20180 at 6:5
-; note K-0109 at 6:15
+; error 20180 at 5:5
 N10 G00 X0 Y0 Z0
 N20 SPDL=1000 M03
 N1000 M30

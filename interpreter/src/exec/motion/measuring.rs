@@ -88,17 +88,15 @@ impl Decoder {
         self.sync(Sync::Measured { through, stops });
         let coordinates = &self.geometry.coordinates;
         let axes = 0..self.machine.axes.len();
-        let is_error = kind == 2
-            || self
-                .motion
-                .measuring
-                .missing_is_error
-                .unwrap_or(self.machine.channel.measuring.missing_signal_is_error);
-        let missing = match (is_error, interrupts) {
-            (true, _) => Some(Severity::Error),
-            (false, false) => Some(Severity::Note),
-            // a block that a signal may interrupt measures nothing by itself
-            (false, true) => None,
+        let of_program = self.motion.measuring.missing_is_error;
+        let of_list = self.machine.channel.measuring.missing_signal_is_error;
+        let missing = if kind == 2 || of_program.unwrap_or(of_list) {
+            Some(Severity::Error)
+        } else if interrupts || kind == 7 || of_program.is_some() {
+            // the program provides for it, or its signal is not that of the probe
+            None
+        } else {
+            Some(Severity::Note)
         };
         self.motion.measuring.pending = Some(Box::new(Pending {
             axes: words.axes.iter().map(|(axis, _, _)| *axis).collect(),
