@@ -4,6 +4,7 @@
 
 mod answers;
 mod book;
+mod commands;
 mod kit;
 mod machine_readable;
 mod outputs;

@@ -1,6 +1,9 @@
 //! Calls of the command line that are rows of `commands.txt`, whose head describes their form.
 
-use crate::kit::Folder;
+use crate::kit::{CORNER, Folder};
+use kontur::Exit;
+use std::collections::BTreeSet;
+use std::ffi::OsString;
 
 /// Words of a row, separated by blanks; `'..'` encloses one with blanks.
 fn words(row: &str) -> Vec<&str> {
@@ -12,14 +15,21 @@ fn words(row: &str) -> Vec<&str> {
     words
 }
 
+/// Names of the files in a folder.
+fn files(folder: &Folder) -> BTreeSet<OsString> {
+    std::fs::read_dir(folder.path("")).unwrap().map(|entry| entry.unwrap().file_name()).collect()
+}
+
 /// What is wrong with the answer to a row.
 fn mistakes(folder: &Folder, row: &str) -> Option<String> {
-    let (call, expected) = row.split_once(" -> ")?;
+    let (call, expected) = row.split_once(" -> ").unwrap_or_else(|| panic!("{row}: no arrow"));
+    let before = files(folder);
     let (exit, out, err) = folder.call(&words(call));
     let mut parts = expected.split('"');
     let mut place = parts.next().unwrap_or_default().trim();
     let code = place.split(' ').next().unwrap_or_default();
     let mut wrong = exit as u8 != code.parse::<u8>().unwrap();
+    wrong |= exit == Exit::Usage && files(folder) != before;
     place = place.strip_prefix(code).unwrap_or_default().trim();
     while let Some(part) = parts.next() {
         wrong |= match place {
@@ -48,7 +58,7 @@ fn commands_answer_as_their_rows_say() {
             }
         }
         // no call writes into a file that it has read
-        assert_eq!(folder.read("corner.nc"), crate::kit::CORNER, "{paragraph}");
+        assert_eq!(folder.read("corner.nc"), CORNER, "{paragraph}");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -1,6 +1,6 @@
 //! The command line from outside: files, formats, exit codes.
 
-use crate::kit::{self, Folder};
+use crate::kit::Folder;
 use kontur::Exit;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -214,52 +214,6 @@ fn report_is_one_self_contained_file() {
     assert!(f.read("part.html").len() < f.read("two.html").len() / 3);
     let (exit, _, err) = window("99..100");
     assert!(exit == Exit::Usage && err.contains("the run ends at"), "{err}");
-    let (exit, _, err) = f.call(&["report", "@corner.nc", "-o", "@a.png"]);
-    assert_eq!(exit, Exit::Usage);
-    assert!(err.contains(".html"), "{err}");
-}
-
-#[test]
-fn exit_codes_of_wrong_usage_and_files() {
-    let f = Folder::new();
-    assert_eq!(f.call(&["run", "@absent.nc"]).0, Exit::Io);
-    assert_eq!(f.call(&["run", "@corner.nc", "-o", "@no/such/folder/a.csv"]).0, Exit::Io);
-    assert_eq!(f.call(&["diff", "@absent.csv", "@absent.csv"]).0, Exit::Io);
-    for (name, text, expected) in [
-        ("empty.csv", "", Exit::Usage),
-        ("foreign.csv", "a,b\n1,2\n", Exit::Usage),
-        ("torn.csv", "t_s,line,block\n0.000000,1,10\n0.001000,1", Exit::Io),
-    ] {
-        std::fs::write(f.path(name), text).unwrap();
-        let file = format!("@{name}");
-        assert_eq!(f.call(&["diff", &file, "@corner.nc"]).0, expected, "{name}");
-    }
-    for name in ["@a.html", "@a.SVG"] {
-        let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", name]);
-        assert!(exit == Exit::Usage && err.contains("kontur report"), "{err}");
-        assert!(!f.path(&name[1..]).exists());
-    }
-    let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "bogus"]);
-    assert_eq!(exit, Exit::Usage);
-    assert!(
-        err.contains("`bogus`") && err.contains("spindle") && err.contains("X_set_mm"),
-        "{err}"
-    );
-    // a typing error must not overwrite the program
-    for words in [
-        ["run", "@corner.nc", "-o", "@corner.nc"].as_slice(),
-        &["run", "@corner.nc", "-o", "@a.csv", "-o", "@a.csv"],
-        &["run", "@corner.nc", "-o", "@./corner.nc"],
-    ] {
-        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
-    }
-    assert_eq!(f.read("corner.nc"), kit::CORNER);
-    assert_eq!(f.call(&["run"]).0, Exit::Usage);
-    let (exit, out, _) = f.call(&["--help"]);
-    assert_eq!(exit, Exit::Finished);
-    for command in ["run", "check", "diff", "report", "sweep", "explain"] {
-        assert!(out.contains(command), "{out}");
-    }
 }
 
 #[test]
