@@ -3,7 +3,7 @@
 mod angles;
 mod arcs;
 pub(super) mod areas;
-mod banding;
+pub(super) mod banding;
 mod coupling;
 mod cutting;
 mod dwell;
@@ -39,7 +39,6 @@ use super::block::groups::{Act, Group};
 use super::block::modal::Modal;
 use super::contour::FeedCourse;
 use super::contour::Motion;
-use super::contour::insertion::{Insertion, Kind};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::step::Sync;
@@ -430,14 +429,6 @@ impl Decoder {
         }
         for fault in self.limits_of_compensated() {
             self.report.note(Box::new(fault));
-        }
-    }
-
-    /// Chamfer or rounding before the next motion.
-    pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed: Option<Feed>, span: Span) {
-        let insertion = Insertion { kind, size_mm, feed, span, source: self.report.source };
-        if let Some(fault) = self.contour.insert(insertion) {
-            self.report.note(fault);
         }
     }
 }

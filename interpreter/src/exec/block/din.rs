@@ -11,11 +11,12 @@ use super::choice::{Compensation, FeedType, LookAhead, PathMode, Plane};
 use super::collected::{CycleCall, GWord, Placed, Words};
 use super::groups::{Act, Group};
 use super::modal::{FeedWord, Modal};
-use super::modes::weight_ratio;
+use super::modes::{permits_tangential, weight_ratio};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::addition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::banding::banding_without_motion;
 use crate::exec::report::{Report, Subject};
 use crate::machine::{Axis, SpindleMoment};
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
@@ -136,8 +137,11 @@ impl Decoder {
         if inserts_after(&words) {
             self.insertions(&words);
         }
-        if let Some(at) = banding {
-            self.banding_moves(&words, at);
+        if let Some(at) = banding
+            && !self.moved
+            && !self.report.failed()
+        {
+            self.report.note(banding_without_motion(&words, at));
         }
         self.join_synchronous();
         if let Some((speed, span)) = late_speed {
@@ -264,7 +268,12 @@ impl Decoder {
             }
             Act::Manual => self.manual_mode(g, words)?,
             Act::Gear => self.change_gears(g, words)?,
-            Act::CornerDeceleration(on) => self.corner_deceleration(on, g.span)?,
+            Act::CornerDeceleration(on) => {
+                if on && self.motion.corner.is_none() {
+                    return Err(no_corner_parameters(g.span));
+                }
+                self.modal.corner_deceleration = on;
+            }
             Act::EngagementFeed(on) => {
                 self.modal.engagement_feed = on;
                 if on {
@@ -294,12 +303,20 @@ impl Decoder {
                 let what = format!("G{} with axes", g.row.number);
                 return Err(Fault::unsupported(what, g.span));
             }
-            Act::StopAtTransitions(stop) => self.stop_at_transitions(stop),
-            Act::LookAheadFunctions => self.look_ahead_functions(g)?,
+            Act::StopAtTransitions(stop) => {
+                let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
+                if std::mem::replace(&mut self.modal.look_ahead, mode) != mode {
+                    self.motion.dynamics_changed();
+                }
+            }
+            Act::LookAheadFunctions => look_ahead_functions(g, &mut self.report)?,
             Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
-            Act::Tangential => self.select_tangentially(g, words)?,
+            Act::Tangential => {
+                permits_tangential(g, words, self.modal.selection)?;
+                self.contour.tangential = true;
+            }
             Act::Selection(selection) => self.modal.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.modal.unit_mm();
@@ -324,17 +341,6 @@ impl Decoder {
         Ok(())
     }
 
-    /// G12, G13.
-    fn corner_deceleration(&mut self, on: bool, span: Span) -> Outcome<()> {
-        if on && self.motion.corner.is_none() {
-            let text = "G13 without the values of #CORNER PARAM";
-            return Err(Fault::new(Condition::NoCornerParameters, text, span)
-                .with(|d| d.value(ValueKind::Current, 13, "-")));
-        }
-        self.modal.corner_deceleration = on;
-        Ok(())
-    }
-
     /// G135, G137.
     fn feedforward(&mut self, on: bool, span: Span) {
         if self.motion.feedforward.on == on {
@@ -349,32 +355,30 @@ impl Decoder {
         self.motion.feedforward.on = on;
         self.contour.event(self.motion.feedforward.event());
     }
+}
 
-    /// G116, G117.
-    fn stop_at_transitions(&mut self, stop: bool) {
-        let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
-        if self.modal.look_ahead != mode {
-            self.modal.look_ahead = mode;
-            self.motion.dynamics_changed();
-        }
+/// G115.
+fn look_ahead_functions(g: &GWord, report: &mut Report) -> Outcome<()> {
+    let value = g.value.unwrap_or_default();
+    let number = crate::exec::values::number::whole(value, 0, LOOK_AHEAD_FORMAT);
+    if number.is_none_or(|number| number > 14) {
+        let condition = match number {
+            Some(_) => Condition::LookAheadRange,
+            None => Condition::LookAheadFormat,
+        };
+        let text = format!("G115={value}, allowed: 0 to 14");
+        return Err(
+            Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Wrong, value, "-"))
+        );
     }
+    let text = "G115: single functions of the look-ahead cannot be switched off";
+    report.note_once(Subject::G(115), Fault::new(Condition::Fallback, text, g.span));
+    Ok(())
+}
 
-    /// G115.
-    fn look_ahead_functions(&mut self, g: &GWord) -> Outcome<()> {
-        let value = g.value.unwrap_or_default();
-        let number = crate::exec::values::number::whole(value, 0, LOOK_AHEAD_FORMAT);
-        if number.is_none_or(|number| number > 14) {
-            let condition = match number {
-                Some(_) => Condition::LookAheadRange,
-                None => Condition::LookAheadFormat,
-            };
-            let text = format!("G115={value}, allowed: 0 to 14");
-            return Err(
-                Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Wrong, value, "-"))
-            );
-        }
-        let text = "G115: single functions of the look-ahead cannot be switched off";
-        self.report.note_once(Subject::G(115), Fault::new(Condition::Fallback, text, g.span));
-        Ok(())
-    }
+/// 20795.
+fn no_corner_parameters(span: Span) -> Box<Fault> {
+    let text = "G13 without the values of #CORNER PARAM";
+    Fault::new(Condition::NoCornerParameters, text, span)
+        .with(|d| d.value(ValueKind::Current, 13, "-"))
 }

@@ -11,6 +11,7 @@ use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::state::Function;
 use crate::exec::report::{Report, Subject};
 use crate::exec::step::Event;
+use crate::machine::Tool;
 use crate::syntax::ast::Span;
 
 /// A weight in percent as a ratio.
@@ -178,7 +179,8 @@ impl Decoder {
             crate::exec::geometry::tools::Tool::default()
         };
         if number != 0 {
-            let outcome = self.tool_is_large_enough(number, span);
+            let least = self.machine.channel.least_tool_mm;
+            let outcome = is_large_enough(&self.geometry.tools.active, least, number, span);
             self.report.keep(outcome);
         }
         self.geometry.coordinates.tool_programmed();
@@ -196,49 +198,6 @@ impl Decoder {
         }
         let applied = self.apply_wear(span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
-    }
-
-    /// 21426, 21427: the active tool is shorter or thinner than the channel list demands (P-CHAN-00156, P-CHAN-00157).
-    ///
-    /// Assumption: the error ends the program, like the other errors of tool data; no document prints its reaction.
-    fn tool_is_large_enough(&self, number: u32, span: Span) -> Outcome<()> {
-        let tool = &self.geometry.tools.active;
-        let [length, radius] = self.machine.channel.least_tool_mm;
-        for (condition, what, value, least) in [
-            (Condition::ToolTooShort, "length", tool.length_mm, length),
-            (Condition::ToolTooThin, "radius", tool.radius_mm, radius),
-        ] {
-            if least > 0.0 && value < least {
-                let text = format!("{what} {value} mm of tool data D{number}, at least {least} mm");
-                return Err(Fault::new(condition, text, span).with(|d| {
-                    d.value(ValueKind::Wrong, value, "mm").value(ValueKind::LowerLimit, least, "mm")
-                }));
-            }
-        }
-        Ok(())
-    }
-
-    /// G05: the motion that starts or ends compensation becomes an arc.
-    pub(in crate::exec) fn select_tangentially(
-        &mut self,
-        g: &GWord,
-        words: &Words<'_>,
-    ) -> Outcome<()> {
-        let Some(side) = words.group(Group::Compensation) else {
-            let text = "G05 without G40, G41 or G42 in its block";
-            return Err(Fault::new(Condition::Compensation, text, g.span)
-                .hint("write G05 in the block of the word that it belongs to"));
-        };
-        let selection = match words.group(Group::CompensationSelection).map(|g| g.row.act) {
-            Some(Act::Selection(selection)) => selection,
-            _ => self.modal.selection,
-        };
-        if side.row.number == 40 && selection == Selection::WithoutBlock {
-            let what = "G05 with G40 of G239, which leaves the tool where it is";
-            return Err(Fault::unsupported(what, g.span));
-        }
-        self.contour.tangential = true;
-        Ok(())
     }
 
     /// G40 with G239: the tool keeps its position, and the program continues from there.
@@ -291,4 +250,49 @@ pub(in crate::exec) fn limited_weight(percent: f64, span: Span, report: &mut Rep
             .note(Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)));
     }
     percent.min(100.0)
+}
+
+/// 21426, 21427: the active tool, in mm, is shorter or thinner than the channel list demands (P-CHAN-00156, P-CHAN-00157).
+///
+/// Assumption: the error ends the program, like the other errors of tool data; no document prints its reaction.
+fn is_large_enough(
+    tool: &Tool,
+    [length, radius]: [f64; 2],
+    number: u32,
+    span: Span,
+) -> Outcome<()> {
+    for (condition, what, value, least) in [
+        (Condition::ToolTooShort, "length", tool.length_mm, length),
+        (Condition::ToolTooThin, "radius", tool.radius_mm, radius),
+    ] {
+        if least > 0.0 && value < least {
+            let text = format!("{what} {value} mm of tool data D{number}, at least {least} mm");
+            return Err(Fault::new(condition, text, span).with(|d| {
+                d.value(ValueKind::Wrong, value, "mm").value(ValueKind::LowerLimit, least, "mm")
+            }));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the motion that starts or ends compensation may become an arc (G05); `selection`: the modal kind of selection.
+pub(super) fn permits_tangential(
+    g: &GWord,
+    words: &Words<'_>,
+    selection: Selection,
+) -> Outcome<()> {
+    let Some(side) = words.group(Group::Compensation) else {
+        let text = "G05 without G40, G41 or G42 in its block";
+        return Err(Fault::new(Condition::Compensation, text, g.span)
+            .hint("write G05 in the block of the word that it belongs to"));
+    };
+    let selection = match words.group(Group::CompensationSelection).map(|g| g.row.act) {
+        Some(Act::Selection(selection)) => selection,
+        _ => selection,
+    };
+    if side.row.number == 40 && selection == Selection::WithoutBlock {
+        let what = "G05 with G40 of G239, which leaves the tool where it is";
+        return Err(Fault::unsupported(what, g.span));
+    }
+    Ok(())
 }

@@ -91,22 +91,6 @@ impl Decoder {
         Ok(Some(m.span))
     }
 
-    /// After a block of edge banding: it must contain a motion.
-    pub(in crate::exec) fn banding_moves(&mut self, words: &Words<'_>, span: Span) {
-        if self.moved || self.report.failed() {
-            return;
-        }
-        let selected = words.g.iter().any(|g| g.row.act == Act::Banding(true));
-        let fault = if selected && !words.axes.is_empty() {
-            let text = "G108 in the block of the motion: axis words do not move in its block";
-            Fault::new(Condition::MeasuringWay, text, span).hint("write G108 in a block before it")
-        } else {
-            let text = "edge banding in a block without travel";
-            Fault::new(Condition::MeasuringWay, text, span)
-        };
-        self.report.note(fault);
-    }
-
     /// Functions that cannot be combined with edge banding.
     fn banding_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
         let what = if self.modal.compensation != Compensation::Off {
@@ -148,5 +132,17 @@ impl Decoder {
             }
         }
         Ok(())
+    }
+}
+
+/// K-0135 for a block of edge banding without a motion.
+pub(in crate::exec) fn banding_without_motion(words: &Words<'_>, span: Span) -> Box<Fault> {
+    let selected = words.g.iter().any(|g| g.row.act == Act::Banding(true));
+    if selected && !words.axes.is_empty() {
+        let text = "G108 in the block of the motion: axis words do not move in its block";
+        Fault::new(Condition::MeasuringWay, text, span).hint("write G108 in a block before it")
+    } else {
+        let text = "edge banding in a block without travel";
+        Fault::new(Condition::MeasuringWay, text, span)
     }
 }

@@ -3,10 +3,12 @@
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::contour::insertion::Kind;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::insertion::{Insertion, Kind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
+use crate::exec::report::Report;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::Channel;
 use crate::syntax::ast::Span;
@@ -32,7 +34,7 @@ impl Decoder {
         {
             return;
         }
-        let mut request = self.insertion_of_function(words);
+        let mut request = self.modal.insertion(words, &mut self.report);
         let mut feed = None;
         for (hash, value, span) in &words.hashes {
             let kind = match &*hash.name {
@@ -97,15 +99,21 @@ impl Decoder {
         if let Some((kind, size, at)) = request {
             let feed = feed.map(|(value, at)| self.feed_from(value, self.modal.unit_mm(), at));
             let feed = feed.and_then(|feed| self.report.keep(feed));
-            self.insert(kind, size, feed, at);
+            let source = self.report.source;
+            let insertion = Insertion { kind, size_mm: size, feed, span: at, source };
+            if let Some(fault) = self.contour.insert(insertion) {
+                self.report.note(fault);
+            }
         } else if let Some((_, at)) = feed {
             let text = "#FRC without chamfer or rounding has no effect";
             self.report.note(Fault::new(Condition::Odd, text, at).warning());
         }
     }
+}
 
+impl Modal {
     /// The insertion of G301 or G302; its size is modal.
-    fn insertion_of_function(&mut self, words: &Words<'_>) -> Option<(Kind, f64, Span)> {
+    fn insertion(&mut self, words: &Words<'_>, report: &mut Report) -> Option<(Kind, f64, Span)> {
         let mut request = None;
         for g in &words.g {
             let kind = match g.row.act {
@@ -113,19 +121,19 @@ impl Decoder {
                 Act::Rounding => Kind::Rounding,
                 _ => continue,
             };
-            let written = words.centre[0].map(|(i, span)| (i * self.modal.unit_mm(), span));
+            let written = words.centre[0].map(|(i, span)| (i * self.unit_mm(), span));
             if let Some((size, _)) = written {
-                self.modal.insertion_mm = Some(size);
+                self.insertion_mm = Some(size);
             }
-            match self.modal.insertion_mm {
+            match self.insertion_mm {
                 Some(size) if size > LARGEST_MM => {
                     let text = format!("G{}: {size} mm is outside the data format", g.row.number);
-                    self.report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
+                    report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
                 }
                 Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
                 _ => {
                     let text = format!("G{} without a size (I)", g.row.number);
-                    self.report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
+                    report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
                 }
             }
         }
