@@ -214,15 +214,7 @@ impl Parser {
     fn tree(&self, text: &str, mode: Mode, problems: &mut Vec<Problem>) -> Block {
         let masked = scan::mask(text, &self.names);
         if mode != Mode::Inactive {
-            // lines that begin with `%` are remarks in the programs of some post-processors
-            let remark = masked.text.trim_ascii_start().starts_with('%');
-            let severity = if remark { Severity::Warning } else { Severity::Error };
-            let invalid = masked.invalid.iter();
-            problems.extend(invalid.map(|s| problem::invalid(text, *s).severity(severity)));
-        }
-        if let (Some(bracket), true) = (masked.open_remark, mode != Mode::Inactive) {
-            let text = "a remark without `)` extends to the end of the block";
-            problems.push(Problem::new(Condition::Odd, bracket, text).hint("close it with )"));
+            problems.extend(characters(text, &masked));
         }
         if let Some(at) = masked.too_deep {
             problems.push(problem::too_deep(text, at));
@@ -295,6 +287,19 @@ impl Parser {
             }
         }
     }
+}
+
+/// The problems of single characters: invalid ones, and the `(` of a remark that is not closed.
+fn characters(text: &str, masked: &scan::Masked) -> Vec<Problem> {
+    // lines that begin with `%` are remarks in the programs of some post-processors
+    let remark = masked.text.trim_ascii_start().starts_with('%');
+    let severity = if remark { Severity::Warning } else { Severity::Error };
+    let invalid = masked.invalid.iter().map(|s| problem::invalid(text, *s).severity(severity));
+    let open = masked.open_remark.map(|bracket| {
+        let text = "a remark without `)` extends to the end of the block";
+        Problem::new(Condition::Odd, bracket, text).hint("close it with )")
+    });
+    invalid.chain(open).collect()
 }
 
 /// 20301 for a block that is too long.

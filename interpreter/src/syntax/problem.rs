@@ -212,18 +212,8 @@ pub(super) fn from_error(
         }
         _ => refine(problem, before, rest, context, masked, &expected),
     };
-    let asks = problem.hint.is_none();
-    match asks.then(|| hints::hint(context, masked, before, rest, &expected)).flatten() {
-        Some(hint) => problem.hint(hint),
-        None if asks && problem.condition == Condition::Syntax && context == Context::Words => {
-            problem.hint(WORDS)
-        }
-        None => problem,
-    }
+    hints::completed(problem, context, masked, before, rest, &expected)
 }
-
-/// Hint of K-0002 for words where nothing in particular is known about the mistake.
-const WORDS: &str = "write words as an address and a value (G01 X10.5 F1000), remarks with ;";
 
 /// The vendor's number for faults common to all kinds of blocks.
 fn misplaced(before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {

@@ -40,7 +40,7 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
         match region {
             Region::Comment { closed } => {
                 // blocks are commented out by a single `(`, so it is usual at their beginning, also after their number
-                let begins = text[..range.start].bytes().all(|b| b"/Nn:0123456789 \t".contains(&b));
+                let begins = out[..range.start].iter().all(|b| b"/Nn:0123456789 \t".contains(b));
                 if !closed && !begins && bytes[range.start] == b'(' {
                     open_remark = Some(Span::new(range.start, range.start + 1));
                 }

@@ -18,6 +18,7 @@ use crate::exec::step::Event;
 use crate::machine::Channel;
 use crate::machine::table::channel as of;
 use crate::syntax::ast::{Bracket, Group, Ident, Item, ItemKind, ItemValue, Span};
+use std::collections::BTreeMap;
 
 /// Words that belong to the functions of an axis and must not precede them (21301).
 const OF_FUNCTIONS: &[&str] = &[
@@ -143,31 +144,19 @@ impl Decoder {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest))
                 if word.is("INDP_SYN") || word.is("INDP_ASYN") =>
             {
-                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
-                    return Err(self.names.twice(axis, group.span));
-                }
-                let name = self.names.name(axis);
-                let outputs = &self.machine.channel.functions.m_outputs;
-                let of_axis = words.m.iter().find(|m| {
-                    outputs.get(&m.number).is_some_and(|output| output.eq_ignore_ascii_case(name))
-                });
-                if let Some(m) = of_axis {
-                    let text = format!(
-                        "M{} is assigned to {name} by the list, and {name} moves independently",
-                        m.number
-                    );
-                    return Err(Fault::new(Condition::FunctionOfIndependent, text, m.span)
-                        .with(|d| d.parameter(of::M_OUTPUT)));
-                }
+                no_word_of(&self.names, axis, words, group.span)?;
+                no_function_of(
+                    self.names.name(axis),
+                    &self.machine.channel.functions.m_outputs,
+                    words,
+                )?;
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
             // OSC_ON: the spelling of the diagnosis manual, 120470
             Some((Item { kind: ItemKind::Flag(word), .. }, rest))
                 if word.is("OSC") || word.is("OSC_ON") =>
             {
-                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
-                    return Err(self.names.twice(axis, group.span));
-                }
+                no_word_of(&self.names, axis, words, group.span)?;
                 let items = if word.is("OSC") { rest } else { &group.items[..] };
                 self.oscillating_axis(axis, items, group.span)
             }
@@ -175,9 +164,7 @@ impl Decoder {
                 self.axis_compensation(axis, rest, group.span)
             }
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("SET_POSITION") => {
-                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
-                    return Err(self.names.twice(axis, group.span));
-                }
+                no_word_of(&self.names, axis, words, group.span)?;
                 self.set_position(axis, rest, group.span)
             }
             Some((
@@ -193,20 +180,7 @@ impl Decoder {
                 _,
             )) => {
                 self.motion.lifting(word, *span)?;
-                if spindle::is_internal(&word.text) {
-                    let text = format!("{} in the bracket of an axis", word.text);
-                    return Err(Fault::new(Condition::InternalFunction, text, *span));
-                }
-                let name = self.names.name(axis);
-                let is_function = matches!(
-                    word.text.as_bytes(),
-                    [b'G' | b'g', ..] | [b'M' | b'm', b'C' | b'c', b'_', ..]
-                );
-                if !REFUSED.iter().any(|known| word.is(known)) && !is_function {
-                    let text = format!("{name}[{}]: not a function of an axis", word.text);
-                    return Err(Fault::new(Condition::AxisFunctionMissing, text, *span));
-                }
-                Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
+                Err(no_function(self.names.name(axis), word, *span))
             }
             _ => {
                 let text = "an axis command is expected in the bracket";
@@ -233,6 +207,42 @@ impl Decoder {
         self.motion.overrides.set(axis, feed, rapid);
         Ok(())
     }
+}
+
+/// An axis that its bracket moves has no word in the block.
+fn no_word_of(names: &AxisNames, axis: usize, words: &Words<'_>, at: Span) -> Outcome<()> {
+    if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
+        return Err(names.twice(axis, at));
+    }
+    Ok(())
+}
+
+/// The M functions of the block must not be outputs of an axis that moves independently; `outputs`: axis names by number.
+fn no_function_of(name: &str, outputs: &BTreeMap<u32, Box<str>>, words: &Words<'_>) -> Outcome<()> {
+    let of_axis = words
+        .m
+        .iter()
+        .find(|m| outputs.get(&m.number).is_some_and(|output| output.eq_ignore_ascii_case(name)));
+    let Some(m) = of_axis else { return Ok(()) };
+    let text =
+        format!("M{} is assigned to {name} by the list, and {name} moves independently", m.number);
+    Err(Fault::new(Condition::FunctionOfIndependent, text, m.span)
+        .with(|d| d.parameter(of::M_OUTPUT)))
+}
+
+/// The error of a word that is not a function of an axis here.
+fn no_function(name: &str, word: &Ident, at: Span) -> Box<Fault> {
+    if spindle::is_internal(&word.text) {
+        let text = format!("{} in the bracket of an axis", word.text);
+        return Fault::new(Condition::InternalFunction, text, at);
+    }
+    let is_function =
+        matches!(word.text.as_bytes(), [b'G' | b'g', ..] | [b'M' | b'm', b'C' | b'c', b'_', ..]);
+    if !REFUSED.iter().any(|known| word.is(known)) && !is_function {
+        let text = format!("{name}[{}]: not a function of an axis", word.text);
+        return Fault::new(Condition::AxisFunctionMissing, text, at);
+    }
+    Fault::unsupported(format!("{name}[{}]", word.text), at)
 }
 
 /// The M or H function of the user that an item names: not one that ends programs or controls spindles.

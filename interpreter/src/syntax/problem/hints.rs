@@ -1,23 +1,39 @@
 //! What to write instead, for blocks that the grammar refuses, judged by the text around the position of the error.
 
 use super::around::last_word;
-use super::expected::{EQUALS, VALUE};
-use super::{Context, content, token};
+use super::expected::VALUE;
+use super::{Context, Problem, content, token};
+use crate::diag::Condition;
 use crate::syntax::scan;
 
-/// A hint for the text `rest` of a block, which cannot follow `before`. `masked` is the whole block.
-pub(super) fn hint(
+/// Hint of K-0002 for words where nothing in particular is known about the mistake.
+const WORDS: &str = "write words as an address and a value (G01 X10.5 F1000), remarks with ;";
+
+/// The problem with a hint, unless it has one: for the text `rest` of a block, which cannot follow `before`. `masked` is the
+/// whole block.
+pub(super) fn completed(
+    problem: Problem,
     context: Context,
     masked: &str,
     before: &str,
     rest: &str,
     expected: &[&str],
-) -> Option<String> {
-    unbalanced(masked).or_else(|| match context {
+) -> Problem {
+    if problem.hint.is_some() {
+        return problem;
+    }
+    let hint = unbalanced(masked).or_else(|| match context {
         Context::Command => bare_key(content(masked)),
         Context::Words => in_words(before, rest, expected),
         Context::Control => None,
-    })
+    });
+    match hint {
+        Some(hint) => problem.hint(hint),
+        None if problem.condition == Condition::Syntax && context == Context::Words => {
+            problem.hint(WORDS)
+        }
+        None => problem,
+    }
 }
 
 /// The bracket of a block that is not closed or not opened, in words.
@@ -54,15 +70,9 @@ fn in_words(before: &str, rest: &str, expected: &[&str]) -> Option<String> {
     if is_number && rest.starts_with('.') {
         return Some(format!("block numbers are integers: {word}"));
     }
-    // 22A and the like are not addresses
-    let is_address = !word.is_empty() && word.bytes().all(|b| b.is_ascii_alphabetic());
-    match expected {
-        [EQUALS, ..] => None,
-        [VALUE, ..] if is_address && word.len() == 1 => {
-            Some(format!("write the value of {word} next to it: {word}10.5"))
-        }
-        _ => None,
-    }
+    let is_letter = matches!(word.as_bytes(), [letter] if letter.is_ascii_alphabetic());
+    let wanted = is_letter && expected.first() == Some(&VALUE);
+    wanted.then(|| format!("write the value of {word} next to it: {word}10.5"))
 }
 
 const fn is_name(byte: u8) -> bool {
