@@ -157,6 +157,7 @@ impl AxisControl {
             if last || self.lag.needs_every_cycle() || i + LagMonitor::MEMORY >= count {
                 self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
             }
+            self.faults.push(self.range.step(actual_mm));
             if set_by_set {
                 let late = self.exact_stop.step(set_mm, actual_mm - inputs.additional_mm);
                 // an axis that a reaction holds does not arrive; the reaction has been reported already
