@@ -38,7 +38,7 @@ use super::{
     fault::{Fault, Faults},
     feedforward::{Feedforward, FeedforwardOutput},
     ipc::{Ipc, IpcConfig},
-    monitor::{ExactStopMonitor, LagMonitor, SetpointMonitor},
+    monitor::{ExactStopMonitor, LagMonitor, RangeMonitor, SetpointMonitor},
     plant::{Plant, PlantError},
     position::SpeedLimiter,
 };
@@ -126,6 +126,7 @@ pub struct AxisControl {
     lag: LagMonitor,
     exact_stop: ExactStopMonitor,
     setpoint: SetpointMonitor,
+    range: RangeMonitor,
     set_mm: f64,
     tcp_mm_s: f64,
     /// Set position including the additional one, mm.
@@ -167,6 +168,7 @@ impl AxisControl {
             lag: LagMonitor::new(config.lag, cycle),
             exact_stop: ExactStopMonitor::new(config.exact_stop, cycle),
             setpoint: SetpointMonitor::new(config.setpoint, cycle),
+            range: RangeMonitor::new(config.range_mm),
             counts_per_mm_s: (
                 config.command_format.counts_per_mm_s(cycle.seconds()),
                 config.feedforward_format.counts_per_mm_s(cycle.seconds()),
@@ -207,6 +209,7 @@ impl AxisControl {
         self.lag.start(position_mm);
         self.exact_stop.start(set_mm);
         self.setpoint.start(set_mm);
+        self.range.start(position_mm);
         self.set_mm = set_mm;
         self.position_mm = position_mm;
         self.tcp_mm_s = 0.0;
@@ -243,6 +246,12 @@ impl AxisControl {
     /// Whether the plant separates the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
         self.plant.has_tool_point()
+    }
+
+    /// Replaces the permitted range of the actual positions in mm, tolerance included; `None`: not monitored.
+    pub fn limit_range(&mut self, range_mm: Option<(f64, f64)>) {
+        self.range.set(range_mm);
+        self.still_cycles = 0;
     }
 
     /// Announces a stop of the path, for this axis at `target_mm`: the exact-stop timer starts when the set position

@@ -129,12 +129,6 @@ impl SetpointBuffer {
         self.at(self.delay, 0).position_mm
     }
 
-    /// Movement of the reference in the last cycle, mm per cycle.
-    #[inline]
-    pub(crate) fn reference_step_mm(&self) -> f64 {
-        self.reference_mm() - self.at(self.delay + 1, 0).position_mm
-    }
-
     /// The setpoints from which feedforward is computed.
     ///
     /// A flag belongs to the motion that leads to its setpoint. The window reaches three cycles ahead. If one flag
@@ -199,7 +193,6 @@ mod tests {
             (0.15, true),
             "flags of the coming cycle while they change"
         );
-        assert_eq!(buffer.reference_step_mm(), 1.0);
     }
 
     /// At the start of a motion its flags count from its first appearance in the window, at the end until its last.

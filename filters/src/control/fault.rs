@@ -53,6 +53,14 @@ pub enum Fault {
         /// Permitted magnitude in mm.
         limit_mm: f64,
     },
+    /// 70021, 70022: the actual position is beyond a software limit (P-AXIS-00177, P-AXIS-00178) by more than the
+    /// tolerance (P-AXIS-00179).
+    BeyondLimit {
+        /// Actual position in mm.
+        actual_mm: f64,
+        /// Limit in mm, tolerance included.
+        limit_mm: f64,
+    },
     /// 70082: the axis did not reach the exact-stop window in time (P-AXIS-00236, P-AXIS-00532).
     SettlingTimeout {
         /// Distance to the target in mm, signed.
@@ -105,8 +113,8 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// One slot per source: three setpoint derivatives, controller speed, lag, exact stop, divergence.
-    const CAPACITY: usize = 7;
+    /// One slot per source: three setpoint derivatives, controller speed, lag, range, exact stop, divergence.
+    const CAPACITY: usize = 8;
 
     /// Adds a fault. A full list stays as it is; it cannot overflow, since every source raises at most one fault per
     /// cycle.

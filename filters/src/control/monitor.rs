@@ -1,4 +1,4 @@
-//! Monitors of one axis: following error, exact stop, dynamics of the set positions.
+//! Monitors of one axis: following error, exact stop, dynamics of the set positions, range of the actual positions.
 //!
 //! A monitor raises a [`Fault`](super::fault::Fault) when its condition begins; the cycle loop decides how the machine
 //! reacts.
@@ -24,8 +24,10 @@
 
 mod exact_stop;
 mod lag;
+mod range;
 mod setpoint;
 
 pub use exact_stop::{ExactStopConfig, ExactStopMonitor};
 pub use lag::{LagMonitor, LagMonitorConfig, LagMonitorType};
+pub use range::RangeMonitor;
 pub use setpoint::{SetpointMonitor, SetpointMonitorConfig, Thresholds};

@@ -14,7 +14,7 @@ use super::options::Options;
 use super::program::state::Calls;
 use super::report::Report;
 use super::shaping::{ShapingState, Worked};
-use super::step::Sync;
+use super::step::{Event, Sync};
 use super::values::Values;
 use crate::diag::{Condition, Diagnostic};
 use crate::machine::{Axis, Machine};
@@ -165,11 +165,12 @@ impl Decoder {
             // also checks list values that the new value makes invalid
             self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
-        if changed.software_limits_mm() != limits_mm {
-            // Assumption: also replaces a limit set by G98 or G99, as the later command for this limit
-            self.geometry.limits_mm[axis] = changed.software_limits_mm();
-        }
+        let new_limits_mm = changed.software_limits_mm();
         let overrides = self.shaping.overrides(&listed, &changed.kernel_preset(cycle));
+        if new_limits_mm != limits_mm {
+            // Assumption: also replaces a limit set by G98 or G99, as the later command for this limit
+            self.limit_axis(axis, new_limits_mm);
+        }
         self.report_consequences(axis, &known, span);
         self.axis_changes(self.machine.axes[axis].number(), span);
         if let Some(command) = overrides {
@@ -187,6 +188,12 @@ impl Decoder {
         for diagnostic in issues.into_iter().filter(|issue| !known.contains(issue)) {
             self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
+    }
+
+    /// Other software limits of an axis from here on, for set positions and, with the next step, for actual ones.
+    pub(super) fn limit_axis(&mut self, axis: usize, limits_mm: Option<(f64, f64)>) {
+        self.geometry.limits_mm[axis] = limits_mm;
+        self.contour.event(Event::SoftwareLimits { axis, limits_mm });
     }
 
     /// The parameters of an axis or spindle, given by its logical number, have changed: the path stops, and its chain is replaced.

@@ -332,6 +332,12 @@ impl Axis {
         Some((self.get(axis_general::LOWER_LIMIT), self.get(axis_general::UPPER_LIMIT)))
     }
 
+    /// Permitted range of the actual positions in mm for these software limits (P-AXIS-00179).
+    pub(crate) fn actual_range_mm(&self, (low, high): (f64, f64)) -> (f64, f64) {
+        let tolerance_mm = self.get(axis_general::LIMIT_TOLERANCE);
+        (low - tolerance_mm, high + tolerance_mm)
+    }
+
     /// Exact-stop window in mm (P-AXIS-00236).
     pub fn window_mm(&self) -> f64 {
         self.get(axis_control::WINDOW)

@@ -27,7 +27,6 @@ const INERT: &[(&str, &str)] = &[
     ("P-AXIS-00120", "the modulo circle has no error to be compensated"),
     ("P-AXIS-00174", "plane compensation is not added to the set position"),
     ("P-AXIS-00175", "leadscrew error compensation is not added to the set position"),
-    ("P-AXIS-00179", "actual positions are not checked against the software limits"),
     ("P-AXIS-00202", "the acceleration of a spindle does not depend on its speed"),
     ("P-AXIS-00220", "the spindle is in position control at every speed"),
     ("P-AXIS-00224", "the spindle turns in both directions"),

@@ -45,6 +45,7 @@ impl Simulation {
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
                 self.spindle_feedforward(spindle, on, weight_ratio);
             }
+            Event::SoftwareLimits { axis, limits_mm } => self.limit_axis(axis, limits_mm),
             Event::Spindle { spindle, motion } => {
                 if let Some(spindle) = self.spindles.get_mut(spindle) {
                     spindle.command(motion);
@@ -190,6 +191,13 @@ impl Simulation {
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
         }
+    }
+
+    /// Monitors the actual positions of an axis with other software limits.
+    fn limit_axis(&mut self, axis: usize, limits_mm: Option<(f64, f64)>) {
+        let range_mm =
+            limits_mm.map(|limits_mm| self.machine.axes[axis].actual_range_mm(limits_mm));
+        self.chains[axis].limit_range(range_mm);
     }
 
     /// Gives the axis and its gantry slaves new set positions. Those of the path do not change.

@@ -127,6 +127,11 @@ impl AxisChain {
         (self.set, self.vel, self.acc) = (before.set, before.vel, before.acc);
     }
 
+    /// Replaces the permitted range of the actual positions in mm; `None`: not monitored.
+    pub(crate) fn limit_range(&mut self, range_mm: Option<(f64, f64)>) {
+        self.control.limit_range(range_mm);
+    }
+
     /// Shifts the set position at rest by `by_mm`; the axis either `moves` there, or its present position gets the new
     /// coordinate.
     pub(crate) fn shift(&mut self, by_mm: f64, moves: bool) {

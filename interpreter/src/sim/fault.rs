@@ -73,9 +73,10 @@ impl Simulation {
             return;
         }
         let diagnostic = self.describe(chain, condition, fault);
-        self.messages.own.push(diagnostic);
         let reaction = condition.row().reaction;
-        if reaction == Reaction::None {
+        let only_warns = diagnostic.severity == Severity::Warning;
+        self.messages.own.push(diagnostic);
+        if reaction == Reaction::None || only_warns {
             return;
         }
         self.react(chain, reaction);
@@ -189,6 +190,16 @@ impl Simulation {
         let diagnostic = match *fault {
             Fault::FollowingError { lag_mm, limit_mm } | Fault::Unstable { lag_mm, limit_mm } => {
                 base.value(ValueKind::Current, lag_mm, unit).value(ValueKind::Limit, limit_mm, unit)
+            }
+            Fault::BeyondLimit { actual_mm, limit_mm } => {
+                let base = base.value(ValueKind::Current, actual_mm, unit).value(
+                    ValueKind::Limit,
+                    limit_mm,
+                    unit,
+                );
+                // Assumption: the same ID; no page names one for this warning
+                let only_warns = axis.is_some_and(Axis::software_limits_only_warn);
+                if only_warns { base.severity(Severity::Warning) } else { base }
             }
             Fault::SettlingTimeout { lag_mm, window_mm, time_s } => base
                 .value(ValueKind::Current, lag_mm, unit)

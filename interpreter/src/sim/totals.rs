@@ -208,6 +208,7 @@ impl Totals {
             | Event::HFunction { .. }
             | Event::Tool { .. }
             | Event::Feedforward { .. }
+            | Event::SoftwareLimits { .. }
             | Event::SpindleFeedforward { .. }
             | Event::SpindleAcceleration { .. }
             | Event::SpindleDynamics { .. }

@@ -51,6 +51,8 @@ pub struct AxisControlConfig {
     pub exact_stop: ExactStopConfig,
     /// Monitoring of the set positions.
     pub setpoint: SetpointMonitorConfig,
+    /// Permitted range of the actual positions in mm, tolerance included; `None`: not monitored.
+    pub range_mm: Option<(f64, f64)>,
     /// Format of the speed command, and of the additive speed of Improved Position Control.
     pub command_format: SpeedFormat,
     /// Format of the velocity feedforward.
@@ -74,6 +76,7 @@ impl AxisControlConfig {
             lag: LagMonitorConfig::default(),
             exact_stop: ExactStopConfig::default(),
             setpoint: SetpointMonitorConfig::new(v_max_mm_s, a_max_mm_s2, j_max_mm_s3),
+            range_mm: None,
             command_format: SpeedFormat::default(),
             feedforward_format: SpeedFormat::default(),
             torque: TorqueFormat::default(),

@@ -13,6 +13,15 @@ use crate::control::{
     position::PositionLoop,
 };
 
+/// Cycles of an axis under the same inputs, gain and slope.
+struct Row<'a> {
+    set_mm: &'a [f64],
+    gain: f64,
+    jerk_limited: bool,
+    /// The first cycle whose output is shown.
+    shown_from: usize,
+}
+
 impl AxisControl {
     /// Position that the controller, the monitors and the exact stop see.
     pub(super) fn controlled_mm(&self) -> f64 {
@@ -60,10 +69,6 @@ impl AxisControl {
         mut show: impl FnMut(usize, ControlOutput),
     ) -> usize {
         self.faults.clear();
-        let inputs = self.inputs;
-        let mut given = Given::new(gain, jerk_limited, &inputs);
-        let same = given.is_like(&self.given);
-        let calm = self.ipc.is_off() && !self.diverged && self.exact_stop.rests();
         let set_by_set = !self.exact_stop.rests();
         let count = match set_mm.len() {
             0 => return 0,
@@ -72,11 +77,45 @@ impl AxisControl {
             most => most.min(self.setpoint.quiet(set_mm) + 1),
         };
         self.setpoint.pass(&set_mm[..count - 1]);
-        let (cycle_s, encoder) = (self.cycle_s, self.config.encoder);
-        for (i, set_mm) in set_mm[..count].iter().copied().enumerate() {
+        let row = Row { set_mm: &set_mm[..count], gain, jerk_limited, shown_from };
+        if self.is_plain(gain) {
+            self.cycles::<true>(&row, &mut show)
+        } else {
+            self.cycles::<false>(&row, &mut show)
+        }
+    }
+
+    /// Whether only the controller acts on the plant: no feedforward, no additive speed, no stop that is awaited.
+    fn is_plain(&self, gain: f64) -> bool {
+        let no_feedforward = self.buffer.is_without_gain() && self.feedforward.needs_gain();
+        no_feedforward
+            && gain.to_bits() == 0
+            && self.ipc.is_off()
+            && self.exact_stop.rests()
+            && self.held_mm.is_none()
+            && !self.open
+    }
+
+    /// Steps the axis by the cycles of a row, up to the first one with a fault; the number of cycles. With `PLAIN` the
+    /// axis [is so](Self::is_plain), and parts that are off are not asked in every cycle.
+    #[inline] // the output is large: used where it is made
+    fn cycles<const PLAIN: bool>(
+        &mut self,
+        row: &Row<'_>,
+        show: &mut impl FnMut(usize, ControlOutput),
+    ) -> usize {
+        let Row { gain, jerk_limited, shown_from, .. } = *row;
+        let count = row.set_mm.len();
+        let (inputs, cycle_s, position) = (self.inputs, self.cycle_s, self.config.position);
+        let encoder = self.config.encoder;
+        let mut given = Given::new(gain, jerk_limited, &inputs);
+        let same = given.is_like(&self.given);
+        given.set = self.given.set;
+        let set_by_set = !PLAIN && !self.exact_stop.rests();
+        let calm = self.ipc.is_off() && !self.diverged && !set_by_set;
+        for (i, set_mm) in row.set_mm.iter().copied().enumerate() {
             let last = i + 1 == count;
             let before = std::mem::replace(&mut given.set, set_mm.to_bits());
-            let before = if i == 0 { self.given.set } else { before };
             let set_mm = if set_mm.abs() <= RANGE_MM { set_mm } else { self.set_mm };
             let position_mm = set_mm + inputs.additional_mm;
             self.moving = (position_mm - self.position_mm).abs() > 0.0;
@@ -84,34 +123,30 @@ impl AxisControl {
             let measured = *self.plant.measured();
             let actual_mm = self.controlled_mm();
 
+            let last_reference_mm = self.buffer.reference_mm();
             self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
-            let (reference_mm, reference_step_mm) = match self.held_mm {
-                Some(held_mm) => (held_mm, 0.0),
-                None => (self.buffer.reference_mm(), self.buffer.reference_step_mm()),
-            };
-            let position = &self.config.position;
+            let mut reference_mm = self.buffer.reference_mm();
+            let mut reference_step_mm = reference_mm - last_reference_mm;
+            if !PLAIN && let Some(held_mm) = self.held_mm {
+                (reference_mm, reference_step_mm) = (held_mm, 0.0);
+            }
             let kv = position.gain_at(reference_step_mm / cycle_s);
             let error_mm =
                 position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
-            let mut feedforward = if self.buffer.is_without_gain() && self.feedforward.needs_gain()
-            {
-                FeedforwardOutput::default()
-            } else {
-                self.feedforward.step(&self.buffer.window(), kv)
-            };
-            if self.held_mm.is_some() {
-                feedforward = FeedforwardOutput::default();
-            }
+            let mut feedforward =
+                if PLAIN { FeedforwardOutput::default() } else { self.fed_forward(kv) };
             let mut wanted = kv * error_mm + feedforward.speed_mm_s;
-            let mut additive = self.ipc.step(&IpcInput {
-                motor_mm_s: measured.motor_mm_s,
-                direct_mm_s: (encoder == Encoder::Direct).then_some(measured.load_mm_s),
-                command_mm_s: wanted,
-            });
-            if self.open {
-                feedforward = FeedforwardOutput::default();
-                wanted = 0.0;
-                additive = IpcOutput::default();
+            let mut additive = IpcOutput::default();
+            if !PLAIN {
+                additive = self.ipc.step(&IpcInput {
+                    motor_mm_s: measured.motor_mm_s,
+                    direct_mm_s: (encoder == Encoder::Direct).then_some(measured.load_mm_s),
+                    command_mm_s: wanted,
+                });
+                if self.open {
+                    (feedforward, additive) = Default::default();
+                    wanted = 0.0;
+                }
             }
             let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
 
@@ -122,6 +157,7 @@ impl AxisControl {
             if last || self.lag.needs_every_cycle() || i + LagMonitor::MEMORY >= count {
                 self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
             }
+            self.faults.push(self.range.step(actual_mm));
             if set_by_set {
                 let late = self.exact_stop.step(set_mm, actual_mm - inputs.additional_mm);
                 // an axis that a reaction holds does not arrive; the reaction has been reported already
@@ -137,7 +173,7 @@ impl AxisControl {
                 reference_mm - actual_mm,
             );
             self.faults.push(unstable);
-            if self.open {
+            if !PLAIN && self.open {
                 self.faults.clear();
             }
             let faulty = !self.faults.is_empty();
@@ -177,10 +213,20 @@ impl AxisControl {
             }
         }
         if !set_by_set {
-            self.exact_stop.pass(&set_mm[..count]);
+            self.exact_stop.pass(row.set_mm);
         }
         self.given = given;
         count
+    }
+
+    /// Output of the feedforward in this cycle.
+    #[inline]
+    fn fed_forward(&mut self, kv_per_s: f64) -> FeedforwardOutput {
+        if self.buffer.is_without_gain() && self.feedforward.needs_gain() {
+            return FeedforwardOutput::default();
+        }
+        let output = self.feedforward.step(&self.buffer.window(), kv_per_s);
+        if self.held_mm.is_some() { FeedforwardOutput::default() } else { output }
     }
 
     /// Advances the plant unless it has diverged; a diverged plant is held at its last finite position.

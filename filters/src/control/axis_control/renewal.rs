@@ -33,6 +33,8 @@ impl AxisControl {
         if old.setpoint == new.setpoint {
             self.setpoint = before.setpoint.clone();
         }
+        // limits of the program stay in force
+        self.range = before.range.clone();
         self.exact_stop.take_over(&before.exact_stop);
         self.tcp_mm_s = before.tcp_mm_s;
         self.diverged = before.diverged;

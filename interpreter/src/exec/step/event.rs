@@ -14,6 +14,13 @@ pub(crate) enum Event {
         /// Weight of each path axis, 0 to 1 (G136).
         weight_ratios: AxisVec,
     },
+    /// G98, G99, or `#MACHINE DATA`: other software limits of an axis.
+    SoftwareLimits {
+        /// Index into `Machine::axes`.
+        axis: usize,
+        /// The limits in mm; `None`: not monitored.
+        limits_mm: Option<(f64, f64)>,
+    },
     /// `S[G135 G136=80]`: the complete state of one spindle.
     SpindleFeedforward {
         /// Index into `Machine::spindles`.

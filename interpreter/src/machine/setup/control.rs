@@ -70,6 +70,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
         lag: monitors::lag(axis, matches!(drive, Drive::Bus | Drive::Profidrive)),
         exact_stop: monitors::exact_stop(axis),
         setpoint: monitors::setpoint(axis, limits.v_max_mm_s, limits.a_max_mm_s2, j_max_mm_s3),
+        range_mm: axis.software_limits_mm().map(|limits_mm| axis.actual_range_mm(limits_mm)),
         command_format,
         torque: torque(axis, diagnostics),
         ..AxisControlConfig::new(limits.v_max_mm_s, limits.a_max_mm_s2, j_max_mm_s3)

@@ -44,6 +44,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.001deg/s", "0.001deg/s").axes("S").source("TF5200 axis parameters 117221003");
     axis("P-AXIS-00277", "kenngr.prog_move_requires_homing", Raw::Boolean, "1: the axis does not move before homing; no effect here, every axis counts as homed")
         .default(0.0).source("TF5200 axis parameters 117251723");
+    axis("P-AXIS-00328", "lr_param.distance_control_on", Raw::Boolean, "1: Z[DIST_CTRL ON] is permitted; no effect here, it is refused")
+        .default(0.0).axes("TR").source("TF5200 axis parameters 117797003");
     axis("P-AXIS-00516", "kenngr.measure.signal", Raw::Text, "source of the signal of measuring runs; no effect here, it is that of the input file")
         .axes("TRS").source("TF5200 measurement 342092555");
     axis("P-AXIS-00517", "kenngr.measure.input", Raw::Uns08, "number of the probe input of a drive; no effect here, there is one probe")

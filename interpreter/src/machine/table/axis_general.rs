@@ -64,8 +64,8 @@ parameters! {
         .default(-100000000.0).unit("0.1um", "0.0001deg").axes("TR"), as LOWER_LIMIT: Number;
     axis("P-AXIS-00178", "kenngr.swe_pos", Raw::Sgn32, "positive software limit")
         .default(100000000.0).unit("0.1um", "0.0001deg").axes("TR"), as UPPER_LIMIT: Number;
-    axis("P-AXIS-00179", "kenngr.swe_toleranz", Raw::Uns32, "extra range for actual values")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]).axes("TR");
+    axis("P-AXIS-00179", "kenngr.swe_toleranz", Raw::Uns32, "actual positions may be beyond a software limit by this (70021, 70022)")
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives(&[DriveType::Simulation, DriveType::Conventional, DriveType::Terminal, DriveType::Lightbus, DriveType::Profidrive]).axes("TR"), as LIMIT_TOLERANCE: Number;
     axis("P-AXIS-00297", "kopf.log_achs_name", Raw::Text, "default (alias) name of the axis"), as NAME: Text;
     axis("P-AXIS-00439", "kenngr.dyn_monitoring_v_warn", Raw::Uns32, "warning when setpoint speed > vb_max by this (50119)")
         .range(Bound::At(0.0), Bound::None).default(50.0).unit("0.1%", "0.1%"), as SPEED_WARNING: Number;

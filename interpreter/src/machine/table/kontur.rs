@@ -44,7 +44,7 @@ parameters! {
         .default(0.0), as MODE_DISTURBANCE: Number;
     own("kontur.axis[i].plant.disturbance.amplitude", Raw::Real64, "amplitude of a disturbance force per unit of mass, sinusoidal, or constant with the frequency 0")
         .default(0.0).unit("mm/s2", "deg/s2"), as DISTURBANCE_AMPLITUDE: Number;
-    own("kontur.axis[i].plant.disturbance.frequency", Raw::Real64, "frequency of the disturbance force; 0: constant")
+    own("kontur.axis[i].plant.disturbance.frequency", Raw::Real64, "frequency of the disturbance force, a sine that starts at 0 in the first computed cycle; 0: constant")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FREQUENCY: Number;
     own("kontur.axis[i].plant.disturbance.full_speed", Raw::Real64, "load speed from which the disturbance has its full amplitude, proportional below; 0: always full")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("mm/s", "deg/s").outside(Condition::ListRange, Correction::Refuse), as DISTURBANCE_FULL_SPEED: Number;

@@ -24,6 +24,12 @@ pub(super) fn text(fault: &Fault, unit: &'static str) -> String {
             let (lag, limit) = distinct(lag_mm, limit_mm);
             format!("following error {lag} {unit} exceeds {limit} {unit}")
         }
+        Fault::BeyondLimit { actual_mm, limit_mm } => {
+            let (actual, limit) = distinct(actual_mm, limit_mm);
+            format!(
+                "actual position {actual} {unit} beyond the software limit with its tolerance, {limit} {unit}"
+            )
+        }
         Fault::SettlingTimeout { lag_mm, window_mm, time_s } => format!(
             "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}",
             r(lag_mm),
@@ -72,6 +78,13 @@ pub(super) fn per_s(unit: &str, order: usize) -> &'static str {
 pub(super) const fn condition(fault: &Fault, spindle: bool) -> Condition {
     match fault {
         Fault::FollowingError { .. } => Condition::FollowingError,
+        Fault::BeyondLimit { actual_mm, limit_mm } => {
+            if *actual_mm > *limit_mm {
+                Condition::ActualAbovePositiveLimit
+            } else {
+                Condition::ActualBelowNegativeLimit
+            }
+        }
         Fault::SettlingTimeout { .. } => Condition::SettlingTimeout,
         Fault::ControllerSpeed { .. } => Condition::ControllerSpeed,
         Fault::SetpointWarning { what: Derivative::Velocity, .. } if spindle => {

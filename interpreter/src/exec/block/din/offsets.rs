@@ -361,7 +361,7 @@ impl Decoder {
             };
             return Err(Fault::new(condition, text, span));
         }
-        self.geometry.limits_mm[axis] = Some((low, high));
+        self.limit_axis(axis, Some((low, high)));
         Ok(())
     }
 

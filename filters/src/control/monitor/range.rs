@@ -1,0 +1,80 @@
+//! Monitoring of the actual positions: they must lie within the software limits, widened by a tolerance for slight
+//! overshoot.
+//!
+//! Source: TF5200 axis parameters, P-AXIS-00177 to 00179; software limit switches (IDs 70021 and 70022).
+
+use crate::control::fault::Fault;
+
+/// Range monitor with its state.
+#[derive(Clone, Debug)]
+pub struct RangeMonitor {
+    range_mm: Option<(f64, f64)>,
+    beyond: bool,
+}
+
+impl RangeMonitor {
+    /// A monitor with the permitted range in mm, tolerance included; `None` switches it off.
+    pub const fn new(range_mm: Option<(f64, f64)>) -> Self {
+        Self { range_mm, beyond: false }
+    }
+
+    /// Axis at rest at a position.
+    ///
+    /// Assumption: an axis that starts outside is monitored from its first position inside on; the documents only say
+    /// that the path preparation reports it.
+    pub fn start(&mut self, position_mm: f64) {
+        self.beyond = self.limit_passed(position_mm).is_some();
+    }
+
+    /// Replaces the range. Outside a smaller one a resting axis raises a fault, too.
+    pub const fn set(&mut self, range_mm: Option<(f64, f64)>) {
+        self.range_mm = range_mm;
+    }
+
+    fn limit_passed(&self, actual_mm: f64) -> Option<f64> {
+        let (low, high) = self.range_mm?;
+        match actual_mm {
+            x if x > high => Some(high),
+            x if x < low => Some(low),
+            _ => None,
+        }
+    }
+
+    /// One cycle: a fault when the actual position leaves the range.
+    #[inline]
+    pub fn step(&mut self, actual_mm: f64) -> Option<Fault> {
+        let passed = self.limit_passed(actual_mm);
+        let before = std::mem::replace(&mut self.beyond, passed.is_some());
+        passed.filter(|_| !before).map(|limit_mm| Fault::BeyondLimit { actual_mm, limit_mm })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_way_out_of_the_range_is_reported_once() {
+        let mut monitor = RangeMonitor::new(Some((-10.0, 20.0)));
+        monitor.start(0.0);
+        let positions = [0.0, 20.0, 20.1, 21.0, 19.0, 20.2, -10.0, -10.5, -11.0];
+        let faults: Vec<_> = positions.iter().map(|x| monitor.step(*x)).collect();
+        let fault = |actual_mm, limit_mm| Some(Fault::BeyondLimit { actual_mm, limit_mm });
+        let out = [(2, 20.1, 20.0), (5, 20.2, 20.0), (7, -10.5, -10.0)];
+        let mut expected = vec![None; positions.len()];
+        for (i, actual, limit) in out {
+            expected[i] = fault(actual, limit);
+        }
+        assert_eq!(faults, expected);
+    }
+
+    #[test]
+    fn an_axis_that_starts_outside_comes_in_without_a_fault() {
+        let mut monitor = RangeMonitor::new(Some((1.0, 2.0)));
+        monitor.start(0.0);
+        assert_eq!([0.0, 0.5, 1.5].map(|x| monitor.step(x)), [None; 3]);
+        assert!(monitor.step(0.9).is_some());
+        monitor.set(None);
+        assert_eq!([5.0, -5.0].map(|x| monitor.step(x)), [None; 2]);
+    }
+}
