@@ -108,8 +108,8 @@ impl Geometry {
         self.coordinates.set_tool(offsets);
     }
 
-    /// The first axis with an offset of the active tool that a coordinate system turns, unless the tool is fixed: the pages do
-    /// not say where such an offset lies (P-TOOL-00010).
+    /// The first axis with a length or an offset of the active tool that a coordinate system turns, unless the tool is fixed:
+    /// the pages do not say where it lies then (P-TOOL-00010).
     pub(in crate::exec) fn turned_offset(&self) -> Option<usize> {
         let tool = &self.tools.active;
         if tool.is_fixed || self.coordinates.systems() == 0 {
@@ -119,8 +119,8 @@ impl Geometry {
             let main = self.coordinates.main_index(axis);
             main.is_some_and(|main| !self.coordinates.keeps_direction(main))
         };
-        let offsets = tool.offsets_mm.iter().filter(|(_, offset)| **offset != 0.0);
-        offsets.map(|(axis, _)| *axis).find(|axis| turned(*axis))
+        let offsets = self.coordinates.tool();
+        (0..offsets.len()).find(|axis| offsets[*axis] != 0.0 && turned(*axis))
     }
 
     /// 20136 and 21555 for a plane that lacks one of its axes, or contains a modulo axis.

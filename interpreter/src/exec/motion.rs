@@ -236,7 +236,7 @@ impl Decoder {
         let start = self.program_targets(words)?;
         if let Some(axis) = self.geometry.turned_offset() {
             let text = format!(
-                "the offset of the tool along {} is that of the machine axis in a turned coordinate system",
+                "length and offset of the tool along {} are those of the machine axis in a turned coordinate system",
                 self.names.name(axis)
             );
             let fault =

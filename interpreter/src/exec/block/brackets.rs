@@ -70,6 +70,16 @@ arguments! {
     }
 }
 
+/// `OFF`, `OFF NO_MOVE` of `Z[DIST_CTRL ..]`: without distance control there is no offset to be moved out (290203275).
+fn switches_off(items: &[Item]) -> bool {
+    let is = |item: &Item, name: &str| matches!(&item.kind, ItemKind::Flag(word) if word.is(name));
+    match items {
+        [off] => is(off, "OFF"),
+        [off, stay] => is(off, "OFF") && is(stay, "NO_MOVE"),
+        _ => false,
+    }
+}
+
 impl MotionState {
     /// `Z[LIFT_START ..]`, `Z[LIFT_END]`: 21558 and 21559 (diagnosis 255193483, 255197835) come before the refusal.
     fn lifting(&mut self, word: &Ident, span: Span) -> Outcome<()> {
@@ -170,6 +180,11 @@ impl Decoder {
                 }
                 let items = if word.is("OSC") { rest } else { &group.items[..] };
                 self.oscillating_axis(axis, items, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
+                if word.is("DIST_CTRL") && switches_off(rest) =>
+            {
+                Ok(())
             }
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("COMP") => {
                 self.axis_compensation(axis, rest, group.span)

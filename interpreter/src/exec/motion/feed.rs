@@ -122,7 +122,7 @@ pub(super) fn check_time(block: &Block, span: Span, report: &mut Report) {
         let text = format!(
             "the block cannot be executed in F{time_s} s (G93): its velocity limits require {least_s:.6} s"
         );
-        report.note(Fault::new(Condition::Odd, text, span).warning());
+        report.note(Fault::new(Condition::TimeNotKept, text, span));
     }
 }
 
