@@ -283,7 +283,7 @@ pub(super) fn time_not_kept(time_s: f64, taken_s: f64) -> Diagnostic {
     Diagnostic::new(Condition::TimeNotKept, text)
         .value(ValueKind::Current, taken_s, "s")
         .value(ValueKind::Limit, time_s, "s")
-        .hint("this is the first motion with more than its time; v_limit of the trace shows what limits it")
+        .hint("this is the first motion that takes a tenth more than its time; v_limit of the trace shows what limits it")
 }
 
 /// The set path in the output leaves the contour by more than the plan guarantees.

@@ -1,12 +1,16 @@
 //! K-0152: a motion takes longer than its programmed time (G93), since accelerations, corners or limits do not permit it.
 //!
 //! Source: TF5200 programming manual, machining time (G93): such a block gets an error message.
-//! Assumption: a warning, for the first motion of a program: already the ramps of a motion from rest take more than its time.
+//! Assumption: a warning, for the first motion that takes a tenth more than its time: the ramps of a motion from rest take more in
+//! any case.
 
 use super::Simulation;
 use super::fault;
 use crate::exec::SourceRef;
 use kontur_motion::block::{Block, Feed};
+
+/// Excess over a programmed time, relative to it, that ramps may take without a message.
+const TOLERATED: f64 = 0.1;
 
 /// The motion under way, if its time is programmed.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +49,8 @@ impl Simulation {
         let Some(timed) = self.times.current.take() else { return };
         let taken_s = self.cycle.time_of(k - timed.from_k);
         // it began and ended between two cycles
-        if timed.changed || self.times.told || taken_s <= timed.time_s + self.cycle.seconds() {
+        let most_s = timed.time_s * (1.0 + TOLERATED) + self.cycle.seconds();
+        if timed.changed || self.times.told || taken_s <= most_s {
             return;
         }
         self.times.told = true;
