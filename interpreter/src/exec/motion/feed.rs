@@ -59,6 +59,9 @@ impl Decoder {
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let text = match self.modal.feed() {
                 Some(_) => "the feed is 0: value of the last F word",
+                None if self.modal.feed_type == FeedType::Time => {
+                    "the time is 0: G93 needs an F word each time it is programmed"
+                }
                 None => "the feed is 0: no F word has been programmed",
             };
             self.report.note_once(Subject::Only, Fault::new(Condition::FeedZero, text, span));
