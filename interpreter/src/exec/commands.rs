@@ -186,6 +186,7 @@ const ROWS: &[Row] = &[
     areas::CONTROL_AREA_BEGIN,
     areas::CONTROL_AREA_START,
     areas::CONTROL_AREA_END,
+    areas::CONTROL_AREA_CLEAR,
     areas::CONTROL_AREA,
     unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),

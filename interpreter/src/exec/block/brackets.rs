@@ -58,6 +58,7 @@ const REFUSED: &[&str] = &[
     "PUTAX",
     "MODULO",
     "FIXED_STOP",
+    "POS_LIMIT",
     "DYNAMIC",
     "POLY",
 ];

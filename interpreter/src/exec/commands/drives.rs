@@ -114,14 +114,10 @@ pub(super) fn driven(
             if let Some(spindle) = decoder.motion.spindle_of_name(name, &decoder.machine.channel) {
                 return Ok(Driven::Spindle(spindle));
             }
-            match decoder.names.of_name(name) {
-                Some(axis) => Ok(Driven::Axis(axis)),
-                None => {
-                    let text = format!("unknown axis `{name}`");
-                    Err(Fault::new(Condition::AxisNameUnknown, text, *span)
-                        .hint(decoder.names.hint()))
-                }
-            }
+            decoder.names.of_name(name).map(Driven::Axis).ok_or_else(|| {
+                let text = format!("unknown axis `{name}`");
+                Fault::new(Condition::AxisNameUnknown, text, *span).hint(decoder.names.hint())
+            })
         }
         (None, Some((number, span))) => {
             let wanted = logical_number(number, span)?;

@@ -140,6 +140,21 @@ fn bottlenecks_for_a_new_radius_are_found_and_no_others() {
     are_found(Change::Across);
 }
 
+/// The tool radius at the end of a line of block `n`.
+fn after_line(change: Change, current: f64, radii: &[f64; 6], n: usize, length: f64) -> f64 {
+    match change {
+        Change::None => current,
+        Change::Along => radii[n],
+        // away from the end of a block, or back to the start of the next one
+        Change::Across => {
+            let is_old = (current - radii[n]).abs() < 1e-12;
+            let next = radii[if is_old { (n + 1).min(5) } else { n }];
+            let is_across = ((next - current).abs() - length).abs() < 1e-6;
+            if is_across { next } else { current }
+        }
+    }
+}
+
 fn are_found(change: Change) {
     let mut random = Random::new(19);
     // the contour starts below the lines that set up the compensation
@@ -161,34 +176,19 @@ fn are_found(change: Change) {
             let Some(n @ 1..=5) = source.block else { continue };
             let (a, b) = (block.path.start(), block.path.end());
             let [from, to] = [a, b].map(|p| [p[0], p[1]]);
-            let (way, radius) = match &block.path {
-                Path::Arc(way) => {
-                    let shape = way.shape();
-                    let way =
-                        arc(shape.centre_mm, way.radius(), way.start_angle(), shape.sweep_rad);
-                    (way, [current; 2])
-                }
-                _ => {
-                    let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
-                    let n = n as usize;
-                    let new = match change {
-                        Change::None => current,
-                        Change::Along => radii[n],
-                        // away from the end of a block, or back to the start of the next one
-                        Change::Across => {
-                            let next =
-                                if current == radii[n] { radii[(n + 1).min(5)] } else { radii[n] };
-                            let is_across = ((next - current).abs() - length).abs() < 1e-6;
-                            if is_across { next } else { current }
-                        }
-                    };
-                    (line(from, to), [std::mem::replace(&mut current, new), new])
-                }
+            let (way, radius) = if let Path::Arc(way) = &block.path {
+                let shape = way.shape();
+                let way = arc(shape.centre_mm, way.radius(), way.start_angle(), shape.sweep_rad);
+                (way, [current; 2])
+            } else {
+                let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+                let new = after_line(change, current, &radii, n as usize, length);
+                (line(from, to), [std::mem::replace(&mut current, new), new])
             };
             for (i, element) in elements.iter().enumerate() {
                 let i = i as u64 + 1;
                 // only a line across the contour may cut its own element: an arc about the tool
-                let is_across = change == Change::Across && radius[0] != radius[1];
+                let is_across = change == Change::Across && (radius[0] - radius[1]).abs() > 1e-12;
                 if i == n && !is_across {
                     continue;
                 }

@@ -72,6 +72,7 @@ macro_rules! lists {
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without travel", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "write different reversal positions 1ST_POS and 2ND_POS";
     AreaOverlaps = Vendor 120477: Error ProgramAbort 6 1, "sides of a control area cross each other", hint "write the corners in order around the area";
     OutsideWorkspace = Vendor 120484: Error ProgramAbort 6 1, "point outside a workspace", cause "start or end of a motion, or of the tool at #CONTROL AREA ON", hint "write #CONTROL AREA OFF [ID=..] before it, or another target";
+    AreaActive = Vendor 120499: Warning None 1 1, "active control area cannot be deleted", cause "#CONTROL AREA ON [ID=2], then #CONTROL AREA CLEAR [ID=2]", hint "write #CONTROL AREA OFF [ID=2] before it";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring while the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
     ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes changed after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is active", cause "G261 before G100", hint "write G260 before the measuring run";
