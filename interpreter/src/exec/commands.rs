@@ -13,6 +13,7 @@ mod contour;
 mod corner;
 mod couplings;
 mod drives;
+mod exceptions;
 mod files;
 mod frames;
 pub(in crate::exec) mod keys;
@@ -352,6 +353,7 @@ impl Decoder {
             let text = format!("{}: another word after it in its block", call.title());
             return Err(Fault::new(Condition::WordsBehindCommand, text, span));
         }
+        exceptions::fits_compensation(self, &call)?;
         match row.act {
             Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)).map_err(|fault| {
                 // the expected syntax is more helpful than a reference

@@ -299,6 +299,12 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
+        if stops && !self.contour.hsc.off_at_stop && self.contour.hsc.spline().is_some() {
+            let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
+            let fault = Fault::new(Condition::Fallback, text, span)
+                .hint("without this key, the default, it does not end the spline of the control");
+            self.report.note_once("AUTO_OFF_G60", fault);
+        }
         let late_braking =
             self.modal.brakes_late(once(Act::EarlyBrakingOnce), span, &mut self.report);
         if rounds {

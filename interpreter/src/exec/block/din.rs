@@ -298,6 +298,10 @@ impl Decoder {
             Act::LookAheadFunctions => self.look_ahead_functions(g)?,
             Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
+            Act::Spline(false) if self.contour.hsc.spline().is_some() => {
+                let text = "a spline is deselected (G150) while #HSC ON [BSPLINE] is active";
+                return Err(Fault::new(Condition::SplineInSurface, text, g.span));
+            }
             Act::Spline(on) => self.contour.akima.select(on),
             Act::Tangential => self.select_tangentially(g, words)?,
             Act::Selection(selection) => self.modal.select_compensation_by(selection, g, words)?,
