@@ -24,6 +24,7 @@ mod spindle;
 mod start;
 mod steps;
 mod thread;
+mod times;
 mod totals;
 mod wait;
 mod wear;
@@ -54,6 +55,7 @@ use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
+use times::Times;
 use totals::{Programmed, Progress};
 use wait::{Parts, Wait};
 use wear::Wear;
@@ -79,6 +81,8 @@ struct Underway {
     source: SourceRef,
     programmed: Programmed,
     motion: Motion,
+    /// Its programmed time in s (G93).
+    time_s: Option<f64>,
     /// Programmed end of the block.
     target: AxisVec,
     jerk_limited: bool,
@@ -145,6 +149,7 @@ pub(crate) struct Simulation {
     thread_delay: f64,
     /// The thread of G33 that is cut, with conditions that may break it.
     thread: Option<Thread>,
+    times: Times,
     /// The measuring run under way.
     probing: Option<Probing>,
     /// The cycle last reported to the program.

@@ -199,7 +199,8 @@ pub fn curve_jerk(
 /// Velocity limits of `#VECTOR LIMIT` on a curved path.
 ///
 /// Assumption: P-CHAN-00350 (`vector.cir_radial_acc_limit`) extends the limit of the path acceleration to the centripetal
-/// acceleration, as its key says; the acceleration along the path is limited on arcs in any case. Read literally, the page
+/// acceleration, as its key says; the acceleration along the path is limited on arcs in any case, since an older page names
+/// G02 and G03 among the blocks that it limits (15425556619). Read literally, the page
 /// (205691659) frees arcs from this limit without it.
 fn vector_curve(d: &ChannelDynamics, x: &PathExtremes) -> f64 {
     let [k2, k3] = x.lengths;

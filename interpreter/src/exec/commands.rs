@@ -13,6 +13,7 @@ mod contour;
 mod corner;
 mod couplings;
 mod drives;
+mod exceptions;
 mod files;
 mod frames;
 pub(in crate::exec) mod keys;
@@ -186,6 +187,7 @@ const ROWS: &[Row] = &[
     areas::CONTROL_AREA_BEGIN,
     areas::CONTROL_AREA_START,
     areas::CONTROL_AREA_END,
+    areas::CONTROL_AREA_CLEAR,
     areas::CONTROL_AREA,
     unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),
@@ -351,6 +353,7 @@ impl Decoder {
             let text = format!("{}: another word after it in its block", call.title());
             return Err(Fault::new(Condition::WordsBehindCommand, text, span));
         }
+        exceptions::fits_compensation(self, &call)?;
         match row.act {
             Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)).map_err(|fault| {
                 // the expected syntax is more helpful than a reference

@@ -261,6 +261,13 @@ impl Contour {
         held.map_or(0.0, |held| programmed_time_s(&held.block))
     }
 
+    /// Whether G40 is programmed, and the motion that ends compensation is still to come (G05, G138, G139).
+    pub(super) fn awaits_departure(&self) -> bool {
+        // the last motion is on its way through the stages
+        let departs = self.held.as_ref().is_some_and(|held| held.compensation.is_none());
+        !departs && self.compensator.awaits_departure()
+    }
+
     /// The corner after the last motion is not rounded.
     pub(super) fn keep_corner(&mut self) {
         if let Some(held) = &mut self.held {

@@ -151,10 +151,15 @@ impl Decoder {
             self.report.note(fault.hint("write it into the axis list"));
             return Ok(());
         }
+        if Axis::is_unknown(key) {
+            let text = format!("{key} is no parameter of an axis that is known here: no effect");
+            let fault = Fault::new(Condition::ListNoEffect, text, span).warning();
+            self.report.note(fault.hint("the trace may differ from that of the control"));
+            return Ok(());
+        }
         let cycle = machine.cycle;
         let known = machine.chain_issues(axis);
         let changed = &mut machine.axes[axis];
-        let limits_mm = changed.software_limits_mm();
         let listed = changed.kernel_preset(cycle);
         let corrected =
             changed.change(key, value, self.report.location.clone(), cycle).map_err(|reason| {
@@ -165,12 +170,10 @@ impl Decoder {
             // also checks list values that the new value makes invalid
             self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
         }
-        let new_limits_mm = changed.software_limits_mm();
+        let limits_mm = changed.software_limits_mm();
         let overrides = self.shaping.overrides(&listed, &changed.kernel_preset(cycle));
-        if new_limits_mm != limits_mm {
-            // Assumption: also replaces a limit set by G98 or G99, as the later command for this limit
-            self.limit_axis(axis, new_limits_mm);
-        }
+        // the whole list counts again, also instead of limits set by G98 or G99 (207492747)
+        self.limit_axis(axis, limits_mm);
         self.report_consequences(axis, &known, span);
         self.axis_changes(self.machine.axes[axis].number(), span);
         if let Some(command) = overrides {

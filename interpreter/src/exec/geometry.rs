@@ -29,6 +29,8 @@ pub(super) struct LastArc {
     pub(super) plane: [usize; 2],
     /// Centre relative to the start point.
     pub(super) centre_mm: [f64; 2],
+    /// The centre as V.G.I, V.G.J and V.G.K have it: under G161 in coordinates of the program, otherwise relative to the start.
+    pub(super) programmed_mm: [f64; 2],
     /// Shift of the centre by G165.
     pub(super) shift_mm: [f64; 2],
     pub(super) radius_mm: f64,
@@ -108,8 +110,8 @@ impl Geometry {
         self.coordinates.set_tool(offsets);
     }
 
-    /// The first axis with an offset of the active tool that a coordinate system turns, unless the tool is fixed: the pages do
-    /// not say where such an offset lies (P-TOOL-00010).
+    /// The first axis with a length or an offset of the active tool that a coordinate system turns, unless the tool is fixed:
+    /// the pages do not say where it lies then (P-TOOL-00010).
     pub(in crate::exec) fn turned_offset(&self) -> Option<usize> {
         let tool = &self.tools.active;
         if tool.is_fixed || self.coordinates.systems() == 0 {
@@ -119,8 +121,8 @@ impl Geometry {
             let main = self.coordinates.main_index(axis);
             main.is_some_and(|main| !self.coordinates.keeps_direction(main))
         };
-        let offsets = tool.offsets_mm.iter().filter(|(_, offset)| **offset != 0.0);
-        offsets.map(|(axis, _)| *axis).find(|axis| turned(*axis))
+        let offsets = self.coordinates.tool();
+        (0..offsets.len()).find(|axis| offsets[*axis] != 0.0 && turned(*axis))
     }
 
     /// 20136 and 21555 for a plane that lacks one of its axes, or contains a modulo axis.

@@ -235,7 +235,7 @@ impl Decoder {
         let start = self.program_targets(words)?;
         if let Some(axis) = self.geometry.turned_offset() {
             let text = format!(
-                "the offset of the tool along {} is that of the machine axis in a turned coordinate system",
+                "length and offset of the tool along {} are those of the machine axis in a turned coordinate system",
                 self.names.name(axis)
             );
             let fault =
@@ -298,6 +298,12 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
+        if stops && !self.contour.hsc.off_at_stop && self.contour.hsc.spline().is_some() {
+            let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
+            let fault = Fault::new(Condition::Fallback, text, span)
+                .hint("without this key, the default, it does not end the spline of the control");
+            self.report.note_once("AUTO_OFF_G60", fault);
+        }
         let late_braking =
             self.modal.brakes_late(once(Act::EarlyBrakingOnce), span, &mut self.report);
         if rounds {

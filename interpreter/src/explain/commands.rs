@@ -54,7 +54,7 @@ const COMMANDS: &[Command] = &[
     row(&["G61", "G261", "G260"], "G61   G261   G260", "contouring at the end of this block, on, off", "", "", "G261", &["#CONTOUR MODE", "120206"]),
     row(&["G70", "G71"], "G70", "inch, mm for linear axes", "", "tolerance words remain in mm under G70 unless P-CHAN-00439 is 1", "G70", &["P-CHAN-00054", "P-CHAN-00439"]),
     row(&["G90", "G91"], "G90", "absolute, incremental coordinates", "", "", "G91", &[]),
-    row(&["G93", "G94", "G95", "G194"], "G94 F..", "F is the block time in seconds, feed per minute, feed per revolution, percent of the maximum path feed", "", "each type keeps its own F", "G94 F2000", &["P-CHAN-00108", "20121"]),
+    row(&["G93", "G94", "G95", "G194"], "G94 F..", "F is the block time in seconds, feed per minute, feed per revolution, percent of the maximum path feed", "", "each type keeps its own F, but the time of G93 is needed again with every G93", "G94 F2000", &["P-CHAN-00108", "20121"]),
     row(&["G115", "G116", "G117"], "G116", "look-ahead off, every transition is a stop, complete look-ahead", "", "", "G117", &["20151", "P-STUP-00070"]),
     row(&["G127", "G128"], "G127 X..   G128=..", "weight of the maximum speed in percent, per axis or for all", "", "", "G128=50", &["P-AXIS-00212"]),
     row(&["G129"], "G129=..", "percent of the rapid speed", "", "", "G129=50", &["P-AXIS-00209"]),

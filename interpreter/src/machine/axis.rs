@@ -9,7 +9,7 @@ use super::plausible;
 use super::table::param::{Number, Param, Place};
 use super::table::{
     Indices, ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_functions,
-    axis_general,
+    axis_general, misspelt,
 };
 use super::value;
 use crate::diag::{AxisRef, Diagnostic, Location};
@@ -301,11 +301,9 @@ impl Axis {
         self.get(axis_general::TOOL_SPEED_CHECKED)
     }
 
-    /// Deviation from its speed, relative to it, within which a spindle has reached it (P-AXIS-00217); 0 counts as the
-    /// default (diagnosis 262570123).
+    /// Deviation from its speed, relative to it, within which a spindle has reached it (P-AXIS-00217).
     pub(crate) fn speed_band(&self) -> f64 {
-        let band = self.get(axis_functions::SPEED_BAND);
-        if band > 0.0 { band } else { 0.1 }
+        self.get(axis_functions::SPEED_BAND)
     }
 
     /// Whether the list configures any feedforward (P-AXIS-00223).
@@ -373,6 +371,14 @@ impl Axis {
         ];
         KEYS.iter().any(|start| {
             key.get(..start.len()).is_some_and(|head| head.eq_ignore_ascii_case(start))
+        })
+    }
+
+    /// Whether the table contains neither this key of an axis list nor a similar one.
+    pub(crate) fn is_unknown(key: &str) -> bool {
+        Key::parse(key).is_some_and(|key| {
+            key.resolve(ListKind::Axis).is_none()
+                && misspelt(Some(ListKind::Axis), &key.shape).is_empty()
         })
     }
 

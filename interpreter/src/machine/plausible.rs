@@ -260,6 +260,13 @@ fn check_together(
         }
     }
 
+    // P-AXIS-00217: no tolerance would let a spindle reach its speed
+    let band = axis_functions::SPEED_BAND;
+    if number(parameters, band) == 0.0 {
+        let text = "kenngr.vb_prozent: a deviation of 0 lets no speed be reached, 100 is used";
+        put(parameters, Condition::SpeedBandZero, band.place(), text.to_owned(), 100.0);
+    }
+
     // P-AXIS-00015: modes of spindles, and undefined modes
     if let Some((condition, what, used)) = wrong_mode(parameters) {
         let mode = parameters.get(axis_general::MODE);

@@ -34,5 +34,5 @@ pub(crate) mod zero;
 pub use indices::Indices;
 pub(crate) use indices::with_indices;
 pub use lookup::rows;
-pub(crate) use lookup::{by_id, by_key, misspelt, suggestions};
+pub(crate) use lookup::{axis_key, by_id, by_key, misspelt, suggestions};
 pub use row::{Bound, Correction, Default, DriveType, ListKind, OutOfRange, Raw, Row};

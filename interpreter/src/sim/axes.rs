@@ -59,6 +59,8 @@ impl Simulation {
             if let Some(block) = self.underway.pop_front() {
                 let changed = &mut self.smoothing.changed;
                 self.progress.begin(block.programmed, s_mm, changed);
+                // the block began after the previous cycle
+                self.time_begins(block.time_s, block.source, k.saturating_sub(1));
                 self.current = block.source;
                 self.motion = block.motion;
                 for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {
@@ -67,7 +69,6 @@ impl Simulation {
                     }
                 }
                 self.jerk_limited = block.jerk_limited;
-                // the block began after the previous cycle
                 for event in block.events {
                     self.act(event, k.saturating_sub(1));
                 }
@@ -82,6 +83,7 @@ impl Simulation {
         self.enter_blocks(seq, self.record.path.s_mm, k);
         self.take_inputs(k);
         self.watch_thread();
+        self.watch_time();
         let alone = !self.independent.is_unused();
         if alone {
             self.independent.take_over(k);

@@ -288,6 +288,15 @@ pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagn
     d
 }
 
+/// A motion takes longer than its time under G93.
+pub(super) fn time_not_kept(time_s: f64, taken_s: f64) -> Diagnostic {
+    let text = format!("the motion takes {taken_s:.3} s instead of its time F{time_s} (G93)");
+    Diagnostic::new(Condition::TimeNotKept, text)
+        .value(ValueKind::Current, taken_s, "s")
+        .value(ValueKind::Limit, time_s, "s")
+        .hint("this is the first motion that takes a tenth more than its time; v_limit of the trace shows what limits it")
+}
+
 /// The set path in the output leaves the contour by more than the plan guarantees.
 pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
     let Unkept { deviation_mm, tolerance_mm, .. } = *exceeded;

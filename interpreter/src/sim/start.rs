@@ -8,6 +8,7 @@ use super::inputs::Inputs;
 use super::program::Program;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
+use super::times::Times;
 use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use super::{Messages, Phase, Simulation, fault};
@@ -86,6 +87,7 @@ impl Simulation {
             path_position: start[..n].iter().copied().collect(),
             thread_delay: 0.0,
             thread: None,
+            times: Times::default(),
             probing: None,
             told: None,
             banding: None,

@@ -1,6 +1,6 @@
 //! The steps of the program: taken from the executor when the planner needs them, and carried out at rest.
 
-use super::{After, Phase, Simulation, Thread, Underway, wait};
+use super::{After, Phase, Simulation, Thread, Underway, times, wait};
 use crate::exec::{EndReason, Event, SourceRef, Step, Sync};
 use crate::record::Motion;
 use crate::sim::axes::Driver;
@@ -37,7 +37,7 @@ impl Simulation {
     pub(super) fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
         let programmed = Programmed::new(&block, self.program.blocks());
         let jerk_limited = block.slope.kind != SlopeKind::Step;
-        let motion = Motion::of(&block);
+        let (motion, time_s) = (Motion::of(&block), times::time_of(&block));
         let (seq, target) = (block.seq, block.path.end().clone());
         let bands = events.iter().any(|event| matches!(event, Event::Banding(_)));
         self.underway.push_back(Underway {
@@ -45,6 +45,7 @@ impl Simulation {
             source,
             programmed,
             motion,
+            time_s,
             target,
             jerk_limited,
             events,
@@ -77,6 +78,7 @@ impl Simulation {
         self.progress.complete(self.program.blocks(), &mut self.smoothing.changed);
         self.waits_at = source;
         let k = self.planner.setpoint().k;
+        self.time_ends(k);
         for event in events {
             self.act(event, k);
         }

@@ -59,6 +59,7 @@ const REFUSED: &[&str] = &[
     "PUTAX",
     "MODULO",
     "FIXED_STOP",
+    "POS_LIMIT",
     "DYNAMIC",
     "POLY",
 ];
@@ -68,6 +69,16 @@ arguments! {
     pub(in crate::exec) struct OverrideArguments {
         feed: Number "FEED_FACT" in between(0.1, 200.0), "%", "";
         rapid: Number "RAPID_FACT" in between(0.1, 200.0), "%", "";
+    }
+}
+
+/// `OFF`, `OFF NO_MOVE` of `Z[DIST_CTRL ..]`: without distance control there is no offset to be moved out (290203275).
+fn switches_off(items: &[Item]) -> bool {
+    let is = |item: &Item, name: &str| matches!(&item.kind, ItemKind::Flag(word) if word.is(name));
+    match items {
+        [off] => is(off, "OFF"),
+        [off, stay] => is(off, "OFF") && is(stay, "NO_MOVE"),
+        _ => false,
     }
 }
 
@@ -159,6 +170,11 @@ impl Decoder {
                 no_word_of(&self.names, axis, words, group.span)?;
                 let items = if word.is("OSC") { rest } else { &group.items[..] };
                 self.oscillating_axis(axis, items, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
+                if word.is("DIST_CTRL") && switches_off(rest) =>
+            {
+                Ok(())
             }
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("COMP") => {
                 self.axis_compensation(axis, rest, group.span)

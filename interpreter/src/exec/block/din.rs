@@ -312,6 +312,10 @@ impl Decoder {
             Act::LookAheadFunctions => look_ahead_functions(g, &mut self.report)?,
             Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
+            Act::Spline(false) if self.contour.hsc.spline().is_some() => {
+                let text = "a spline is deselected (G150) while #HSC ON [BSPLINE] is active";
+                return Err(Fault::new(Condition::SplineInSurface, text, g.span));
+            }
             Act::Spline(on) => self.contour.akima.select(on),
             Act::Tangential => {
                 permits_tangential(g, words, self.modal.selection)?;

@@ -58,6 +58,14 @@ pub(super) const CONTROL_AREA_START: Row = Row::run("CONTROL AREA START", begin)
 /// Row of `#CONTROL AREA END`.
 pub(super) const CONTROL_AREA_END: Row = Row::run("CONTROL AREA END", end).bare();
 
+/// Row of `#CONTROL AREA CLEAR`.
+pub(super) const CONTROL_AREA_CLEAR: Row = Row::run("CONTROL AREA CLEAR", clear)
+    .form("#CONTROL AREA CLEAR [ID=..], #CONTROL AREA CLEAR ALL")
+    .meaning("deletes areas that are not active")
+    .keys(AreaChoice::KEYS)
+    .example("#CONTROL AREA CLEAR ALL")
+    .related(&["120499"]);
+
 /// Row of `#CONTROL AREA`.
 pub(super) const CONTROL_AREA: Row = Row::run("CONTROL AREA", switch)
     .form("#CONTROL AREA ON|OFF [ID=..], #CONTROL AREA ON|OFF ALL")
@@ -132,8 +140,8 @@ fn end(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     decoder.end_area(call.span())
 }
 
-fn switch(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    let span = call.span();
+/// ALL, and the ID.
+fn chosen(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(bool, Option<u32>)> {
     let keys = AreaChoice::read(decoder, &call.title(), call.command.groups.first())?;
     let mut all = keys.all.is_some();
     for word in call.rest.iter().chain(&call.command.tail) {
@@ -141,7 +149,27 @@ fn switch(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(call.unexpected(word));
         }
     }
-    let number = keys.id.map(|(number, _)| number as u32);
+    Ok((all, keys.id.map(|(number, _)| number as u32)))
+}
+
+/// 120499 for an active area, which stays (diagnosis 264885387).
+fn clear(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let (all, number) = chosen(decoder, call)?;
+    if all == number.is_some() {
+        let text = "#CONTROL AREA CLEAR needs ALL or an ID";
+        return Err(Fault::new(Condition::AreaWrong, text, call.span()));
+    }
+    for number in decoder.motion.areas.clear(number) {
+        let text = format!("control area {number} is active: it is not deleted");
+        let fault = Fault::new(Condition::AreaActive, text, call.span());
+        decoder.report.note(fault.hint("write #CONTROL AREA OFF before it"));
+    }
+    Ok(())
+}
+
+fn switch(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let span = call.span();
+    let (all, number) = chosen(decoder, call)?;
     match (call.command.on, all, number) {
         (Some(true), true, None) | (Some(true), false, Some(_)) => {
             let tip = decoder.geometry.tip(decoder.geometry.coordinates.target());

@@ -23,7 +23,7 @@ arguments! {
         dist_master: Flag "DIST_MASTER", "", "rounded as PTP (K-0111)";
         pos: Flag "POS", "", "as DIST, through an interim point X Y Z (X2.7 or X=2.7)";
         ptp: Flag "PTP", "", "PATH_DEV or PATH_DIST";
-        auto_dev: Flag "AUTO_DEV", "", "as DEV";
+        auto_dev: Flag "AUTO_DEV", "", "as DEV (K-0111)";
         auto_vel: MaybeNumber "AUTO_VEL", "", "not supported";
         vel: MaybeNumber "VEL", "", "of AUTO_VEL, not supported";
         path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 1";
@@ -235,6 +235,10 @@ fn report_unused(report: &mut Report, keys: &ContourArguments, mode: Mode, span:
             Fault::new(Condition::Fallback, text, span),
         );
     }
+    if let Some(span) = keys.auto_dev {
+        let text = "#CONTOUR MODE: AUTO_DEV has the curve of DEV, whose length does not depend on the speed";
+        report.note_once("AUTO_DEV", Fault::new(Condition::Fallback, text, span));
+    }
     if matches!(mode, Mode::DistSoft | Mode::DistMaster) {
         let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
         report.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, span));
@@ -300,12 +304,32 @@ arguments! {
         auto_off_path: MaybeNumber "AUTO_OFF_PATH", "", "ends the spline";
         auto_off_track: MaybeNumber "AUTO_OFF_TRACK", "", "ends the spline";
         auto_off_g00: MaybeNumber "AUTO_OFF_G00", "", "ends the spline";
-        _auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "always so here";
+        auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "an exact stop ends the spline, always so here (K-0111 without it)";
         max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks are kept";
         max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners are kept; 0: unlimited";
         surface: Flag "SURFACE", "", "not supported";
-        opmode: Number "OPMODE", "", "1: corners within CONTERROR";
+        opmode: Number "OPMODE", "", "1: corners within CONTERROR; default until BSPLINE is written";
         conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
+    }
+}
+
+impl HscArguments {
+    /// The first key that only a B-spline has.
+    fn of_spline(&self) -> Option<(&'static str, Span)> {
+        let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
+        let switch = |key: Option<(Option<f64>, Span)>| key.map(|(_, span)| span);
+        let keys = [
+            ("PATH_DEV", number(self.path_dev)),
+            ("TRACK_DEV", number(self.track_dev)),
+            ("MAX_PATH_LENGTH", number(self.max_path_length)),
+            ("MAX_ANGLE", number(self.max_angle)),
+            ("MERGE", switch(self.merge)),
+            ("AUTO_OFF_PATH", switch(self.auto_off_path)),
+            ("AUTO_OFF_TRACK", switch(self.auto_off_track)),
+            ("AUTO_OFF_G00", switch(self.auto_off_g00)),
+            ("AUTO_OFF_G60", switch(self.auto_off_g60)),
+        ];
+        keys.into_iter().find_map(|(key, at)| Some((key, at?)))
     }
 }
 
@@ -352,6 +376,9 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     if keys.bspline.is_some() {
         hsc.rounds_corners = false;
+    } else if let (true, Some((key, at))) = (hsc.rounds_corners, keys.of_spline()) {
+        let text = format!("#HSC: {key} belongs to the B-spline, whose first key is BSPLINE");
+        return Err(Fault::new(Condition::TokenUnknown, text, at));
     }
     set(&mut hsc.spline.path_dev_mm, keys.path_dev, unit);
     set(&mut hsc.spline.track_dev_deg, keys.track_dev, 1.0);
@@ -363,6 +390,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     switch(&mut hsc.spline.off_at_path_dev, keys.auto_off_path);
     switch(&mut hsc.spline.off_at_track_dev, keys.auto_off_track);
     switch(&mut hsc.spline.off_at_rapid, keys.auto_off_g00);
+    switch(&mut hsc.off_at_stop, keys.auto_off_g60);
     if let Some((_, span)) = keys.merge {
         let text = "#HSC: MERGE has no effect";
         decoder.report.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));

@@ -53,7 +53,7 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [word, syn] if word.is("WR") && syn.is("SYN") => {
             let keys = WriteArguments::read(decoder, &call.title(), group)?;
-            let spindle = driven(decoder, call, keys.axis.as_ref(), keys.number)?;
+            let driven = driven(decoder, call, keys.axis.as_ref(), keys.number)?;
             let missing = match (&keys.key, &keys.value) {
                 (None, _) => Some("KEY"),
                 (_, None) => Some("VAL"),
@@ -64,7 +64,7 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
             }
             let switched = keys.motor.or(keys.set);
-            if let (Some(spindle), Some((_, at))) = (spindle, switched)
+            if let (Driven::Spindle(spindle), Some((_, at))) = (driven, switched)
                 && decoder.motion.spindles[spindle].is_turning()
             {
                 let text =
@@ -95,31 +95,36 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// The named spindle; `None` for an axis. 20797 if the name is unknown, 21372 if the number is.
-fn driven(
+/// What `AX=` or `AXNR=` names: indices of the executor.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Driven {
+    Axis(usize),
+    Spindle(usize),
+}
+
+/// The named axis or spindle. 20797 if the name is unknown, 21372 if the number is.
+pub(super) fn driven(
     decoder: &Decoder,
     call: &Call<'_>,
     name: Option<&(Box<str>, Span)>,
     number: Option<(f64, Span)>,
-) -> Outcome<Option<usize>> {
+) -> Outcome<Driven> {
     match (name, number) {
         (Some((name, span)), None) => {
-            match decoder.motion.spindle_of_name(name, &decoder.machine.channel) {
-                Some(spindle) => Ok(Some(spindle)),
-                None if decoder.names.of_name(name).is_some() => Ok(None),
-                None => {
-                    let text = format!("unknown axis `{name}`");
-                    Err(Fault::new(Condition::AxisNameUnknown, text, *span)
-                        .hint(decoder.names.hint()))
-                }
+            if let Some(spindle) = decoder.motion.spindle_of_name(name, &decoder.machine.channel) {
+                return Ok(Driven::Spindle(spindle));
             }
+            decoder.names.of_name(name).map(Driven::Axis).ok_or_else(|| {
+                let text = format!("unknown axis `{name}`");
+                Fault::new(Condition::AxisNameUnknown, text, *span).hint(decoder.names.hint())
+            })
         }
         (None, Some((number, span))) => {
             let wanted = logical_number(number, span)?;
             let spindle = |index: usize| decoder.machine.spindles[index].number() == wanted;
             match decoder.motion.spindles.iter().position(|s| s.index.is_some_and(spindle)) {
-                Some(spindle) => Ok(Some(spindle)),
-                None => of_logical_number(decoder, number, span).map(|_| None),
+                Some(spindle) => Ok(Driven::Spindle(spindle)),
+                None => of_logical_number(decoder, number, span).map(Driven::Axis),
             }
         }
         _ => {

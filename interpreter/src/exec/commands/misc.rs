@@ -3,6 +3,7 @@
 //! Source: TF5200 programming manual.
 
 use super::axes::of_logical_number;
+use super::drives::{Driven, driven};
 use super::keys::arguments;
 use super::range::between;
 use super::row::{Call, Row};
@@ -11,6 +12,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::TimerAct;
 use crate::exec::step::{Event, Sync};
+use crate::machine::table::axis_key;
 use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
 
 /// Row of `#FLUSH`.
@@ -341,6 +343,7 @@ arguments! {
     /// Keys of `#MACHINE DATA`.
     struct MachineDataArguments {
         axis: Word "AX", "", "the axis";
+        number: Number "AXNR", "", "logical number instead of AX";
         parameter: Word "AXPARAM", "", "key and value as in the axis list";
         wait: Flag "WAIT", "", "with SYN: the program waits; here it always waits";
     }
@@ -348,31 +351,64 @@ arguments! {
 
 /// Row of `#MACHINE DATA`.
 pub(super) const MACHINE_DATA: Row = Row::run("MACHINE DATA", machine_data)
-    .form("#MACHINE DATA [SYN] [AX=.. AXPARAM=\"key value\" WAIT]")
+    .form("#MACHINE DATA [SYN] [AX=..|AXNR=.. AXPARAM=\"key value\"|P-AXIS-nnnnn.i=.. WAIT]")
     .meaning("changes a parameter of an axis list from this block on; the path stops")
     .keys(MachineDataArguments::KEYS)
     .example("#MACHINE DATA [AX=Z AXPARAM=\"getriebe[0].kv 3000\"]");
 
-/// `#MACHINE DATA [SYN] [AX=Z AXPARAM="key value"]`.
+/// `#MACHINE DATA [SYN] [AX=Z AXPARAM="key value"]`, `#MACHINE DATA [AX=Z P-AXIS-00212.1=50000]`.
+///
+/// Assumption: the index after the ID is the first one of the key, which counts gear stages in most of them; every parameter can be
+/// named by its ID, not only those on the page (207492747).
 fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(word) = call.rest.iter().find(|w| !w.is("SYN")) {
         return Err(call.unexpected(word));
     }
-    let keys = MachineDataArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let mut group = call.command.groups.first().cloned();
+    let mut by_id = Vec::new();
+    if let Some(group) = &mut group {
+        group.items.retain(|item| match &item.kind {
+            ItemKind::Pair { key, value } if key.text.starts_with("P-") => {
+                by_id.push((key.clone(), value.clone()));
+                false
+            }
+            _ => true,
+        });
+    }
+    let keys = MachineDataArguments::read(decoder, &call.title(), group.as_ref())?;
     if let (Some(span), []) = (keys.wait, call.rest) {
         let text = "WAIT of #MACHINE DATA needs SYN";
         return Err(Fault::new(Condition::WaitWithoutSyn, text, span));
     }
-    let (Some((text, at)), Some((parameter, span))) = (keys.axis, keys.parameter) else {
-        let text = "#MACHINE DATA needs AX and AXPARAM";
-        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    let axis = match driven(decoder, call, keys.axis.as_ref(), keys.number)? {
+        Driven::Axis(axis) => axis,
+        Driven::Spindle(_) => {
+            return Err(Fault::unsupported("#MACHINE DATA of a spindle", call.span()));
+        }
     };
-    let axis = crate::syntax::ast::Ident { text, span: at };
-    let axis = decoder.names.in_command(&axis)?;
-    let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
-        Fault::new(Condition::TokenUnknown, "AXPARAM: `key value` is expected", span)
-    })?;
-    decoder.set_machine_data(axis, key, value.trim(), span)
+    if by_id.is_empty() && keys.parameter.is_none() {
+        let text = "#MACHINE DATA needs AXPARAM or the ID of a parameter";
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    }
+    for (id, value) in by_id {
+        let ItemValue::Expr(value) = value else {
+            let text = format!("{}: a number is expected", id.text);
+            return Err(Fault::new(Condition::TokenUnknown, text, id.span));
+        };
+        let value = decoder.number(&value)?.to_string();
+        let key = axis_key(&id.text).ok_or_else(|| {
+            let text = format!("`{}` is not a parameter of an axis", id.text);
+            Fault::new(Condition::TokenUnknown, text, id.span)
+        })?;
+        decoder.set_machine_data(axis, &key, &value, id.span)?;
+    }
+    if let Some((parameter, span)) = keys.parameter {
+        let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
+            Fault::new(Condition::TokenUnknown, "AXPARAM: `key value` is expected", span)
+        })?;
+        decoder.set_machine_data(axis, key, value.trim(), span)?;
+    }
+    Ok(())
 }
 
 /// `#DISABLE MODAL CYCLE`.

@@ -15,7 +15,8 @@ use crate::syntax::ast::{Item, ItemKind, ItemValue};
 fn default(decoder: &mut Decoder) {
     decoder.modal.commanded.slope.kind = decoder.machine.channel.dynamics.slope;
     decoder.modal.commanded.slope.optimised = false;
-    set_old(decoder, false);
+    // the effect of the weights at the start of the program, too (P-CHAN-00001, P-CHAN-00073)
+    set_old(decoder, true);
 }
 
 fn set_old(decoder: &mut Decoder, old: bool) {

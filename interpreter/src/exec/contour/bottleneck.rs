@@ -5,8 +5,9 @@
 //! it is a warning here, once per program.
 
 use super::item::Item;
+use super::motion::Motion;
 use crate::exec::geometry::planar::{Side, intersections};
-use crate::exec::geometry::point::{Point, norm, sub};
+use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
 use crate::exec::step::SourceRef;
 use rstar::{AABB, RTree, RTreeObject};
 use std::collections::VecDeque;
@@ -26,6 +27,8 @@ const TOLERANCE_MM: f64 = 1e-4;
 #[derive(Clone, Copy, Debug)]
 struct Part {
     side: Side,
+    /// Tool radius at its start and end in mm, linear in between; 0 for an element of the contour. It differs on lines only.
+    radii: [f64; 2],
     /// Bounding box.
     low: Point,
     high: Point,
@@ -63,7 +66,8 @@ struct Parts {
 
 impl Parts {
     fn push(&mut self, part: Part) {
-        if self.around(&part, SAME_MM).any(|other| other.side.is_at(&part.side)) {
+        let repeats = |other: &Part| other.side.is_at(&part.side) && other.has_radii_of(&part);
+        if self.around(&part, SAME_MM).any(repeats) {
             return;
         }
         if self.order.len() >= WINDOW
@@ -93,6 +97,8 @@ impl Parts {
 pub(in crate::exec) struct Watch {
     contour: Parts,
     way: Parts,
+    /// The largest tool radius so far, in mm.
+    largest: f64,
     /// Number of the next element, and number of parts so far.
     next: u64,
     parts: u64,
@@ -105,58 +111,77 @@ pub(in crate::exec) struct Cut {
     pub(in crate::exec::contour) contour: SourceRef,
     /// Remaining distance between the tool centre and the contour, in mm.
     pub(in crate::exec::contour) distance_mm: f64,
+    /// Tool radius at this position, in mm.
+    pub(in crate::exec::contour) radius_mm: f64,
 }
 
 impl Watch {
     /// Called when an element of the contour is complete: `way` is the tool path along it, including the elements inserted
-    /// after it.
+    /// after it, with the tool radius at the start and end of the first one; the others have that of its end. Without `side`
+    /// only the corner is new.
     pub(in crate::exec) fn element(
         &mut self,
-        side: Side,
+        side: Option<Side>,
         source: SourceRef,
         way: &[Item],
         plane: [usize; 2],
-        radius: f64,
+        mut radii: [f64; 2],
     ) -> Option<Cut> {
-        let mut found = self.contour(side, source, radius);
+        let mut found = side.and_then(|side| self.contour(side, source));
         for item in way {
-            if let Item::Motion(motion) = item
-                && let Some(side) = Side::of(&motion.block.path, plane)
-            {
-                found = found.or(self.way(side, motion.source, radius));
+            if let Item::Motion(motion) = item {
+                found = found.or(self.motion(motion, plane, radii));
+                radii = [radii[1]; 2];
             }
         }
         self.next += 1;
         found
     }
 
-    fn contour(&mut self, side: Side, source: SourceRef, radius: f64) -> Option<Cut> {
-        let part = self.part(side, source);
-        let found = self.way.first(&part, radius, |way| cut(way, &part, radius));
-        self.contour.push(part);
-        found
-    }
-
-    fn way(&mut self, side: Side, source: SourceRef, radius: f64) -> Option<Cut> {
-        let part = self.part(side, source);
-        let found = self.contour.first(&part, radius, |contour| cut(&part, contour, radius));
+    /// A motion of the tool with its radius at start and end: part of the next element.
+    pub(in crate::exec) fn motion(
+        &mut self,
+        motion: &Motion,
+        plane: [usize; 2],
+        radii: [f64; 2],
+    ) -> Option<Cut> {
+        let part = self.part(Side::of(&motion.block.path, plane)?, motion.source, radii);
+        let radius = part.radius();
+        self.largest = self.largest.max(radius);
+        let found = self.contour.first(&part, radius, |contour| cut(&part, contour));
         self.way.push(part);
         found
     }
 
-    fn part(&mut self, side: Side, source: SourceRef) -> Part {
+    fn contour(&mut self, side: Side, source: SourceRef) -> Option<Cut> {
+        let part = self.part(side, source, [0.0; 2]);
+        let found = self.way.first(&part, self.largest, |way| cut(way, &part));
+        self.contour.push(part);
+        found
+    }
+
+    fn part(&mut self, side: Side, source: SourceRef, radii: [f64; 2]) -> Part {
         self.parts += 1;
-        Part::new(side, source, (self.next, self.parts))
+        Part::new(side, source, radii, (self.next, self.parts))
     }
 }
 
 impl Part {
-    fn new(side: Side, source: SourceRef, (number, place): (u64, u64)) -> Self {
+    fn new(side: Side, source: SourceRef, radii: [f64; 2], (number, place): (u64, u64)) -> Self {
         let (middle, half) = side.middle();
         let (low, high) = side.extent();
         let low = [low[0].max(middle[0] - half), low[1].max(middle[1] - half)];
         let high = [high[0].min(middle[0] + half), high[1].min(middle[1] + half)];
-        Self { side, low, high, middle, half, source, number, place }
+        Self { side, radii, low, high, middle, half, source, number, place }
+    }
+
+    /// The largest tool radius along it.
+    fn radius(&self) -> f64 {
+        self.radii[0].max(self.radii[1])
+    }
+
+    fn has_radii_of(&self, other: &Self) -> bool {
+        (0..2).all(|i| (self.radii[i] - other.radii[i]).abs() <= SAME_MM)
     }
 
     /// Whether the boxes are further apart than `gap`.
@@ -166,46 +191,73 @@ impl Part {
 }
 
 /// Position where the tool on `way` comes closer to `contour` than its radius. Along its own element the distance is correct.
-fn cut(way: &Part, contour: &Part, radius: f64) -> Option<Cut> {
+fn cut(way: &Part, contour: &Part) -> Option<Cut> {
+    let radius = way.radius();
     let between = norm(sub(way.middle, contour.middle)) - way.half - contour.half;
     if way.number == contour.number || between >= radius || way.is_beyond(contour, radius) {
         return None;
     }
-    let distance_mm = distance(way, contour);
-    let found = Cut { tool: way.source, contour: contour.source, distance_mm };
-    (distance_mm < radius - TOLERANCE_MM).then_some(found)
+    let (distance_mm, radius_mm) = deepest(way, contour);
+    let found = Cut { tool: way.source, contour: contour.source, distance_mm, radius_mm };
+    (distance_mm < radius_mm - TOLERANCE_MM).then_some(found)
 }
 
-/// The smallest distance between two elements: at an intersection, at an end of one of them, or inside both where a line passes
-/// an arc or an arc passes another one.
-fn distance(first: &Part, second: &Part) -> f64 {
-    let (a, b) = (&first.side, &second.side);
-    let crosses = || {
+/// Distance and tool radius where the tool on `way` reaches furthest into an element of the contour: at an intersection, at an
+/// end of one of them, or inside both where one of them is an arc.
+fn deepest(way: &Part, contour: &Part) -> (f64, f64) {
+    let (a, b) = (&way.side, &contour.side);
+    let crossing = || {
         let points = intersections(&a.parallel(0.0), &b.parallel(0.0));
-        points.into_iter().any(|p| a.contains(p) && b.contains(p))
+        points.into_iter().find(|p| a.contains(*p) && b.contains(*p))
     };
-    if !first.is_beyond(second, 0.0) && crosses() {
-        return 0.0;
+    let [first, last] = way.radii;
+    let at_crossing = if way.is_beyond(contour, 0.0) { None } else { crossing() };
+    if let Some(at) = at_crossing {
+        return (0.0, first + a.share_of(at) * (last - first));
     }
-    let ends = [
-        b.distance(a.start_point()),
-        b.distance(a.end_point()),
-        a.distance(b.start_point()),
-        a.distance(b.end_point()),
-    ];
-    let passing = match (a, b) {
-        (Side::Line { .. }, Side::Line { .. }) => f64::INFINITY,
-        (line @ Side::Line { .. }, arc @ Side::Arc { centre, .. })
-        | (arc @ Side::Arc { centre, .. }, line @ Side::Line { .. }) => {
-            passing(line, arc, line.foot(*centre))
+    let ends = [b.start_point(), b.end_point()];
+    match (a, b) {
+        (Side::Line { from, to }, _) => {
+            let centre = if let Side::Arc { centre, .. } = b { Some(*centre) } else { None };
+            let shares = ends.into_iter().chain(centre).map(|p| nearest(*from, *to, way.radii, p));
+            let at = |share: f64| {
+                let p = [0, 1].map(|i| from[i] + share * (to[i] - from[i]));
+                (b.distance(p), first + share * (last - first))
+            };
+            let all = shares.chain([0.0, 1.0]).map(at);
+            let depth = |(distance, radius): &(f64, f64)| distance - radius;
+            all.min_by(|p, q| depth(p).total_cmp(&depth(q))).unwrap_or((f64::INFINITY, last))
         }
-        (Side::Arc { centre: p, .. }, Side::Arc { centre: q, .. }) => {
-            let near = a.foot(*q);
-            let far = [2.0 * p[0] - near[0], 2.0 * p[1] - near[1]];
-            passing(a, b, near).min(passing(a, b, far))
+        (Side::Arc { centre: p, .. }, _) => {
+            let inside = match b {
+                Side::Line { .. } => passing(b, a, b.foot(*p)),
+                Side::Arc { centre: q, .. } => {
+                    let near = a.foot(*q);
+                    let far = [2.0 * p[0] - near[0], 2.0 * p[1] - near[1]];
+                    passing(a, b, near).min(passing(a, b, far))
+                }
+            };
+            let of_way = [a.start_point(), a.end_point()].map(|p| b.distance(p));
+            let of_contour = ends.map(|p| a.distance(p));
+            (of_way.into_iter().chain(of_contour).fold(inside, f64::min), last)
         }
+    }
+}
+
+/// Share 0..1 of a line at which distance from a point less radius, which is linear along the line, is smallest.
+fn nearest(from: Point, to: Point, [first, last]: [f64; 2], p: Point) -> f64 {
+    let along = sub(to, from);
+    let length = norm(along);
+    let foot = dot(sub(p, from), along) / length;
+    let aside = (cross(along, sub(p, from)) / length).abs();
+    let growth = (last - first) / length;
+    let at = if growth.abs() < 1.0 {
+        foot + growth * aside / (1.0 - growth * growth).sqrt()
+    } else {
+        // the radius changes faster than any distance
+        growth * f64::INFINITY
     };
-    ends.into_iter().fold(passing, f64::min)
+    (at / length).clamp(0.0, 1.0)
 }
 
 /// Distance of a point of the curve of `a` from `b`, if the point is on the element `a`.

@@ -73,6 +73,11 @@ impl Compensator {
         self.active.is_some() || self.closed.is_some()
     }
 
+    /// Whether the next motion in the plane is the departure: with G237 the tool has left before it.
+    pub(in crate::exec::contour) fn awaits_departure(&self) -> bool {
+        self.deselected && self.active.as_ref().is_some_and(|active| !active.perpendicular)
+    }
+
     /// Motions without compensation pass unchanged.
     pub(in crate::exec) fn is_idle(&self) -> bool {
         !self.is_active() && !self.tangential && self.cut.is_none()

@@ -66,16 +66,19 @@ impl ContourParameters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct Hsc {
     pub(in crate::exec) on: bool,
-    /// The older form OPMODE=1: corners are rounded within `contour_error_mm`.
+    /// The older form OPMODE=1: corners are rounded within `contour_error_mm`. It is also that of `#HSC ON` in a program that
+    /// has not selected a B-spline (15556991115).
     pub(in crate::exec) rounds_corners: bool,
     pub(in crate::exec) contour_error_mm: f64,
+    /// AUTO_OFF_G60: an exact stop is to end the spline, as it always does here.
+    pub(in crate::exec) off_at_stop: bool,
     pub(in crate::exec) spline: SplineSettings,
 }
 
 impl Default for Hsc {
     fn default() -> Self {
         let spline = SplineSettings::default();
-        Self { on: false, rounds_corners: false, contour_error_mm: 0.1, spline }
+        Self { on: false, rounds_corners: true, contour_error_mm: 0.1, off_at_stop: false, spline }
     }
 }
 

@@ -121,8 +121,8 @@ impl Contour {
 /// K-0119.
 pub(super) fn bottleneck(cut: &Cut) -> Fault {
     let text = format!(
-        "the tool cuts the contour of line {}: its centre comes within {:.4} mm",
-        cut.contour.line, cut.distance_mm
+        "the tool cuts the contour of line {}: its centre comes within {:.4} mm, its radius is {:.4} mm there",
+        cut.contour.line, cut.distance_mm, cut.radius_mm
     );
     let hint = "use a smaller tool; the control does not detect such bottlenecks";
     *Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)

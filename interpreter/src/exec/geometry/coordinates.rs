@@ -236,6 +236,11 @@ impl Coordinates {
     }
 
     /// Replaces the tool offsets of all axes.
+    /// Length and offsets of the tool, by axis.
+    pub(in crate::exec) fn tool(&self) -> &AxisVec {
+        &self.tool
+    }
+
     pub(in crate::exec) fn set_tool(&mut self, offsets: AxisVec) {
         self.tool = offsets;
     }

@@ -147,6 +147,15 @@ impl Decoder {
             }
         }
         self.geometry.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
+        self.geometry.last_arc.programmed_mm = self.geometry.last_arc.centre_mm;
+        if self.modal.centre_absolute && has_centre && tilt.is_none() {
+            let mut centre = start.clone();
+            for k in 0..2 {
+                centre[plane[k]] = arc.centre[k] + self.motion.independent.way[plane[k]];
+            }
+            let programmed = self.geometry.coordinates.program_at(&centre);
+            self.geometry.last_arc.programmed_mm = plane.map(|axis| programmed[axis]);
+        }
         self.geometry.last_arc.plane = image;
         self.geometry.last_arc.shift_mm = arc.shift;
         self.geometry.last_arc.radius_mm =

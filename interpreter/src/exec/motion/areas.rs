@@ -53,6 +53,15 @@ impl Areas {
         self.active.clear();
     }
 
+    /// `#CONTROL AREA CLEAR`: deletes one area, or all for `None`; those that are active stay, and their numbers are returned.
+    pub(in crate::exec) fn clear(&mut self, number: Option<u32>) -> Vec<u32> {
+        let chosen = |area: &u32| number.is_none_or(|number| number == *area);
+        let active: Vec<u32> =
+            self.active.iter().map(|area| area.number).filter(|area| chosen(area)).collect();
+        self.defined.retain(|area, _| !chosen(area) || active.contains(area));
+        active
+    }
+
     /// Whether a motion can be monitored: contouring and splines change its path later.
     pub(super) fn fit(&self, shaped: bool, names: &AxisNames, span: Span) -> Outcome<()> {
         let mut active = self.active.iter();

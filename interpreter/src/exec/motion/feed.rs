@@ -64,6 +64,9 @@ impl Decoder {
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let text = match self.modal.feed() {
                 Some(_) => "the feed is 0: value of the last F word",
+                None if self.modal.feed_type == FeedType::Time => {
+                    "the time is 0: G93 needs an F word each time it is programmed"
+                }
                 None => "the feed is 0: no F word has been programmed",
             };
             self.report.note_once(Subject::Only, Fault::new(Condition::FeedZero, text, span));
@@ -127,7 +130,7 @@ pub(super) fn check_time(block: &Block, span: Span, report: &mut Report) {
         let text = format!(
             "the block cannot be executed in F{time_s} s (G93): its velocity limits require {least_s:.6} s"
         );
-        report.note(Fault::new(Condition::Odd, text, span).warning());
+        report.note(Fault::new(Condition::TimeNotKept, text, span));
     }
 }
 

@@ -267,8 +267,9 @@ pub(in crate::exec) struct Threads {
     pub(in crate::exec::motion) cutting: bool,
     /// Direction of the previous block of G33.
     pub(super) direction: AxisVec,
-    /// Speed of the spindle in the previous block of G33 in rev/min.
+    /// Speed of the spindle in the previous block of G33 in rev/min, and its pitch in mm.
     pub(super) rpm: f64,
+    pub(super) cut_mm: f64,
     /// State of `#TURN`.
     pub(in crate::exec) turning: TurningModes,
 }

@@ -110,6 +110,10 @@ impl Decoder {
     pub(in crate::exec) fn thread_motion(&mut self, words: &Words<'_>, span: Span) -> Outcome<()> {
         let mode = self.modal.path;
         self.thread_fits(words, span)?;
+        if let Some((_, at)) = words.end_feed {
+            let text = "E in a thread: its speed is that of the pitch";
+            return Err(Fault::new(Condition::Syntax, text, at));
+        }
         let start = self.program_targets(words)?;
         let end = self.geometry.coordinates.target().clone();
         let (start, end) =
@@ -278,31 +282,62 @@ impl Decoder {
         }
         let direction = direction_of(&block.path);
         let rpm = self.motion.spindles[0].rpm;
+        let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
         if self.motion.threads.cutting {
-            if rpm.to_bits() != self.motion.threads.rpm.to_bits() {
-                let what = "a chain of threads in which the spindle speed changes";
-                return Err(Fault::unsupported(what, span));
-            }
-            // the planner slows down at a corner, which would change the pitch
-            let cosine: f64 = direction
-                .iter()
-                .zip(self.motion.threads.direction.iter())
-                .map(|(a, b)| a * b)
-                .sum();
-            if cosine < STRAIGHT {
-                return Err(Fault::unsupported("a thread that changes its direction", span));
-            }
+            self.chain_fits(&direction, rpm, pitch_mm, offset.map(|(_, _, at)| *at), span)?;
         }
         self.motion.threads.direction = direction;
         self.motion.threads.rpm = rpm;
+        self.motion.threads.cut_mm = pitch_mm;
         if !self.motion.threads.cutting {
-            let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
             let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
             let state = SpindleState::Mark { deg, full_override: block.full_override };
             self.sync(Sync::Spindle { spindle: index, state });
             self.motion.threads.cutting = true;
         }
         self.send(block, plane, None, span);
+        Ok(())
+    }
+
+    /// A further block of a chain of threads, with the place of its start angle.
+    ///
+    /// Assumption: at a corner and where the pitch changes, which the printed chain does (1212537739), the path slows down as
+    /// between other blocks; the pitch of these stretches is reported as not kept.
+    fn chain_fits(
+        &mut self,
+        direction: &AxisVec,
+        rpm: f64,
+        pitch_mm: f64,
+        offset: Option<Span>,
+        span: Span,
+    ) -> Outcome<()> {
+        let before = &self.motion.threads;
+        if rpm.to_bits() != before.rpm.to_bits() {
+            let what = "a chain of threads in which the spindle speed changes";
+            return Err(Fault::unsupported(what, span));
+        }
+        if let Some(at) = offset {
+            let what = "a start angle (OFFSET) within a chain of threads";
+            return Err(Fault::unsupported(what, at)
+                .hint("the chain starts at the angle of its first block; end it with G00 or #TURN [THREAD_CHAIN=0]"));
+        }
+        let cosine: f64 = direction.iter().zip(before.direction.iter()).map(|(a, b)| a * b).sum();
+        let text = if cosine < STRAIGHT {
+            "the thread changes its direction: the path slows down at the corner, the pitch differs there".to_owned()
+        } else if (before.cut_mm - pitch_mm).abs() > PITCH_ROUNDING_MM {
+            let unit = self.modal.unit_mm();
+            format!(
+                "the pitch changes from {} to {} within the chain: it differs until the path has its new speed",
+                rounded(before.cut_mm / unit),
+                rounded(pitch_mm / unit)
+            )
+        } else {
+            return Ok(());
+        };
+        let fault = Fault::new(Condition::ThreadBroken, text, span);
+        self.report.note(
+            fault.hint("the ramps of both speeds take part of the thread: leave a run-out there"),
+        );
         Ok(())
     }
 

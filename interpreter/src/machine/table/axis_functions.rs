@@ -34,7 +34,7 @@ parameters! {
         .default(0.0).axes("S").source("TF5200 axis parameters 117217931");
     axis("P-AXIS-00216", "getriebe[i].vb_min_null", Raw::Uns32, "speed below which a spindle counts as stopped for the PLC; read and ignored")
         .default(100.0).unit("0.001deg/s", "0.001deg/s").axes("S").source("TF5200 axis parameters 117216395");
-    axis("P-AXIS-00217", "kenngr.vb_prozent", Raw::Uns16, "deviation of the actual speed, relative to the set one, within which a spindle counts as having reached it; 0: the default")
+    axis("P-AXIS-00217", "kenngr.vb_prozent", Raw::Uns16, "deviation of the actual speed, relative to the set one, within which a spindle counts as having reached it; 0: the default (110182)")
         .range(Bound::At(0.0), Bound::At(1000.0)).default(100.0).unit("0.1%", "0.1%").axes("S").source("TF5200 axis parameters 117211787"), as SPEED_BAND: Number;
     axis("P-AXIS-00220", "getriebe[i].vb_regelgrenze", Raw::Uns32, "speed above which a spindle leaves position control; not simulated")
         .default(200_000.0).unit("0.001deg/s", "0.001deg/s").axes("S").source("TF5200 axis parameters 117214859");

@@ -2,7 +2,8 @@
 
 use super::{
     ListKind, Row, axis_compensation, axis_control, axis_drive, axis_dynamics, axis_filters,
-    axis_functions, axis_general, axis_guard, channel, channel_hsc, kontur, start_up, tool, zero,
+    axis_functions, axis_general, axis_guard, channel, channel_hsc, kontur, start_up, tool,
+    with_indices, zero,
 };
 use crate::suggest::edit_distance;
 use std::collections::HashMap;
@@ -86,6 +87,13 @@ static BY_SHAPE: LazyLock<HashMap<String, Vec<&'static Row>>> = LazyLock::new(||
 /// The row with an ID in either case.
 pub(crate) fn by_id(id: &str) -> Option<&'static Row> {
     BY_ID.get(id).or_else(|| BY_ID.get(id.to_ascii_uppercase().as_str())).copied()
+}
+
+/// The key of an axis parameter from its ID and first index, 0 if absent: `P-AXIS-00209.1`.
+pub(crate) fn axis_key(id: &str) -> Option<String> {
+    let (id, index) = id.split_once('.').unwrap_or((id, "0"));
+    let row = by_id(id).filter(|row| row.list == ListKind::Axis && !row.key.is_empty())?;
+    Some(with_indices(row.key, [index.parse().ok()?, 0]))
 }
 
 /// The row of a key in a list; `shape` is the key in either case with `[]` for every index.

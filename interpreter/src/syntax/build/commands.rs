@@ -126,7 +126,12 @@ impl Builder<'_> {
         for part in whole.into_inner() {
             match part.as_rule() {
                 Rule::place => target = Some(self.place(part)),
-                Rule::key | Rule::cycle_key | Rule::ordinal | Rule::number_key | Rule::name_key => {
+                Rule::key
+                | Rule::cycle_key
+                | Rule::parameter_key
+                | Rule::ordinal
+                | Rule::number_key
+                | Rule::name_key => {
                     key = Some(self.upper(&part));
                 }
                 Rule::equals => {}

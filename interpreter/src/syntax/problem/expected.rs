@@ -48,6 +48,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
             (5, BRACKET)
         }
         Rule::key
+        | Rule::parameter_key
         | Rule::ordinal
         | Rule::flag
         | Rule::directed

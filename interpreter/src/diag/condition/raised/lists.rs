@@ -19,6 +19,7 @@ macro_rules! lists {
     FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more", note "the feedforward manual allows a numerator of 0, so P-AXIS-00228 = 0 is a valid weight here; P-AXIS-00514 = 0 raises it";
     FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
     GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
+    SpeedBandZero = Vendor 110182: Warning None 1 1, "deviation of 0 for the speed of a spindle, the default is used", cause "kenngr.vb_prozent 0", hint "write the deviation in 0.1 %, the default is 100", parameter "P-AXIS-00217";
     FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "use LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2 or HSC_MEAN";
     TimeBaseUnknown = Vendor 110268: Error JobAbort 7 2, "unknown time base of the speed scaling", cause "antr.v_time_base 9", hint "write 0 (per minute), 1 (per second) or 2 (per sampling interval)", parameter "P-AXIS-00207";
     SpeedScaleDenominator = Vendor 110270: Error JobAbort 7 2, "denominator of the speed scaling is 0", cause "antr.v_reso_denom 0", hint "write 1 or more", parameter "P-AXIS-00205";
@@ -71,6 +72,7 @@ macro_rules! lists {
     NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without travel", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "write different reversal positions 1ST_POS and 2ND_POS";
     AreaOverlaps = Vendor 120477: Error ProgramAbort 6 1, "sides of a control area cross each other", hint "write the corners in order around the area";
     OutsideWorkspace = Vendor 120484: Error ProgramAbort 6 1, "point outside a workspace", cause "start or end of a motion, or of the tool at #CONTROL AREA ON", hint "write #CONTROL AREA OFF [ID=..] before it, or another target";
+    AreaActive = Vendor 120499: Warning None 1 1, "active control area cannot be deleted", cause "#CONTROL AREA ON [ID=2], then #CONTROL AREA CLEAR [ID=2]", hint "write #CONTROL AREA OFF [ID=2] before it";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring while the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
     ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes changed after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is active", cause "G261 before G100", hint "write G260 before the measuring run";

@@ -67,7 +67,12 @@ impl Active {
         Ok(next)
     }
 
-    fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
+    pub(super) fn corner(
+        self,
+        motion: Box<Motion>,
+        side: Side,
+        out: &mut Vec<Item>,
+    ) -> Fallible<Self> {
         let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
         let active = |start: Point, motion: Box<Motion>| {
             let last = Element::parallel(motion, side, start);
@@ -124,7 +129,8 @@ impl Active {
         };
         // a line on its parallel is extended, after any other element its tangent is inserted
         let first = points[0];
-        let extended = matches!(last.side, Side::Line { .. }) && last.course == Course::Parallel;
+        let extended = matches!(last.side, Side::Line { .. })
+            && matches!(last.course, Course::Parallel | Course::Corner);
         let end = if extended { first } else { before };
         let template = outside.then(|| last.motion.clone());
         last.emit(end, plane, distance, out)?;
@@ -200,24 +206,28 @@ impl Active {
 /// The last element while its path is determined: elements after `done` are checked against the contour.
 pub(super) struct Watched {
     pub(super) watch: Watch,
-    side: Side,
+    /// The element of the contour; `None` if only its corner is to come.
+    side: Option<Side>,
     source: SourceRef,
-    /// Approaches and changes of the radius are not checked: the tool leaves the parallel there.
+    /// Approaches are not checked: the tool is not yet at the contour.
     checked: bool,
     plane: [usize; 2],
-    radius: f64,
+    /// Tool radius at its start and end.
+    radii: [f64; 2],
     done: usize,
 }
 
 impl Watched {
     pub(super) fn new(active: &mut Active, out: &[Item]) -> Self {
         let last = &active.last;
+        let radius = active.distance.abs();
+        let before = if let Course::RadiusChange(d) = last.course { d.abs() } else { radius };
         Self {
-            side: last.side,
+            side: (last.course != Course::Corner).then_some(last.side),
             source: last.motion.source,
-            checked: last.course == Course::Parallel,
+            checked: !last.course.approaches(),
             plane: active.plane,
-            radius: active.distance.abs(),
+            radii: [before, radius],
             done: out.len(),
             watch: std::mem::take(&mut active.watch),
         }
@@ -227,7 +237,7 @@ impl Watched {
     pub(super) fn compare(&mut self, out: &[Item], cut: &mut Option<Cut>) {
         if self.checked {
             let way = &out[self.done..];
-            let found = self.watch.element(self.side, self.source, way, self.plane, self.radius);
+            let found = self.watch.element(self.side, self.source, way, self.plane, self.radii);
             *cut = cut.or(found);
         }
     }

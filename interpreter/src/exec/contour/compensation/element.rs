@@ -24,7 +24,7 @@ pub(super) struct Element {
 }
 
 /// How the tool follows an element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Course {
     /// On the parallel.
     Parallel,
@@ -32,8 +32,10 @@ pub(super) enum Course {
     Approach,
     /// An approach on an arc that touches the parallel (G05).
     TangentialApproach,
-    /// A line that leads from the parallel of the tool radius before it to the parallel of the new one.
-    RadiusChange,
+    /// A line that leads from the parallel at this distance to that of the new tool radius.
+    RadiusChange(f64),
+    /// A tangent at the end of an element: only the corner after it is still to come, with the new tool radius.
+    Corner,
 }
 
 impl Course {

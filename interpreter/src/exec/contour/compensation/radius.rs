@@ -17,7 +17,7 @@ use super::corner::{above, inner_corner, straight, straight_before};
 use super::element::{Course, Element, emit_between};
 use super::failure::{Fallible, too_tight};
 use crate::diag::Condition;
-use crate::exec::contour::bottleneck::{Cut, Watch};
+use crate::exec::contour::bottleneck::Cut;
 use crate::exec::contour::item::Item;
 use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::planar::Side;
@@ -40,7 +40,7 @@ fn tangent_at(side: &Side, p: Point) -> Point {
 impl Active {
     /// Continues with a line along which the distance changes, on the same side of the contour.
     pub(super) fn change_along(
-        self,
+        mut self,
         motion: Box<Motion>,
         side: Side,
         distance: f64,
@@ -49,7 +49,8 @@ impl Active {
     ) -> Fallible<Self> {
         let (before, plane) = (self.distance, self.plane);
         let at = motion.block.path.start().clone();
-        let mut next = self.join(motion, side, out, cut)?;
+        let mut watched = Watched::new(&mut self, out);
+        let mut next = self.corner(motion, side, out)?;
         let along = side.tangent(false);
         let foot = above(side.start_point(), along, before);
         // the lines of G25 reach beyond the start of the next one: the distance changes from there on
@@ -58,9 +59,10 @@ impl Active {
             let line = straight_before(&next.last.motion, &at, plane, from, foot);
             out.extend(line.map(|line| at_contour(line, before)));
         }
-        next.last.course = Course::RadiusChange;
+        watched.compare(out, cut);
+        next.watch = watched.watch;
+        next.last.course = Course::RadiusChange(before);
         next.distance = distance;
-        next.watch = Watch::default();
         Ok(next)
     }
 
@@ -94,11 +96,13 @@ impl Active {
         let mut next = self.join(motion, side, out, cut)?;
         let from = next.last.start;
         let to = above(from, tangent_at(&side, from), distance - before);
-        let line = straight_before(&next.last.motion, &at, plane, from, to);
-        out.extend(line.map(|line| at_contour(line, distance)));
+        if let Some(line) = straight_before(&next.last.motion, &at, plane, from, to) {
+            let found = next.watch.motion(&line, plane, [before, distance].map(f64::abs));
+            *cut = cut.or(found);
+            out.push(at_contour(line, distance));
+        }
         next.distance = distance;
         next.last.start = to;
-        next.watch = Watch::default();
         Ok(next)
     }
 
@@ -130,19 +134,21 @@ impl Active {
         let Self { perpendicular, tilt, last, between, .. } = self;
         last.emit(from, plane, before, out)?;
         watched.compare(out, cut);
-        let line = straight(&template, &at, plane, from, to);
-        out.extend(line.map(|line| at_contour(line, distance)));
+        let mut watch = watched.watch;
+        if let Some(line) = straight(&template, &at, plane, from, to) {
+            *cut = cut.or(watch.motion(&line, plane, [before, distance].map(f64::abs)));
+            out.push(at_contour(line, distance));
+        }
         emit_between(between, to, plane, out);
-        let active = |last| {
-            let watch = Watch::default();
-            Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
-        };
+        let active =
+            |last| Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch };
         // the corner starts perpendicular to its own tangent; nothing remains of the element before it
         let stub = sub(corner, u);
         match straight(&template, &at, plane, stub, corner).filter(|_| !inside) {
             Some(line) => {
                 let ends = Side::Line { from: stub, to: corner };
-                active(Element::parallel(line, ends, to)).join(motion, side, out, cut)
+                let last = Element { motion: line, side: ends, start: to, course: Course::Corner };
+                active(last).join(motion, side, out, cut)
             }
             None => Ok(active(Element::parallel(motion, side, to))),
         }

@@ -104,9 +104,9 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: &["G", "FEEDRATE_SCALE"], meaning: "factor from mm/min to the unit of the F word (P-CHAN-00108)", read: |d, _| number(1.0 / d.machine.channel.feed.unit_mm_min) },
     Row { name: &["G", "MASS_MM"], meaning: "1 under G70 (inch)", read: |d, _| truth(d.modal.inch) },
     Row { name: &["G", "MASS_360"], meaning: "scaling of rotary axes; here 0", read: |_, _| number(0.0) },
-    Row { name: &["G", "I"], meaning: "centre of the last arc along the first main axis", read: |d, _| centre(d, 0) },
-    Row { name: &["G", "J"], meaning: "centre of the last arc along the second main axis", read: |d, _| centre(d, 1) },
-    Row { name: &["G", "K"], meaning: "centre of the last arc along the third main axis", read: |d, _| centre(d, 2) },
+    Row { name: &["G", "I"], meaning: "centre of the last arc along the first main axis: relative to its start, under G161 absolute", read: |d, _| centre(d, 0) },
+    Row { name: &["G", "J"], meaning: "centre of the last arc along the second main axis: relative to its start, under G161 absolute", read: |d, _| centre(d, 1) },
+    Row { name: &["G", "K"], meaning: "centre of the last arc along the third main axis: relative to its start, under G161 absolute", read: |d, _| centre(d, 2) },
     Row { name: &["G", "R"], meaning: "radius of the last arc", read: |d, _| number(d.geometry.last_arc.radius_mm / d.modal.unit_mm()) },
     Row { name: &["G", "MERR"], meaning: "correction of the centre of the last arc along main axis i", read: |d, p| {
         let i = p.index(d, 1, 2)?;
@@ -196,8 +196,10 @@ fn parameter(tool: &Tool, index: u32) -> f64 {
     tool.parameters.get(&index).copied().unwrap_or(0.0)
 }
 
-/// Centre of the last arc relative to its start, along a main axis.
+/// Centre of the last arc along a main axis, as I, J and K give it.
+///
+/// Assumption: the page (207916683) calls it the coordinate of the circular programming, so it is absolute for arcs under G161.
 fn centre(d: &Decoder, main: usize) -> Outcome<Value> {
     let place = d.geometry.last_arc.plane.iter().position(|m| *m == main);
-    number(place.map_or(0.0, |k| d.geometry.last_arc.centre_mm[k]) / d.modal.unit_mm())
+    number(place.map_or(0.0, |k| d.geometry.last_arc.programmed_mm[k]) / d.modal.unit_mm())
 }
