@@ -90,7 +90,7 @@ const FORMS: [(&str, f64, f64); 7] = [
     ("moved by 1e-9 mm", 1e-3, 0.0),
     ("every line in two", 1e-3, 0.0),
     ("reversed", 1e-3, 1.0),
-    ("FREQ 1 % higher", 0.03, 0.0),
+    ("FREQ 1 % higher", 0.035, 0.0),
     ("AX_DEV 1 % larger", 0.03, 0.0),
 ];
 /// Rounding of both times to cycles.

@@ -75,7 +75,12 @@ impl Planner {
             let in_time = kept.last().map_or(0.0, |e| e.end.cycles(self.cycle)) - WORTH;
             match self.search(window, forced, ends, Some(kept.clone()), &mut 1, in_time) {
                 Searched::Kept(shorter) => kept = shorter,
-                _ => self.plan.demands = before,
+                _ => {
+                    self.plan.demands = before;
+                    if !at_speed {
+                        break;
+                    }
+                }
             }
         }
         kept
