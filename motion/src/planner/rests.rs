@@ -21,6 +21,8 @@ use std::sync::Arc;
 const TRIES: usize = 4;
 /// Number of cycles that the rests have to save.
 const WORTH: f64 = 2.0;
+/// Share of the plan that shorter dwells have to save.
+const WORTH_SHARE: f64 = 5e-4;
 
 impl Planner {
     /// The faster plan: `kept`, which keeps the tolerance, or one that rests on some section that begins before block
@@ -65,15 +67,17 @@ impl Planner {
     ) -> Vec<Entry> {
         // a line from dwell to dwell need not be slow, but at its full speed the dwells may have to be longer
         for at_speed in [true, false, false] {
+            let end = kept.last().map_or(0.0, |e| e.end.cycles(self.cycle));
+            let takes = end - self.plan.start.moment.cycles(self.cycle);
             let shorter = self.monitor.shorter(&self.trial(&kept), &self.plan.demands);
-            let slow = at_speed && self.plan.demands.slows(&shorter);
-            if f64::from(shorter.saved) <= WORTH && !slow {
+            let saves = f64::from(shorter.saved) > WORTH.max(WORTH_SHARE * takes);
+            if !saves && !(at_speed && self.plan.demands.slows(&shorter)) {
                 continue;
             }
             let before = self.plan.demands.clone();
             self.plan.demands.shorten(&shorter, at_speed, window, &self.kernels, self.cycle);
-            let in_time = kept.last().map_or(0.0, |e| e.end.cycles(self.cycle)) - WORTH;
-            match self.search(window, forced, ends, Some(kept.clone()), &mut 1, in_time) {
+            let last = Some(kept.clone());
+            match self.search(window, forced, ends, last, &mut 1, end - WORTH) {
                 Searched::Kept(shorter) => kept = shorter,
                 _ => {
                     self.plan.demands = before;
