@@ -71,20 +71,20 @@ impl Planner {
             let takes = end - self.plan.start.moment.cycles(self.cycle);
             let shorter = self.monitor.shorter(&self.trial(&kept), &self.plan.demands);
             let saves = f64::from(shorter.saved) > WORTH.max(WORTH_SHARE * takes);
-            if !saves && !(at_speed && self.plan.demands.slows(&shorter)) {
+            if !(saves || at_speed && self.plan.demands.slows(&shorter)) {
                 continue;
             }
             let before = self.plan.demands.clone();
             self.plan.demands.shorten(&shorter, at_speed, window, &self.kernels, self.cycle);
             let last = Some(kept.clone());
-            match self.search(window, forced, ends, last, &mut 1, end - WORTH) {
-                Searched::Kept(shorter) => kept = shorter,
-                _ => {
-                    self.plan.demands = before;
-                    if !at_speed {
-                        break;
-                    }
-                }
+            let found = self.search(window, forced, ends, last, &mut 1, end - WORTH);
+            if let Searched::Kept(shorter) = found {
+                kept = shorter;
+                continue;
+            }
+            self.plan.demands = before;
+            if !at_speed {
+                break;
             }
         }
         kept
