@@ -4,11 +4,12 @@
 //! contours and prints the differences between their forms.
 
 use crate::common::{Job, axis, channel, contour};
+use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
-use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Trapez};
+use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 
 const CYCLE_US: u32 = 500;
@@ -34,7 +35,7 @@ impl Case {
         Self {
             points: contour(r, 100),
             axes: AxisDynamics { feed, ..axis(1.0) },
-            kind: r.pick(&[Trapez, Sin2, Hsc]),
+            kind: r.pick(&[Step, Trapez, Sin2, Hsc]),
             feed_mm_s: r.log(8.0, 330.0),
             guard: VibGuardSettings {
                 mode: r.pick(&[1, 2, 3, 4]),
@@ -45,20 +46,31 @@ impl Case {
         }
     }
 
+    /// Filter with the frequency in shares of that of the case.
+    fn filter(&self, freq: f64) -> Kernel {
+        let cycle = CycleTime::from_us(CYCLE_US).unwrap();
+        let guard = VibGuardSettings { freq_hz: freq * self.guard.freq_hz, ..self.guard };
+        guard.kernel(cycle).unwrap()
+    }
+
     /// Time in s.
-    fn time(&self, points: &Points, freq: f64, tolerance: f64) -> f64 {
-        self.time_after(0, points, freq, tolerance)
+    fn time(&self, points: &Points, filter: Kernel, tolerance: f64) -> f64 {
+        self.time_after(0, points, filter, tolerance)
     }
 
     /// Time in s of a motion that begins after some cycles.
-    fn time_after(&self, rest_cycles: usize, points: &Points, freq: f64, tolerance: f64) -> f64 {
-        let cycle = CycleTime::from_us(CYCLE_US).unwrap();
-        let guard = VibGuardSettings { freq_hz: freq * self.guard.freq_hz, ..self.guard };
+    fn time_after(
+        &self,
+        rest_cycles: usize,
+        points: &Points,
+        filter: Kernel,
+        tolerance: f64,
+    ) -> f64 {
         let ax_dev_mm = Some(tolerance * self.tolerance_mm);
         let job = Job {
             dynamics: channel(vec![self.axes; 3]),
             cycle_us: CYCLE_US,
-            kernel: Some(guard.kernel(cycle).unwrap()),
+            kernel: Some(filter),
             tolerance: Tolerance { ax_dev_mm, acc_fact: 1.0 },
             window: 500,
             rest_cycles,
@@ -70,20 +82,21 @@ impl Case {
 }
 
 /// Other forms of the same contour, and neighbouring settings; the largest relative difference in time permitted for
-/// each. The differences come from the choice of the blocks that are slowed down.
-const FORMS: [(&str, f64); 7] = [
-    ("begun later", 1e-9),
-    ("mirrored", 1e-3),
-    ("moved by 1e-9 mm", 1e-3),
-    ("every line in two", 0.015),
-    ("reversed", 0.03),
-    ("FREQ 1 % higher", 0.03),
-    ("AX_DEV 1 % larger", 0.03),
+/// each, and from how many cycles per corner on it counts. The differences come from the choice of the blocks that are
+/// slowed down.
+const FORMS: [(&str, f64, f64); 7] = [
+    ("begun later", 1e-9, 0.0),
+    ("mirrored", 1e-3, 0.0),
+    ("moved by 1e-9 mm", 1e-3, 0.0),
+    ("every line in two", 1e-3, 0.0),
+    ("reversed", 1e-3, 1.0),
+    ("FREQ 1 % higher", 0.035, 0.0),
+    ("AX_DEV 1 % larger", 0.03, 0.0),
 ];
-/// Share of the contours that may differ by more than `1e-3` with every line split in two.
-const SPLIT: f64 = 0.05;
+/// Rounding of both times to cycles.
+const ROUNDED_CYCLES: f64 = 2.0;
 
-/// Times of the forms in s; 0 for a form that is a different problem.
+/// Times of the forms in s.
 fn forms(case: &Case, r: &mut Random) -> [f64; 7] {
     let points = &case.points;
     let each =
@@ -94,37 +107,36 @@ fn forms(case: &Case, r: &mut Random) -> [f64; 7] {
         split.push([0, 1, 2].map(|i| w[0][i] + u * (w[1][i] - w[0][i])));
         split.push(w[1]);
     }
-    // a filter that is not symmetric in time gives another result backwards
-    let even = case.guard.damping <= 0.0;
-    let back = || case.time(&points.iter().rev().copied().collect(), 1.0, 1.0);
+    let same = || case.filter(1.0);
     [
-        case.time_after(1 + r.below(9000), points, 1.0, 1.0),
-        case.time(&each(&mut |p| [-p[0], p[1], p[2]]), 1.0, 1.0),
-        case.time(&each(&mut |p| p.map(|c| c + 1e-9 * r.between(-1.0, 1.0))), 1.0, 1.0),
-        case.time(&split, 1.0, 1.0),
-        if even { back() } else { 0.0 },
-        case.time(points, 1.01, 1.0),
-        case.time(points, 1.0, 1.01),
+        case.time_after(1 + r.below(9000), points, same(), 1.0),
+        case.time(&each(&mut |p| [-p[0], p[1], p[2]]), same(), 1.0),
+        case.time(&each(&mut |p| p.map(|c| c + 1e-9 * r.between(-1.0, 1.0))), same(), 1.0),
+        case.time(&split, same(), 1.0),
+        // backwards in time, the contour passes a filter whose response is reversed
+        case.time(&points.iter().rev().copied().collect(), same().reversed(), 1.0),
+        case.time(points, case.filter(1.01), 1.0),
+        case.time(points, same(), 1.01),
     ]
 }
 
 #[test]
 fn another_form_of_a_contour_takes_the_same_time() {
-    let mut r = Random::from_state(environment("SEED", 3));
+    let mut r = Random::from_state(environment("SEED", 5));
     let mut all: [Vec<f64>; 7] = Default::default();
-    for n in 0..environment("COUNT", 24) {
+    for n in 0..environment("COUNT", 40) {
         let case = Case::new(&mut r);
-        let time = case.time(&case.points, 1.0, 1.0);
+        let corners = (case.points.len() - 2) as f64;
+        let time = case.time(&case.points, case.filter(1.0), 1.0);
         let others = forms(&case, &mut Random::from_state(n));
-        for (((name, most), other), found) in FORMS.iter().zip(others).zip(&mut all) {
-            if other > 0.0 {
-                let differs = ((other - time).abs() - 2.0 * CYCLE_S).max(0.0) / time;
-                assert!(differs <= *most, "{n} {name}: {other} s instead of {time} s\n{case:?}");
-                found.push(differs);
-            }
+        for (((name, most, per_corner), other), found) in FORMS.iter().zip(others).zip(&mut all) {
+            let free = (ROUNDED_CYCLES + per_corner * corners) * CYCLE_S;
+            let differs = ((other - time).abs() - free).max(0.0) / time;
+            assert!(differs <= *most, "{n} {name}: {other} s instead of {time} s\n{case:?}");
+            found.push(differs);
         }
     }
-    for ((name, _), found) in FORMS.iter().zip(&mut all) {
+    for ((name, ..), found) in FORMS.iter().zip(&mut all) {
         found.sort_by(f64::total_cmp);
         let at = |share: f64| found[((found.len() - 1) as f64 * share) as usize];
         let over = found.iter().filter(|differs| **differs > 1e-3).count();
@@ -135,6 +147,5 @@ fn another_form_of_a_contour_takes_the_same_time() {
             at(1.0),
             found.len()
         );
-        assert!(*name != FORMS[3].0 || over as f64 <= (SPLIT * found.len() as f64).ceil());
     }
 }

@@ -59,7 +59,8 @@ impl Planner {
             let mut entries = match searched {
                 Searched::Kept(entries) if round > 1 && !given_up => {
                     let front = if rests { window.len() } else { last_window };
-                    self.rest_instead(&window, &forced, ends, entries, front)
+                    let entries = self.rest_instead(&window, &forced, ends, entries, front);
+                    self.shorten(&window, &forced, ends, entries)
                 }
                 Searched::Kept(entries) => entries,
                 Searched::Divided(parts) => {
@@ -163,7 +164,7 @@ impl Planner {
         self.monitor.excess(&self.trial(&[]))
     }
 
-    fn trial<'a>(&'a self, plan: &'a [Entry]) -> Trial<'a> {
+    pub(super) fn trial<'a>(&'a self, plan: &'a [Entry]) -> Trial<'a> {
         Trial {
             timeline: &self.timeline,
             plan,

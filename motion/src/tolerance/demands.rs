@@ -1,5 +1,6 @@
 //! The demands of the tolerance on the plan.
 
+use super::dwell::Shorter;
 use super::kernels::Kernels;
 use super::places::Places;
 use crate::asked::Asked;
@@ -125,6 +126,29 @@ impl Demands {
         for b in boundaries(&blocks, window) {
             (self.repeats[b], self.tried[b]) = (0, None);
             (self.cap[b], self.stop[b]) = (0.0, Some(kernels.length()));
+        }
+    }
+
+    /// Whether a line between two dwells has a demanded speed.
+    pub(crate) fn slows(&self, shorter: &Shorter) -> bool {
+        shorter.between.iter().any(|b| self.feed[*b].is_finite() || self.acceleration[*b] < 1.0)
+    }
+
+    /// Shortens dwells; `at_speed`: and drops the demands on the lines between two dwells.
+    pub(crate) fn shorten(
+        &mut self,
+        shorter: &Shorter,
+        at_speed: bool,
+        window: &[Arc<Queued>],
+        kernels: &Kernels,
+        cycle: CycleTime,
+    ) {
+        for b in shorter.between.iter().filter(|_| at_speed) {
+            self.feed[*b] = even_on(&window[*b], kernels, cycle);
+            (self.acceleration[*b], self.slower[*b]) = (1.0, (0, 0.0));
+        }
+        for (b, dwell) in &shorter.dwells {
+            (self.stop[*b], self.repeats[*b], self.tried[*b]) = (Some(*dwell), 0, None);
         }
     }
 

@@ -5,6 +5,7 @@
 
 use super::view::{Mark, View};
 use super::violation::within;
+use super::{Demands, Monitor, Trial};
 use crate::axis::AxisVec;
 use crate::deviation::{Excursion, SetPath};
 use crate::timeline::{PathState, Reader};
@@ -42,11 +43,51 @@ impl<'a> View<'a> {
     }
 }
 
+/// Dwells of a plan that could be shorter.
+#[derive(Default)]
+pub(crate) struct Shorter {
+    /// Boundaries with the shorter dwell in cycles.
+    pub(super) dwells: Vec<(usize, u32)>,
+    /// Blocks of straight lines from one dwell to the next.
+    pub(super) between: Vec<usize>,
+    /// Sum of the cycles by which the dwells are shorter.
+    pub(crate) saved: u32,
+}
+
+impl Monitor {
+    /// The dwells of a plan that could be shorter if nothing else changed.
+    pub(crate) fn shorter(&self, trial: &Trial<'_>, demands: &Demands) -> Shorter {
+        let view = View::new(trial, self);
+        let mut out = Shorter::default();
+        let mut line: Option<Vec<usize>> = None;
+        for mark in &view.marks {
+            let (Some(b), Some(block)) = (mark.boundary, mark.block) else { continue };
+            let was = demands.stop[b].filter(|dwell| *dwell > 0);
+            if let Some(was) = was {
+                out.between.extend(line.take().into_iter().flatten());
+                let rest = view.rest_at(mark, was);
+                let now = if rest.keeps(0) { 0 } else { rest.needed(0, was) };
+                if b > 0 && now < was {
+                    out.dwells.push((b, now));
+                    out.saved += was - now;
+                }
+                line = Some(Vec::new());
+            } else if mark.is_kink() {
+                line = None;
+            }
+            if let Some(line) = &mut line {
+                line.push(block);
+            }
+        }
+        out
+    }
+}
+
 impl Rest<'_> {
-    /// Smallest dwell in cycles that keeps the tolerance at this corner, by bisection; longer than the present one and
-    /// at most `most`, which is returned if none is found.
-    pub(super) fn needed(&self, most: u32) -> u32 {
-        let (mut low, mut high) = (self.dwell, most);
+    /// Smallest dwell in cycles that keeps the tolerance at this corner, by bisection; longer than `low`, which does
+    /// not keep it, and at most `most`, which is returned if none is found.
+    pub(super) fn needed(&self, mut low: u32, most: u32) -> u32 {
+        let mut high = most;
         while high - low > 1 {
             let mid = low + (high - low) / 2;
             if self.keeps(mid) { high = mid } else { low = mid }

@@ -79,7 +79,7 @@ impl View<'_> {
                 // in small steps, because neighbouring corners within reach share the error
                 let most = (dwell + (full / 8).max(1)).min(full);
                 let least = 1 + (GROWTH * f64::from(full) * f64::from(demands.repeats[b])) as u32;
-                let needed = self.rest_at(mark, dwell).needed(most);
+                let needed = self.rest_at(mark, dwell).needed(dwell, most);
                 demands.stop[b] = Some(needed.max(dwell + least).min(full));
                 demands.repeats[b] += 1;
                 continue;
