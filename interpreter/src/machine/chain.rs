@@ -24,7 +24,7 @@ impl Machine {
     /// Loads a machine from its start-up list and applies overrides. Returns the machine with all warnings.
     ///
     /// # Errors
-    /// All diagnostics, if at least one of them is an error: K-0160 a list that cannot be read, K-0031 numbers that do
+    /// All diagnostics, if at least one of them is an error: K-0153 a list that cannot be read, K-0031 numbers that do
     /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110076, 110268, 110270, 110472, 120178.
     pub fn load(
         files: &dyn ListFiles,
@@ -60,7 +60,7 @@ pub(super) fn beside(start_up: &str, named: &str) -> String {
     }
 }
 
-/// K-0160.
+/// K-0153.
 fn unreadable(path: &str, reason: &str, hint: &str) -> Diagnostic {
     let text = format!("list `{path}` cannot be read: {reason}");
     Diagnostic::new(Condition::NoList, text).hint(hint)

@@ -34,7 +34,7 @@ fn numbers_that_do_not_fit_together() {
     );
     let mut files = Memory::machine();
     files.0.remove("m/lists/y.lis");
-    assert_eq!(files.ids(&[]), ["K-0160", "K-0031"]);
+    assert_eq!(files.ids(&[]), ["K-0153", "K-0031"]);
     let errors = Memory::default().load(&[]).unwrap_err();
     assert_eq!(errors[0].id, Condition::NoList);
     // --path is for subroutines
