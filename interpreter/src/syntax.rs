@@ -261,13 +261,16 @@ impl Parser {
             Err(error) => {
                 let mut found = problem::from_error(&error, &masked.text, context, 0);
                 if mode == Mode::Declaration && found.condition == Condition::Syntax {
-                    found.condition = Condition::DeclarationCharacter;
                     let first = masked.text.trim_ascii_start().as_bytes().first();
-                    if matches!(first, Some(b'R' | b'r')) {
-                        found.condition = Condition::RadiusArray;
-                    } else if !matches!(first, Some(b'V' | b'v' | b'P' | b'p' | b'@')) {
-                        found = found.hint("check whether #ENDVAR is missing before it");
-                    }
+                    found = match first {
+                        Some(b'R' | b'r') => found.of(Condition::RadiusArray),
+                        Some(b'V' | b'v' | b'P' | b'p' | b'@') => {
+                            found.of(Condition::DeclarationCharacter)
+                        }
+                        _ => found
+                            .of(Condition::DeclarationCharacter)
+                            .hint("check whether #ENDVAR is missing before it"),
+                    };
                 }
                 // the text after a function without its bracket is not a word
                 let lost = found.condition == Condition::FunctionBracket;

@@ -250,7 +250,8 @@ impl AxisControl {
 
     /// Replaces the permitted range of the actual positions in mm, tolerance included; `None`: not monitored.
     pub fn limit_range(&mut self, range_mm: Option<(f64, f64)>) {
-        self.range.set(range_mm);
+        self.range = RangeMonitor::new(range_mm);
+        self.range.start(self.controlled_mm());
         self.still_cycles = 0;
     }
 

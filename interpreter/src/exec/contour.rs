@@ -264,8 +264,8 @@ impl Contour {
     /// Whether G40 is programmed, and the motion that ends compensation is still to come (G05, G138, G139).
     pub(super) fn awaits_departure(&self) -> bool {
         // the last motion is on its way through the stages
-        let departs = self.held.as_ref().is_some_and(|held| held.compensation.is_none());
-        !departs && self.compensator.awaits_departure()
+        let held = self.held.as_ref().filter(|held| held.compensation.is_none());
+        self.compensator.awaits_departure(held.map(|held| &held.block.path))
     }
 
     /// The corner after the last motion is not rounded.

@@ -304,6 +304,12 @@ impl Decoder {
                 .hint("without this key, the default, it does not end the spline of the control");
             self.report.note_once("AUTO_OFF_G60", fault);
         }
+        if rounds && self.contour.hsc.contour().is_some() {
+            let text = "G61, G261 and #HSC [OPMODE=1] at once: the corner is rounded by #CONTOUR MODE, not within CONTERROR";
+            let fault = Fault::new(Condition::Fallback, text, span);
+            self.report
+                .note_once("CONTERROR", fault.hint("switch one of the two off: G260 or #HSC OFF"));
+        }
         let late_braking =
             self.modal.brakes_late(once(Act::EarlyBrakingOnce), span, &mut self.report);
         if rounds {

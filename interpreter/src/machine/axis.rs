@@ -1,6 +1,7 @@
 //! One axis of the machine: its parameters, and the planner's values derived from them.
 
 use super::gears;
+use super::inert;
 use super::key::Key;
 use super::kind::{AxisKind, logical_number, mode};
 use super::parameters::Kind;
@@ -402,6 +403,7 @@ impl Axis {
         let check = |parameters: &mut Parameters| {
             let mut found = Vec::new();
             plausible::check(parameters, cycle, Some(&axis), &mut found);
+            inert::check(parameters, Some(&axis), &mut found);
             found
         };
         // a function that is off is found again, but was reported with the list

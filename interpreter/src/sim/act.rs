@@ -194,10 +194,18 @@ impl Simulation {
     }
 
     /// Monitors the actual positions of an axis with other software limits.
+    ///
+    /// Assumption: limits of the program hold for the gantry slaves of the axis as well, whose set positions are the same.
     fn limit_axis(&mut self, axis: usize, limits_mm: Option<(f64, f64)>) {
-        let range_mm =
-            limits_mm.map(|limits_mm| self.machine.axes[axis].actual_range_mm(limits_mm));
-        self.chains[axis].limit_range(range_mm);
+        let listed = self.machine.axes[axis].software_limits_mm() == limits_mm;
+        let sides = self.machine.all_axes().zip(&mut self.chains).zip(&self.drivers).enumerate();
+        for (i, ((side, chain), driver)) in sides {
+            if *driver == Driver::Path(axis) {
+                let own = listed && i != axis;
+                let limits_mm = if own { side.software_limits_mm() } else { limits_mm };
+                chain.limit_range(limits_mm.map(|limits_mm| side.actual_range_mm(limits_mm)));
+            }
+        }
     }
 
     /// Gives the axis and its gantry slaves new set positions. Those of the path do not change.

@@ -39,6 +39,11 @@ impl Problem {
         Self::new(Condition::Syntax, span, text)
     }
 
+    /// The same place with another condition and its hint.
+    pub(super) fn of(self, condition: Condition) -> Self {
+        Self { condition, hint: None, ..self }
+    }
+
     pub(super) fn hint(mut self, hint: impl Into<Cow<'static, str>>) -> Self {
         self.hint = Some(hint.into());
         self

@@ -5,6 +5,10 @@
 
 use crate::control::fault::Fault;
 
+/// Excess in mm that is attributed to rounding: an axis approaches its target from either side to the last digits. Limits
+/// are written in steps a hundred times as large.
+const ROUNDING_MM: f64 = 1e-6;
+
 /// Range monitor with its state.
 #[derive(Clone, Debug)]
 pub struct RangeMonitor {
@@ -18,24 +22,20 @@ impl RangeMonitor {
         Self { range_mm, beyond: false }
     }
 
-    /// Axis at rest at a position.
+    /// Starts at an actual position.
     ///
-    /// Assumption: an axis that starts outside is monitored from its first position inside on; the documents only say
-    /// that the path preparation reports it.
+    /// Assumption: outside the range an axis is monitored from its first position inside on. The documents only say
+    /// that the path preparation reports a start outside; a limit that the program narrows in motion would otherwise
+    /// be passed by the lag of the axis.
     pub fn start(&mut self, position_mm: f64) {
         self.beyond = self.limit_passed(position_mm).is_some();
-    }
-
-    /// Replaces the range. Outside a smaller one a resting axis raises a fault, too.
-    pub const fn set(&mut self, range_mm: Option<(f64, f64)>) {
-        self.range_mm = range_mm;
     }
 
     fn limit_passed(&self, actual_mm: f64) -> Option<f64> {
         let (low, high) = self.range_mm?;
         match actual_mm {
-            x if x > high => Some(high),
-            x if x < low => Some(low),
+            x if x > high + ROUNDING_MM => Some(high),
+            x if x < low - ROUNDING_MM => Some(low),
             _ => None,
         }
     }
@@ -57,7 +57,7 @@ mod tests {
     fn each_way_out_of_the_range_is_reported_once() {
         let mut monitor = RangeMonitor::new(Some((-10.0, 20.0)));
         monitor.start(0.0);
-        let positions = [0.0, 20.0, 20.1, 21.0, 19.0, 20.2, -10.0, -10.5, -11.0];
+        let positions = [0.0, 20.0 + 1e-9, 20.1, 21.0, 19.0, 20.2, -10.0, -10.5, -11.0];
         let faults: Vec<_> = positions.iter().map(|x| monitor.step(*x)).collect();
         let fault = |actual_mm, limit_mm| Some(Fault::BeyondLimit { actual_mm, limit_mm });
         let out = [(2, 20.1, 20.0), (5, 20.2, 20.0), (7, -10.5, -10.0)];
@@ -74,7 +74,12 @@ mod tests {
         monitor.start(0.0);
         assert_eq!([0.0, 0.5, 1.5].map(|x| monitor.step(x)), [None; 3]);
         assert!(monitor.step(0.9).is_some());
-        monitor.set(None);
-        assert_eq!([5.0, -5.0].map(|x| monitor.step(x)), [None; 2]);
+    }
+
+    #[test]
+    fn without_a_range_nothing_is_monitored() {
+        let mut monitor = RangeMonitor::new(None);
+        monitor.start(0.0);
+        assert_eq!([1e9, -1e9].map(|x| monitor.step(x)), [None; 2]);
     }
 }

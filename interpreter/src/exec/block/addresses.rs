@@ -118,7 +118,7 @@ impl Decoder {
             block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
         } else if sign.is_some_and(|sign| has_another_sign(sign, value)) {
             let text = format!("{} has several signs", self.names.name(axis));
-            let hint = "write a single sign: X--5 is X5";
+            let hint = "write a single sign: X--5 is X5, X+-5 is X-5";
             self.report.note(Fault::new(Condition::Odd, text, span).hint(hint));
         }
         let value = self.number(value)?;

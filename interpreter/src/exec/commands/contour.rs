@@ -380,6 +380,11 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = format!("#HSC: {key} belongs to the B-spline, whose first key is BSPLINE");
         return Err(Fault::new(Condition::TokenUnknown, text, at));
     }
+    if let (false, Some((_, at))) = (hsc.rounds_corners, keys.conterror) {
+        let text = "CONTERROR has no effect on a B-spline: it belongs to OPMODE=1";
+        let hint = "write #HSC [OPMODE=1 CONTERROR=..], or PATH_DEV for the B-spline";
+        decoder.report.note(Fault::new(Condition::Odd, text, at).hint(hint));
+    }
     set(&mut hsc.spline.path_dev_mm, keys.path_dev, unit);
     set(&mut hsc.spline.track_dev_deg, keys.track_dev, 1.0);
     set(&mut hsc.spline.max_length_mm, keys.max_path_length, unit);

@@ -37,6 +37,7 @@ use element::{Course, Element, moving_side, runs_back};
 use ends::line;
 use failure::Fallible;
 use inside::Closed;
+use kontur_motion::path::Path;
 
 use tangential::Touch;
 
@@ -73,9 +74,16 @@ impl Compensator {
         self.active.is_some() || self.closed.is_some()
     }
 
-    /// Whether the next motion in the plane is the departure: with G237 the tool has left before it.
-    pub(in crate::exec::contour) fn awaits_departure(&self) -> bool {
-        self.deselected && self.active.as_ref().is_some_and(|active| !active.perpendicular)
+    /// Whether the departure is still to come after a motion along this path: it is the next motion in the plane. With G237 the
+    /// tool has left before it.
+    pub(in crate::exec::contour) fn awaits_departure(&self, path: Option<&Path>) -> bool {
+        let departs = |plane: [usize; 2]| {
+            path.is_some_and(|path| {
+                plane.iter().any(|i| path.start()[*i].to_bits() != path.end()[*i].to_bits())
+            })
+        };
+        self.deselected
+            && self.active.as_ref().is_some_and(|a| !a.perpendicular && !departs(a.plane))
     }
 
     /// Motions without compensation pass unchanged.

@@ -148,7 +148,7 @@ impl Decoder {
         }
         self.geometry.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
         self.geometry.last_arc.programmed_mm = self.geometry.last_arc.centre_mm;
-        if self.modal.centre_absolute && has_centre && tilt.is_none() {
+        if self.modal.centre_absolute && tilt.is_none() {
             let mut centre = start.clone();
             for k in 0..2 {
                 centre[plane[k]] = arc.centre[k] + self.motion.independent.way[plane[k]];

@@ -22,7 +22,7 @@ use crate::machine::{Acknowledged, Channel, Machine, SpindleMoment};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{
-    ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance, VectorLimits,
+    Block, ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance, VectorLimits,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -265,8 +265,8 @@ pub(in crate::exec) struct Threads {
     pub(super) tapping_rpm: Option<f64>,
     /// Whether the path follows the rotating spindle.
     pub(in crate::exec::motion) cutting: bool,
-    /// Direction of the previous block of G33.
-    pub(super) direction: AxisVec,
+    /// The previous block of a chain.
+    pub(super) last: Option<Box<Block>>,
     /// Speed of the spindle in the previous block of G33 in rev/min, and its pitch in mm.
     pub(super) rpm: f64,
     pub(super) cut_mm: f64,

@@ -30,8 +30,8 @@ use crate::exec::report::{Report, Subject};
 use crate::exec::step::{SpindleState, Sync};
 use crate::syntax::ast::{ItemKind, Span};
 use kontur_filters::time::CycleTime;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
+use kontur_motion::junction::{Ends, transition};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::queue::Queued;
@@ -45,15 +45,6 @@ const PITCH_ROUNDING_MM: f64 = 1e-9;
 
 /// Fraction of the thread speed that must be reached: all of it, except for rounding.
 const SHORT: f64 = 1.0 - 1e-6;
-/// Cosine of the largest corner angle of a thread of several blocks.
-const STRAIGHT: f64 = 1.0 - 1e-9;
-
-/// Direction of a straight path.
-fn direction_of(path: &Path) -> AxisVec {
-    let mut direction = path.start().clone();
-    path.tangent(0.0, &mut direction);
-    direction
-}
 
 impl Threads {
     /// The pitch of a path: that of its longest main axis with a pitch.
@@ -280,13 +271,12 @@ impl Decoder {
         if self.report.failed() && !self.checking {
             return Ok(());
         }
-        let direction = direction_of(&block.path);
         let rpm = self.motion.spindles[0].rpm;
         let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
         if self.motion.threads.cutting {
-            self.chain_fits(&direction, rpm, pitch_mm, offset.map(|(_, _, at)| *at), span)?;
+            self.chain_fits(&block, rpm, pitch_mm, offset.map(|(_, _, at)| *at), span)?;
         }
-        self.motion.threads.direction = direction;
+        self.motion.threads.last = modes.chain.then(|| block.clone());
         self.motion.threads.rpm = rpm;
         self.motion.threads.cut_mm = pitch_mm;
         if !self.motion.threads.cutting {
@@ -305,7 +295,7 @@ impl Decoder {
     /// between other blocks; the pitch of these stretches is reported as not kept.
     fn chain_fits(
         &mut self,
-        direction: &AxisVec,
+        block: &Block,
         rpm: f64,
         pitch_mm: f64,
         offset: Option<Span>,
@@ -321,8 +311,11 @@ impl Decoder {
             return Err(Fault::unsupported(what, at)
                 .hint("the chain starts at the angle of its first block; end it with G00 or #TURN [THREAD_CHAIN=0]"));
         }
-        let cosine: f64 = direction.iter().zip(before.direction.iter()).map(|(a, b)| a * b).sum();
-        let text = if cosine < STRAIGHT {
+        let text = if before
+            .last
+            .as_deref()
+            .is_some_and(|last| slows_between(last, block, self.machine.cycle))
+        {
             "the thread changes its direction: the path slows down at the corner, the pitch differs there".to_owned()
         } else if (before.cut_mm - pitch_mm).abs() > PITCH_ROUNDING_MM {
             let unit = self.modal.unit_mm();
@@ -373,6 +366,16 @@ impl Decoder {
 /// G166 in the block.
 fn has_full_override(words: &Words<'_>) -> bool {
     words.g.iter().any(|g| g.row.act == Act::FullOverride)
+}
+
+/// Whether the path passes from one block of a chain to the next below the speed of both.
+fn slows_between(last: &Block, next: &Block, cycle: CycleTime) -> bool {
+    let cap = transition(last, next, &Ends::of(last), &Ends::of(next), cycle, false);
+    let speed = |block: &Block| {
+        let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));
+        speeds.limited(speeds.programmed_mm_s).v_mm_s
+    };
+    cap.v_mm_s < SHORT * speed(last).min(speed(next))
 }
 
 /// K-0132 for a thread from standstill to standstill that ends before the path reaches the speed of its pitch.
