@@ -47,6 +47,15 @@ const PITCH_ROUNDING_MM: f64 = 1e-9;
 const SHORT: f64 = 1.0 - 1e-6;
 
 impl Threads {
+    /// Whether a block begins where the last one of a chain has ended.
+    fn continues(&self, block: &Block) -> bool {
+        let starts = block.path.start();
+        let same = |last: &Block| {
+            last.path.end().iter().zip(starts.iter()).all(|(a, b)| a.to_bits() == b.to_bits())
+        };
+        self.turning.chain && self.last.as_deref().is_some_and(same)
+    }
+
     /// The pitch of a path: that of its longest main axis with a pitch.
     fn pitch(
         &self,
@@ -275,6 +284,10 @@ impl Decoder {
         let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
         if self.motion.threads.cutting {
             self.chain_fits(&block, rpm, pitch_mm, offset.map(|(_, _, at)| *at), span)?;
+        } else if self.motion.threads.continues(&block) {
+            let text = "the path has stopped within the chain: this block waits for the mark of the spindle like a new thread";
+            let hint = "move G04, G60 and commands that stop the path out of the chain";
+            self.report.note(Fault::new(Condition::ThreadBroken, text, span).hint(hint));
         }
         self.motion.threads.last = modes.chain.then(|| block.clone());
         self.motion.threads.rpm = rpm;
