@@ -44,10 +44,20 @@ fn unbalanced(masked: &str) -> Option<String> {
         if bracket == "[" {
             open.push(at);
         } else if open.pop().is_none() {
-            return Some(format!("the ] in column {} closes no bracket", at + 1));
+            return Some(format!("the ] of `{}` closes no bracket", word_at(&code, at)));
         }
     }
-    open.last().map(|at| format!("close the bracket that is opened in column {}", at + 1))
+    open.last().map(|at| format!("close the bracket of `{}`", word_at(&code, *at)))
+}
+
+/// The word around a bracket. Its column would not do: the block may have several lines.
+fn word_at(code: &str, at: usize) -> String {
+    const LONGEST: usize = 24;
+    let (before, after) = code.split_at(at);
+    let before = before.rsplit(char::is_whitespace).next().unwrap_or_default();
+    let before: Vec<char> = before.chars().rev().take(LONGEST).collect();
+    let after = after.split(char::is_whitespace).next().unwrap_or_default();
+    before.into_iter().rev().chain(after.chars().take(LONGEST)).collect()
 }
 
 /// `#SLOPE TYPE=TRAPEZ`: the key of a command without its bracket.

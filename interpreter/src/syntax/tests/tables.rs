@@ -112,8 +112,9 @@ fn messages_say_what_was_expected() {
 #[test]
 fn hints_fit_the_mistake() {
     for (line, expected) in [
-        ("G01 X[2*[3+1] F100", "column 6"),
-        ("X2*3] F100", "the ] in column 5"),
+        ("G01 X[2*[3+1] F100", "the bracket of `X[2*[3+1]`"),
+        ("(\u{e4}) G01 X1 Y[2 F100", "the bracket of `Y[2`"),
+        ("X2*3] F100", "the ] of `X2*3]` closes no bracket"),
         ("#SLOPE TYPE=TRAPEZ", "#SLOPE [TYPE=TRAPEZ]"),
         ("#MSG [\"a]", "close the text"),
         ("G01 X F100", "X10.5"),
