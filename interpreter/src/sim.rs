@@ -36,7 +36,7 @@ pub use thread::Work;
 pub(crate) use thread::give;
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::exec::{EndReason, Event, SourceRef, Sync};
+use crate::exec::{EndReason, Event, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion, RowBuffer};
 use axes::Driver;
@@ -105,6 +105,17 @@ enum After {
     End(EndReason),
 }
 
+/// A continuation with its block.
+#[derive(Debug)]
+struct Pending {
+    after: After,
+    source: SourceRef,
+    /// They occur when the path has stopped.
+    events: Vec<Event>,
+    /// Blocks of the program up to it.
+    blocks: u64,
+}
+
 /// One channel running one program.
 #[derive(Debug)]
 pub(crate) struct Simulation {
@@ -135,7 +146,12 @@ pub(crate) struct Simulation {
     /// Block of the last stop of every chain.
     stops_at: Vec<SourceRef>,
     jerk_limited: bool,
-    pending: Option<(After, SourceRef, Vec<Event>)>,
+    /// What happens when the path has come to rest.
+    pending: Option<Pending>,
+    /// A wait at the end of a block whose corner is rounded, until the block after it is known.
+    at_corner: Option<Pending>,
+    /// A step after such a wait that is not that block.
+    postponed: Option<Step>,
     phase: Phase,
     /// The cycle computed last; initially the state at time zero.
     record: CycleRecord,

@@ -20,7 +20,7 @@ mod spline;
 use crate::axis::AxisDynamics;
 use std::sync::Arc;
 
-pub use contour::{ContourMode, ContourSettings};
+pub use contour::{BlockLimit, ContourMode, ContourSettings};
 pub use spline::SplineSettings;
 
 /// Shape of the acceleration over time (P-CHAN-00071, `#SLOPE`).

@@ -1,12 +1,13 @@
 //! Polynomial contouring (G61, G261, `#CONTOUR MODE`): a stage between program and planner.
 //!
 //! At the end of every block with [`Block::contour`] the corner is replaced by a curve ([`blend`]): the block and the
-//! next relevant one are shortened by the corner distances, and the curve gets the number of the block before it. Where
-//! that is not possible the corner is kept as programmed, and a [`Notice`] gives the reason. The stage holds one such
-//! block and the blocks after it that are too short to be relevant, at most [`SKIPPED`] of them.
+//! next relevant one are shortened by the corner distances, and each part of the curve gets the number of the block that it
+//! belongs to ([`BlockLimit`]). Where that is not possible the corner is kept as programmed, and a [`Notice`] gives the reason.
+//! The stage holds one such block and the blocks after it that are too short to be relevant, at most [`SKIPPED`] of them.
 //!
 //! Order of calls: [`Contouring::push`] for each block returns the final blocks and curves; [`Contouring::flush`] where
-//! the path stops.
+//! the path stops. Where it only waits at the end of the held block, [`Contouring::push_behind_stop`] and
+//! [`Contouring::flush_behind_stop`] take their places.
 //!
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
@@ -20,9 +21,11 @@
 //! first.contour = Some(ContourSettings::default());
 //! assert_eq!(stage.push(first, false).count(), 0);
 //! let rounded: Vec<Block> = stage.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0), false).collect();
-//! // what is left of the first block, then the parts of the curve in its name
-//! assert!(rounded.iter().filter(|b| b.seq == 1).count() == rounded.len() - 1);
+//! // what is left of the first block, then the first half of the curve in its name
 //! assert!(rounded[0].path.is_straight() && !rounded[1].path.is_straight());
+//! let limit = rounded.iter().position(|b| b.seq == 2).unwrap();
+//! let corner = rounded[limit].path.start();
+//! assert!((10.0 - corner[0] - corner[1]).abs() < 1e-12);
 //! // and what is left of the second, whose own end stays as it is
 //! assert!(rounded.iter().rposition(|b| b.path.is_straight()) == Some(rounded.len() - 1));
 //! assert_eq!(stage.flush().count(), 0);
@@ -33,7 +36,7 @@ mod notice;
 mod rounding;
 
 use crate::block::{
-    Block, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed, SlopeKind,
+    Block, BlockLimit, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed, SlopeKind,
 };
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::piece::section;
@@ -73,6 +76,8 @@ pub struct Contouring {
     held: Option<Held>,
     skipped: Vec<Block>,
     ready: Vec<Block>,
+    /// Number of those that belong to the block before the corner and to earlier ones.
+    before_limit: usize,
     notices: Vec<Notice>,
     /// Limits as given, and with the jerk check of the settings.
     checked: Option<(Arc<ChannelDynamics>, Arc<ChannelDynamics>)>,
@@ -82,7 +87,7 @@ impl Contouring {
     /// An empty stage.
     pub fn new(cycle: CycleTime) -> Self {
         let (skipped, ready, notices) = (Vec::new(), Vec::new(), Vec::new());
-        Self { cycle, held: None, skipped, ready, notices, checked: None }
+        Self { cycle, held: None, skipped, ready, before_limit: 0, notices, checked: None }
     }
 
     /// Whether [`Self::push`] would return this block at once and alone: no corner at it is rounded, and no block is
@@ -98,14 +103,48 @@ impl Contouring {
         self.ready.drain(..)
     }
 
+    /// Whether a block is held at whose end the path may wait: no block after it has been pushed.
+    pub fn awaits_next(&self) -> bool {
+        self.held.is_some() && self.skipped.is_empty()
+    }
+
+    /// As [`Self::push`], where the path comes to rest at the end of the held block: the blocks before that stop, and those
+    /// after it. Both are empty while the block after the corner is not known.
+    pub fn push_behind_stop(&mut self, block: Block, kernel_active: bool) -> [Vec<Block>; 2] {
+        self.take(block, kernel_active);
+        self.parted()
+    }
+
     /// Returns everything that is held, where the path stops after the last block.
     pub fn flush(&mut self) -> impl Iterator<Item = Block> + '_ {
+        self.keep_corner();
+        self.ready.drain(..)
+    }
+
+    /// As [`Self::flush`], where the path also comes to rest at the end of the held block.
+    pub fn flush_behind_stop(&mut self) -> [Vec<Block>; 2] {
+        self.keep_corner();
+        self.parted()
+    }
+
+    fn keep_corner(&mut self) {
         if let Some(held) = self.held.take() {
             self.notice(held.block.seq, NoContour::NothingFollows);
-            self.emit(held, None);
-            self.ready.append(&mut self.skipped);
+            self.emit_sharp(held);
         }
-        self.ready.drain(..)
+    }
+
+    /// The held block, with its corner as programmed, and the short ones after it.
+    fn emit_sharp(&mut self, held: Held) {
+        self.emit(held, None);
+        self.before_limit = self.ready.len();
+        self.ready.append(&mut self.skipped);
+    }
+
+    fn parted(&mut self) -> [Vec<Block>; 2] {
+        let after = self.ready.split_off(self.before_limit.min(self.ready.len()));
+        self.before_limit = 0;
+        [std::mem::take(&mut self.ready), after]
     }
 
     /// The corners since the last call that were not contoured as programmed.
@@ -166,6 +205,8 @@ impl Contouring {
                     self.notice(seq, NoContour::ModeReplaced);
                 }
                 self.emit(held, Some(curve.pre_mm));
+                let of_held = parts.iter().filter(|(part, _)| part.seq == seq).count();
+                self.before_limit = self.ready.len() + of_held;
                 self.ready.extend(parts.into_iter().map(|(part, _)| part));
                 self.skipped.clear();
                 from = curve.post_mm;
@@ -174,8 +215,7 @@ impl Contouring {
                 if let Err(reason) = refused {
                     self.notice(seq, reason);
                 }
-                self.emit(held, None);
-                self.ready.append(&mut self.skipped);
+                self.emit_sharp(held);
             }
         }
         self.hold(Held { block, from });
@@ -238,10 +278,16 @@ impl Contouring {
         }
         let parts = if settings.constant_velocity { 1 } else { PARTS };
         let feed_axes = from.dynamics.feed_axes.clone();
+        let limit = match settings.limit {
+            BlockLimit::Before => 0,
+            BlockLimit::Within => parts,
+            BlockLimit::After => 2 * parts,
+        };
         let timed = |piece: PolyPiece, i: u32| {
             let (feed, feed_ratio) = halves[usize::from(i >= parts)];
+            let seq = if i < limit { from.seq } else { to.seq };
             let path = Path::Curve(Box::new(PolyPath::through(vec![piece.clone()], &feed_axes)?));
-            let block = Block { path, feed, feed_ratio, ..block.clone() };
+            let block = Block { seq, path, feed, feed_ratio, ..block.clone() };
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
             let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
             let is_limited = v < speeds.programmed_mm_s * (1.0 - ROUNDING);
@@ -262,7 +308,7 @@ impl Contouring {
         let groups = pieces.chunk_by(|one, next| {
             let same = settings.constant_velocity || (next.v - one.v).abs() <= 1e-9 * one.v;
             let (a, b) = (&one.block, &next.block);
-            same && (a.feed, a.feed_ratio) == (b.feed, b.feed_ratio)
+            same && (a.seq, a.feed, a.feed_ratio) == (b.seq, b.feed, b.feed_ratio)
         });
         let joined = |group: &[Timed]| {
             if let [single] = group {

@@ -106,10 +106,10 @@ fn once_and_the_old_form() {
     assert_eq!(fallbacks(&old), 0);
 }
 
-/// An exact stop, a dwell and a flush leave the corner as programmed.
+/// An exact stop and a flush leave the corner as programmed.
 #[test]
 fn stops_suppress_contouring() {
-    for (at, stop) in [("G60", ""), ("", "G04 0.1\n"), ("", "#FLUSH WAIT\n")] {
+    for (at, stop) in [("G60", ""), ("", "#FLUSH WAIT\n")] {
         let program = format!(
             "%S\nG90 G01 F600\n#CONTOUR MODE ON [PATH_DEV=0.1]\n{at} X20\n{stop}G261 Y20\nG260 X0\nM30\n"
         );

@@ -160,6 +160,22 @@ pub(crate) enum Sync {
     },
 }
 
+impl Sync {
+    /// Whether the path stops for this although the program does not ask for it, as it does with commands that empty the
+    /// channel (207042443) and with functions and dwells, which are executed within a rounded corner.
+    pub(super) fn interrupts(&self) -> bool {
+        matches!(
+            self,
+            Self::Independent { .. }
+                | Self::Shaping(_)
+                | Self::ReadActual
+                | Self::TakeActual
+                | Self::SetPosition { .. }
+                | Self::MachineData { .. }
+        )
+    }
+}
+
 /// Reason for the end of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum EndReason {

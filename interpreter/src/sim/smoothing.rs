@@ -15,6 +15,8 @@ use std::collections::BTreeSet;
 pub(super) struct Smoothing {
     splining: Splining,
     contouring: Contouring,
+    /// What follows a wait at a rounded corner.
+    behind: Vec<Block>,
     /// Places already reported: condition, file, line.
     said: BTreeSet<(Condition, u32, u32)>,
     /// The motions that did not pass unchanged.
@@ -25,7 +27,8 @@ impl Smoothing {
     /// Empty stages.
     pub(super) fn new(cycle: CycleTime) -> Self {
         let (splining, contouring) = (Splining::new(cycle), Contouring::new(cycle));
-        Self { splining, contouring, said: BTreeSet::new(), changed: Changed::default() }
+        let (said, changed) = (BTreeSet::new(), Changed::default());
+        Self { splining, contouring, behind: Vec::new(), said, changed }
     }
 
     /// Takes a programmed motion; final blocks go to the planner.
@@ -41,6 +44,48 @@ impl Smoothing {
                 planner.push(block);
             }
         }
+    }
+
+    /// Whether the path may wait at a rounded corner, whose block after it is still to come.
+    pub(super) fn awaits_next(&self) -> bool {
+        self.contouring.awaits_next()
+    }
+
+    /// Whether a motion is the block after a corner, rather than one of a spline.
+    pub(super) fn joins_corner(&self, block: &Block) -> bool {
+        self.splining.passes(block)
+    }
+
+    /// As [`Self::push`], where the path waits at the end of the block before: what is driven before that goes to the
+    /// planner, the rest is kept until [`Self::resume`]. Returns whether the place of the wait is found; until then the next
+    /// motion is to be pushed in the same way.
+    pub(super) fn push_behind_stop(&mut self, block: Box<Block>, planner: &mut Planner) -> bool {
+        self.changed.begin(block.seq);
+        let parted = self.contouring.push_behind_stop(*block, planner.has_kernels());
+        let found = parted.iter().any(|blocks| !blocks.is_empty());
+        self.part(parted, planner);
+        found
+    }
+
+    /// The end of the block before the wait stays as programmed.
+    pub(super) fn flush_behind_stop(&mut self, planner: &mut Planner) {
+        let parted = self.contouring.flush_behind_stop();
+        self.part(parted, planner);
+    }
+
+    fn part(&mut self, [before, after]: [Vec<Block>; 2], planner: &mut Planner) {
+        for block in before.iter().chain(&after) {
+            self.changed.add(block);
+        }
+        before.into_iter().for_each(|block| planner.push(block));
+        self.behind = after;
+    }
+
+    /// Passes what follows a wait within a curve to the planner; false if there is nothing.
+    pub(super) fn resume(&mut self, planner: &mut Planner) -> bool {
+        let waits = !self.behind.is_empty();
+        self.behind.drain(..).for_each(|block| planner.push(block));
+        waits
     }
 
     /// Passes everything to the planner, where the path stops after the last motion.

@@ -82,6 +82,8 @@ impl Simulation {
             waits_at: SourceRef::default(),
             jerk_limited: false,
             pending: None,
+            at_corner: None,
+            postponed: None,
             phase: Phase::Start,
             record: CycleRecord { axes: records, ..CycleRecord::default() },
             path_position: start[..n].iter().copied().collect(),

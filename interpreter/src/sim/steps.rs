@@ -1,45 +1,110 @@
 //! The steps of the program: taken from the executor when the planner needs them, and carried out at rest.
 
-use super::{After, Phase, Simulation, Thread, Underway, times, wait};
-use crate::exec::{EndReason, Event, SourceRef, Step, Sync};
+use super::{After, Pending, Phase, Simulation, Thread, Underway, times, wait};
+use crate::exec::{EndReason, Event, SourceRef, SpindleState, Step, Sync};
 use crate::record::Motion;
 use crate::sim::axes::Driver;
 use crate::sim::totals::Programmed;
 use crate::sim::wait::{AwaitedMark, Wait};
 use kontur_motion::block::{Block, SlopeKind};
 
+/// Whether the path waits for this where the block ends, also within the curve of a rounded corner. Everything else stops it
+/// before the corner.
+fn waits_at_corner(what: &Sync) -> bool {
+    match what {
+        Sync::Dwell { .. } | Sync::Technology { .. } | Sync::ProgramStop { .. } => true,
+        Sync::Spindle { state, .. } => !matches!(state, SpindleState::Mark { .. }),
+        _ => false,
+    }
+}
+
+fn runs_banding(events: &[Event]) -> bool {
+    events.iter().any(|event| matches!(event, Event::Banding(_)))
+}
+
 impl Simulation {
     /// Takes the next step of the program.
     pub(super) fn pull(&mut self) {
+        if self.smoothing.resume(&mut self.planner) {
+            return;
+        }
+        let step = self.postponed.take().unwrap_or_else(|| self.decoded());
+        let Some(wait) = self.at_corner.take() else {
+            return self.take(step);
+        };
+        match step {
+            Step::Motion { block, source, events }
+                if self.smoothing.joins_corner(&block) && !runs_banding(&events) =>
+            {
+                self.register(&block, source, events);
+                if self.smoothing.push_behind_stop(block, &mut self.planner) {
+                    self.pending = Some(wait);
+                    self.not_contoured();
+                    self.planner.finish();
+                } else {
+                    self.at_corner = Some(wait);
+                }
+            }
+            other => {
+                self.postponed = Some(other);
+                self.smoothing.flush_behind_stop(&mut self.planner);
+                self.pending = Some(wait);
+                self.not_contoured();
+                self.planner.finish();
+            }
+        }
+    }
+
+    fn decoded(&mut self) -> Step {
         if let Some(feedback) = self.feedback() {
             self.program.tell(feedback);
         }
-        match self.program.next(&mut self.messages.program) {
+        self.program.next(&mut self.messages.program)
+    }
+
+    fn take(&mut self, step: Step) {
+        let blocks = self.program.blocks();
+        match step {
             Step::Motion { block, source, events } => self.motion(block, source, events),
+            Step::Sync { what, source, events }
+                if waits_at_corner(&what) && self.smoothing.awaits_next() =>
+            {
+                self.at_corner = Some(Pending { after: After::Sync(what), source, events, blocks });
+            }
             Step::Sync { what, source, events } => {
                 let measures = match &what {
                     Sync::Measured { through, stops } => Some((*through, stops.clone())),
                     _ => None,
                 };
-                self.pending = Some((After::Sync(what), source, events));
+                self.pending = Some(Pending { after: After::Sync(what), source, events, blocks });
                 self.path_stops();
                 if let Some((through, stops)) = measures {
                     self.begin_probing(through, &stops);
                 }
             }
             Step::End { reason, source, events } => {
-                self.pending = Some((After::End(reason), source, events));
+                self.pending = Some(Pending { after: After::End(reason), source, events, blocks });
                 self.path_stops();
             }
         }
     }
 
     pub(super) fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
-        let programmed = Programmed::new(&block, self.program.blocks());
+        let bands = runs_banding(&events);
+        self.register(&block, source, events);
+        self.smoothing.push(block, &mut self.planner);
+        if bands {
+            self.smoothing.flush(&mut self.planner);
+            self.planner.halt_behind();
+        }
+        self.not_contoured();
+    }
+
+    fn register(&mut self, block: &Block, source: SourceRef, events: Vec<Event>) {
+        let programmed = Programmed::new(block, self.program.blocks());
         let jerk_limited = block.slope.kind != SlopeKind::Step;
-        let (motion, time_s) = (Motion::of(&block), times::time_of(&block));
+        let (motion, time_s) = (Motion::of(block), times::time_of(block));
         let (seq, target) = (block.seq, block.path.end().clone());
-        let bands = events.iter().any(|event| matches!(event, Event::Banding(_)));
         self.underway.push_back(Underway {
             seq,
             source,
@@ -50,12 +115,6 @@ impl Simulation {
             jerk_limited,
             events,
         });
-        self.smoothing.push(block, &mut self.planner);
-        if bands {
-            self.smoothing.flush(&mut self.planner);
-            self.planner.halt_behind();
-        }
-        self.not_contoured();
     }
 
     /// Announces that the path stops after the last motion.
@@ -71,11 +130,11 @@ impl Simulation {
             self.at_halt();
             return;
         }
-        let Some((after, source, events)) = self.pending.take() else {
+        let Some(Pending { after, source, events, blocks }) = self.pending.take() else {
             self.pull();
             return;
         };
-        self.progress.complete(self.program.blocks(), &mut self.smoothing.changed);
+        self.progress.complete(blocks, &mut self.smoothing.changed);
         self.waits_at = source;
         let k = self.planner.setpoint().k;
         self.time_ends(k);

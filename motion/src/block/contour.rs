@@ -52,6 +52,20 @@ impl Default for ContourMode {
     }
 }
 
+/// The place at a rounded corner where the block before it ends: there functions act, and the path waits for them.
+///
+/// Source: TF5200 programming manual, executing additional blocks (475113099) and its examples (475259787).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BlockLimit {
+    /// `PRE_ACTION`: before the curve.
+    Before,
+    /// `INTER_ACTION`, the default: between its two polynomials.
+    #[default]
+    Within,
+    /// `POST_ACTION`: after the curve.
+    After,
+}
+
 /// Parameters of `#CONTOUR MODE`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContourSettings {
@@ -71,6 +85,8 @@ pub struct ContourSettings {
     pub constant_velocity: bool,
     /// `CHECK_JERK`; `None`: as P-CHAN-00110.
     pub curve_jerk: Option<CurveJerk>,
+    /// Where the block ends.
+    pub limit: BlockLimit,
 }
 
 impl Default for ContourSettings {
@@ -84,6 +100,7 @@ impl Default for ContourSettings {
             max_angle_deg: 180.0,
             constant_velocity: false,
             curve_jerk: None,
+            limit: BlockLimit::default(),
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::report::Report;
 use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
-use kontur_motion::block::{CurveJerk, SplineSettings};
+use kontur_motion::block::{BlockLimit, CurveJerk, SplineSettings};
 
 arguments! {
     /// Keys of `#CONTOUR MODE`.
@@ -44,9 +44,9 @@ arguments! {
         acc_min: Number "ACC_MIN", "", "no effect";
         ramp_time: Number "RAMP_TIME", "", "no effect";
         dist_weight: Number "DIST_WEIGHT", "", "no effect";
-        pre_action: Flag "PRE_ACTION", "", "functions act at the corner (K-0111)";
-        _inter_action: Flag "INTER_ACTION", "", "functions act at the corner";
-        post_action: Flag "POST_ACTION", "", "functions act at the corner (K-0111)";
+        pre_action: Flag "PRE_ACTION", "", "the block ends before the curve: there functions act, and the path waits for them";
+        inter_action: Flag "INTER_ACTION", "", "the block ends between both halves of the curve (default)";
+        post_action: Flag "POST_ACTION", "", "the block ends after the curve";
     }
 }
 
@@ -77,6 +77,16 @@ impl ContourArguments {
             ("DIST_WEIGHT", number(self.dist_weight)),
         ];
         keys.into_iter().filter_map(|(key, at)| Some((key, at?))).collect()
+    }
+
+    /// The written places of the end of the block.
+    fn limits(&self) -> Vec<(&'static str, BlockLimit, Span)> {
+        let limits = [
+            ("PRE_ACTION", BlockLimit::Before, self.pre_action),
+            ("INTER_ACTION", BlockLimit::Within, self.inter_action),
+            ("POST_ACTION", BlockLimit::After, self.post_action),
+        ];
+        limits.into_iter().filter_map(|(name, limit, at)| Some((name, limit, at?))).collect()
     }
 
     /// Lengths in the command that its mode does not use: the mode, the key and its position. Source: the pages of the modes
@@ -156,6 +166,14 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::DuplicateKey, text, at));
         }
     }
+    match keys.limits()[..] {
+        [] => {}
+        [(_, limit, _)] => settings.common.limit = limit,
+        [(first, _, _), (second, _, at), ..] => {
+            let text = format!("#CONTOUR MODE: {first} and {second} exclude each other");
+            return Err(Fault::new(Condition::DuplicateKey, text, at));
+        }
+    }
     // only POS allows a distance of 0
     if settings.mode != Mode::Pos {
         let condition = Condition::CornerDistanceTooSmall;
@@ -218,12 +236,6 @@ fn check_change_of_mode(decoder: &Decoder, mode: Mode, span: Span) -> Outcome<()
 
 /// Notes about keys that change nothing, and about modes whose curve is not published.
 fn report_unused(report: &mut Report, keys: &ContourArguments, mode: Mode, span: Span) {
-    for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
-        if let Some(span) = at {
-            let text = format!("{action}: functions act at the corner here");
-            report.note_once(action, Fault::new(Condition::Fallback, text, span));
-        }
-    }
     for (key, span) in keys.without_effect() {
         let text = format!("#CONTOUR MODE: {key} has no effect");
         report.note_once(key, Fault::new(Condition::Fallback, text, span));
@@ -308,6 +320,8 @@ arguments! {
         max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks are kept";
         max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners are kept; 0: unlimited";
         surface: Flag "SURFACE", "", "not supported";
+        cos_phi_min: MaybeNumber "COS_PHI_MIN", "", "of OPMODE=2, not supported";
+        fact_block_len: MaybeNumber "FACT_BLOCK_LEN", "", "of OPMODE=2, not supported";
         opmode: Number "OPMODE", "", "1: corners within CONTERROR; default until BSPLINE is written";
         conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
     }
@@ -364,6 +378,9 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     if let Some(span) = keys.surface {
         return Err(Fault::unsupported("#HSC [SURFACE]", span));
+    }
+    if let Some((_, span)) = keys.cos_phi_min.or(keys.fact_block_len) {
+        return Err(Fault::unsupported("#HSC [OPMODE=2]", span));
     }
     match opmode {
         Some((Some(1), _, _)) => hsc.rounds_corners = true,
