@@ -153,6 +153,13 @@ pub struct AxisDynamics {
 }
 
 impl AxisDynamics {
+    /// Feed blocks get the accelerations and ramp times of rapid ones.
+    pub fn use_rapid(&mut self) {
+        let RapidSlope { acc_mm_s2, ramp_s } = self.rapid;
+        self.feed = FeedSlope { acc_mm_s2, dec_mm_s2: acc_mm_s2, ramps_s: [ramp_s; 4] };
+        self.step_feed = self.step_rapid;
+    }
+
     /// The limits that hold for this axis and another one that moves the same distance: the lower of each value.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {

@@ -63,7 +63,7 @@ pub enum OverrideMode {
     OfProgrammedWhileReduced,
 }
 
-/// The deceleration that a feedhold uses (P-CHAN-00097).
+/// The deceleration that a feedhold uses (P-CHAN-00097), and the path at a probe signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum FeedholdBraking {
     /// 0: that of the active slope.
@@ -71,6 +71,9 @@ pub enum FeedholdBraking {
     Active,
     /// 1: the feedhold parameters (P-AXIS-00024; P-AXIS-00053 and P-AXIS-00081).
     Own,
+    /// That of rapid blocks (P-AXIS-00280 and P-AXIS-00281; P-AXIS-00004 and P-AXIS-00200): at a probe signal with
+    /// P-CHAN-00214 = 1.
+    Rapid,
 }
 
 /// The override with its mode.

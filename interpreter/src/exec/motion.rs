@@ -220,8 +220,20 @@ impl Decoder {
             let text = "G60 without motion: the path stops here without waiting for an axis";
             let hint = "write G60 in the block at the end of which the axes must have arrived";
             self.report.note(Fault::new(Condition::AxisMissing, text, g.span).hint(hint));
+            self.spline_stops(g.span);
             self.sync(Sync::Dwell { seconds: 0.0 });
         }
+    }
+
+    /// An exact stop ends a B-spline: K-0111 unless AUTO_OFF_G60 asks for it.
+    fn spline_stops(&mut self, span: Span) {
+        if self.contour.hsc.off_at_stop || self.contour.hsc.spline().is_none() {
+            return;
+        }
+        let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
+        let fault = Fault::new(Condition::Fallback, text, span)
+            .hint("without this key, the default, it does not end the spline of the control");
+        self.report.note_once("AUTO_OFF_G60", fault);
     }
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
@@ -298,11 +310,8 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
-        if stops && !self.contour.hsc.off_at_stop && self.contour.hsc.spline().is_some() {
-            let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
-            let fault = Fault::new(Condition::Fallback, text, span)
-                .hint("without this key, the default, it does not end the spline of the control");
-            self.report.note_once("AUTO_OFF_G60", fault);
+        if stops {
+            self.spline_stops(span);
         }
         if rounds && self.contour.hsc.contour().is_some() {
             let text = "G61, G261 and #HSC [OPMODE=1] at once: the corner is rounded by #CONTOUR MODE, not within CONTERROR";
@@ -346,7 +355,7 @@ impl Decoder {
             end_velocity_mm_s,
             late_braking,
             slope: self.modal.commanded.slope,
-            dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
+            dynamics: self.motion.dynamics_of_block(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: if rounds {
                 Some(self.contour.contouring.settings())

@@ -2,7 +2,7 @@
 //!
 //! Assumption: the signal of `probe` latches the actual positions of the cycle in which it acts, that of `X_probe_mm`
 //! those at which the actual position of the axis passes it, interpolated linearly between two cycles. The path brakes
-//! as under feedhold, with the slope of its block. Measuring type 7 has no probe: its signal is the lag of an axis at a
+//! as under feedhold, with P-CHAN-00214 = 1 as in rapid blocks. Measuring type 7 has no probe: its signal is the lag of an axis at a
 //! fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
 
 use super::inputs::Inputs;
@@ -74,7 +74,7 @@ impl Simulation {
             let k = self.planner.setpoint().k;
             let mut d = Diagnostic::new(Condition::ProbeActuated, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
-            d.source = self.pending.as_ref().and_then(|(_, at, _)| self.program.locate(*at));
+            d.source = self.pending.as_ref().and_then(|p| self.program.locate(p.source));
             self.messages.own.push(d);
             self.totals.aborted = true;
             self.phase = Phase::Done;

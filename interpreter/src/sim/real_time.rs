@@ -27,9 +27,15 @@ impl Simulation {
 
     /// Brakes the path because of feedhold or the probe signal, or lets it continue.
     pub(super) fn hold_path(&mut self) {
-        let own = self.machine.channel.overrides.own_feed_hold && self.inputs.feedhold;
-        let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
+        let channel = &self.machine.channel;
         let probed = self.probing.as_ref().is_some_and(Probing::holds);
+        let braking = if probed && channel.measuring.brakes_as_rapid {
+            FeedholdBraking::Rapid
+        } else if channel.overrides.own_feed_hold {
+            FeedholdBraking::Own
+        } else {
+            FeedholdBraking::Active
+        };
         self.planner.feedhold(self.inputs.feedhold || probed, braking);
     }
 

@@ -1,5 +1,6 @@
-//! Slope under a feedhold.
+//! Slope under a feedhold and at a probe signal.
 
+use crate::axis::{AxisDynamics, FeedholdSlope};
 use crate::block::Block;
 use crate::limits::{PathExtremes, weakest};
 use crate::profile::SlopeLimits;
@@ -21,14 +22,23 @@ pub(super) fn feedhold_slope(
     let axes = &block.dynamics.axes;
     let limit = block.dynamics.vector;
     let vector_dec = limit.dec_mm_s2.unwrap_or(f64::INFINITY);
+    let own = braking == FeedholdBraking::Own;
     if matches!(queued.slope, SlopeLimits::Step(_)) {
-        let dec = weakest(axes, &share, |a| a.feedhold.step_dec_mm_s2).min(vector_dec);
+        let of_axis = |a: &AxisDynamics| {
+            let [below, above] = a.step_rapid.dec_mm_s2;
+            if own { a.feedhold.step_dec_mm_s2 } else { below.min(above) }
+        };
+        let dec = weakest(axes, &share, of_axis).min(vector_dec);
         return queued.slope.with_braking(dec, 0.0);
     }
-    let dec = weakest(axes, &share, |a| a.feedhold.dec_mm_s2).min(vector_dec);
+    let of_axis = |a: &AxisDynamics| {
+        let FeedholdSlope { dec_mm_s2, ramp_s, .. } = a.feedhold;
+        if own { (dec_mm_s2, ramp_s) } else { (a.rapid.acc_mm_s2, a.rapid.ramp_s) }
+    };
+    let dec = weakest(axes, &share, |a| of_axis(a).0).min(vector_dec);
     let jerk = weakest(axes, &share, |a| {
-        let ramp = a.feedhold.ramp_s;
-        if ramp < cycle.seconds() { f64::INFINITY } else { a.feedhold.dec_mm_s2 / ramp }
+        let (dec, ramp) = of_axis(a);
+        if ramp < cycle.seconds() { f64::INFINITY } else { dec / ramp }
     });
     queued.slope.with_braking(dec, dec / jerk.min(limit.jerk_mm_s3.unwrap_or(f64::INFINITY)))
 }

@@ -66,6 +66,17 @@ impl Weights {
         }
     }
 
+    /// Only the weights of velocities.
+    pub(in crate::exec) fn of_velocities(&self) -> Self {
+        let velocity = |w: &AxisWeights| AxisWeights { velocity: w.velocity, ..AxisWeights::ONE };
+        Self {
+            axes: self.axes.iter().map(velocity).collect(),
+            geometric_ramp: 1.0,
+            rapid_ramp: 1.0,
+            ..*self
+        }
+    }
+
     /// Sets the weight of one axis or of all.
     pub(in crate::exec) fn set(&mut self, what: Weight, axis: Option<usize>, ratio: f64) {
         let chosen = match axis {
@@ -210,8 +221,8 @@ impl Capped {
 /// Cuts of the ramp times of the feed, in the order of the list; the pages of the first two are not known.
 const RAMPS: [Cut; 4] = [Cut::Limited, Cut::Limited, Cut::BrakingRampUp, Cut::BrakingRampDown];
 
-/// Lowest weighted rapid velocity in mm/s. Source: TF5200 programming manual, G129: 0 gives 1 um/s.
-const RAPID_MIN_MM_S: f64 = 0.001;
+/// Lowest weighted velocity in mm/s. Source: TF5200 programming manual, G127, G128 and G129: 0 gives 1 um/s.
+const VELOCITY_MIN_MM_S: f64 = 0.001;
 
 /// Limits of one axis with its weights, and why they differ from the values requested by the weights.
 fn weighted(
@@ -258,10 +269,11 @@ fn weighted(
     }
     d.rapid.ramp_s = capped.at_least(d.rapid.ramp_s, all.rapid_ramp, axis.tr_min_s(), limited);
     d.tr_geom_s *= all.geometric_ramp;
-    d.v_max_mm_s = capped.at_most(d.v_max_mm_s, w.velocity, d.v_max_mm_s, limited);
+    d.v_max_mm_s =
+        capped.at_most(d.v_max_mm_s, w.velocity, d.v_max_mm_s, limited).max(VELOCITY_MIN_MM_S);
     d.v_rapid_mm_s = capped
         .at_most(d.v_rapid_mm_s, all.rapid_velocity, d.v_max_mm_s, limited)
-        .max(RAPID_MIN_MM_S);
+        .max(VELOCITY_MIN_MM_S);
     d.v_rapid_mm_s = d.v_rapid_mm_s.min(d.v_max_mm_s);
     (d, capped.cuts)
 }

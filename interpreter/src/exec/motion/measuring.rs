@@ -4,7 +4,8 @@
 //! positions, brakes the path and discards the rest of it. The program continues from the position where the path stopped.
 //!
 //! Source: TF5200 programming manual, measuring functions (206164491, 206171147, 206177803, 206185227, 206191115,
-//! 206197003, 206208011), settings for measuring (207084683, 207092107); functional description of measuring (342045451).
+//! 206197003, 206208011), settings for measuring (207084683, 207092107); functional description of measuring (342045451),
+//! dynamics of a run (895605131).
 //! Assumptions, where they are silent: the path stops before a run; a run without a signal keeps the measured values and sets
 //! V.A.MERF to FALSE; types 3 to 6 treat a missing signal as type 1 does (P-CHAN-00176).
 
@@ -69,8 +70,10 @@ impl Decoder {
             let speed = self.machine.axes[*axis].measuring_speed_mm_s();
             self.motion.measuring.feed = Some(Feed::PathVelocity(speed));
         }
+        self.motion.measuring.runs = true;
         let outcome = self.motion(words, false, span);
         self.modal.path = modal;
+        self.motion.measuring.runs = false;
         self.motion.measuring.feed = None;
         outcome?;
         if self.report.failed() && !self.checking {

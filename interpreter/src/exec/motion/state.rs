@@ -20,7 +20,7 @@ use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::{Event, SourceRef};
 use crate::machine::{Acknowledged, Channel, Machine, SpindleMoment};
 use crate::syntax::ast::Span;
-use kontur_motion::axis::AxisVec;
+use kontur_motion::axis::{AxisDynamics, AxisVec};
 use kontur_motion::block::{
     Block, ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance, VectorLimits,
 };
@@ -114,6 +114,25 @@ impl MotionState {
         }
     }
 
+    /// Dynamics of the current block; a measuring run has those of rapid blocks, without weights of accelerations and ramp times,
+    /// unless P-CHAN-00296 is 1 (895605131).
+    pub(super) fn dynamics_of_block(
+        &mut self,
+        machine: &Machine,
+        modal: &Modal,
+        rapid: bool,
+    ) -> Arc<ChannelDynamics> {
+        if !self.measuring.runs || machine.channel.measuring.as_feed {
+            return self.dynamics(machine, modal, rapid);
+        }
+        let weights = self.weights.of_velocities();
+        let (mut dynamics, _) = channel_dynamics(machine, &weights, modal, self.vector[0]);
+        dynamics.feed_axes.clone_from(&self.feed_axes);
+        self.couplings.limit(&mut dynamics.axes);
+        dynamics.axes.iter_mut().for_each(AxisDynamics::use_rapid);
+        Arc::new(dynamics)
+    }
+
     /// Active dynamics in feed or rapid blocks; rebuilt after a change.
     pub(super) fn dynamics(
         &mut self,
@@ -155,11 +174,21 @@ impl MotionState {
     }
 }
 
+/// First of two contour lines, which is executed with the second one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FirstLine {
+    pub(super) angle_deg: f64,
+    pub(super) span: Span,
+    pub(super) source: SourceRef,
+    /// It was refused; the second line is not judged without it.
+    pub(super) refused: bool,
+}
+
 /// State of contour line programming.
 #[derive(Clone, Debug, Default)]
 pub(in crate::exec) struct ContourLines {
-    /// First of two lines: its angle in deg and its block.
-    pub(super) open: Option<(f64, Span, SourceRef)>,
+    /// First of two lines.
+    pub(super) open: Option<FirstLine>,
     /// The coordinates that an angle (`#ANG`, `#CANG`) gives to the current block.
     pub(super) targets: Vec<Target>,
 }

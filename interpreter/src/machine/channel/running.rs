@@ -73,6 +73,10 @@ pub(crate) struct MeasuringEntries {
     pub(crate) kind: u32,
     /// Measuring type 1: a run without a probe signal is an error (P-CHAN-00176).
     pub(crate) missing_signal_is_error: bool,
+    /// Runs have the dynamics of feed blocks instead of rapid ones (P-CHAN-00296).
+    pub(crate) as_feed: bool,
+    /// The probe signal brakes with the deceleration of rapid blocks instead of that of a feedhold (P-CHAN-00214).
+    pub(crate) brakes_as_rapid: bool,
 }
 
 impl MeasuringEntries {
@@ -80,6 +84,8 @@ impl MeasuringEntries {
         Self {
             kind: p.get(of::MEASURING_TYPE),
             missing_signal_is_error: p.get(of::MISSING_SIGNAL_IS_ERROR),
+            as_feed: p.get(of::MEASURES_AS_FEED),
+            brakes_as_rapid: p.get(of::PROBE_BRAKING) == 1,
         }
     }
 }

@@ -123,6 +123,10 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;
     chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: with 1, a measuring run without a probe signal is an error")
         .default(0.0).source("TF5200 channel parameters"), as MISSING_SIGNAL_IS_ERROR: Switch;
+    chan("P-CHAN-00296", "meas_use_std_dynamic", Raw::Boolean, "measuring runs: 0 with the accelerations and ramp times of rapid blocks and without weights, 1 with those of feed blocks")
+        .default(0.0).source("TF5200 channel parameters"), as MEASURES_AS_FEED: Switch;
+    chan("P-CHAN-00214", "meas_deceleration_mode", Raw::Uns16, "braking at the probe signal: 0 as feedhold does (P-CHAN-00097), 1 with the deceleration of rapid blocks")
+        .range(Bound::At(0.0), Bound::At(1.0)).default(0.0).source("TF5200 channel parameters"), as PROBE_BRAKING: Whole;
     chan("P-CHAN-00056", "max_vb_override", Raw::Uns16, "maximum override of --input; only limits if given in the list")
         .range(Bound::At(0.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").above(Condition::MostOverride, Correction::Limit).source("TF5200 channel parameters"), as MOST_OVERRIDE: Number;
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: maximum centre shift, absolute")

@@ -48,6 +48,8 @@ pub(in crate::exec) struct Measuring {
     pub(in crate::exec) residual_path_mm: f64,
     /// Per axis.
     pub(in crate::exec) results: Vec<Measured>,
+    /// Whether the current block is a run.
+    pub(in crate::exec::motion) runs: bool,
     /// Speed of a run of type 2 during the run.
     pub(in crate::exec::motion) feed: Option<Feed>,
     pub(in crate::exec::motion) pending: Option<Box<Pending>>,
@@ -61,6 +63,7 @@ impl Measuring {
             banding: false,
             residual_path_mm: channel.banding.residual_path_mm,
             results: vec![Measured::default(); axes],
+            runs: false,
             feed: None,
             pending: None,
         }
