@@ -177,15 +177,15 @@ const DECLARED: [&str; 8] = [
 /// With `--techno-times` the path waits for them, and the duration grows by exactly that time; without it the summary names them.
 #[test]
 fn declared_durations_are_waited_for() {
-    // functions of one block go to the machine together: the longest duration counts
-    let text = "M7\nM8\nM3 S600\nM7 M8\nG01 X1 F1000\nM30\n";
+    // functions of one block go to the machine together: the longest duration counts; S belongs to M3 of its block
+    let text = "M7\nM8\nM3 S600\nM7 M8\nS700\nG01 X1 F1000\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
     let off = folder.summary(&DECLARED);
     let on = folder.summary(&[&DECLARED[..], &["--techno-times"]].concat());
-    near(&on["technology_s"], 0.5 + 1.3 + 0.5 + 1.3, 1e-9);
+    near(&on["technology_s"], 0.5 + 1.3 + 0.5 + 1.3 + 0.2, 1e-9);
     near(&off["technology_s"], 0.0, 0.0);
     let duration = |s: &serde_json::Value| s["duration_s"].as_f64().unwrap();
-    assert!((duration(&on) - duration(&off) - 3.6).abs() < 1e-9);
+    assert!((duration(&on) - duration(&off) - 3.8).abs() < 1e-9);
     assert_eq!(on["not_counted"].as_array().unwrap().len(), 0, "{on}");
     let named = off["not_counted"].to_string();
     for w in [

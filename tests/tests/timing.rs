@@ -103,7 +103,7 @@ fn faults(row: &Row) -> Vec<String> {
                     None => wrong.push(format!("line {} has no cycle", line - 1)),
                 }
             }
-            "end" => at = run.records.len() - 1,
+            "end" => at = run.records.len().saturating_sub(1),
             "ipo" | "set" | "act" | "load" | "lag" | "add" | "reference" | "err" | "dev"
             | "rpm" => {
                 what = word;

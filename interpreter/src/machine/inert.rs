@@ -144,21 +144,34 @@ pub(super) fn check(
             let acts = number(place) > 0.0 && is_modulo && kind != AxisKind::Linear;
             values(place, acts, "a modulo axis has no software limits", HINT);
         }
-        ListKind::Channel => interpolator(channel::LOOK_AHEAD.place(), parameters, &mut values),
-        ListKind::StartUp => interpolator(start_up::LOOK_AHEAD.place(), parameters, &mut values),
+        ListKind::Channel => {
+            let places = [channel::LOOK_AHEAD.place(), channel::LOOK_AHEAD_BLOCKS.place()];
+            interpolator(places, parameters, &mut values);
+        }
+        ListKind::StartUp => {
+            let places = [start_up::LOOK_AHEAD.place(), start_up::LOOK_AHEAD_BLOCKS.place()];
+            interpolator(places, parameters, &mut values);
+        }
         _ => {}
     }
 }
 
-/// FCT_LOOK_AHEAD_OPT, the one function of the interpolator that changes speeds.
+/// Blocks of look-ahead that the control uses with other slopes than STEP (829047947).
+const BLOCKS_WITHOUT_STEP: f64 = 500.0;
+
+/// FCT_LOOK_AHEAD_OPT, the one function of the interpolator that changes speeds, and more blocks than it uses with every slope.
 fn interpolator(
-    place: Place,
+    [place, blocks]: [Place; 2],
     parameters: &Parameters,
     values: &mut impl FnMut(Place, bool, &str, &str),
 ) {
     let functions = parameters.listed(place).and_then(whole).unwrap_or_default();
     let acts = functions & start_up::OPTIMISED != 0;
     values(place, acts, "FCT_LOOK_AHEAD_OPT does not raise speeds further", HINT);
+    let more = parameters.listed(blocks).is_some_and(|blocks| blocks > BLOCKS_WITHOUT_STEP);
+    let custom = functions & start_up::CUSTOM != 0;
+    let instead = "all of these blocks count, on the control 500 with other slopes than STEP";
+    values(blocks, more && custom, instead, "write 500 unless the programs use #SLOPE [TYPE=STEP]");
 }
 
 fn without_effect(setting: &Setting, text: &str, axis: Option<&AxisRef>) -> Diagnostic {

@@ -28,9 +28,13 @@ fn is_utf_16(text: &[u8]) -> bool {
     (zero(0) && other(1)) || (zero(1) && other(0))
 }
 
-/// Whether bytes are those of a program or picture rather than of a text: more than one in 32 is a control character that no
-/// text contains. NUL and ETX end blocks, some tapes begin with others: the first few do not count.
+/// Whether bytes are those of an archive, program or picture rather than of a text: they begin as gzip and zip files do, or more
+/// than one in 32 is a control character that no text contains. NUL and ETX end blocks, some tapes begin with others: the first
+/// few do not count.
 fn is_binary(bytes: &[u8]) -> bool {
+    if bytes.starts_with(b"\x1F\x8B") || bytes.starts_with(b"PK\x03\x04") {
+        return true;
+    }
     let strange = |byte: &&u8| matches!(byte, 1..=2 | 4..=8 | 14..=25 | 28..=31);
     bytes.iter().filter(strange).count() > 16 + bytes.len() / 32
 }
@@ -296,7 +300,7 @@ impl BlockReader {
             }
             ref text if text.starts_with(BOM) => self.at = BOM.len(),
             ref bytes if is_binary(bytes) => {
-                let text = "the file is not a text: it contains control characters";
+                let text = "the file is not a text: it begins as an archive does, or contains control characters";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
             _ => {}

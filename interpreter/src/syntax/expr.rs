@@ -188,11 +188,24 @@ impl Builder<'_> {
                 Rule::function_name => {
                     function = Function::from_name(part.as_str()).unwrap_or(function);
                 }
+                Rule::exist_name => function = Function::Exist,
+                Rule::listed_code => arguments.push(self.listed_code(&part)),
                 Rule::expression => arguments.push(self.expression(part)),
                 _ => {}
             }
         }
         ExprKind::Call(Box::new(FunctionCall { function, arguments }))
+    }
+
+    /// `listed_code`.
+    fn listed_code(&self, pair: &Pair<'_, Rule>) -> Expr {
+        let (letter, digits) = pair.as_str().split_at(1);
+        let number = digits.parse().unwrap_or(u32::MAX);
+        let kind = match letter {
+            "M" | "m" => ExprKind::MFunction(number),
+            _ => ExprKind::HFunction(number),
+        };
+        Expr { kind, span: self.span(pair) }
     }
 
     /// `place`.

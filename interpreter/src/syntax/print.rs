@@ -311,6 +311,8 @@ impl Display for Expr {
             ExprKind::Pi => f.write_str("PI"),
             ExprKind::Radius => f.write_str("R1"),
             ExprKind::Text(text) => write!(f, "{}", Quoted(text)),
+            ExprKind::MFunction(number) => write!(f, "M{number}"),
+            ExprKind::HFunction(number) => write!(f, "H{number}"),
             ExprKind::Place(place) => write!(f, "{place}"),
             ExprKind::Negate(inner) if matches!(inner.kind, ExprKind::Binary(_)) => {
                 write!(f, "-[{inner}]")

@@ -145,7 +145,7 @@ impl Decoder {
         }
         self.join_synchronous();
         if let Some((speed, span)) = late_speed {
-            self.speed(0, speed, span);
+            self.speed(0, speed, true, span);
         }
         for bracket in late {
             let outcome = self.bracket(bracket, &words);
@@ -183,10 +183,11 @@ impl Decoder {
                 let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
                 self.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
             } else if !(taps || cuts) {
-                if self.motion.spindles[0].speeds_up_late(&self.machine.channel) {
+                let alone = !functions::turns_spindle(words);
+                if alone && self.motion.spindles[0].speeds_up_late(&self.machine.channel) {
                     late = Some((*speed, *span));
                 } else {
-                    self.speed(0, *speed, *span);
+                    self.speed(0, *speed, alone, *span);
                 }
             }
         }
@@ -294,7 +295,7 @@ impl Decoder {
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {
-                let ratio = weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
+                let ratio = weight_ratio((g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
             Act::Feedforward(on) => self.feedforward(on, g.span),

@@ -15,10 +15,8 @@ use crate::machine::Tool;
 use crate::syntax::ast::Span;
 
 /// A weight in percent as a ratio.
-pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
-    let may_be_zero = weight != Weight::Velocity;
-    let ok = percent.is_finite() && (percent > 0.0 || (may_be_zero && percent == 0.0));
-    if ok && percent <= 1e6 {
+pub(in crate::exec) fn weight_ratio((percent, span): Placed) -> Outcome<f64> {
+    if (0.0..=1e6).contains(&percent) {
         return Ok(percent / 100.0);
     }
     let text = format!("a weight of {percent} % is not allowed");
@@ -109,7 +107,7 @@ impl Decoder {
             return Err(Fault::new(Condition::AxisMissing, text, g.span));
         }
         for (axis, value, span) in &words.axes {
-            let ratio = weight_ratio(weight, (*value, *span))?;
+            let ratio = weight_ratio((*value, *span))?;
             self.set_weight(weight, Some(*axis), ratio, *span);
         }
         Ok(())

@@ -9,6 +9,7 @@ mod taken;
 
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::choice::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
@@ -44,7 +45,11 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         Condition::CoupledAxisReleased,
         call.span(),
     )?;
-    exchange(decoder, call.span())?;
+    if beside_contour(decoder, &named) {
+        may_exchange(decoder, call.span())?;
+    } else {
+        exchange(decoder, call.span())?;
+    }
     if decoder.modal.diameter.is_some_and(|axis| named.contains(&axis)) {
         let text = "the face turning axis cannot be released under G51";
         return Err(Fault::new(Condition::FaceAxisReleased, text, call.span()));
@@ -196,11 +201,22 @@ fn exchange_all(decoder: &mut Decoder, span: Span) -> Outcome<()> {
     exchange(decoder, span)
 }
 
-/// The path stops; a Vibration Guard of the program is switched off.
+/// Whether these axes may be released on a compensated contour, which continues without a stop: none belongs to its plane
+/// (exception list of commands with active TRC, 524821515). A Vibration Guard of the program would have to be switched off at
+/// rest.
+fn beside_contour(decoder: &Decoder, axes: &[usize]) -> bool {
+    let [first, second, _] = decoder.modal.plane.main_axes();
+    let plane = [first, second].map(|main| decoder.geometry.coordinates.main_axis(main));
+    decoder.modal.compensation != Compensation::Off
+        && decoder.shaping.guard_on.is_none()
+        && axes.iter().all(|axis| !plane.contains(&Some(*axis)))
+}
+
+/// An axis exchange is possible here.
 ///
 /// # Errors
 /// 20535 under G63, 20684 while a coordinate system is active, 20683 while a kinematic transformation is.
-fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
+fn may_exchange(decoder: &Decoder, span: Span) -> Outcome<()> {
     if decoder.modal.path.is_tapping() {
         let text = "an axis exchange during tapping";
         return Err(Fault::new(Condition::ExchangeWhileTapping, text, span));
@@ -213,6 +229,12 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
         let text = "an axis exchange while a kinematic transformation is active";
         return Err(Fault::new(Condition::ExchangeInTransformation, text, span));
     }
+    Ok(())
+}
+
+/// The path stops; a Vibration Guard of the program is switched off. Errors of [`may_exchange`].
+fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
+    may_exchange(decoder, span)?;
     decoder.sync(Sync::FlushWait);
     if decoder.shaping.guard_on == Some(true) {
         let text = "the axis exchange switches the Vibration Guard of the program off";

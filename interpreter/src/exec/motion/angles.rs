@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, contour line programming; 21892, 21895, 21904, 21910.
 
-use super::state::ContourLines;
+use super::state::{ContourLines, FirstLine};
 use crate::diag::Condition;
 use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::Words;
@@ -35,9 +35,10 @@ pub(super) enum ContourLine {
 impl ContourLines {
     /// 21904 for a first line without its second one at the end of the program.
     pub(in crate::exec) fn end(&mut self, report: &mut Report) {
-        if let Some((_, span, source)) = self.open.take() {
+        if let Some(line) = self.open.take().filter(|line| !line.refused) {
             let text = "the contour line is not followed by a line with #ANG and the end of both";
-            report.note(Fault::new(Condition::ContourLineOpen, text, span).in_block(source));
+            let fault = Fault::new(Condition::ContourLineOpen, text, line.span);
+            report.note(fault.in_block(line.source));
         }
     }
 }
@@ -86,11 +87,11 @@ impl Decoder {
         let Some((_, angle, span)) = angle else {
             let moves = !words.axes.is_empty() || words.group(Group::Path).is_some();
             return match self.motion.contour_line.open.take_if(|_| moves) {
-                Some((_, _, _)) => {
+                Some(line) if !line.refused => {
                     let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
                     Err(Fault::new(Condition::ContourLineOpen, text, Span::default()))
                 }
-                None => Ok(ContourLine::Single),
+                _ => Ok(ContourLine::Single),
             };
         };
         let span = *span;
@@ -128,13 +129,14 @@ impl Decoder {
                 let inserts = words.group(insertion).is_some()
                     || words.group(transition).is_some()
                     || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
-                if inserts || !words.axes.is_empty() {
-                    // the second line is not to be judged without this one
-                    self.motion.contour_line.open = Some((angle, span, self.report.source));
+                let refused = inserts || !words.axes.is_empty();
+                let source = self.report.source;
+                self.motion.contour_line.open =
+                    Some(FirstLine { angle_deg: angle, span, source, refused });
+                if refused {
                     let what = "the first of two contour lines with other words of motion";
                     return Err(Fault::unsupported(what, span));
                 }
-                self.motion.contour_line.open = Some((angle, span, self.report.source));
                 Ok(ContourLine::Waits)
             }
             (None, [Some(_), Some(_)]) => {
@@ -153,7 +155,7 @@ impl Decoder {
                     vec![Target { axis: first, value: end, absolute: true }];
                 Ok(ContourLine::Single)
             }
-            (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
+            (Some(first_line), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
                 if !(x_absolute && y_absolute) {
                     let text =
                         "the end point of two contour lines is programmed in relative coordinates";
@@ -163,8 +165,8 @@ impl Decoder {
                     let what = "a chamfer or rounding in a block of two contour lines";
                     return Err(Fault::unsupported(what, span));
                 }
-                let corner = corner_of_lines([before, angle], here, [x, y], span)?;
-                Ok(ContourLine::Corner(corner, source))
+                let corner = corner_of_lines([first_line.angle_deg, angle], here, [x, y], span)?;
+                Ok(ContourLine::Corner(corner, first_line.source))
             }
             (Some(_), _) => {
                 let text = "the second of two contour lines needs both coordinates of the plane";

@@ -25,6 +25,12 @@ impl Decoder {
             ExprKind::Pi => Ok(Value::Number(std::f64::consts::PI)),
             ExprKind::Radius => self.modal.last_radius(expr.span).map(Value::Number),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
+            ExprKind::MFunction(number) => {
+                Ok(Value::truth(self.machine.channel.functions.m_waits.contains_key(number)))
+            }
+            ExprKind::HFunction(number) => {
+                Ok(Value::truth(self.machine.channel.functions.h_waits.contains_key(number)))
+            }
             ExprKind::Place(place) => self.read(place),
             ExprKind::Negate(_) => negated(self, expr),
             ExprKind::Binary(binary) => chain(self, binary),

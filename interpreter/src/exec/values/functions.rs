@@ -63,7 +63,14 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
         Err(Fault::new(condition, "a variable is expected", call.arguments[0].span))
     };
     let number = match call.function {
-        Function::Exist => return Ok(Value::truth(decoder.exists(place()?)?)),
+        Function::Exist => {
+            let argument = &call.arguments[0];
+            // the functions of the list (206761227)
+            if matches!(argument.kind, ExprKind::MFunction(_) | ExprKind::HFunction(_)) {
+                return decoder.value(argument);
+            }
+            return Ok(Value::truth(decoder.exists(place()?)?));
+        }
         Function::SizeOf => return size_of(decoder, place()?, call.arguments.get(1)),
         Function::IsString | Function::IsNumber => {
             let text = matches!(decoder.value(&call.arguments[0])?, Value::Text(_));

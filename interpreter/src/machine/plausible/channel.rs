@@ -15,6 +15,7 @@ pub(in crate::machine) fn check(parameters: &mut Parameters, diagnostics: &mut V
     check_several_words(parameters, diagnostics);
     check_durations(parameters, diagnostics);
     check_synchronisation(parameters, diagnostics);
+    check_unexecuted(parameters, diagnostics);
 }
 
 /// The synchronisation of functions, and their durations.
@@ -148,6 +149,29 @@ fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnost
         with_indices(setting.row.key, i)
     );
     let hint = "use m_prozess_zeit and the related times (P-CHAN-00040, 00026, 00044) with --techno-times to make the path wait for functions";
+    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
+    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
+}
+
+/// K-0075: with NO_SYNCH the control does not execute M3, M4 and M5 of a spindle (208029963).
+///
+/// Assumption: a list without an entry does not mean that, although NO_SYNCH is printed as its default: no spindle would turn.
+fn check_unexecuted(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let turning = [
+        channel::SPINDLE_M3_SYNCHRONISATION,
+        channel::SPINDLE_M4_SYNCHRONISATION,
+        channel::SPINDLE_M5_SYNCHRONISATION,
+    ];
+    let unexecuted = |(_, setting): &(Indices, &Setting)| {
+        turning.iter().any(|synch| synch.place().row.key == setting.row.key)
+            && setting.value.number().and_then(whole) == Some(0)
+    };
+    let Some((i, setting)) = parameters.settings().find(unexecuted) else { return };
+    let text = format!(
+        "{}: with NO_SYNCH the control does not execute the function, here the spindle obeys it",
+        with_indices(setting.row.key, i)
+    );
+    let hint = "write MOS, or the synchronisation of the machine";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

@@ -24,6 +24,10 @@ pub enum ExprKind {
     Radius,
     /// `"text"`, with `\"` replaced by `"`; may also be the use of a macro.
     Text(Box<str>),
+    /// `M80` in `EXIST[M80]`.
+    MFunction(u32),
+    /// `H80` in `EXIST[H80]`.
+    HFunction(u32),
     /// Parameter or variable.
     Place(Box<Place>),
     /// Minus before an operand that is not a literal.

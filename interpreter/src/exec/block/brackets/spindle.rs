@@ -13,7 +13,6 @@ use crate::exec::commands::keys::{SPINDLE_OVERRIDE, arguments};
 use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
 use crate::machine::Acknowledged;
@@ -75,7 +74,7 @@ impl Decoder {
         });
         let positions = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(19)));
         for (item, span) in items {
-            self.spindle_action(spindle, &item, positions, span)?;
+            self.spindle_action(spindle, &item, [positions, turns], span)?;
         }
         if moves && (turns || self.motion.spindles[spindle].turning != Turning::Stopped) {
             self.move_spindle(spindle, group.span)?;
@@ -173,22 +172,26 @@ impl Decoder {
         else {
             return false;
         };
-        bracket.group.items.iter().any(|item| {
-            let until = match SpindleItem::read(self, item) {
-                Ok(SpindleItem::Turn(number)) => waits.of_m(number),
-                Ok(SpindleItem::Speed(_)) => waits.speed,
+        let read = |item| SpindleItem::read(self, item).ok();
+        let items: Vec<_> = bracket.group.items.iter().filter_map(read).collect();
+        let turns = items.iter().any(|item| matches!(item, SpindleItem::Turn(_)));
+        items.iter().any(|item| {
+            let until = match item {
+                SpindleItem::Turn(number) => waits.of_m(*number),
+                SpindleItem::Speed(_) if !turns => waits.speed,
                 _ => None,
             };
             until == Some(Acknowledged::AfterMotion)
         })
     }
 
-    /// `positions`: whether the bracket contains M19.
+    /// Whether the bracket contains M19, and any of M3, M4, M5 and M19: its synchronisation counts instead of that of the speed
+    /// (208010763).
     fn spindle_action(
         &mut self,
         spindle: usize,
         item: &SpindleItem,
-        positions: bool,
+        [positions, turns]: [bool; 2],
         span: Span,
     ) -> Outcome<()> {
         match *item {
@@ -229,7 +232,7 @@ impl Decoder {
             SpindleItem::Speed(rpm) => {
                 self.motion.spindles[spindle].rpm = rpm;
                 self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
-                if let Some(index) = self.motion.spindles[spindle].index {
+                if let Some(index) = self.motion.spindles[spindle].index.filter(|_| !turns) {
                     self.motion.takes_time(
                         Function::Speed { spindle: index },
                         &self.machine.channel,
@@ -241,7 +244,7 @@ impl Decoder {
                 self.motion.spindles[spindle].angle_deg = deg;
             }
             SpindleItem::Acceleration(percent) => {
-                let ratio = weight_ratio(Weight::Acceleration, (percent, span))?;
+                let ratio = weight_ratio((percent, span))?;
                 if ratio == 0.0 {
                     let text = "G130=0: the spindle would never reach its speed";
                     return Err(Fault::new(Condition::Range, text, span));

@@ -24,6 +24,11 @@ enum MKind {
     ToolChange,
 }
 
+/// Whether a block has M3, M4, M5 or M19.
+pub(super) fn turns_spindle(words: &Words<'_>) -> bool {
+    words.m.iter().any(|m| m_kind(m.number) == MKind::Spindle)
+}
+
 fn m_kind(number: u32) -> MKind {
     match number {
         0 => MKind::Stop { optional: false },
@@ -77,7 +82,9 @@ impl Calls {
 }
 
 impl Decoder {
-    pub(super) fn speed(&mut self, index: usize, value: f64, span: Span) {
+    /// `alone`: the block has no M function of the spindle, whose synchronisation counts instead of that of the speed (M19, then M3
+    /// to M5, then S: 208010763).
+    pub(super) fn speed(&mut self, index: usize, value: f64, alone: bool, span: Span) {
         if !(0.0..=1e6).contains(&value) {
             let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
             self.report.note(Fault::new(Condition::Range, text, span));
@@ -85,7 +92,7 @@ impl Decoder {
         }
         self.motion.spindles[index].rpm = value;
         self.motion.spindles[index].check_speed(&self.machine, &mut self.report, span);
-        if let Some(spindle) = self.motion.spindles[index].index {
+        if let Some(spindle) = self.motion.spindles[index].index.filter(|_| alone) {
             self.motion.takes_time(
                 Function::Speed { spindle },
                 &self.machine.channel,

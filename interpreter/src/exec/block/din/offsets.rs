@@ -194,6 +194,11 @@ impl Decoder {
             self.report.note(Fault::new(Condition::PresetWhileMirrored, text, at));
             return true;
         }
+        if !sets && self.contour.awaits_departure() {
+            let text = "#PRESET before the motion that ends tool radius compensation";
+            self.report.note(Fault::new(Condition::FlushAfterCompensation, text, at));
+            return true;
+        }
         let coordinates = &self.geometry.coordinates;
         let conflict = if self.modal.compensation != Compensation::Off {
             Some((Condition::PresetWithCompensation, "tool radius compensation"))
