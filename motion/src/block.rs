@@ -188,7 +188,7 @@ pub struct Block {
     pub feed_ratio: f64,
     /// The real-time override has no effect on this block (G166); feedhold has.
     pub full_override: bool,
-    /// Requested path velocity at the end of the block in mm/s (E word).
+    /// Requested path velocity at the end of the block in mm/s (E word); overrides act on it as on the feed.
     pub end_velocity_mm_s: Option<f64>,
     /// G901: braking to a lower feed rate of the next block may begin after the end of this block. The next block is
     /// entered with at most what its limits allow, whatever its feed rate. Ignored by G00 and HSC.

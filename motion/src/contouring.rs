@@ -266,9 +266,7 @@ impl Contouring {
         let halves = [from, to].map(|b| whole.unwrap_or_else(|| (speed(b), b.feed_ratio)));
         // the end of the block lies inside the curve
         let halves = halves.map(|(feed, ratio)| match (from.end_velocity_mm_s, feed) {
-            (Some(e), Feed::PathVelocity(v)) => {
-                (Feed::PathVelocity(v.min(e / ratio.max(f64::MIN_POSITIVE))), ratio)
-            }
+            (Some(e), Feed::PathVelocity(v)) => (Feed::PathVelocity(v.min(e)), ratio),
             _ => (feed, ratio),
         });
         let dev = [from, to].iter().filter_map(|b| b.tolerance.ax_dev_mm).min_by(f64::total_cmp);
@@ -280,8 +278,9 @@ impl Contouring {
         let feed_axes = from.dynamics.feed_axes.clone();
         let limit = match settings.limit {
             BlockLimit::Before => 0,
-            BlockLimit::Within => parts,
-            BlockLimit::After => 2 * parts,
+            BlockLimit::Within if !settings.constant_velocity => parts,
+            // one block, so that both halves have one speed
+            BlockLimit::Within | BlockLimit::After => 2 * parts,
         };
         let timed = |piece: PolyPiece, i: u32| {
             let (feed, feed_ratio) = halves[usize::from(i >= parts)];

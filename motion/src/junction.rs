@@ -279,7 +279,8 @@ pub(crate) fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Velocity cap at the boundary of two blocks with its reason; the path velocities of the blocks are not included.
+/// Velocity cap at the boundary of two blocks with its reason; the programmed velocities of the blocks and at their ends are not
+/// included.
 pub fn transition(
     from: &Block,
     to: &Block,
@@ -296,9 +297,6 @@ pub fn transition(
     );
     take(curvature_step_velocity(from, to, a, b, cycle), SpeedLimit::Curve);
     take(estimated_curvature_velocity(from, to, a, b), SpeedLimit::Curve);
-    if let Some(v) = from.end_velocity_mm_s {
-        take(v, SpeedLimit::Feed);
-    }
     if to.dynamics.stop_at_transitions {
         take(0.0, SpeedLimit::Stop);
     }

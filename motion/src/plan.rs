@@ -148,7 +148,13 @@ impl Plan {
                 lower(q.velocity, demands.feed[i].max(floor))
             })
             .collect();
-        let cap = |i: usize| self.segments.get(i).map_or(Cap::new(0.0, end), |s| s.cap);
+        let cap = |i: usize| {
+            let own = self.segments.get(i).map_or(Cap::new(0.0, end), |s| s.cap);
+            match i.checked_sub(1) {
+                Some(before) => own.lower(Cap::new(window[before].end_mm_s, SpeedLimit::Feed)),
+                None => own,
+            }
+        };
         let caps: Vec<Cap> = (0..=n).map(|i| lower(cap(i), demands.cap[i])).collect();
         let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
         let gentle = demands.soften(window);

@@ -64,6 +64,8 @@ pub struct Queued {
     pub velocity: Cap,
     /// The path velocity if no feed rate were programmed.
     pub ceiling: Cap,
+    /// Path velocity in mm/s at the end of the block under the real-time override; infinite without an E word.
+    pub(crate) end_mm_s: f64,
     /// Path slope.
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
@@ -84,6 +86,13 @@ fn rated(block: &Block, speeds: &PathSpeeds, ratios: &Override) -> (Cap, Cap) {
         }
     };
     (rated(speeds), rated(&PathSpeeds { programmed_mm_s: f64::INFINITY, ..*speeds }))
+}
+
+/// Path velocity in mm/s at the end of a block: overrides act on the E word as on F.
+fn rated_end(block: &Block, speeds: &PathSpeeds, ratios: &Override) -> f64 {
+    let of_block = |e: f64| e * block.feed_ratio;
+    let ratio = if block.full_override { 1.0 } else { ratios.ratio(speeds.rapid) };
+    block.end_velocity_mm_s.map_or(f64::INFINITY, |e| of_block(e) * ratio)
 }
 
 impl Queued {
@@ -112,6 +121,7 @@ impl Queued {
             length: block.path.length(),
             velocity,
             ceiling,
+            end_mm_s: rated_end(&block, &speeds, ratios),
             slope: table.path_slope(&x),
             bend: x.second.iter().copied().fold(0.0, f64::max),
             ball: Ball::around(&block.path),
@@ -123,10 +133,13 @@ impl Queued {
     /// The block under a real-time override.
     pub(crate) fn rated(self: &Arc<Self>, ratios: &Override) -> Arc<Self> {
         let (velocity, ceiling) = rated(&self.block, &self.speeds, ratios);
-        if velocity == self.velocity && ceiling == self.ceiling {
+        let of_block = rated_end(&self.block, &self.speeds, ratios);
+        let end_mm_s = if self.goes_on { f64::INFINITY } else { of_block };
+        let same_end = end_mm_s.to_bits() == self.end_mm_s.to_bits();
+        if velocity == self.velocity && ceiling == self.ceiling && same_end {
             Arc::clone(self)
         } else {
-            Arc::new(Self { velocity, ceiling, ..Self::clone(self) })
+            Arc::new(Self { velocity, ceiling, end_mm_s, ..Self::clone(self) })
         }
     }
 
@@ -149,7 +162,7 @@ impl Queued {
     /// The first `s` mm of the remaining block.
     pub(crate) fn up_to(&self, s: f64) -> Self {
         let mut part = Self::clone(self);
-        (part.length, part.goes_on) = (s, true);
+        (part.length, part.goes_on, part.end_mm_s) = (s, true, f64::INFINITY);
         let end = part.offset + s;
         part.block.path.tangent(end, &mut part.ends.tangent_out);
         if let Some(curvatures) = &mut part.ends.curvatures {

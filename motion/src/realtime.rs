@@ -84,9 +84,14 @@ pub(crate) struct Override {
 }
 
 impl Override {
+    /// Factor of programmed speeds.
+    pub(crate) fn ratio(&self, rapid: bool) -> f64 {
+        if rapid { self.ratios.rapid } else { self.ratios.feed }
+    }
+
     /// Path velocity of a block in mm/s, with its reason.
     pub(crate) fn velocity(&self, speeds: &PathSpeeds) -> Cap {
-        let ratio = if speeds.rapid { self.ratios.rapid } else { self.ratios.feed };
+        let ratio = self.ratio(speeds.rapid);
         let of_programmed = match self.mode {
             OverrideMode::OfReached => false,
             OverrideMode::OfProgrammed => true,

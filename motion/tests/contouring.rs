@@ -139,8 +139,14 @@ fn curve_between_two_lines() {
                 nearest = nearest.min(norm(&at(&b.path, s)));
                 bend = bend.max(norm(&curvature(&b.path, s)));
             }
-            assert_eq!(b.seq, 0, "the curve belongs to the block before it");
         }
+        let halves = parts.iter().map(|b| b.seq).collect::<Vec<_>>();
+        assert!(halves.is_sorted() && halves.contains(&0) && halves.contains(&1), "{halves:?}");
+        let limit = parts.iter().find(|b| b.seq == 1).unwrap();
+        assert!(
+            (norm(limit.path.start()) - 1.0).abs() < 1e-9,
+            "the block ends at the interim point"
+        );
         assert!((nearest - 1.0).abs() < 1e-9, "{degrees}: {nearest}");
         assert!((bend - kappa).abs() < 1e-6 * kappa.max(1.0), "{degrees}: {bend}");
         assert!(((1000.0 / bend).sqrt() - v).abs() < 2e-4, "{degrees}");

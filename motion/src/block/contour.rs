@@ -59,7 +59,7 @@ impl Default for ContourMode {
 pub enum BlockLimit {
     /// `PRE_ACTION`: before the curve.
     Before,
-    /// `INTER_ACTION`, the default: between its two polynomials.
+    /// `INTER_ACTION`, the default: between its two polynomials. Assumption: with `CONST_VEL` after the curve, which has one speed.
     #[default]
     Within,
     /// `POST_ACTION`: after the curve.

@@ -99,8 +99,7 @@ fn words_of_the_neighbours() {
     };
     let mut out: Vec<Block> = stage.push(e, false).collect();
     out.extend(stage.push(job.block(1, b.clone(), 60.0), false));
-    let feeds: Vec<Feed> = curves(&out).iter().map(|c| c.feed).collect();
-    assert_eq!(feeds, [Feed::PathVelocity(5.0)]);
+    assert!(curves(&out).iter().all(|c| c.feed == Feed::PathVelocity(5.0)));
     out.extend(stage.flush());
     // a block without the word keeps its corner
     let plain: Vec<Block> = stage.push(job.block(0, a, 60.0), false).collect();
