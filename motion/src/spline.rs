@@ -325,7 +325,7 @@ impl Splining {
         } else {
             polygon.joint(polygon.last)
         };
-        let mut groups = pace::groups(block, pieces).into_iter();
+        let mut groups = pace::groups(block, pieces, self.cycle).into_iter();
         let mut out = Vec::with_capacity(groups.len());
         while let Some((pieces, v_mm_s)) = groups.next() {
             let here = match pieces.last() {

@@ -6,13 +6,13 @@ use crate::cap::SpeedLimit;
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::piece::section;
 use crate::path::{Path, PolyPath, PolyPiece};
+use kontur_filters::time::CycleTime;
 
 /// Largest number of divisions of a piece by three: wherever a sharp bend is, one of the thirds is free of it.
 const DEEPEST: u32 = 5;
-/// Share of its time that a piece has to save to be divided, and the saving in s from which on it is divided in any
-/// case: a tenth of a long edge matters, and a larger tolerance would cost that time.
+/// Share of its time that a piece has to save to be divided. A saving of one cycle divides it in any case: a tenth of a long edge
+/// matters, and a larger tolerance would cost that time.
 const GAIN: f64 = 0.1;
-const GAIN_S: f64 = 1e-3;
 
 /// A part of the spline with its shortest time in s.
 struct Part {
@@ -36,7 +36,11 @@ impl Part {
 }
 
 /// The pieces of an edge in groups of nearly equal speed, each with its speed in mm/s.
-pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiece>, f64)> {
+pub(super) fn groups(
+    block: &Block,
+    pieces: Vec<PolyPiece>,
+    cycle: CycleTime,
+) -> Vec<(Vec<PolyPiece>, f64)> {
     // a programmed duration means a constant speed over the whole edge
     let feed = match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
@@ -46,7 +50,7 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiec
     let mut parts = Vec::new();
     for piece in pieces {
         if let Some(part) = Part::new(&block, piece) {
-            cut(&block, part, 0, &mut parts);
+            cut(&block, part, (0, cycle), &mut parts);
         }
     }
     let mut out: Vec<(Vec<PolyPiece>, f64)> = Vec::new();
@@ -56,7 +60,7 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiec
         let own = part.time_s / part.length;
         let (long, apart_s, slowest) = (length + part.length, time_s + part.time_s, own.max(pace));
         match out.last_mut() {
-            Some((group, v)) if !gains(apart_s, long * slowest) => {
+            Some((group, v)) if !gains(apart_s, long * slowest, cycle) => {
                 group.push(part.piece);
                 *v = slowest.recip();
                 (length, time_s, pace) = (long, apart_s, slowest);
@@ -71,12 +75,12 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<(Vec<PolyPiec
 }
 
 /// Whether parts that take `apart_s` should not share the speed with which they take `together_s`.
-fn gains(apart_s: f64, together_s: f64) -> bool {
-    apart_s < (1.0 - GAIN) * together_s || apart_s < together_s - GAIN_S
+fn gains(apart_s: f64, together_s: f64, cycle: CycleTime) -> bool {
+    apart_s < (1.0 - GAIN) * together_s || apart_s < together_s - cycle.seconds()
 }
 
 /// Divides a part as long as that saves time.
-fn cut(block: &Block, part: Part, depth: u32, out: &mut Vec<Part>) {
+fn cut(block: &Block, part: Part, (depth, cycle): (u32, CycleTime), out: &mut Vec<Part>) {
     let third = |k: u32| {
         let at = |k: u32| f64::from(k) / 3.0;
         Part::new(block, part.piece.iter().map(|c| section(c, at(k), at(k + 1))).collect())
@@ -84,9 +88,9 @@ fn cut(block: &Block, part: Part, depth: u32, out: &mut Vec<Part>) {
     let may_gain = depth < DEEPEST && !part.at_feed;
     let thirds: Option<Vec<Part>> = if may_gain { (0..3).map(third).collect() } else { None };
     match thirds {
-        Some(thirds) if gains(thirds.iter().map(|t| t.time_s).sum(), part.time_s) => {
+        Some(thirds) if gains(thirds.iter().map(|t| t.time_s).sum(), part.time_s, cycle) => {
             for third in thirds {
-                cut(block, third, depth + 1, out);
+                cut(block, third, (depth + 1, cycle), out);
             }
         }
         _ => out.push(part),
