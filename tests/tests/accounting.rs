@@ -77,8 +77,9 @@ fn a_file_that_the_check_did_not_see() {
     // the check assumes every axis to be at its set position; on the machine they lag by some micrometres
     let text = "G01 X10 F6000\n$IF V.A.ACT_POS.X < 10\nL late.nc\n$ENDIF\nG01 X0\nM30\n";
     let folder = Folder::new(&[("part.nc", text), ("late.nc", "G60 G01 Y5\nM17\n")]);
-    let trace = folder.path("a.parquet");
+    let trace = folder.path("a.csv");
     let summary = folder.summary(&["-o", &trace]);
+    assert!(std::fs::read_to_string(&trace).unwrap().contains("late.nc"));
     let stops = summary["stops"].to_string();
     assert!(stops.contains("late.nc"), "{stops}");
     assert!(!stops.contains("\"file\":\"\""), "{stops}");

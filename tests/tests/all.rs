@@ -4,7 +4,6 @@
 mod accounting;
 mod arrival;
 mod axis_deviation;
-mod axis_filters;
 mod browser;
 mod conformance;
 mod contouring;
@@ -37,6 +36,5 @@ mod threads;
 mod times;
 mod timing;
 mod tolerance_stops;
-mod tool_dynamics;
 mod vibration_guard;
 mod wear;

@@ -67,7 +67,8 @@ fn moving_axes_are_not_monitored() {
     assert!(message > passed as u64, "only the last stop may be late");
 }
 
-/// Both stops of the program as a user runs it: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P015.
+/// Both stops of the program as a user runs it: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P010,
+/// P015.
 #[test]
 fn the_program_of_the_timeout() {
     let text = std::fs::read_to_string(programs().join("exact_stop_timeout.nc")).unwrap();
@@ -86,7 +87,10 @@ fn the_program_of_the_timeout() {
     let back = raised - 200;
     assert!(run.records[back - 1].axes[0].set > 0.0 && run.records[back].axes[0].set.abs() <= 0.0);
     assert!(run.records.iter().all(|r| r.block != Some(100)), "nothing follows");
-    // the trace continues until the axis itself is at rest
+    // the axis stays where it is, up to v Ta, and the trace continues until it is at rest
+    let here = run.records[raised].axes[0].act;
+    assert!((here - run.records[raised].axes[0].set).abs() > 1.0, "far from its target");
+    assert!(run.records[raised..].iter().all(|r| (r.axes[0].act - here).abs() < 0.08));
     let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
     assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "0.1 mm/s");
     assert!(last.axes[0].lag.abs() < 0.02, "{}", last.axes[0].lag);

@@ -1,6 +1,5 @@
 //! Override, additional interface, force and encoder offset from time-stamped inputs, in runs of programs.
 
-use kontur_interpreter::record::AxisRecord;
 use kontur_kit::near;
 use kontur_tests::command::command;
 use kontur_tests::{Run, machine, run_with_inputs};
@@ -41,26 +40,6 @@ fn additional(filter: &str) -> Run {
     settings.extend(filter.split_whitespace().map(|entry| format!("{prefix}.filter[0].{entry}")));
     let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
     run_with_inputs(machine(&settings), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)])
-}
-
-/// The signals of the interface: the input, its filter, and the sum after the axis filters that the controller follows; set position and
-/// deviation are those of the program. Conformance: A012, A106.
-#[test]
-fn additional_position() {
-    let run = additional("");
-    let added = run.axis(0, |a| a.add);
-    let expected = |k: usize| if k < 10 { 0.0 } else { 1.0 };
-    assert!(added.iter().enumerate().all(|(k, x)| (x - expected(k)).abs() <= 0.0));
-    let set = |a: &AxisRecord| a.set.abs() + a.ipo.abs() + a.err.abs() + a.dev.abs();
-    assert!(run.axis(0, set).iter().all(|x| *x <= 0.0));
-    let last = run.records.last().unwrap().axes[0];
-    near(last.reference, 1.0, 1e-9);
-    near(last.act, 1.0, 1e-9);
-    assert!(run.said().is_empty());
-    // off: the input has no effect, and a message says so
-    let off = run_with_inputs(machine(&[]), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)]);
-    assert_eq!(off.said(), ["K-0077"]);
-    assert!(off.axis(0, |a| a.add.abs() + a.act.abs()).iter().all(|x| *x <= 0.0));
 }
 
 /// PT1 of 10 ms: `1 - p^n / (1 + g)` with `g = tan(T / 2 tau)`, `p = (1 - g) / (1 + g)`. Conformance: A057.

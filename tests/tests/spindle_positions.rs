@@ -1,5 +1,7 @@
 //! M19: the angle that is held, the direction, the speed; changes of the speed: ramps, G130.
 
+use kontur_kit::Random;
+use kontur_kit::rows::settings;
 use kontur_tests::{Run, run};
 
 /// Set angle of the spindle at the end of a line of the program, counted over the revolutions, in deg.
@@ -143,5 +145,34 @@ fn changes_of_speed_in_a_row_keep_the_jerk() {
         assert!(worst(&differences(&a)) <= jerk_max * (1.0 + 1e-6), "{text}");
         let last = run.records.iter().rposition(|r| r.line == line).unwrap();
         assert!((v[last - 1] - end).abs() < 1e-6, "{text}: {}", v[last - 1]);
+    }
+}
+
+/// Random commands: a tool that permits everything gives the same bits as one without a spindle.
+#[test]
+fn limits_beyond_those_of_the_list_change_nothing() {
+    let mut random = Random::new(20_261_126);
+    let without = settings("tool.wz[3]: gueltig=1");
+    let beyond =
+        settings("tool.wz[4]: gueltig=1, log_ax_nr_spdl=4, vb_max=2000000000, a_max=1000000000");
+    let tools: Vec<&str> = without.iter().chain(&beyond).map(String::as_str).collect();
+    for _ in 0..40 {
+        let mut program = String::new();
+        for _ in 0..8 {
+            program += &match random.below(7) {
+                0 => format!("M3 S{}\n", random.below(13_000)),
+                1 => format!("M4 S{}\n", random.below(13_000)),
+                2 => "M5\n".to_owned(),
+                3 => format!("M19 S200 S.POS{}\n", random.below(360)),
+                4 => format!("S[G130={}]\n", 10 + random.below(90)),
+                5 => "S[GET_DYNAMIC_DATA]\n".to_owned(),
+                _ => format!("G04 {}\n", random.below(20) as f64 / 10.0),
+            };
+        }
+        let angles = |tool: u32| {
+            let run = run(&format!("%P\nD{tool}\n{program}M30\n"), &tools);
+            run.records.iter().map(|r| r.axes[3].set.to_bits()).collect::<Vec<_>>()
+        };
+        assert_eq!(angles(4), angles(3), "{program}");
     }
 }

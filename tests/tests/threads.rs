@@ -265,15 +265,6 @@ fn constant_cutting_speed_and_feed_per_revolution() {
     assert!((last.2 - n(10.0)).abs() < 1e-3, "{last:?}");
 }
 
-/// Near the centre the speed is that of G196 or of the list, and 20633 says so.
-#[test]
-fn the_turning_centre() {
-    let run = run("%P\nM3 S100\nG01 X0.5 F1000\nG196 S1000\nG96 S100\nG04 1\nX0\nM30\n", &[FACE]);
-    assert_eq!(run.ids(), [20633]);
-    let at = rpm(&run).into_iter().rfind(|(line, _, _)| *line == 7).unwrap();
-    assert!((at.2 - 1000.0).abs() < 1e-6, "{at:?}");
-}
-
 /// Blocks between which the path rests are separate threads, each from the mark: exact stop, dwell, flush.
 #[test]
 fn a_rest_in_a_thread_waits_for_the_mark_again() {
@@ -288,19 +279,6 @@ fn a_rest_in_a_thread_waits_for_the_mark_again() {
         // since the mark the spindle has turned for one cycle at most: 3 deg at 500 rev/min
         let angle = run.records[begins].axes[SPINDLE].set.rem_euclid(360.0);
         assert!(angle <= 3.0 + 1e-6, "{angle}");
-    }
-}
-
-/// The S word programmed last applies, before tapping or within it.
-#[test]
-fn the_last_speed_counts_for_tapping() {
-    for text in
-        ["S200\nG63 Z-20 F300", "G63 F300\nS200\nZ-20", "G63 Z-1 F300 S100\nG01 Z-2 S200\nG63 Z-20"]
-    {
-        let run = run(&format!("%P\n{text}\nM30\n"), &[]);
-        assert_eq!(run.diagnostics, [], "{text}");
-        let most = rpm(&run).iter().fold(0.0, |most: f64, (_, _, v)| most.max(v.abs()));
-        assert!((most - 200.0).abs() < 1e-6, "{text}: {most}");
     }
 }
 
