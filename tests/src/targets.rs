@@ -7,10 +7,10 @@
 use crate::command::{Output, command};
 use kontur::Exit;
 use kontur::args::Args;
-use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::diag::{Condition, Diagnostic};
 use kontur_interpreter::job::{Checked, Job, Options, Run};
-use kontur_interpreter::machine::{Axis, AxisKind, ListFiles, Machine};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::machine::{Axis, AxisKind, ListFiles, Machine, Override};
+use kontur_interpreter::record::{AxisRecord, CycleRecord};
 use kontur_interpreter::source::MemorySources;
 use kontur_kit::Random;
 use std::ffi::OsString;
@@ -40,8 +40,25 @@ const TIME_S: f64 = 2.0;
 /// Messages for one program: the limits of the executor, and 10 from its last block.
 const MESSAGES_MAX: usize = 2000;
 
-static MACHINE: LazyLock<Arc<Machine>> =
-    LazyLock::new(|| Arc::new(Machine::builtin(&[]).expect("the built-in machine").0));
+/// The built-in machine, also with filters, and sample machines.
+static MACHINES: LazyLock<[Arc<Machine>; 5]> = LazyLock::new(|| {
+    let samples = ["vendor_defaults", "xyz_hsc", "two_spindles"];
+    let [defaults, hsc, spindles] = samples.map(|name| crate::sample_machine(name, &[]));
+    [
+        crate::machine(&[]),
+        crate::machine("X.filter[0]: enable=1, order=2, fg_f0=30"),
+        defaults,
+        hsc,
+        spindles,
+    ]
+    .map(|(machine, _)| Arc::new(machine))
+});
+
+/// The machine for an input: any of them, always the same for one input.
+fn machine_for(data: &[u8]) -> &'static Arc<Machine> {
+    let sum: usize = data.iter().map(|byte| usize::from(*byte)).sum();
+    &MACHINES[sum % MACHINES.len()]
+}
 
 fn options() -> Options {
     Options {
@@ -59,11 +76,11 @@ fn job(machine: Arc<Machine>, program: &[u8]) -> Job {
 }
 
 fn checked(program: &[u8]) -> Checked {
-    let checked = job(Arc::clone(&MACHINE), program).check();
+    let checked = job(Arc::clone(machine_for(program)), program).check();
     let found = &checked.diagnostics;
     assert!(found.len() <= MESSAGES_MAX, "{} messages", found.len());
     for d in found {
-        assert!(!d.text.is_empty(), "{d:?}");
+        assert!(!d.text.is_empty() && d.id != Condition::Internal, "{d:?}");
         if let Some(place) = &d.source {
             let characters = place.text.chars().count() as u64;
             assert!(place.offset <= program.len() as u64, "{d:?}");
@@ -83,10 +100,11 @@ pub fn run(data: &[u8]) {
     if checked(data).refuses() {
         return;
     }
-    let cycle_s = MACHINE.cycle.seconds();
-    let job = job(Arc::clone(&MACHINE), data);
+    let machine = machine_for(data);
+    let cycle_s = machine.cycle.seconds();
+    let job = job(Arc::clone(machine), data);
     let mut run = job.start().expect("a machine without plants of its own");
-    let mut speeds = Speeds::new(&MACHINE);
+    let mut speeds = Speeds::new(machine);
     let mut cycles = 0_u64;
     let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         assert_eq!(record.k, cycles, "rows are cycles");
@@ -94,20 +112,22 @@ pub fn run(data: &[u8]) {
         // braking after a limit has been reached takes time
         assert!(cycles as f64 * cycle_s < TIME_S + 60.0, "the run does not end");
         for (i, axis) in record.axes.iter().enumerate() {
-            let values =
-                [axis.ipo, axis.set, axis.vel, axis.acc, axis.jerk, axis.reference, axis.act];
-            assert!(
-                values.iter().all(|v| v.is_finite()),
-                "axis {i} in cycle {}: {axis:?}",
-                record.k
-            );
+            assert!(is_finite(axis), "axis {i} in cycle {}: {axis:?}", record.k);
         }
         let path = &record.path;
-        let values = [path.s_mm, path.v_mm_s, path.a_mm_s2, path.j_mm_s3];
+        let values = [path.s_mm, path.v_mm_s, path.a_mm_s2, path.j_mm_s3, record.contour_err_mm];
         assert!(values.iter().all(|v| v.is_finite()), "cycle {}: {path:?}", record.k);
         speeds.keep_limits(record);
     });
     ends_as_it_says(&mut run);
+}
+
+/// Whether all quantities of an axis are numbers.
+fn is_finite(a: &AxisRecord) -> bool {
+    let path = [a.ipo, a.set, a.vel, a.acc, a.jerk, a.err, a.dev, a.add];
+    let control = [a.reference, a.act, a.load, a.lag, a.ff, a.cmd, a.vadd, a.tcp, a.tcp_acc];
+    let drive = [a.cmd_drive, a.vff_drive, a.vadd_drive, a.torque_drive, a.torque_n_m];
+    path.iter().chain(&control).chain(&drive).all(|x| x.is_finite())
 }
 
 /// Compares the interpolated positions of one cycle with those of the next.
@@ -254,11 +274,14 @@ pub fn diff(data: &[u8]) {
     }
 }
 
-/// The words of a command line, one per line, are parsed; nothing is executed.
+/// The words of a command line, one per line, are parsed, and settings of lists are taken or refused; nothing is executed.
 pub fn command_line(data: &[u8]) {
     use clap::Parser as _;
     let text = String::from_utf8_lossy(data);
     let words = std::iter::once("kontur").chain(text.lines());
+    for setting in text.lines().filter_map(|line| Override::parse(line).ok()) {
+        let _ = Machine::builtin(&[setting]);
+    }
     match Args::try_parse_from(words) {
         Ok(args) => drop(format!("{args:?}")),
         Err(e) => drop(e.to_string()),
@@ -273,6 +296,23 @@ pub fn report(data: &[u8]) {
     }
 }
 
+/// Programs that combine rare functions.
+const RARE: [&str; 9] = [
+    include_str!("../../interpreter/tests/data/squares.nc"),
+    "V.G.WZ[1].R=2\nD1 G41 G01 X10 F6000\nX30 Y5\nG03 X30 Y25 J10\nX10\nG40 X0 Y0\nM30\n",
+    "#CONTOUR MODE [DIST PRE_DIST=1 POST_DIST=2]\nG261 F6000\nX10\nY10\nG02 X20 Y0 I5\nG260\nM30\n",
+    "#HSC ON [BSPLINE PATH_DEV=0.05]\nG01 F6000\nX1 Y0.1\nX2 Y0.3\nX3 Y0\nX4 Y0.2\n#HSC OFF\nM30\n",
+    "#SLOPE [TYPE=HSC NO_OPT=0]\n#VIB GUARD ON [MODE=3 FREQ=40 AX_DEV=0.01]\nG01 X10 F6000\nY10\nX0 Y0\nM30\n",
+    "G93 F0.5 X10\nG95 S1000 M3 F0.1 X0\nG194 F50 Y10\nG94 F3000 Y0 E500\nM30\n",
+    "S[M3 REV1000]\nG04 S5\nS[POS=45 M19]\nX5 F2000 G135 G136 X80\nG137\nM30\n",
+    "#CS ON [1,2,3,0,0,30]\nG01 X5 F2000\n#ROTATION ON [ANGLE=20]\nG02 X10 I2.5\n#CS OFF ALL\nM30\n",
+    "X5 F2000\nG301 I1\nY5\nG302 I0.5 X0\nG91 G60 X-1 Z2\nG18 G03 Z-2 K-1\nM30\n",
+];
+
+/// Numbers that are special somewhere.
+const NUMBERS: &str = "0 1 -1 0.0001 1e9 2147483648 -0 0.5 90 100 360 1000000 4294967296 0.00000000000001 \
+                       99999999999999999999 . 65536 3 10";
+
 /// Seed inputs for a target: what the repository has of this kind.
 pub fn corpus(target: &str) -> Vec<Vec<u8>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -281,6 +321,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
         for folder in ["programs", "programs/lessons", "programs/fail", "tests/suite/faults"] {
             found.extend(files(&root.join(folder), "nc").into_iter().filter(|f| f.len() < 20_000));
         }
+        found.extend(RARE.map(|text| text.as_bytes().to_vec()));
         found
     };
     match target {
@@ -350,13 +391,13 @@ pub fn dictionary() -> Vec<String> {
     words.into_iter().collect()
 }
 
-/// An input with a few mutations: characters, lines, words of the dictionary, or pieces of another input.
+/// An input with a few mutations: characters, lines, numbers, words of the dictionary, or pieces of another input.
 pub fn mutated(input: &[u8], other: &[u8], words: &[String], random: &mut Random) -> Vec<u8> {
     let mut out = input.to_vec();
     for _ in 0..=random.below(4) {
         let at = random.below(out.len() + 1);
         let end = (at + 1 + random.below(8)).min(out.len());
-        match random.below(7) {
+        match random.below(9) {
             0 => drop(out.drain(at.min(end)..end)),
             1 => out.insert(at, random.below(256) as u8),
             2 => {
@@ -377,6 +418,13 @@ pub fn mutated(input: &[u8], other: &[u8], words: &[String], random: &mut Random
                 let signs = b"[]()\"-+=;,.#$%@/\\ \n0123456789";
                 let sign = signs[random.below(signs.len())];
                 drop(out.splice(at..end.max(at), [sign]));
+            }
+            6..8 => {
+                let digit = |i: &usize| out[*i].is_ascii_digit() || out[*i] == b'.';
+                let Some(first) = (at..out.len()).find(digit) else { continue };
+                let last = (first..out.len()).find(|i| !digit(i)).unwrap_or(out.len());
+                let numbers: Vec<&str> = NUMBERS.split_whitespace().collect();
+                drop(out.splice(first..last, random.pick(&numbers).bytes()));
             }
             _ => out.truncate(at.max(out.len() / 2)),
         }

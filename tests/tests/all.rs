@@ -21,7 +21,6 @@ mod measuring;
 mod optimality;
 mod position_monitoring;
 mod programs;
-mod random_programs;
 mod realtime_inputs;
 mod recordings;
 mod report_and_tune;

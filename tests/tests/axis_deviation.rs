@@ -178,7 +178,7 @@ fn something_tiny_in_a_corner_changes_little() {
             let text = format!(
                 "%P\n#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ={freq_hz:.3} AX_DEV={tolerance_mm}]\nF6000\n{contour}\nM30\n"
             );
-            let run = run(&text, &[&format!("kontur.cycle_time_us={cycle_us}")]);
+            let run = run(&text, &format!("kontur.cycle_time_us={cycle_us}"));
             assert_eq!(run.diagnostics, [], "{text}");
             (run.records.len(), text)
         });

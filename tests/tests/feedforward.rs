@@ -53,9 +53,7 @@ fn the_sample_program_of_the_spindles() {
 /// another speed command, without a jump of the axis.
 #[test]
 fn machine_data_move_no_axis() {
-    for settings in
-        [&[][..], &["X.filter[0].enable=1", "X.filter[0].type=PT1", "X.filter[0].order=1"]]
-    {
+    for settings in ["", "X.filter[0]: enable=1, type=PT1, order=1"] {
         let with = |command: &str| {
             run(&program(&["G135", "G01 X10 F6000", command, "G04 0.2", "X20"]), settings)
         };
@@ -83,13 +81,9 @@ fn machine_data_move_no_axis() {
 /// axis at rest does not move; a changed filter keeps it too.
 #[test]
 fn machine_data_of_a_filter_leave_the_others() {
-    let high_pass = ["enable=1", "type=HIGHPASS", "order=2", "share_percent=50"];
-    let low_pass = ["enable=1", "order=1", "fg_f0=15"];
-    let settings: Vec<String> = [("0", &low_pass[..]), ("1", &high_pass), ("2", &low_pass)]
-        .iter()
-        .flat_map(|(i, keys)| keys.iter().map(move |key| format!("X.filter[{i}].{key}")))
-        .collect();
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    let settings = "X.filter[0]: enable=1, order=1, fg_f0=15; \
+                    X.filter[1]: enable=1, type=HIGHPASS, order=2, share_percent=50; \
+                    X.filter[2]: enable=1, order=1, fg_f0=15";
     for changed in [
         "filter[0].fg_f0 25",
         "filter[2].fg_f0 25",
@@ -99,7 +93,7 @@ fn machine_data_of_a_filter_leave_the_others() {
         "filter[1].order 1",
     ] {
         let command = format!("#MACHINE DATA [AX=X AXPARAM=\"{changed}\"]");
-        let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), &settings);
+        let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), settings);
         let after = run.records.iter().filter(|r| r.line > 2).map(|r| r.axes[0].set);
         // half of the distance is held back, also of the micrometre at the end
         let far = after.fold(0.0, |far: f64, set| far.max((set - 10.0).abs()));
@@ -111,11 +105,9 @@ fn machine_data_of_a_filter_leave_the_others() {
 /// missed.
 #[test]
 fn the_exact_stop_waits_for_settled_filters() {
-    let filter = ["enable=1", "type=PT1", "order=1", "time_constant=30000"];
     let with = |window: &str| {
-        let mut settings: Vec<String> = filter.iter().map(|k| format!("X.filter[0].{k}")).collect();
-        settings.push(format!("X.kenngr.filter_position_window={window}"));
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let filter = "X.filter[0]: enable=1, type=PT1, order=1, time_constant=30000";
+        let settings = format!("{filter}; X.kenngr.filter_position_window={window}");
         let run = run(&program(&["G60 G01 X20 F6000", "G01 X40"]), &settings);
         let (count, slowest) = run.totals.stops.axes[&0];
         assert_eq!(count, 2, "window {window}");
@@ -129,21 +121,16 @@ fn the_exact_stop_waits_for_settled_filters() {
 /// times its speed, and K-0022 names that jump. When both are at rest there is no message.
 #[test]
 fn a_switch_with_filters_is_reported() {
-    let guard = ["X.vib_guard.active=1", "X.vib_guard.mode=3", "X.vib_guard.freq=3"];
-    let low_pass = [
-        "X.filter[0].enable=1",
-        "X.filter[0].type=PT1",
-        "X.filter[0].order=1",
-        "X.filter[0].time_constant=50000",
-    ];
+    let guard = "X.vib_guard: active=1, mode=3, freq=3";
+    let low_pass = "X.filter[0]: enable=1, type=PT1, order=1, time_constant=50000";
     let asyn = "G135\nX[INDP_ASYN G90 G01 FEED=6000 POS=50]\nG04 0.2\nG137\nG04 1";
     for (settings, text, told) in [
-        (&guard[..], "G135\nG01 F6000 X20\nG137", true),
-        (&guard[..], "G135\nG01 F6000 X20\nG136 X50\nG04 0.1\nX0", true),
-        (&guard[..], "G135\nG01 F6000 X20\n#FLUSH WAIT\nG137", false),
-        (&low_pass[..], "G135\nG01 F6000 X20\nG137", true),
-        (&[][..], "G135\nG01 F6000 X20\nG137", false),
-        (&[][..], asyn, true),
+        (guard, "G135\nG01 F6000 X20\nG137", true),
+        (guard, "G135\nG01 F6000 X20\nG136 X50\nG04 0.1\nX0", true),
+        (guard, "G135\nG01 F6000 X20\n#FLUSH WAIT\nG137", false),
+        (low_pass, "G135\nG01 F6000 X20\nG137", true),
+        ("", "G135\nG01 F6000 X20\nG137", false),
+        ("", asyn, true),
     ] {
         let run = run(&program(&[text]), settings);
         let found: Vec<_> = run

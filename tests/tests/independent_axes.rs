@@ -208,7 +208,7 @@ fn the_stop_of_an_independent_axis_is_monitored() {
     let program = "%P\nZ[INDP_ASYN G90 G01 FEED=6000 POS=10]\nG01 X200 F6000\nM30\n";
     let with = |time_us: u32| {
         let setting = format!("Z.getriebe[0].position_settling_time={time_us}");
-        run(program, &[&setting])
+        run(program, &setting)
     };
     let late = with(20_000);
     assert_eq!(late.errors(), ["70082"]);

@@ -62,7 +62,7 @@ fn slopes() {
     let one = 20.0 / v + v / a + ramp_s;
     for (profile, want) in [(0, one - ramp_s), (1, one), (2, one), (3, one)] {
         let setting = format!("channel.prog_start.slope.profile={profile}");
-        let run = run(&text("slopes.nc"), &[&setting]);
+        let run = run(&text("slopes.nc"), &setting);
         for lines in [10..=10, 12..=13] {
             let is = moving_s(&run, &lines);
             assert!(
@@ -112,7 +112,7 @@ fn late_braking() {
                 mm / v + legs.sum::<f64>()
             });
             let want: f64 = blocks.sum();
-            let run = run(program, &[&setting]);
+            let run = run(program, &setting);
             assert!(run.ids().is_empty(), "{:?}", run.diagnostics);
             let is = moving_s(&run, &(10..=14));
             assert!(

@@ -93,14 +93,13 @@ fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
 
 /// What a row states and the run does not fulfil.
 fn faults(row: &Row) -> Vec<String> {
-    let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
     let inputs: Vec<_> = row.inputs.iter().map(|(t, name, x)| (*t, name.as_str(), *x)).collect();
     let machine = match row.machine.as_deref() {
-        None => machine(&settings),
+        None => machine(&row.settings),
         Some(name) if programs().join("machines").join(name).is_dir() => {
-            sample_machine(name, &settings)
+            sample_machine(name, &row.settings)
         }
-        Some(name) => suite_machine(name, &settings),
+        Some(name) => suite_machine(name, &row.settings),
     };
     let axes: Vec<String> = machine.0.all_axes().map(|axis| axis.name().to_owned()).collect();
     let run = run_with_inputs(machine, &format!("%P\n{}", row.program), &inputs);

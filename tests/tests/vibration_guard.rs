@@ -2,8 +2,7 @@
 
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_kit::rows::settings;
-use kontur_tests::{Run, largest_step, run, run_on, sample_machine};
+use kontur_tests::{Run, Settings, largest_step, run, run_on, sample_machine};
 
 /// Square of 1 mm from the present position of the axes, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
@@ -12,21 +11,8 @@ fn program(lines: &[&str]) -> String {
     format!("%P\nG90\n{}\nM30\n", lines.join("\n"))
 }
 
-fn on(lines: &[&str], settings: &[String]) -> Run {
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    run(&program(lines), &settings)
-}
-
-/// `vib_guard` entries in the path axes.
-fn listed(entries: &str) -> Vec<String> {
-    let of = |axis: &'static str| {
-        entries.split_whitespace().map(move |e| format!("{axis}.vib_guard.{e}")).collect::<Vec<_>>()
-    };
-    ["X", "Y", "Z"].into_iter().flat_map(of).collect()
-}
-
-fn strings(settings: &[&str]) -> Vec<String> {
-    settings.iter().map(|s| (*s).to_owned()).collect()
+fn on(lines: &[&str], settings: impl Settings) -> Run {
+    run(&program(lines), settings)
 }
 
 /// Names of the axes in errors.
@@ -54,18 +40,11 @@ fn near(is: f64, want: f64) {
 #[test]
 fn lists_activate_single_axes() {
     let lines = ["G01 X100 Y100 F6000"];
-    let run = on(&lines, &strings(&["X.vib_guard.active=1"]));
+    let run = on(&lines, "X.vib_guard.active=1");
     assert!(!run.is_unshaped(0) && run.is_unshaped(1));
-    let unequal = [
-        "X.vib_guard.active=1",
-        "X.vib_guard.freq=20",
-        "Y.vib_guard.active=1",
-        "Y.vib_guard.freq=40",
-    ];
-    let run = on(&lines, &strings(&unequal));
+    let run = on(&lines, "X.vib_guard: active=1, freq=20; Y.vib_guard: active=1, freq=40");
     let of = |f| kernel_delay(1, f, 0.1);
-    let filter = settings("X.filter[0]: enable=1, order=4, fg_f0=15");
-    let filtered = on(&["G01 X10 Y10 F6000"], &filter);
+    let filtered = on(&["G01 X10 Y10 F6000"], "X.filter[0]: enable=1, order=4, fg_f0=15");
     let [unequal] = &filtered.diagnostics[..] else { panic!("{:?}", filtered.diagnostics) };
     assert!(unequal.text.contains("X 18.447 ms") && unequal.text.contains("Y 0.000 ms"));
     let text: Vec<&str> = run.diagnostics.iter().map(|d| d.text.as_str()).collect();
@@ -109,7 +88,7 @@ fn the_command_activates_all_axes() {
 fn the_error_grows_with_the_cycle() {
     let error = |us: u32| {
         let cycle = format!("kontur.cycle_time_us={us}");
-        let run = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &[cycle]);
+        let run = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &cycle);
         largest(&run, |r| r.contour_err_mm)
     };
     let (one, two, four) = (error(1000), error(2000), error(4000));
@@ -147,11 +126,11 @@ fn the_tolerance_acts_only_where_it_must() {
 #[test]
 fn lists_and_program() {
     let motion = "G01 X100 F6000";
-    let run = on(&["#VIB GUARD ON", motion], &listed("mode=3 freq=20"));
+    let run = on(&["#VIB GUARD ON", motion], "X,Y,Z.vib_guard: mode=3, freq=20");
     near(run.delay_cycles(4), kernel_delay(3, 20.0, 0.1));
-    let active = listed("active=1 mode=1 freq=30");
+    let active = "X,Y,Z.vib_guard: active=1, mode=1, freq=30";
     let run =
-        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], &active);
+        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], active);
     near(run.delay_cycles(3), kernel_delay(1, 30.0, 0.1));
     near(run.delay_cycles(5), kernel_delay(4, 50.0, 0.1));
     near(run.delay_cycles(7), 0.0);
@@ -205,25 +184,18 @@ fn both_commands_in_one_program() {
 /// in another: both act. Conformance: V031, V034, V035, V036, V037.
 #[test]
 fn conflicts_with_lists() {
-    let fir =
-        |axis: &str| ["enable=1", "type=1", "order=20"].map(|e| format!("{axis}.filter_fir.{e}"));
-    let guard = |axis: &str| format!("{axis}.vib_guard.active=1");
-    let motion = "G01 X10 Y10 F6000";
-    let with = |fir: &[String], guard: Option<String>, lines: &[&str]| {
-        let settings: Vec<String> = fir.iter().cloned().chain(guard).collect();
-        on(lines, &settings)
-    };
-    let one_axis = with(&fir("X"), Some(guard("X")), &[motion]);
-    assert!(refused_for(&one_axis).contains(&"X".to_owned()));
-    let filter = with(&[], Some(guard("Y")), &["#FILTER ON [ORDER=20]", motion]);
+    let (fir, motion) = ("X.filter_fir: enable=1, type=1, order=20", "G01 X10 Y10 F6000");
+    let [x, y] = ["X", "Y"].map(|axis| format!("{fir}; {axis}.vib_guard.active=1"));
+    assert!(refused_for(&on(&[motion], &x)).contains(&"X".to_owned()));
+    let filter = on(&["#FILTER ON [ORDER=20]", motion], "Y.vib_guard.active=1");
     assert!(refused_for(&filter).contains(&"Y".to_owned()));
-    let command = with(&fir("Y")[1..2], None, &["#VIB GUARD ON", motion]);
+    let command = on(&["#VIB GUARD ON", motion], "Y.filter_fir.type=1");
     assert!(refused_for(&command).contains(&"Y".to_owned()));
-    let allowed = with(&fir("X"), Some(guard("Y")), &[motion]);
+    let allowed = on(&[motion], &y);
     assert!(!allowed.totals.aborted, "{:?}", allowed.diagnostics);
     assert!(!allowed.is_unshaped(0) && !allowed.is_unshaped(1));
     for command in ["#VIB GUARD OFF", "#FILTER OFF"] {
-        let both = with(&fir("X"), Some(guard("Y")), &[command, motion]);
+        let both = on(&[command, motion], &y);
         assert!(!refused_for(&both).is_empty(), "{command}");
     }
 }
@@ -241,7 +213,7 @@ fn axis_exchange() {
     );
     let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", "#VIB GUARD ON", motion], &[]);
     near(run.delay_cycles(6), kernel_delay(1, 30.0, 0.1));
-    let run = on(&["#PUT AX [Z]", motion], &listed("active=1"));
+    let run = on(&["#PUT AX [Z]", motion], "X,Y,Z.vib_guard.active=1");
     near(run.delay_cycles(4), kernel_delay(1, 30.0, 0.1));
 }
 
@@ -258,9 +230,7 @@ fn keys_of_the_command() {
 #[test]
 fn acc_fact() {
     let corner = |weight: u32, acc_fact: u32| {
-        let settings =
-            ["X", "Y"].map(|axis| format!("{axis}.getriebe[0].dynamik.a_trans_weight={weight}"));
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let settings = format!("X,Y.getriebe[0].dynamik.a_trans_weight={weight}");
         let text = program(&[
             "#SLOPE [TYPE=TRAPEZ]",
             &format!("#VIB GUARD ON [MODE=2 FREQ=40 ACC_FACT={acc_fact}]"),

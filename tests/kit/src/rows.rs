@@ -20,12 +20,14 @@ pub struct Row {
     pub text: String,
 }
 
-/// Settings from the form that they have at the head of a paragraph: `KEY=VALUE`, or `PREFIX: KEY=VALUE, KEY=VALUE`.
+/// Settings from the form that they have at the head of a paragraph: `KEY=VALUE`, or `PREFIX: KEY=VALUE, KEY=VALUE`; several are separated
+/// by `; `.
 pub fn settings(text: &str) -> Vec<String> {
-    match text.split_once(": ") {
+    let one = |text: &str| match text.split_once(": ") {
         Some((prefix, keys)) => keys.split(", ").map(|key| format!("{prefix}.{key}")).collect(),
         None => vec![text.to_owned()],
-    }
+    };
+    text.split("; ").filter(|text| !text.is_empty()).flat_map(one).collect()
 }
 
 /// Lines of a program from the form that it has in a row.

@@ -85,37 +85,23 @@ impl Decoder {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");
         let Some((_, angle, span)) = angle else {
             let moves = !words.axes.is_empty() || words.group(Group::Path).is_some();
-            return match self.motion.contour_line.open.take_if(|_| moves) {
-                Some((_, _, _)) => {
-                    let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
-                    Err(Fault::new(Condition::ContourLineOpen, text, Span::default()))
-                }
-                None => Ok(ContourLine::Single),
-            };
+            if self.motion.contour_line.open.take_if(|_| moves).is_some() {
+                let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
+                return Err(Fault::new(Condition::ContourLineOpen, text, Span::default()));
+            }
+            return Ok(ContourLine::Single);
         };
         let span = *span;
         let Some(angle) = angle.filter(|a| a.is_finite()) else {
             return Err(Fault::new(Condition::Syntax, "#ANG without an angle", span)
                 .hint("write the angle to the first axis in deg: #ANG=30"));
         };
-        let mode = match words.group(Group::Path).map(|g| g.row.act) {
-            Some(crate::exec::block::groups::Act::Path(mode)) => mode,
-            _ => self.modal.path,
-        };
-        if !matches!(mode, PathMode::Linear | PathMode::Rapid) {
-            return Err(Fault::unsupported("#ANG in another motion than a straight one", span));
-        }
-        let main = self.modal.plane.main_axes();
-        let plane = [main[0], main[1]].map(|m| self.geometry.coordinates.main_axis(m));
-        let [Some(first), Some(second)] = plane else {
-            let text = "the plane of #ANG has no axis in the channel";
-            return Err(Fault::new(Condition::MainAxisMissing, text, span));
-        };
-        let word = |axis: usize| words.axes.iter().position(|(a, _, _)| *a == axis);
-        let here = [first, second].map(|axis| self.geometry.coordinates.programmed(axis));
+        let axes = self.axes_of_contour_lines(words, span)?;
+        let here = axes.map(|axis| self.geometry.coordinates.programmed(axis));
         // the end point in program coordinates
-        let end = [first, second].map(|axis| {
-            word(axis).map(|i| {
+        let end = axes.map(|axis| {
+            let word = words.axes.iter().position(|(a, _, _)| *a == axis);
+            word.map(|i| {
                 let absolute = words.is_absolute(i, self.modal.absolute);
                 let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
                 let from = self.geometry.coordinates.programmed(axis);
@@ -124,33 +110,27 @@ impl Decoder {
         });
         match (self.motion.contour_line.open.take(), end) {
             (None, [None, None]) => {
-                let [insertion, transition] = [Group::Insertion, Group::Transition];
-                let inserts = words.group(insertion).is_some()
-                    || words.group(transition).is_some()
+                // also where it is refused: the second line is not to be judged without this one
+                self.motion.contour_line.open = Some((angle, span, self.report.source));
+                let inserts = words.group(Group::Insertion).is_some()
+                    || words.group(Group::Transition).is_some()
                     || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
                 if inserts || !words.axes.is_empty() {
-                    // the second line is not to be judged without this one
-                    self.motion.contour_line.open = Some((angle, span, self.report.source));
                     let what = "the first of two contour lines with other words of motion";
                     return Err(Fault::unsupported(what, span));
                 }
-                self.motion.contour_line.open = Some((angle, span, self.report.source));
                 Ok(ContourLine::Waits)
             }
             (None, [Some(_), Some(_)]) => {
                 let text = "#ANG with both coordinates of the plane";
                 Err(Fault::new(Condition::ContourLineTwice, text, span))
             }
-            (None, [Some((value, _)), None]) => {
-                let end = end_of_line(angle, here, 0, value, span)?;
+            (None, [x, y]) => {
+                let given = usize::from(x.is_none());
+                let (value, _) = x.or(y).unwrap_or_default();
+                let value = end_of_line(angle, here, given, value, span)?;
                 self.motion.contour_line.targets =
-                    vec![Target { axis: second, value: end, absolute: true }];
-                Ok(ContourLine::Single)
-            }
-            (None, [None, Some((value, _))]) => {
-                let end = end_of_line(angle, here, 1, value, span)?;
-                self.motion.contour_line.targets =
-                    vec![Target { axis: first, value: end, absolute: true }];
+                    vec![Target { axis: axes[1 - given], value, absolute: true }];
                 Ok(ContourLine::Single)
             }
             (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
@@ -171,6 +151,24 @@ impl Decoder {
                 Err(Fault::new(Condition::ContourLineOpen, text, span))
             }
         }
+    }
+
+    /// The axes of the plane in which `#ANG` draws lines.
+    fn axes_of_contour_lines(&self, words: &Words<'_>, span: Span) -> Outcome<[usize; 2]> {
+        let mode = match words.group(Group::Path).map(|g| g.row.act) {
+            Some(crate::exec::block::groups::Act::Path(mode)) => mode,
+            _ => self.modal.path,
+        };
+        if !matches!(mode, PathMode::Linear | PathMode::Rapid) {
+            return Err(Fault::unsupported("#ANG in another motion than a straight one", span));
+        }
+        let [first, second, _] = self.modal.plane.main_axes();
+        let plane = [first, second].map(|m| self.geometry.coordinates.main_axis(m));
+        let [Some(first), Some(second)] = plane else {
+            let text = "the plane of #ANG has no axis in the channel";
+            return Err(Fault::new(Condition::MainAxisMissing, text, span));
+        };
+        Ok([first, second])
     }
 
     /// The first of two lines, while the second one is still to be read.
