@@ -38,12 +38,9 @@ fn a_wait_that_cannot_end() {
     let said = usize::try_from(d.cycle.unwrap()).unwrap();
     assert!(said - rest < 2000, "{said} {rest}: 1 s is the settling time of a list without one");
     // the force of the plant itself, and one that oscillates by about 0.1 mm without end
-    for disturbance in [&["amplitude=-1000"][..], &["amplitude=-1000", "frequency=0"]] {
-        let settings: Vec<String> =
-            disturbance.iter().map(|d| format!("kontur.axis[1].plant.disturbance.{d}")).collect();
-        let mut all: Vec<&str> = settings.iter().map(String::as_str).collect();
-        all.push(off);
-        assert_eq!(only(&kontur_tests::run(G60, &all)).0, Id::Kontur(130));
+    for disturbance in ["amplitude=-1000", "amplitude=-1000, frequency=0"] {
+        let settings = format!("{off}; kontur.axis[1].plant.disturbance: {disturbance}");
+        assert_eq!(only(&kontur_tests::run(G60, &settings)).0, Id::Kontur(130));
     }
 }
 
@@ -79,23 +76,19 @@ fn the_end_waits_for_the_axes() {
 /// G60 waits for both sides of a gantry bridge; an error of one side brakes both along the path.
 #[test]
 fn both_sides_of_a_gantry() {
-    let on = |settings: &[&str], text: &str| run_on(sample_machine("gantry", settings), text);
-    let soft = "X2.getriebe[0].kv=2000";
-    let waits = on(&[soft, "X2.getriebe[0].position_settling_time=0"], G60);
+    let on = |settings: &str, text: &str| run_on(sample_machine("gantry", settings), text);
+    let waits = on("X2.getriebe[0]: kv=2000, position_settling_time=0", G60);
     assert_eq!(waits.diagnostics, []);
     let begins = waits.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
     let slave = waits.records[begins].axes.last().unwrap();
     assert!(slave.lag.abs() <= 0.01, "{}", slave.lag);
     // one side does not arrive in time: the other one is held with it and gives no message
-    let late = on(&["X2.getriebe[0].kv=1000", "X2.getriebe[0].position_settling_time=10000"], G60);
+    let late = on("X2.getriebe[0]: kv=1000, position_settling_time=10000", G60);
     assert_eq!(only(&late).0, Id::Vendor(70082));
     assert_eq!(only(&late).1, "X2");
     // a following error of the slave in full motion
-    let lag = ["slep_ueberw_typ=4", "slep_max=10000", "slep_min=10000"]
-        .map(|s| format!("X2.getriebe[0].{s}"));
-    let mut settings: Vec<&str> = lag.iter().map(String::as_str).collect();
-    settings.push(soft);
-    let run = on(&settings, "%P\nG90\nG01 X400 F30000\nM30\n");
+    let lag = "X2.getriebe[0]: slep_ueberw_typ=4, slep_max=10000, slep_min=10000, kv=2000";
+    let run = on(lag, "%P\nG90\nG01 X400 F30000\nM30\n");
     assert_eq!(only(&run).0, Id::Vendor(70020));
     let most = |axis: usize| run.records.iter().map(|r| r.axes[axis].acc.abs()).fold(0.0, f64::max);
     let slave = run.records[0].axes.len() - 1;

@@ -201,28 +201,15 @@ fn afterwards_the_deviation_counts_again() {
     assert!(without > 0.03 && (with - without).abs() < 1e-6, "{with} instead of {without}");
 }
 
-/// Position monitoring of an independent axis begins where its own motion ends, while the path is still moving: too little time gives
-/// 70082 in the line of the motion, and enough time gives a settled stop, for which the end of the program waits.
+/// Position monitoring of an independent axis begins where its own motion ends, while the path is still moving. What it reports is in
+/// `arrival.txt`.
 #[test]
 fn the_stop_of_an_independent_axis_is_monitored() {
     let program = "%P\nZ[INDP_ASYN G90 G01 FEED=6000 POS=10]\nG01 X200 F6000\nM30\n";
-    let with = |time_us: u32| {
-        let setting = format!("Z.getriebe[0].position_settling_time={time_us}");
-        run(program, &setting)
-    };
-    let late = with(20_000);
-    assert_eq!(late.errors(), ["70082"]);
-    let line = |d: &Diagnostic| d.source.as_ref().map(|source| source.line);
-    assert!(late.diagnostics.iter().all(|d| line(d) == Some(2)));
-    let enough = with(100_000);
-    assert!(enough.errors().is_empty());
-    let (count, slowest) = enough.totals.stops.axes[&2];
+    let run = run(program, "Z.getriebe[0].position_settling_time=100000");
+    assert!(run.errors().is_empty());
+    let (count, slowest) = run.totals.stops.axes[&2];
     // 10 mm at 100 mm/s; the lag of a second order decays in 44 ms, long before the end of the path
     assert!(count == 1 && slowest.source.line == 2 && slowest.settling_s > 0.02);
-    assert!((slowest.k as f64) * enough.cycle_s < 0.5);
-    let last = enough.records.last().unwrap();
-    // the path is shorter: the program ends with the axis in its window
-    let far = run(&program.replace("POS=10", "POS=100").replace("X200", "X1"), &[]);
-    let end = far.records.last().unwrap();
-    assert!((last.axes[2].act - 10.0).abs() < 0.011 && (end.axes[2].act - 100.0).abs() <= 0.01);
+    assert!((slowest.k as f64) * run.cycle_s < 0.5);
 }
