@@ -130,7 +130,7 @@ fn time_delays() {
     }
 }
 
-/// Conformance: A119.
+/// Conformance: A117, A118, A119.
 #[test]
 fn steps_of_several_orders() {
     let curves = figure("figure16");

@@ -149,7 +149,7 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     fs::write(parts.join("Axis 12.xti"), item(&axis("", "s.lis", (1, 3)))).unwrap();
     fs::write(parts.join("../Channel.xti"), item(&channel(&list("channel.lis")))).unwrap();
     put(&folder, project(TASK));
-    let (trace, said) = finishes(&folder, "machine.tsproj");
+    let (trace, _) = finishes(&folder, "machine.tsproj");
     assert_eq!(trace, expected);
 
     // only the items, exported into a folder; without the project the cycle is unknown
