@@ -49,6 +49,9 @@ fn run(mut axis: AxisControl, profile: &Profile, gain: f64) -> Vec<ControlOutput
     kept
 }
 
+/// Kv in 1/s, time constant of the drive in s, feedforward for it, and four figures with their resolution.
+type LagRow<'a> = (f64, f64, &'a dyn Fn(f64) -> FeedforwardConfig, [(f64, f64); 4]);
+
 /// Conformance: F001, F002, F004, F008, F010, F011, F046, F047, F048.
 #[test]
 fn lag_table() {
@@ -62,7 +65,7 @@ fn lag_table() {
     let weighted = |ta| FeedforwardConfig { global_ratio: 0.9, ..fed(Mode::VEL, ta) };
     // Kv and Ta; lag in um and its printed resolution at constant speed (last cycle), at k = 99 (last sample of constant
     // acceleration), largest and smallest
-    let rows: [(f64, f64, &dyn Fn(f64) -> FeedforwardConfig, [(f64, f64); 4]); 11] = [
+    let rows: [LagRow<'_>; 11] = [
         (50.0, 0.005, &none, [(2000.0, m), (1190.7, d), (2000.0, d), (0.0, u)]),
         (50.0, 0.005, &vel, [(0.0, m), (99.25, c), (99.42, c), (-99.42, c)]),
         (50.0, 0.005, &both, [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
