@@ -58,8 +58,7 @@ fn case(seed: u64) -> Case {
 
 /// Runs the program of a number and judges it; returns the largest deviation of a set point as a share of the tolerance.
 fn holds(n: u64, case: &Case) -> f64 {
-    let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
-    let run = run(&case.text, &settings);
+    let run = run(&case.text, &case.settings);
     let about = || format!("program {n}\n{}\n{:?}", case.text, case.settings);
     assert!(!run.totals.aborted, "{:?}\n{}", run.diagnostics, about());
     let unkept: Vec<_> =
