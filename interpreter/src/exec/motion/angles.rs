@@ -98,16 +98,7 @@ impl Decoder {
         };
         let axes = self.axes_of_contour_lines(words, span)?;
         let here = axes.map(|axis| self.geometry.coordinates.programmed(axis));
-        // the end point in program coordinates
-        let end = axes.map(|axis| {
-            let word = words.axes.iter().position(|(a, _, _)| *a == axis);
-            word.map(|i| {
-                let absolute = words.is_absolute(i, self.modal.absolute);
-                let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
-                let from = self.geometry.coordinates.programmed(axis);
-                (if absolute { value } else { from + value }, absolute)
-            })
-        });
+        let end = axes.map(|axis| self.end_of_contour_line(words, axis));
         match (self.motion.contour_line.open.take(), end) {
             (None, [None, None]) => {
                 // also where it is refused: the second line is not to be judged without this one
@@ -133,12 +124,7 @@ impl Decoder {
                     vec![Target { axis: axes[1 - given], value, absolute: true }];
                 Ok(ContourLine::Single)
             }
-            (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
-                if !(x_absolute && y_absolute) {
-                    let text =
-                        "the end point of two contour lines is programmed in relative coordinates";
-                    return Err(Fault::new(Condition::ContourLineRelative, text, span));
-                }
+            (Some((before, _, source)), [Some((x, true)), Some((y, true))]) => {
                 if words.group(Group::Insertion).is_some() || words.hashes.len() > 1 {
                     let what = "a chamfer or rounding in a block of two contour lines";
                     return Err(Fault::unsupported(what, span));
@@ -146,11 +132,25 @@ impl Decoder {
                 let corner = corner_of_lines([before, angle], here, [x, y], span)?;
                 Ok(ContourLine::Corner(corner, source))
             }
+            (Some(_), [Some(_), Some(_)]) => {
+                let text =
+                    "the end point of two contour lines is programmed in relative coordinates";
+                Err(Fault::new(Condition::ContourLineRelative, text, span))
+            }
             (Some(_), _) => {
                 let text = "the second of two contour lines needs both coordinates of the plane";
                 Err(Fault::new(Condition::ContourLineOpen, text, span))
             }
         }
+    }
+
+    /// End of a contour line along an axis in the coordinates of the program, and whether it is programmed in absolute ones.
+    fn end_of_contour_line(&self, words: &Words<'_>, axis: usize) -> Option<(f64, bool)> {
+        let i = words.axes.iter().position(|(a, _, _)| *a == axis)?;
+        let absolute = words.is_absolute(i, self.modal.absolute);
+        let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
+        let from = self.geometry.coordinates.programmed(axis);
+        Some((if absolute { value } else { from + value }, absolute))
     }
 
     /// The axes of the plane in which `#ANG` draws lines.

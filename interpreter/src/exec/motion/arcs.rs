@@ -106,20 +106,7 @@ impl Decoder {
         let g = words.group(Group::Path).map_or(span, |g| g.span);
         let found = if has_centre {
             let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
-            let limits = &self.machine.channel.arc_centre;
-            let arc = arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits);
-            if let (Ok(Arc { shift, .. }), Err(ArcError::RadiiDiffer { start, end, .. })) =
-                (&arc, arc::radii_agree(s, e, centre, limits))
-            {
-                let text = format!(
-                    "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
-                    (start - end).abs(),
-                    libm::hypot(shift[0], shift[1])
-                );
-                let fault = Fault::new(Condition::Odd, text, g);
-                self.report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
-            }
-            arc
+            self.arc_by_centre([s, e], centre, ccw, g)
         } else if let Some(radius) = self.modal.radius_mm {
             arc::by_radius(s, e, radius * scale, ccw)
         } else {
@@ -134,17 +121,17 @@ impl Decoder {
             let text = "the centre of this radius is outside the data format";
             return Err(Fault::new(Condition::CentreTooFar, text, at));
         }
-        if let Some((pitch, at)) = words.centre[main[2]] {
+        if let Some((pitch, at)) = words.centre[main[2]].filter(|(pitch, _)| *pitch != 0.0) {
             let normal = (0..3)
                 .find(|i| !image.contains(i))
                 .and_then(|m| self.geometry.coordinates.main_axis(m));
             let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
             let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
-            if pitch != 0.0 && height != 0.0 {
-                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
-            } else if pitch != 0.0 {
+            if height == 0.0 {
                 let text = "a pitch has no meaning without travel along the third axis";
                 self.report.note(Fault::new(Condition::Odd, text, at).warning());
+            } else {
+                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
             }
         }
         self.keep_arc(&arc, &start, plane, tilt.is_some());
@@ -157,6 +144,31 @@ impl Decoder {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
+    }
+
+    /// An arc by its centre, from one point of the plane to another. Where G165 moves a centre that G164 would refuse, K-0109
+    /// says so at the G function of the path.
+    fn arc_by_centre(
+        &mut self,
+        [s, e]: [[f64; 2]; 2],
+        centre: [f64; 2],
+        ccw: bool,
+        g: Span,
+    ) -> Result<Arc, ArcError> {
+        let limits = &self.machine.channel.arc_centre;
+        let arc = arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)?;
+        if let Err(ArcError::RadiiDiffer { start, end, .. }) =
+            arc::radii_agree(s, e, centre, limits)
+        {
+            let text = format!(
+                "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
+                (start - end).abs(),
+                libm::hypot(arc.shift[0], arc.shift[1])
+            );
+            let fault = Fault::new(Condition::Odd, text, g);
+            self.report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
+        }
+        Ok(arc)
     }
 
     /// Keeps centre and radius of an arc for the system variables and for arcs that refer to it.
