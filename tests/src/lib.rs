@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod geometry;
+mod seeds;
 pub mod suite;
 pub mod targets;
 

@@ -4,9 +4,8 @@
 //! numbers are finite; axes keep their velocity limit. The folder `fuzz` next to this one feeds the targets with coverage-guided input
 //! within a time budget, `tests/hostile_input.rs` with bounded random input.
 
-mod seeds;
-
 use crate::command::{Output, command};
+pub use crate::seeds::{BETWEEN, corpus, dictionary, mutated};
 use kontur::Exit;
 use kontur::args::Args;
 use kontur_interpreter::diag::{Condition, Diagnostic};
@@ -14,7 +13,6 @@ use kontur_interpreter::job::{Checked, Job, Options, Run};
 use kontur_interpreter::machine::{Axis, AxisKind, ListFiles, Machine, Override};
 use kontur_interpreter::record::{AxisRecord, CycleRecord};
 use kontur_interpreter::source::MemorySources;
-pub use seeds::{corpus, dictionary, mutated};
 use std::ffi::OsString;
 use std::sync::{Arc, LazyLock};
 
@@ -32,9 +30,6 @@ pub const TARGETS: [Target; 8] = [
     ("command_line", command_line),
     ("report", report),
 ];
-
-/// Separates the parts of an input that consists of several files.
-pub const BETWEEN: &[u8] = b"\n====\n";
 
 /// Program time of a run in s.
 const TIME_S: f64 = 2.0;

@@ -1,12 +1,14 @@
-//! Inputs for the targets: what the repository has of each kind, and mutations of it.
+//! Inputs for the targets of the fuzzer: what the repository has of each kind, and mutations of it.
 
-use super::BETWEEN;
 use kontur_kit::Random;
 use std::path::Path;
 
+/// Separates the parts of an input that consists of several files.
+pub const BETWEEN: &[u8] = b"\n====\n";
+
 /// Programs that combine rare functions.
 const RARE: [&str; 9] = [
-    include_str!("../../../interpreter/tests/data/squares.nc"),
+    include_str!("../../interpreter/tests/data/squares.nc"),
     "V.G.WZ[1].R=2\nD1 G41 G01 X10 F6000\nX30 Y5\nG03 X30 Y25 J10\nX10\nG40 X0 Y0\nM30\n",
     "#CONTOUR MODE [DIST PRE_DIST=1 POST_DIST=2]\nG261 F6000\nX10\nY10\nG02 X20 Y0 I5\nG260\nM30\n",
     "#HSC ON [BSPLINE PATH_DEV=0.05]\nG01 F6000\nX1 Y0.1\nX2 Y0.3\nX3 Y0\nX4 Y0.2\n#HSC OFF\nM30\n",
@@ -78,7 +80,7 @@ fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
 /// Words known to the readers: of the grammar, of the parameter tables, of the programs of the suite.
 pub fn dictionary() -> Vec<String> {
     let mut words = std::collections::BTreeSet::new();
-    let grammar = include_str!("../../../interpreter/src/nc.pest");
+    let grammar = include_str!("../../interpreter/src/nc.pest");
     // every second piece between quotes is a literal
     for line in grammar.lines().filter(|line| !line.starts_with("//")) {
         words.extend(line.split('"').skip(1).step_by(2).map(str::to_owned));
