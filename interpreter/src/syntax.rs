@@ -26,6 +26,7 @@ mod build;
 mod everyday;
 mod expr;
 mod foreign;
+mod grammar;
 pub(crate) mod macros;
 mod number;
 mod plain;
@@ -39,37 +40,15 @@ pub(crate) use scan::NESTING_MAX;
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
 use ast::{Block, BlockNumber, Body, Span};
-use build::Builder;
+use build::{Builder, PROBLEMS_MAX};
+use grammar::{Grammar, Rule};
 use pest::Parser as _;
 use problem::Problem;
 pub(crate) use problem::statement_meant;
 use std::sync::Arc;
 
-/// The grammar.
-mod grammar {
-    #![allow(missing_docs, reason = "the generated items are documented in nc.pest")]
-    #![allow(clippy::pedantic, reason = "generated code")]
-
-    /// Parser generated from `nc.pest`.
-    #[derive(Debug, pest_derive::Parser)]
-    #[grammar = "nc.pest"]
-    pub(super) struct Grammar;
-}
-
 #[cfg(test)]
 mod tests;
-
-use grammar::{Grammar, Rule};
-
-/// `#` words permitted among DIN words, besides `#SUPPRESS OFFSETS`.
-///
-/// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #SCALE, #ACHSE) and diagnosis, 20207.
-const HASH_WORDS: &[&str] = &[
-    "FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "AKIMA", "PSET", "PRESET", "SCALE", "ADD",
-];
-
-/// Maximum number of diagnostics per block; further ones are most likely noise.
-const PROBLEMS_MAX: usize = 10;
 
 /// Binary operators per block. Bounds the depth of the tree together with [`NESTING_MAX`]; above it K-0006.
 pub(crate) const OPERATORS_MAX: usize = 500;

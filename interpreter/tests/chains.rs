@@ -11,6 +11,7 @@ use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::machine::{ChainSetup, ListFiles, Machine, Override};
 
 /// The sample machines, with text appended to one of the lists.
+#[derive(Default)]
 struct Disk(&'static str, String);
 
 impl ListFiles for Disk {
@@ -29,8 +30,13 @@ fn load(name: &str, set: &[&str], added: &Disk) -> (Machine, Vec<Diagnostic>) {
     Machine::load(added, &format!("{name}/hochlauf.lis"), &set).unwrap()
 }
 
+/// A sample machine, and the messages about its lists.
+pub(crate) fn sample(name: &str) -> (Machine, Vec<Diagnostic>) {
+    load(name, &[], &Disk::default())
+}
+
 fn machine(name: &str, set: &[&str]) -> Machine {
-    load(name, set, &Disk("", String::new())).0
+    load(name, set, &Disk::default()).0
 }
 
 /// Chains of a machine and the messages about them, apart from the note on loops that are closed in the drive.

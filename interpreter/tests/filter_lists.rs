@@ -367,22 +367,3 @@ fn order_of_hsc() {
     assert_eq!(length("type=12 order=0 time_constant=10000"), no_vib);
     assert_eq!(length("type=LOWPASS order=2"), (None, vec!["K-0039".to_owned()]));
 }
-
-/// Keys that no list holds, and the keys that are corrected. Conformance: V053, V065, V067.
-#[test]
-fn vibration_guard_in_lists() {
-    let found = said("vib_guard.ax_dev 0.01\n");
-    assert_eq!(found[0].id.to_string(), "1001119");
-    let of = |setting: &str| {
-        let (machine, found) = machine(&[setting]);
-        let ids: Vec<String> = found.iter().map(|d| d.id.to_string()).collect();
-        (machine.axes[0].kernel_preset(MS).vib_guard.settings, ids)
-    };
-    let k34 = vec!["K-0034".to_owned()];
-    let (settings, ids) = of("X.vib_guard.mode=5");
-    assert_eq!((settings.mode, ids), (1, k34.clone()));
-    let (settings, ids) = of("X.vib_guard.freq=0.5");
-    assert_eq!((settings.freq_hz.to_bits(), ids), (30_f64.to_bits(), k34.clone()));
-    let (settings, ids) = of("X.vib_guard.damping=1.1");
-    assert_eq!((settings.damping.to_bits(), ids), (0.1_f64.to_bits(), k34));
-}

@@ -9,6 +9,7 @@ use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::source::RawBlock;
 use kontur_interpreter::syntax::Parser;
 use kontur_interpreter::syntax::ast::Block;
+use kontur_kit::pieces;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::num::NonZeroUsize;
@@ -52,99 +53,20 @@ fn is_linear(text: &str) -> Result<(), TestCaseError> {
 }
 
 /// Contents of brackets, and texts for which one of two ways of reading fails.
-const TOKENS: &[&str] = &[
-    "[",
-    "[",
-    "[",
-    "[",
-    "[",
-    "]",
-    "]",
-    "A ",
-    "A",
-    " ",
-    "P",
-    "P1",
-    "P1[",
-    "PP",
-    "V.P.A",
-    "V.P.A[",
-    "V.",
-    "SIN[",
-    "MAX[1,",
-    "MAX",
-    "1",
-    "-",
-    "+",
-    "=",
-    "A=",
-    "A=[",
-    "@P1=[",
-    "@",
-    "@A",
-    ",",
-    "|",
-    ".5",
-    "X2.7",
-    "\"t\"",
-    "\"",
-    "\\\"",
-    "!",
-    "!",
-    "TRUE",
-    "PI[",
-    "MOD",
-    " OR ",
-    "-[",
-    "1-[",
-    "A -[",
-    "A[",
-    "A [",
-    "P[",
-    "S[A ",
-    "X1=",
-    "L CYCLE [",
-    "NAME=",
-    "G80[",
-    "G1 ",
-    "M[",
-    "#FRC=",
-    "$GOTO [",
-    "N[",
-    "AP",
-    "a.nc",
-];
+const TOKENS: &str = r#"[ ¦ [ ¦ [ ¦ [ ¦ [ ¦ ] ¦ ] ¦ A  ¦ A ¦   ¦ P ¦ P1 ¦ P1[ ¦ PP ¦ V.P.A ¦ V.P.A[ ¦ V. ¦ SIN[ ¦ MAX[1, ¦ MAX
+1 ¦ - ¦ + ¦ = ¦ A= ¦ A=[ ¦ @P1=[ ¦ @ ¦ @A ¦ , ¦ | ¦ .5 ¦ X2.7 ¦ "t" ¦ " ¦ \" ¦ ! ¦ ! ¦ TRUE ¦ PI[ ¦ MOD
+ OR  ¦ -[ ¦ 1-[ ¦ A -[ ¦ A[ ¦ A [ ¦ P[ ¦ S[A  ¦ X1= ¦ L CYCLE [ ¦ NAME= ¦ G80[ ¦ G1  ¦ M[ ¦ #FRC=
+$GOTO [ ¦ N[ ¦ AP ¦ a.nc"#;
 
 /// Beginnings of blocks.
-const HEADS: &[&str] = &[
-    "",
-    "G01 X",
-    "G01 X[",
-    "#MSG ",
-    "#MSG [",
-    "#VIB GUARD ON ",
-    "#FOO [SIN[",
-    "L CYCLE [NAME=a @P1=",
-    "S[M3 ",
-    "V.P.A=",
-    "V.P.A : REAL[3] = [",
-    "$IF ",
-    "$FOR P1=",
-    "G80 [",
-    "N[",
-    "\"A\"=",
-    "P[",
-    "#FRC ",
-    "M",
-    "/1 N5: X",
-    "[",
-];
+const HEADS: &str = r#" ¦ G01 X ¦ G01 X[ ¦ #MSG  ¦ #MSG [ ¦ #VIB GUARD ON  ¦ #FOO [SIN[ ¦ L CYCLE [NAME=a @P1= ¦ S[M3  ¦ V.P.A=
+V.P.A : REAL[3] = [ ¦ $IF  ¦ $FOR P1= ¦ G80 [ ¦ N[ ¦ "A"= ¦ P[ ¦ #FRC  ¦ M ¦ /1 N5: X ¦ ["#;
 
 /// Text of a few tokens repeated, nested a few levels or over the whole length of a block, with some text after it.
 fn text() -> impl Strategy<Value = String> {
-    let token = || prop::sample::select(TOKENS);
+    let token = || prop::sample::select(pieces(TOKENS));
     (
-        prop::sample::select(HEADS),
+        prop::sample::select(pieces(HEADS)),
         prop::collection::vec(token(), 1..5),
         1..64_usize,
         prop::collection::vec(token(), 0..6),
@@ -226,9 +148,10 @@ fn brackets_cost_work_in_proportion_to_their_length() {
 
 /// Every two tokens, nested without an end: reading a bracket twice doubles the work with every level.
 fn no_two_tokens_double_the_work_with_every_level() {
+    let tokens = pieces(TOKENS);
     for head in ["", "G01 X[", "#A [", "L CYCLE [NAME=a "] {
-        for first in TOKENS {
-            for second in TOKENS {
+        for first in &tokens {
+            for second in &tokens {
                 is_linear(&format!("{head}{}", format!("{first}{second}").repeat(16))).unwrap();
             }
         }

@@ -1,31 +1,13 @@
 //! The sample machines of `programs/machines`.
 
-use kontur_interpreter::diag::Diagnostic;
+use crate::chains::sample;
 use kontur_interpreter::machine::table::{self, Default, ListKind};
 use kontur_interpreter::machine::value::Value;
-use kontur_interpreter::machine::{AxisKind, ListFiles, Machine};
+use kontur_interpreter::machine::{AxisKind, Machine};
 use std::path::PathBuf;
-
-/// Files below `programs/machines`.
-struct Disk;
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../programs/machines")
-}
-
-impl ListFiles for Disk {
-    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
-        let path = folder().join(path);
-        if path.exists() {
-            std::fs::read(path).map(Some).map_err(|e| e.to_string())
-        } else {
-            Ok(None)
-        }
-    }
-}
-
-fn load(name: &str) -> (Machine, Vec<Diagnostic>) {
-    Machine::load(&Disk, &format!("{name}/hochlauf.lis"), &[]).unwrap()
 }
 
 #[test]
@@ -39,7 +21,7 @@ fn all_load_without_a_message_that_the_vendor_does_not_demand() {
         assert!(names.iter().any(|n| n == name), "{name}");
     }
     for name in names {
-        let (machine, messages) = load(&name);
+        let (machine, messages) = sample(&name);
         assert_eq!(machine.name, name);
         let ids: Vec<String> = messages.iter().map(|d| d.id.to_string()).collect();
         let demanded: &[&str] = match name.as_str() {
@@ -55,7 +37,7 @@ fn all_load_without_a_message_that_the_vendor_does_not_demand() {
 
 #[test]
 fn vendor_defaults_lists_every_printed_default() {
-    let (machine, _) = load("vendor_defaults");
+    let (machine, _) = sample("vendor_defaults");
     let x = machine.axis("X").unwrap();
     let mut listed = 0;
     for row in table::rows().filter(|r| r.list == ListKind::Axis && !r.key.is_empty()) {
@@ -76,17 +58,17 @@ fn vendor_defaults_lists_every_printed_default() {
 #[test]
 fn the_builtin_machine_is_the_one_on_disk() {
     let (builtin, _) = Machine::builtin(&[]).unwrap();
-    assert_eq!(builtin, load("xyz").0);
+    assert_eq!(builtin, sample("xyz").0);
 }
 
 #[test]
 fn spindles_and_gantry_slaves_are_found() {
-    let (machine, _) = load("two_spindles");
+    let (machine, _) = sample("two_spindles");
     let spindles: Vec<(&str, u32)> =
         machine.spindles.iter().map(|a| (a.name(), a.number())).collect();
     assert_eq!(spindles, [("S", 4), ("S2", 5)]);
     assert!(machine.spindles.iter().all(|a| a.kind() == AxisKind::Spindle && a.is_modulo()));
-    let (machine, _) = load("gantry");
+    let (machine, _) = sample("gantry");
     let slave = machine.axis("X2").unwrap();
     assert_eq!((slave.number(), slave.gantry_master()), (4, Some(1)));
     assert_eq!(slave.dynamics(), machine.axis("X").unwrap().dynamics());

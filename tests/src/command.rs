@@ -4,6 +4,7 @@ use kontur::console::Console;
 use kontur::{Exit, run_with};
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 /// Result of a command.
@@ -49,4 +50,19 @@ pub fn command<W: Into<OsString>>(words: impl IntoIterator<Item = W>) -> Output 
     let words = std::iter::once("kontur".into()).chain(words.into_iter().map(Into::into));
     let exit = run_with(words, &mut console);
     Output { exit, out: out.text(), err: err.text() }
+}
+
+/// A command as shown in a document, run from the root of the repository; outputs go to a folder.
+pub fn run_line(line: &str, folder: &Path) -> Output {
+    let root = crate::programs().join("..");
+    let mut words: Vec<PathBuf> = Vec::new();
+    for word in line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')) {
+        let output = words.last().is_some_and(|last| last.as_os_str() == "-o");
+        words.push(match word {
+            _ if output => folder.join(word),
+            _ if word.starts_with("programs/") => root.join(word),
+            _ => word.into(),
+        });
+    }
+    command(words)
 }

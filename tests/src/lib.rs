@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod geometry;
+mod seeds;
 pub mod suite;
 pub mod targets;
 
@@ -11,6 +12,7 @@ use kontur_interpreter::machine::{ListFiles, Machine, Override};
 use kontur_interpreter::record::{CycleRecord, Rest};
 use kontur_interpreter::source::MemorySources;
 use kontur_kit::Random;
+use kontur_kit::rows::settings;
 use std::path::{Path, PathBuf};
 
 /// All outputs of a run.
@@ -99,35 +101,86 @@ impl ListFiles for Folder {
     }
 }
 
-/// The built-in machine with settings (`X.getriebe[0].kv=5000`).
-pub fn machine(settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
-    let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
-    Machine::builtin(&overrides).unwrap()
+/// Settings of the lists: one by one (`X.getriebe[0].kv=5000`), or all in a text in the form of the tables
+/// (`X.filter[0]: enable=1, order=4; Y.getriebe[0].kv=5000`).
+pub trait Settings {
+    /// The settings.
+    fn overrides(&self) -> Vec<Override>;
+}
+
+fn parsed(settings: &[impl AsRef<str>]) -> Vec<Override> {
+    settings.iter().map(|setting| Override::parse(setting.as_ref()).unwrap()).collect()
+}
+
+impl Settings for &str {
+    fn overrides(&self) -> Vec<Override> {
+        parsed(&settings(self))
+    }
+}
+
+impl Settings for &String {
+    fn overrides(&self) -> Vec<Override> {
+        self.as_str().overrides()
+    }
+}
+
+impl<const N: usize> Settings for &[&str; N] {
+    fn overrides(&self) -> Vec<Override> {
+        parsed(&self[..])
+    }
+}
+
+impl Settings for &[&str] {
+    fn overrides(&self) -> Vec<Override> {
+        parsed(self)
+    }
+}
+
+impl Settings for &[String] {
+    fn overrides(&self) -> Vec<Override> {
+        parsed(self)
+    }
+}
+
+impl Settings for &Vec<&str> {
+    fn overrides(&self) -> Vec<Override> {
+        parsed(self)
+    }
+}
+
+impl Settings for &Vec<String> {
+    fn overrides(&self) -> Vec<Override> {
+        parsed(self)
+    }
+}
+
+/// The built-in machine with settings.
+pub fn machine(settings: impl Settings) -> (Machine, Vec<Diagnostic>) {
+    Machine::builtin(&settings.overrides()).unwrap()
 }
 
 /// The built-in machine with settings, and with 1000 mm/s2 in all stages of the linear slope of the path axes.
 pub fn linear_machine(settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
-    let stages = ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"];
-    let all = stages.map(|stage| format!("X,Y,Z.getriebe[0].lslope_profil.{stage}=1000"));
-    machine(&all.iter().map(String::as_str).chain(settings.iter().copied()).collect::<Vec<_>>())
+    let stages = "X,Y,Z.getriebe[0].lslope_profil: a_stufe_1=1000, a_stufe_2=1000, a_grenz_stufe_1=1000, \
+                  a_grenz_stufe_2=1000";
+    let overrides = [stages.overrides(), settings.overrides()].concat();
+    Machine::builtin(&overrides).unwrap()
 }
 
 /// A machine of `programs/machines` with settings.
-pub fn sample_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
-    let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
+pub fn sample_machine(name: &str, settings: impl Settings) -> (Machine, Vec<Diagnostic>) {
     let start_up = format!("machines/{name}/hochlauf.lis");
-    Machine::load(&Folder(programs()), &start_up, &overrides).unwrap()
+    Machine::load(&Folder(programs()), &start_up, &settings.overrides()).unwrap()
 }
 
 /// A machine of `tests/suite/machines`, some of whose lists are those of the sample machines.
-pub fn suite_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
-    let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
+pub fn suite_machine(name: &str, settings: impl Settings) -> (Machine, Vec<Diagnostic>) {
     let start_up = format!("tests/suite/machines/{name}/hochlauf.lis");
-    Machine::load(&Folder(programs().join("..")), &start_up, &overrides).unwrap()
+    Machine::load(&Folder(programs().join("..")), &start_up, &settings.overrides()).unwrap()
 }
 
 /// Runs a program text on the built-in machine.
-pub fn run(program: &str, settings: &[&str]) -> Run {
+pub fn run(program: &str, settings: impl Settings) -> Run {
     run_on(machine(settings), program)
 }
 

@@ -5,16 +5,15 @@
 //! within a time budget, `tests/hostile_input.rs` with bounded random input.
 
 use crate::command::{Output, command};
+pub use crate::seeds::{BETWEEN, corpus, dictionary, mutated};
 use kontur::Exit;
 use kontur::args::Args;
-use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::diag::{Condition, Diagnostic};
 use kontur_interpreter::job::{Checked, Job, Options, Run};
-use kontur_interpreter::machine::{Axis, AxisKind, ListFiles, Machine};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::machine::{Axis, AxisKind, ListFiles, Machine, Override};
+use kontur_interpreter::record::{AxisRecord, CycleRecord};
 use kontur_interpreter::source::MemorySources;
-use kontur_kit::Random;
 use std::ffi::OsString;
-use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 /// A target: its name and its function.
@@ -32,16 +31,30 @@ pub const TARGETS: [Target; 8] = [
     ("report", report),
 ];
 
-/// Separates the parts of an input that consists of several files.
-pub const BETWEEN: &[u8] = b"\n====\n";
-
 /// Program time of a run in s.
 const TIME_S: f64 = 2.0;
 /// Messages for one program: the limits of the executor, and 10 from its last block.
 const MESSAGES_MAX: usize = 2000;
 
-static MACHINE: LazyLock<Arc<Machine>> =
-    LazyLock::new(|| Arc::new(Machine::builtin(&[]).expect("the built-in machine").0));
+/// The built-in machine, also with filters, and sample machines.
+static MACHINES: LazyLock<[Arc<Machine>; 5]> = LazyLock::new(|| {
+    let samples = ["vendor_defaults", "xyz_hsc", "two_spindles"];
+    let [defaults, hsc, spindles] = samples.map(|name| crate::sample_machine(name, &[]));
+    [
+        crate::machine(&[]),
+        crate::machine("X.filter[0]: enable=1, order=2, fg_f0=30"),
+        defaults,
+        hsc,
+        spindles,
+    ]
+    .map(|(machine, _)| Arc::new(machine))
+});
+
+/// The machine for an input: any of them, always the same for one input.
+fn machine_for(data: &[u8]) -> &'static Arc<Machine> {
+    let sum: usize = data.iter().map(|byte| usize::from(*byte)).sum();
+    &MACHINES[sum % MACHINES.len()]
+}
 
 fn options() -> Options {
     Options {
@@ -59,11 +72,11 @@ fn job(machine: Arc<Machine>, program: &[u8]) -> Job {
 }
 
 fn checked(program: &[u8]) -> Checked {
-    let checked = job(Arc::clone(&MACHINE), program).check();
+    let checked = job(Arc::clone(machine_for(program)), program).check();
     let found = &checked.diagnostics;
     assert!(found.len() <= MESSAGES_MAX, "{} messages", found.len());
     for d in found {
-        assert!(!d.text.is_empty(), "{d:?}");
+        assert!(!d.text.is_empty() && d.id != Condition::Internal, "{d:?}");
         if let Some(place) = &d.source {
             let characters = place.text.chars().count() as u64;
             assert!(place.offset <= program.len() as u64, "{d:?}");
@@ -83,10 +96,11 @@ pub fn run(data: &[u8]) {
     if checked(data).refuses() {
         return;
     }
-    let cycle_s = MACHINE.cycle.seconds();
-    let job = job(Arc::clone(&MACHINE), data);
+    let machine = machine_for(data);
+    let cycle_s = machine.cycle.seconds();
+    let job = job(Arc::clone(machine), data);
     let mut run = job.start().expect("a machine without plants of its own");
-    let mut speeds = Speeds::new(&MACHINE);
+    let mut speeds = Speeds::new(machine);
     let mut cycles = 0_u64;
     let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         assert_eq!(record.k, cycles, "rows are cycles");
@@ -94,20 +108,22 @@ pub fn run(data: &[u8]) {
         // braking after a limit has been reached takes time
         assert!(cycles as f64 * cycle_s < TIME_S + 60.0, "the run does not end");
         for (i, axis) in record.axes.iter().enumerate() {
-            let values =
-                [axis.ipo, axis.set, axis.vel, axis.acc, axis.jerk, axis.reference, axis.act];
-            assert!(
-                values.iter().all(|v| v.is_finite()),
-                "axis {i} in cycle {}: {axis:?}",
-                record.k
-            );
+            assert!(is_finite(axis), "axis {i} in cycle {}: {axis:?}", record.k);
         }
         let path = &record.path;
-        let values = [path.s_mm, path.v_mm_s, path.a_mm_s2, path.j_mm_s3];
+        let values = [path.s_mm, path.v_mm_s, path.a_mm_s2, path.j_mm_s3, record.contour_err_mm];
         assert!(values.iter().all(|v| v.is_finite()), "cycle {}: {path:?}", record.k);
         speeds.keep_limits(record);
     });
     ends_as_it_says(&mut run);
+}
+
+/// Whether all quantities of an axis are numbers.
+fn is_finite(a: &AxisRecord) -> bool {
+    let path = [a.ipo, a.set, a.vel, a.acc, a.jerk, a.err, a.dev, a.add];
+    let control = [a.reference, a.act, a.load, a.lag, a.ff, a.cmd, a.vadd, a.tcp, a.tcp_acc];
+    let drive = [a.cmd_drive, a.vff_drive, a.vadd_drive, a.torque_drive, a.torque_n_m];
+    path.iter().chain(&control).chain(&drive).all(|x| x.is_finite())
 }
 
 /// Compares the interpolated positions of one cycle with those of the next.
@@ -254,11 +270,14 @@ pub fn diff(data: &[u8]) {
     }
 }
 
-/// The words of a command line, one per line, are parsed; nothing is executed.
+/// The words of a command line, one per line, are parsed, and settings of lists are taken or refused; nothing is executed.
 pub fn command_line(data: &[u8]) {
     use clap::Parser as _;
     let text = String::from_utf8_lossy(data);
     let words = std::iter::once("kontur").chain(text.lines());
+    for setting in text.lines().filter_map(|line| Override::parse(line).ok()) {
+        let _ = Machine::builtin(&[setting]);
+    }
     match Args::try_parse_from(words) {
         Ok(args) => drop(format!("{args:?}")),
         Err(e) => drop(e.to_string()),
@@ -271,116 +290,4 @@ pub fn report(data: &[u8]) {
         let words = [&["report", "@a.nc", "-o", output], &LIMITS[..]].concat();
         call(&[("a.nc", data)], &words);
     }
-}
-
-/// Seed inputs for a target: what the repository has of this kind.
-pub fn corpus(target: &str) -> Vec<Vec<u8>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let programs = || {
-        let mut found = Vec::new();
-        for folder in ["programs", "programs/lessons", "programs/fail", "tests/suite/faults"] {
-            found.extend(files(&root.join(folder), "nc").into_iter().filter(|f| f.len() < 20_000));
-        }
-        found
-    };
-    match target {
-        "check" | "run" | "report" => programs(),
-        "lists" => {
-            let machine = |name: &str| {
-                let read = |list: &str| {
-                    let path = root.join("programs/machines").join(name).join(list);
-                    std::fs::read(path).unwrap_or_default()
-                };
-                ["hochlauf.lis", "channel.lis", "x.lis", "kontur.lis"].map(read).join(BETWEEN)
-            };
-            ["xyz", "rack_and_pinion", "vendor_defaults", "gantry", "xyz_hsc"].map(machine).to_vec()
-        }
-        "inputs" => files(&root.join("programs"), "csv"),
-        "recording" => {
-            let wave = |t: f64| libm::exp(-3.0 * t) * libm::sin(200.0 * t);
-            let rows = (0..200).map(|k| f64::from(k) * 1e-3).map(|t| format!("{t},{}\n", wave(t)));
-            vec![("t_s,a\n".to_owned() + &rows.collect::<String>()).into_bytes()]
-        }
-        "diff" => {
-            let trace = b"t_s,line,block,v_limit,X_set_mm\n0,1,,feed,0.5\n0.001,1,10,stop,inf\n";
-            vec![[&trace[..], &trace[..]].join(BETWEEN), [&trace[..], b"t_s\n"].join(BETWEEN)]
-        }
-        _ => [
-            "run\na.nc\n-o\na.csv\n--set\nX.getriebe[0].kv=5000\n--start\nX10,Y5\n--skip\n1,3",
-            "sweep\na.nc\n--vary\nX.getriebe[0].kv=1000..5000:500\n--amplitude\nX_lag_mm@50..56@1..2",
-            "tune\n--freq\n40,50\n--damping\n0.05\n--max-residual\n3",
-            "response\n--filter\nLOWPASS,BESSEL,4,50\n--freq\n1..100",
-            "report\na.nc\n--signals\nipo\n--spectrum\n2..80\n--window\n0.7..1.9",
-        ]
-        .map(|words| words.as_bytes().to_vec())
-        .to_vec(),
-    }
-}
-
-/// Files of a folder with an extension, sorted by name.
-fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
-    let entries = std::fs::read_dir(folder).expect("a folder of the repository").flatten();
-    let mut paths: Vec<_> = entries.map(|e| e.path()).collect();
-    paths.retain(|p| p.extension().is_some_and(|e| e == extension));
-    paths.sort();
-    paths.iter().map(|p| std::fs::read(p).expect("a file of the repository")).collect()
-}
-
-/// Words known to the readers: of the grammar, of the parameter tables, of the programs of the suite.
-pub fn dictionary() -> Vec<String> {
-    let mut words = std::collections::BTreeSet::new();
-    let grammar = include_str!("../../interpreter/src/nc.pest");
-    // every second piece between quotes is a literal
-    for line in grammar.lines().filter(|line| !line.starts_with("//")) {
-        words.extend(line.split('"').skip(1).step_by(2).map(str::to_owned));
-    }
-    words.extend(kontur_interpreter::machine::table::rows().map(|row| row.key.to_owned()));
-    for program in corpus("check") {
-        let text = String::from_utf8_lossy(&program);
-        let code = text.lines().filter_map(|line| line.split([';', '(']).next());
-        for word in code
-            .flat_map(|line| line.split(|c: char| !(c.is_ascii_alphabetic() || "#$_".contains(c))))
-        {
-            words.insert(word.to_owned());
-        }
-    }
-    words.retain(|w| {
-        w.len() > 1 && w.bytes().all(|b| (b' '..=b'~').contains(&b) && !b"\\\"".contains(&b))
-    });
-    words.into_iter().collect()
-}
-
-/// An input with a few mutations: characters, lines, words of the dictionary, or pieces of another input.
-pub fn mutated(input: &[u8], other: &[u8], words: &[String], random: &mut Random) -> Vec<u8> {
-    let mut out = input.to_vec();
-    for _ in 0..=random.below(4) {
-        let at = random.below(out.len() + 1);
-        let end = (at + 1 + random.below(8)).min(out.len());
-        match random.below(7) {
-            0 => drop(out.drain(at.min(end)..end)),
-            1 => out.insert(at, random.below(256) as u8),
-            2 => {
-                let word = words[random.below(words.len())].as_bytes();
-                drop(out.splice(at..at, word.iter().copied()));
-            }
-            3 => {
-                let piece = out[at.min(end)..end].to_vec();
-                let many = piece.repeat(1 + random.below(40));
-                drop(out.splice(at..at, many));
-            }
-            4 => {
-                let from = random.below(other.len() + 1);
-                let to = (from + random.below(60)).min(other.len());
-                drop(out.splice(at..at, other[from.min(to)..to].iter().copied()));
-            }
-            5 => {
-                let signs = b"[]()\"-+=;,.#$%@/\\ \n0123456789";
-                let sign = signs[random.below(signs.len())];
-                drop(out.splice(at..end.max(at), [sign]));
-            }
-            _ => out.truncate(at.max(out.len() / 2)),
-        }
-    }
-    out.truncate(64 * 1024);
-    out
 }

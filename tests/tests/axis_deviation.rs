@@ -58,8 +58,7 @@ fn case(seed: u64) -> Case {
 
 /// Runs the program of a number and judges it; returns the largest deviation of a set point as a share of the tolerance.
 fn holds(n: u64, case: &Case) -> f64 {
-    let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
-    let run = run(&case.text, &settings);
+    let run = run(&case.text, &case.settings);
     let about = || format!("program {n}\n{}\n{:?}", case.text, case.settings);
     assert!(!run.totals.aborted, "{:?}\n{}", run.diagnostics, about());
     let unkept: Vec<_> =
@@ -178,7 +177,7 @@ fn something_tiny_in_a_corner_changes_little() {
             let text = format!(
                 "%P\n#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ={freq_hz:.3} AX_DEV={tolerance_mm}]\nF6000\n{contour}\nM30\n"
             );
-            let run = run(&text, &[&format!("kontur.cycle_time_us={cycle_us}")]);
+            let run = run(&text, &format!("kontur.cycle_time_us={cycle_us}"));
             assert_eq!(run.diagnostics, [], "{text}");
             (run.records.len(), text)
         });

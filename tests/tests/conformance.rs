@@ -43,7 +43,7 @@ struct Test {
     text: String,
 }
 
-/// Test functions of the workspace by name; some names occur in several files.
+/// Test functions of the workspace by name, some of which occur in several files, and tables of programs by the name of their file.
 type Tests = BTreeMap<String, Vec<Test>>;
 
 fn root() -> PathBuf {
@@ -80,7 +80,7 @@ fn rows(document: &Document) -> Vec<Row> {
     records(&format!("{}.csv", document.file)).iter().map(row).collect()
 }
 
-/// Every `.rs` file of the workspace members.
+/// Every `.rs` file of the workspace members, and the tables of programs.
 fn sources() -> Vec<PathBuf> {
     let mut folders: Vec<PathBuf> =
         ["filters", "motion", "interpreter", "tests"].map(|member| root().join(member)).into();
@@ -90,7 +90,7 @@ fn sources() -> Vec<PathBuf> {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "rs") {
+            } else if path.extension().is_some_and(|e| e == "rs" || e == "txt") {
                 files.push(path);
             }
         }
@@ -127,7 +127,10 @@ fn all_tests() -> Tests {
     let mut tests = Tests::new();
     for path in sources() {
         let file = path.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/");
-        for (name, text) in tests_of(&std::fs::read_to_string(&path).unwrap()) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let name = || path.file_name().unwrap().to_string_lossy().into_owned();
+        let found = if file.ends_with(".txt") { vec![(name(), text)] } else { tests_of(&text) };
+        for (name, text) in found {
             tests.entry(name).or_default().push(Test { file: file.clone(), text });
         }
     }

@@ -2,12 +2,12 @@
 
 use kontur_interpreter::record::CycleRecord;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, machine, run_on, run_with_inputs};
+use kontur_tests::{Run, Settings, machine, run_on, run_with_inputs};
 
 /// Z is not one of the main axes, so that it can follow; it begins at 5.
 const SETUP: &str = "#SET AX [X,1,0][Y,2,1][C,3,3]\n";
 
-fn go(settings: &[&str], program: &str) -> Run {
+fn go(settings: impl Settings, program: &str) -> Run {
     let run = run_on(machine(settings), &format!("{SETUP}{program}\nM30\n"));
     assert_eq!(run.diagnostics, [], "{program}");
     run
@@ -62,14 +62,9 @@ fn slaves_follow() {
 /// A machine whose X has the limits of Z takes as long as one that couples a slow Z to X.
 #[test]
 fn the_path_keeps_the_limits_of_slaves() {
-    let slow = |axis: &str| {
-        ["slope_profil.a_beschl=700", "slope_profil.a_brems=600", "slope_profil.a_grenz=500"]
-            .map(|value| format!("{axis}.getriebe[0].{value}"))
-    };
     let of = |axis: &str, program: &str| {
-        let settings = slow(axis);
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-        go(&settings, program).records.len()
+        let slow = "slope_profil: a_beschl=700, a_brems=600, a_grenz=500";
+        go(&format!("{axis}.getriebe[0].{slow}"), program).records.len()
     };
     let contour = "G01 X50 F20000\nX20 Y10\nG02 I5 J0\nG00 X0 Y0";
     let with = "#SET AX LINK [1, C=X]\n#ENABLE AX LINK [1]\n";

@@ -3,119 +3,8 @@
 use kontur_interpreter::diag::Condition;
 use kontur_tests::{Run, programs, run, run_on, sample_machine};
 
-/// Lag in per cent of the lag without feedforward (speed / Kv, Kv 50/s), in the middle of the motion of a line.
-fn percent(run: &Run, line: u32, axis: usize) -> f64 {
-    let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
-    assert!(of_line.len() > 300, "line {line}: {} cycles, {:?}", of_line.len(), run.diagnostics);
-    let at = of_line.len() * 7 / 10;
-    let (before, now) = (&of_line[at - 1].axes[axis], &of_line[at].axes[axis]);
-    let speed = (now.reference - before.reference) / run.cycle_s;
-    100.0 * now.lag * 50.0 / speed
-}
-
-#[track_caller]
-fn lags(run: &Run, line: u32, want: &[f64]) {
-    for (axis, want) in want.iter().enumerate() {
-        let is = percent(run, line, axis);
-        assert!((is - want).abs() < 0.01, "axis {axis}: {is} %, expected {want}");
-    }
-}
-
-/// A move back and forth, with each way long enough to reach constant speed.
-const FORTH: &str = "G90 G01 X100 Y100 Z100 F6000";
-const BACK: &str = "G90 G01 X0 Y0 Z0 F6000";
-
 fn program(lines: &[&str]) -> String {
     format!("%P\n{}\nM30\n", lines.join("\n"))
-}
-
-/// Off at program start, with weights of 100 %, whatever has run before. Conformance: F022, F027.
-#[test]
-fn a_program_starts_without_feedforward() {
-    let first = run(&program(&["G135 G136 X50", FORTH]), &[]);
-    lags(&first, 3, &[50.0, 0.0, 0.0]);
-    let second = run(&program(&[FORTH, "G135", BACK]), &[]);
-    lags(&second, 2, &[100.0, 100.0, 100.0]);
-    assert!(second.records.iter().filter(|r| r.line == 2).all(|r| r.axes[0].ff.abs() <= 0.0));
-    lags(&second, 4, &[0.0, 0.0, 0.0]);
-}
-
-/// All axes of the group, through further blocks, until G137. Conformance: F024, F031, F034.
-#[test]
-fn g135_and_g137_are_modal() {
-    let run = run(&program(&["G135", FORTH, BACK, FORTH, "G137", BACK, FORTH]), &[]);
-    for line in [3, 4, 5] {
-        lags(&run, line, &[0.0, 0.0, 0.0]);
-    }
-    for line in [7, 8] {
-        lags(&run, line, &[100.0, 100.0, 100.0]);
-    }
-}
-
-/// Only axes for which P-AXIS-00223 allows it. Conformance: F006, F024.
-#[test]
-fn axes_without_feedforward_stay_without() {
-    let run = run(&program(&["G135", FORTH]), &["Y.vorsteuer.vorsteuerung=NONE"]);
-    lags(&run, 3, &[0.0, 100.0, 0.0]);
-}
-
-/// Conformance: F025, F029, F030, F032, F033.
-#[test]
-fn weights_of_the_axes() {
-    let listing = [
-        "G135 (Select feedforward control; weighting)",
-        "G136 X80 Y95 Z0 (weighting; here, the Z axis)",
-        FORTH,
-    ];
-    let two_blocks = run(&program(&listing), &[]);
-    assert_eq!(two_blocks.diagnostics, []);
-    lags(&two_blocks, 4, &[20.0, 5.0, 100.0]);
-    let one_block = run(&program(&["G135 G136 X80 Y95", FORTH]), &[]);
-    lags(&one_block, 3, &[20.0, 5.0, 0.0]);
-    // the words are weights: nothing moves before the motion block
-    for run in [&two_blocks, &one_block] {
-        for r in run.records.iter().filter(|r| r.line < 3) {
-            assert!(r.axes[..3].iter().all(|a| a.ipo.abs() <= 0.0), "{r:?}");
-        }
-    }
-}
-
-/// Conformance: F028.
-#[test]
-fn switching_keeps_the_weights() {
-    let run = run(&program(&["G136 X80", "G135", FORTH, "G137", BACK, "G135", FORTH]), &[]);
-    lags(&run, 4, &[20.0, 0.0, 0.0]);
-    lags(&run, 6, &[100.0, 100.0, 100.0]);
-    lags(&run, 8, &[20.0, 0.0, 0.0]);
-}
-
-/// Conformance: F026.
-#[test]
-fn a_weight_is_100_percent_at_most() {
-    let more = run(&program(&["G135 G136 X120", FORTH]), &[]);
-    let all = run(&program(&["G135 G136 X100", FORTH]), &[]);
-    assert_eq!(more.said(), ["K-0020"]);
-    assert_eq!(more.records, all.records);
-}
-
-/// P-AXIS-00255: even under G137. Conformance: F078.
-#[test]
-fn default_active() {
-    let settings = ["X.vorsteuer.default_active=1"];
-    let run = run(&program(&["G137", FORTH]), &settings);
-    lags(&run, 3, &[0.0, 100.0, 100.0]);
-}
-
-/// Every kind of drive and of axis. Conformance: F014.
-#[test]
-fn drives_and_axes() {
-    for drive in 1..=8 {
-        let kind = format!("X.kenngr.antr_typ={drive}");
-        let run = run(&program(&["G135", FORTH]), &[&kind]);
-        lags(&run, 3, &[0.0, 0.0, 0.0]);
-    }
-    let run = run(&program(&["G135", FORTH]), &["Z.kenngr.achs_typ=ACHSTYP_ROTATOR"]);
-    lags(&run, 3, &[0.0, 0.0, 0.0]);
 }
 
 /// Axes of unequal gain on an arc. Conformance: F013.
@@ -135,47 +24,6 @@ fn feedforward_keeps_the_arc() {
     let (without, with) = (error("G137"), error("G135"));
     assert!(without > 0.5, "{without}");
     assert!(with < 0.1 * without, "{with} of {without}");
-}
-
-/// Spindles on the machine with two of them: S and S2 after X, Y, Z. Conformance: F014, F035, F036, F037, F038, F039,
-/// F040, F042.
-#[test]
-fn feedforward_of_spindles() {
-    let lag = |first: &[&str], axis: usize| {
-        let start = if axis == 3 { "S1000 M3" } else { "S2[REV1000 M3]" };
-        let mut lines = first.to_vec();
-        lines.extend([start, "G04 3"]);
-        let run = run_on(sample_machine("two_spindles", &[]), &program(&lines));
-        assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-        let n = run.records.len() - 20;
-        let (before, now) = (&run.records[n - 1].axes[axis], &run.records[n].axes[axis]);
-        let turn = (now.reference - before.reference + 180.0).rem_euclid(360.0) - 180.0;
-        let rpm = turn / run.cycle_s / 6.0;
-        assert!((rpm - 1000.0).abs() < 1e-6, "{rpm} rpm");
-        100.0 * now.lag * 50.0 / (6.0 * rpm)
-    };
-    for (first, axis, want) in [
-        (&[][..], 3, 100.0),
-        (&["S[G135]"], 3, 0.0),
-        (&["S[G136=80]", "S[G135]"], 3, 20.0),
-        (&["S[G135]", "S[G137]"], 3, 100.0),
-        (&["S2[G135 G136=90]"], 4, 10.0),
-        (&["S2[G135]", "S2[G136=0]"], 4, 100.0),
-        (&["S2[G135]"], 4, 0.0),
-    ] {
-        let is = lag(first, axis);
-        assert!((is - want).abs() < 0.01, "{first:?}: {is} %, expected {want}");
-    }
-}
-
-/// Conformance: F041.
-#[test]
-fn feedforward_of_spindles_stands_alone() {
-    let run = run(&program(&["S[G135 M3 REV1000]"]), &[]);
-    let found = run.diagnostics.iter().find(|d| d.is_error()).unwrap();
-    let at = found.source.as_ref().unwrap();
-    assert_eq!(at.line, 2);
-    assert!(run.records.is_empty() && at.length > 0, "{found:?}");
 }
 
 /// Lag of the spindles in the sample program: what each form of the command leaves of v / Kv = 6000 / 50 deg.
@@ -201,30 +49,11 @@ fn the_sample_program_of_the_spindles() {
     assert!(last.axes[3].vel.abs() < 1e-9 && last.axes[4].vel.abs() < 1e-9, "M5");
 }
 
-/// G135 between blocks that run on causes a step in the speed command of the moving axis; after an exact stop it does not.
-#[test]
-fn switching_in_motion_is_reported() {
-    let switched = |first: &str| {
-        let run = run(&program(&[first, "G135", "G01 X100 F6000"]), &[]);
-        let found =
-            run.diagnostics.iter().find(|d| d.id == Condition::FeedforwardSwitchedMoving).cloned();
-        (found, run.diagnostics.len())
-    };
-    let (found, count) = switched("G90 G01 X50 F6000");
-    let found = found.unwrap();
-    assert_eq!(count, 1, "once");
-    assert!(!found.is_error(), "{}", found.text);
-    assert_eq!(switched("G90 G60 G01 X50 F6000"), (None, 0));
-    assert_eq!(switched("G04 0.1"), (None, 0));
-}
-
 /// `#MACHINE DATA` while the axes still follow: where the value equals the one in force nothing changes, and another gain appears as
 /// another speed command, without a jump of the axis.
 #[test]
 fn machine_data_move_no_axis() {
-    for settings in
-        [&[][..], &["X.filter[0].enable=1", "X.filter[0].type=PT1", "X.filter[0].order=1"]]
-    {
+    for settings in ["", "X.filter[0]: enable=1, type=PT1, order=1"] {
         let with = |command: &str| {
             run(&program(&["G135", "G01 X10 F6000", command, "G04 0.2", "X20"]), settings)
         };
@@ -252,13 +81,9 @@ fn machine_data_move_no_axis() {
 /// axis at rest does not move; a changed filter keeps it too.
 #[test]
 fn machine_data_of_a_filter_leave_the_others() {
-    let high_pass = ["enable=1", "type=HIGHPASS", "order=2", "share_percent=50"];
-    let low_pass = ["enable=1", "order=1", "fg_f0=15"];
-    let settings: Vec<String> = [("0", &low_pass[..]), ("1", &high_pass), ("2", &low_pass)]
-        .iter()
-        .flat_map(|(i, keys)| keys.iter().map(move |key| format!("X.filter[{i}].{key}")))
-        .collect();
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    let settings = "X.filter[0]: enable=1, order=1, fg_f0=15; \
+                    X.filter[1]: enable=1, type=HIGHPASS, order=2, share_percent=50; \
+                    X.filter[2]: enable=1, order=1, fg_f0=15";
     for changed in [
         "filter[0].fg_f0 25",
         "filter[2].fg_f0 25",
@@ -268,7 +93,7 @@ fn machine_data_of_a_filter_leave_the_others() {
         "filter[1].order 1",
     ] {
         let command = format!("#MACHINE DATA [AX=X AXPARAM=\"{changed}\"]");
-        let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), &settings);
+        let run = run(&program(&["G01 X20 F6000", &command, "G04 0.2", "X20.001"]), settings);
         let after = run.records.iter().filter(|r| r.line > 2).map(|r| r.axes[0].set);
         // half of the distance is held back, also of the micrometre at the end
         let far = after.fold(0.0, |far: f64, set| far.max((set - 10.0).abs()));
@@ -280,11 +105,9 @@ fn machine_data_of_a_filter_leave_the_others() {
 /// missed.
 #[test]
 fn the_exact_stop_waits_for_settled_filters() {
-    let filter = ["enable=1", "type=PT1", "order=1", "time_constant=30000"];
     let with = |window: &str| {
-        let mut settings: Vec<String> = filter.iter().map(|k| format!("X.filter[0].{k}")).collect();
-        settings.push(format!("X.kenngr.filter_position_window={window}"));
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let filter = "X.filter[0]: enable=1, type=PT1, order=1, time_constant=30000";
+        let settings = format!("{filter}; X.kenngr.filter_position_window={window}");
         let run = run(&program(&["G60 G01 X20 F6000", "G01 X40"]), &settings);
         let (count, slowest) = run.totals.stops.axes[&0];
         assert_eq!(count, 2, "window {window}");
@@ -294,45 +117,20 @@ fn the_exact_stop_waits_for_settled_filters() {
     assert!(with("1000") > 0.05 && with("0.4") < 0.002);
 }
 
-/// The weights of exchanged axes are 100 % again, those of the others are kept. Source: spec 50/1 (programming manual).
-#[test]
-fn weights_return_with_an_exchange() {
-    let forth = |number: u32| format!("N{number} {FORTH}");
-    for (exchange, want) in [
-        ("#PUT AX [X]\n#CALL AX [X,1,0]", [0.0, 50.0, 0.0]),
-        ("#CALL AX [X,1,0]", [0.0, 50.0, 0.0]),
-        ("#SET AX [X,1,0] [Y,2,1] [Z,3,2]", [0.0, 0.0, 0.0]),
-        ("#PUT AX ALL\n#CALL AX [X,1,0] [Y,2,1] [Z,3,2]", [0.0, 0.0, 0.0]),
-        ("#AX DEF DEFAULT", [0.0, 0.0, 0.0]),
-    ] {
-        let text =
-            program(&["G135", "G136 X50 Y50", &forth(1), "G90 X0 Y0 Z0", exchange, &forth(2)]);
-        let run = run(&text, &[]);
-        lags(&run, 4, &[50.0, 50.0, 0.0]);
-        let line = text.lines().position(|l| l.starts_with("N2")).unwrap() as u32 + 1;
-        lags(&run, line, &want);
-    }
-}
-
 /// The path rests while the axis is still moving after its filter, or moves alone: switching causes a step in its command of the share
 /// times its speed, and K-0022 names that jump. When both are at rest there is no message.
 #[test]
 fn a_switch_with_filters_is_reported() {
-    let guard = ["X.vib_guard.active=1", "X.vib_guard.mode=3", "X.vib_guard.freq=3"];
-    let low_pass = [
-        "X.filter[0].enable=1",
-        "X.filter[0].type=PT1",
-        "X.filter[0].order=1",
-        "X.filter[0].time_constant=50000",
-    ];
+    let guard = "X.vib_guard: active=1, mode=3, freq=3";
+    let low_pass = "X.filter[0]: enable=1, type=PT1, order=1, time_constant=50000";
     let asyn = "G135\nX[INDP_ASYN G90 G01 FEED=6000 POS=50]\nG04 0.2\nG137\nG04 1";
     for (settings, text, told) in [
-        (&guard[..], "G135\nG01 F6000 X20\nG137", true),
-        (&guard[..], "G135\nG01 F6000 X20\nG136 X50\nG04 0.1\nX0", true),
-        (&guard[..], "G135\nG01 F6000 X20\n#FLUSH WAIT\nG137", false),
-        (&low_pass[..], "G135\nG01 F6000 X20\nG137", true),
-        (&[][..], "G135\nG01 F6000 X20\nG137", false),
-        (&[][..], asyn, true),
+        (guard, "G135\nG01 F6000 X20\nG137", true),
+        (guard, "G135\nG01 F6000 X20\nG136 X50\nG04 0.1\nX0", true),
+        (guard, "G135\nG01 F6000 X20\n#FLUSH WAIT\nG137", false),
+        (low_pass, "G135\nG01 F6000 X20\nG137", true),
+        ("", "G135\nG01 F6000 X20\nG137", false),
+        ("", asyn, true),
     ] {
         let run = run(&program(&[text]), settings);
         let found: Vec<_> = run

@@ -3,6 +3,7 @@
 use kontur::console::Console;
 use kontur::{Exit, run_with};
 use kontur_kit::near;
+use kontur_tests::command::run_line;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -129,7 +130,7 @@ fn time_delays() {
     }
 }
 
-/// Conformance: A119.
+/// Conformance: A117, A118, A119.
 #[test]
 fn steps_of_several_orders() {
     let curves = figure("figure16");
@@ -287,25 +288,12 @@ fn every_command_of_the_list_runs() {
     assert!(commands.len() >= 24, "{commands:?}");
     let measured = |c: &str| c.contains(" --signals ") || c.contains(" sweep ");
     for command in commands.into_iter().filter(|c| !measured(c)) {
-        let mut output = None;
-        let words: Vec<OsString> = command
-            .split_whitespace()
-            .map(|word| {
-                let file = Path::new(word);
-                if word.starts_with("programs/") {
-                    root().join(file).into()
-                } else if file.extension().is_some_and(|e| e == "svg" || e == "html") {
-                    output = Some(folder.path().join(file));
-                    folder.path().join(file).into()
-                } else {
-                    word.into()
-                }
-            })
-            .collect();
-        let mut console = Console::new(Vec::new(), Vec::new());
-        assert_eq!(run_with(words, &mut console), Exit::Finished, "{command}");
-        if let Some(file) = output {
-            assert!(std::fs::metadata(file).unwrap().len() > 1000, "{command}");
+        let outcome = run_line(command, folder.path());
+        assert_eq!(outcome.exit, Exit::Finished, "{command}: {}", outcome.err);
+        if let Some((_, rest)) = command.split_once(" -o ") {
+            let file = rest.split_whitespace().next().unwrap();
+            let written = std::fs::metadata(folder.path().join(file)).unwrap();
+            assert!(written.len() > 1000, "{command}");
         }
     }
 }

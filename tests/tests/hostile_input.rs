@@ -29,7 +29,7 @@ fn programs_that_are_checked() {
 
 #[test]
 fn programs_that_run() {
-    feed("run", 300);
+    feed("run", 450);
 }
 
 #[test]

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 
 /// A program on a sample machine with settings.
 fn on(machine: &str, settings: &[String], program: &str) -> Run {
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    run_on(sample_machine(machine, &settings), program)
+    run_on(sample_machine(machine, settings), program)
 }
 
 /// A stage that is too strong: the run ends with a message, and every value is a number. Conformance: I011.

@@ -3,7 +3,7 @@
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
 use kontur_kit::near;
-use kontur_tests::{Run, largest_step, linear_machine, run, run_on, run_with_inputs};
+use kontur_tests::{Run, largest_step, linear_machine, run, run_on};
 
 /// The linear slope as default.
 fn linear(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
@@ -90,23 +90,6 @@ fn filtered() {
     assert!(run.records.iter().all(|r| r.contour_err_mm <= 1e-12));
     near(arrival_s(&run, 0, 20.0), 2.01, 1e-9);
     near(arrival_s(&run, 1, 0.0), 2.015 + 0.6, 1e-9);
-}
-
-/// An oscillation of 20 mm at 20 mm/s is held from 1 s to 2 s; at half the override a stroke takes twice as long.
-#[test]
-fn an_oscillation_under_feedhold_and_override() {
-    let program = "%P\nX[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1200]\nG04 8\nX[OSC OFF]\nM30\n";
-    let free = run_on(linear(&[]), program);
-    let inputs = [(1.0, "feedhold", 1.0), (2.0, "feedhold", 0.0)];
-    let held = run_with_inputs(linear(&[]), program, &inputs);
-    near(at(&held, 0, 1.1), at(&held, 0, 1.9), 1e-9);
-    let reversal = |run: &Run| arrival_s(run, 0, 10.0);
-    // of this second, braking covers the distance of 0.01 s at full speed; speeding up again loses the same amount
-    near(reversal(&held), reversal(&free) + 1.0, 1e-9);
-    let half = run_with_inputs(linear(&[]), program, &[(0.0, "override_percent", 50.0)]);
-    // to -10 mm and back to 10 mm, each way with a ramp of v / 1000
-    near(reversal(&free), 10.0 / 20.0 + 20.0 / 20.0 + 2.0 * 0.02, 1e-9);
-    near(reversal(&half), 10.0 / 10.0 + 20.0 / 10.0 + 2.0 * 0.01, 1e-9);
 }
 
 /// An error of another axis stops an independent axis on its own path, within its limits.
@@ -218,86 +201,15 @@ fn afterwards_the_deviation_counts_again() {
     assert!(without > 0.03 && (with - without).abs() < 1e-6, "{with} instead of {without}");
 }
 
-/// P-CHAN-00297 = 1, after the example of the page: G60 waits until Z, which is moving independently, is in its window; with 0 and 2 it
-/// waits for the axes of the path. Nothing ever waits for an oscillating axis, and a slower Z never makes the path faster.
-#[test]
-fn an_exact_stop_waits_for_independent_axes() {
-    let arrives = |mode: u32, z: &str| {
-        let mode = format!("channel.mode_exact_stop_indp_axis={mode}");
-        let text = format!("%P\n{z}\nG01 G90 X10 Y10 G60 F3000\nG01 X20\n{{}}M30\n");
-        let text = text.replace("{}", if z.contains("OSC") { "Z[OSC OFF]\n" } else { "" });
-        let run = run_on(linear(&[&mode]), &text);
-        assert_eq!(run.diagnostics, [], "{z}");
-        let away = ipo(&run, 0).iter().position(|x| *x > 10.0).unwrap();
-        let window = run.records[away].axes[2].act;
-        (away as f64 * run.cycle_s, window)
-    };
-    let far = "Z[INDP_ASYN POS=100 G01 FEED=6000 G90]";
-    let (at, z) = arrives(1, far);
-    // 100 mm at 100 mm/s and 1000 mm/s2 take 1.1 s
-    assert!(at > 1.1 && at < 1.4 && (z - 100.0).abs() < 0.011, "{at} {z}");
-    for mode in [0, 2] {
-        let (at, _) = arrives(mode, far);
-        assert!(at < 0.6, "{at}");
-    }
-    let (slower, z) = arrives(1, "Z[INDP_ASYN POS=100 G01 FEED=3000 G90]");
-    assert!(slower > 2.0 && (z - 100.0).abs() < 0.011, "{slower} {z}");
-    let (oscillating, _) = arrives(1, "Z[OSC ON 1ST_POS=-1 2ND_POS=1 FEED=600]");
-    assert!(oscillating < 0.6, "{oscillating}");
-}
-
-/// Position monitoring of an independent axis begins where its own motion ends, while the path is still moving: too little time gives
-/// 70082 in the line of the motion, and enough time gives a settled stop, for which the end of the program waits.
+/// Position monitoring of an independent axis begins where its own motion ends, while the path is still moving. What it reports is in
+/// `arrival.txt`.
 #[test]
 fn the_stop_of_an_independent_axis_is_monitored() {
     let program = "%P\nZ[INDP_ASYN G90 G01 FEED=6000 POS=10]\nG01 X200 F6000\nM30\n";
-    let with = |time_us: u32| {
-        let setting = format!("Z.getriebe[0].position_settling_time={time_us}");
-        run(program, &[&setting])
-    };
-    let late = with(20_000);
-    assert_eq!(late.errors(), ["70082"]);
-    let line = |d: &Diagnostic| d.source.as_ref().map(|source| source.line);
-    assert!(late.diagnostics.iter().all(|d| line(d) == Some(2)));
-    let enough = with(100_000);
-    assert!(enough.errors().is_empty());
-    let (count, slowest) = enough.totals.stops.axes[&2];
+    let run = run(program, "Z.getriebe[0].position_settling_time=100000");
+    assert!(run.errors().is_empty());
+    let (count, slowest) = run.totals.stops.axes[&2];
     // 10 mm at 100 mm/s; the lag of a second order decays in 44 ms, long before the end of the path
     assert!(count == 1 && slowest.source.line == 2 && slowest.settling_s > 0.02);
-    assert!((slowest.k as f64) * enough.cycle_s < 0.5);
-    let last = enough.records.last().unwrap();
-    // the path is shorter: the program ends with the axis in its window
-    let far = run(&program.replace("POS=10", "POS=100").replace("X200", "X1"), &[]);
-    let end = far.records.last().unwrap();
-    assert!((last.axes[2].act - 10.0).abs() < 0.011 && (end.axes[2].act - 100.0).abs() <= 0.01);
-}
-
-/// A fault during a dwell: the rows of the stop belong to the dwell.
-#[test]
-fn a_fault_in_a_dwell_belongs_to_the_dwell() {
-    let program = "%P\nG01 X1 F6000\nM3 S1000\nG04 0.3\nG01 X20\nM30\n";
-    let lag = [
-        "S.getriebe[0].slep_ueberw_typ=4",
-        "S.getriebe[0].slep_max=1000000",
-        "S.getriebe[0].slep_min=1000000",
-    ];
-    let run = run(program, &lag);
-    assert!(!run.errors().is_empty());
-    let dwell = run.records.iter().position(|r| r.line == 4).unwrap();
-    assert!(run.records[dwell..].iter().all(|r| r.line == 4));
-    assert!(run.records.len() > dwell + 100);
-}
-
-/// An axis that is stopped by the fault of another one arrives nowhere: its short stop is not late.
-#[test]
-fn what_a_fault_stops_is_not_late() {
-    let program = "%P\nZ[INDP_ASYN G90 G01 FEED=9000 POS=100]\nG01 X50 F9000\nM30\n";
-    let lag = [
-        "X.getriebe[0].slep_ueberw_typ=4",
-        "X.getriebe[0].slep_max=15000",
-        "X.getriebe[0].slep_min=15000",
-    ];
-    let stopped =
-        run(program, &[&lag[..], &["Z.getriebe[0].position_settling_time=10000"]].concat());
-    assert_eq!(stopped.errors(), ["70020"]);
+    assert!((slowest.k as f64) * run.cycle_s < 0.5);
 }

@@ -58,18 +58,6 @@ fn a_signal_at_a_time_brakes_the_path_from_the_next_cycle_on() {
     assert!(said(&run)[0].starts_with(&latched), "{:?}, {latched}", said(&run));
 }
 
-/// Type 2: one axis at the speed of P-AXIS-00215, whatever F is; a missing signal is an error.
-#[test]
-fn one_axis_at_its_own_speed() {
-    let program = "%MEAS_RUN\n#MEAS MODE [2]\nN10 G90 G00 X0 Y0 Z0\nN20 Y5\nN30 G100 X10\n\
-        #MSG [\"%.4f %d\", V.A.MESS.X, V.G.MEAS_TYPE]\nN40 G01 X7 F6000\nN50 M30\n";
-    let run = run_with_inputs(linear_machine(&[]), program, &[(0.0, "X_probe_mm", 8.0)]);
-    assert_eq!(said(&run), ["8.0000 2"]);
-    let most = run.records.iter().filter(|r| r.line == 5).map(|r| r.path.v_mm_s);
-    near(most.fold(0.0, f64::max), 16.666, 1e-9);
-    assert_eq!(run_with_inputs(linear_machine(&[]), program, &[]).errors(), ["K-0133"]);
-}
-
 /// Type 3: with G106 the path continues to the target, without G106 it stops.
 #[test]
 fn through_to_the_target() {
@@ -89,24 +77,4 @@ fn through_to_the_target() {
         .filter(|r| r.line == 6 && r.axes[0].ipo > 6.0 && r.axes[0].ipo < 9.0);
     assert!(slow.into_iter().all(|r| (r.path.v_mm_s - 500.0 / 60.0).abs() < 1e-9));
     assert!(end(&stopped, 0) < 8.2);
-}
-
-/// The check uses the target for the surface and never reaches the subroutine; the run does, and its rows show it.
-#[test]
-fn a_subroutine_that_only_the_run_reaches_is_named_in_the_trace() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        std::fs::write(&path, text).unwrap();
-        path.display().to_string()
-    };
-    file("near.nc", "N10 G01 X1 F3000\nN20 M17\n");
-    let program = "N10 G100 X10 F500\nN20 $IF V.A.MESS.X < 9\nN30 L near.nc\nN40 $ENDIF\nN50 M30\n";
-    let (program, inputs) = (file("part.nc", program), file("probe.csv", "t_s,X_probe_mm\n0,5\n"));
-    let words = ["run", &program, "--input", &inputs, "-o", "-", "--signals", "time"];
-    let output = kontur_tests::command::command(words);
-    let mut lines = output.out.lines();
-    assert_eq!(lines.next(), Some("t_s,line,block,file"), "{}", output.err);
-    assert!(lines.next().unwrap().ends_with("part.nc"));
-    assert!(output.out.lines().any(|line| line.contains(",1,10,") && line.ends_with("near.nc")));
 }

@@ -125,15 +125,11 @@ fn bound(points: &[Point], feed_mm_s: f64) -> f64 {
 /// Time in s from the first to the last motion of the path, on the machine `xyz`.
 fn machine_time(program: &str, ramp_us: u32) -> f64 {
     // the lower limits of the ramp times first
-    let lowest = ["tr_min", "tr_w_min"];
+    let axis = "X,Y,Z.getriebe[0]";
     let ramps = ["beschl_zu", "beschl_ab", "brems_zu", "brems_ab"];
-    let mut settings = Vec::new();
-    for axis in ["X", "Y", "Z"] {
-        settings.extend(lowest.map(|key| format!("{axis}.getriebe[0].dynamik.{key}=1000")));
-        let key = |ramp| format!("{axis}.getriebe[0].slope_profil.tr_{ramp}={ramp_us}");
-        settings.extend(ramps.map(key));
-    }
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    let ramps = ramps.map(|ramp| format!("tr_{ramp}={ramp_us}")).join(", ");
+    let settings =
+        format!("{axis}.dynamik: tr_min=1000, tr_w_min=1000; {axis}.slope_profil: {ramps}");
     let (machine, found) = sample_machine("xyz", &settings);
     assert!(found.is_empty(), "{found:?}");
     let sources = MemorySources::new().with("part.nc", program.as_bytes().to_vec());

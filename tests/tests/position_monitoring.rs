@@ -4,18 +4,9 @@ use kontur_interpreter::explain::explain;
 use kontur_tests::{Run, programs, run};
 
 /// A gain of 10/s: from 100 mm/s it takes half a second into a window of 0.05 mm.
-fn slow(settling_us: i32) -> [String; 6] {
-    let settling = format!("X.getriebe[0].position_settling_time={settling_us}");
-    let others = ["Y", "Z"].map(|axis| format!("{axis}.vorsteuer.vorsteuerung=NONE"));
-    let [y, z] = others;
-    let kv = "X.getriebe[0].kv=1000".to_owned();
-    let window = "X.getriebe[0].window=500".to_owned();
-    [settling, kv, window, "X.vorsteuer.vorsteuerung=NONE".to_owned(), y, z]
-}
-
 fn stop(program: &str, settling_us: i32) -> Run {
-    let settings = slow(settling_us);
-    run(program, &settings.iter().map(String::as_str).collect::<Vec<_>>())
+    let slow = format!("X.getriebe[0]: position_settling_time={settling_us}, kv=1000, window=500");
+    run(program, &format!("{slow}; X,Y,Z.vorsteuer.vorsteuerung=NONE"))
 }
 
 /// The message, its reaction class, the frozen axis, and no further block.
@@ -67,7 +58,8 @@ fn moving_axes_are_not_monitored() {
     assert!(message > passed as u64, "only the last stop may be late");
 }
 
-/// Both stops of the program as a user runs it: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P015.
+/// Both stops of the program as a user runs it: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P010,
+/// P015.
 #[test]
 fn the_program_of_the_timeout() {
     let text = std::fs::read_to_string(programs().join("exact_stop_timeout.nc")).unwrap();
@@ -86,20 +78,19 @@ fn the_program_of_the_timeout() {
     let back = raised - 200;
     assert!(run.records[back - 1].axes[0].set > 0.0 && run.records[back].axes[0].set.abs() <= 0.0);
     assert!(run.records.iter().all(|r| r.block != Some(100)), "nothing follows");
-    // the trace continues until the axis itself is at rest
+    // the axis stays where it is, up to v Ta, and the trace continues until it is at rest
+    let here = run.records[raised].axes[0].act;
+    assert!((here - run.records[raised].axes[0].set).abs() > 1.0, "far from its target");
+    assert!(run.records[raised..].iter().all(|r| (r.axes[0].act - here).abs() < 0.08));
     let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
     assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "0.1 mm/s");
     assert!(last.axes[0].lag.abs() < 0.02, "{}", last.axes[0].lag);
 }
 
 /// A run with lag monitoring on X only, and the cycle of its error.
-fn lag_monitor(kind: u32, settings: &[&str]) -> (Run, Option<usize>) {
-    let mut all: Vec<String> = settings.iter().map(|s| format!("X.getriebe[0].{s}")).collect();
-    all.push(format!("X.getriebe[0].slep_ueberw_typ={kind}"));
-    let run = run(
-        "%P\nG90 G01 X100 Y40 F6000\nX0 Y0\nM30\n",
-        &all.iter().map(String::as_str).collect::<Vec<_>>(),
-    );
+fn lag_monitor(kind: u32, settings: &str) -> (Run, Option<usize>) {
+    let all = format!("X.getriebe[0]: {settings}, slep_ueberw_typ={kind}");
+    let run = run("%P\nG90 G01 X100 Y40 F6000\nX0 Y0\nM30\n", &all);
     let error = run.diagnostics.iter().find(|d| d.is_error());
     let at = error.map(|d| usize::try_from(d.cycle.unwrap()).unwrap());
     if at.is_some() {
@@ -112,7 +103,7 @@ fn lag_monitor(kind: u32, settings: &[&str]) -> (Run, Option<usize>) {
 /// own time constant; the rest of the group brakes along the path.
 #[test]
 fn following_error_of_type_4() {
-    let (run, at) = lag_monitor(4, &["slep_max=1000", "slep_min=1000"]);
+    let (run, at) = lag_monitor(4, "slep_max=1000, slep_min=1000");
     let at = at.unwrap();
     let first = run.axis(0, |a| a.lag).iter().position(|lag| lag.abs() > 0.1).unwrap();
     assert_eq!(at, first);
@@ -136,7 +127,7 @@ fn following_error_of_type_4() {
     assert!(y[0] > run.records[at].axes[1].set && y.windows(2).all(|w| w[1] >= w[0]));
     assert!(run.records.last().unwrap().axes[1].vel.abs() <= 0.0);
     // suppressed, or a limit that is wide enough: no message
-    assert_eq!(lag_monitor(4, &["slep_max=25000", "slep_min=25000"]).1, None);
+    assert_eq!(lag_monitor(4, "slep_max=25000, slep_min=25000").1, None);
 }
 
 /// Type 2: the theoretical lag v / Kv times 1024 / (1024 - slep_dyn). During acceleration the lag stays below v / Kv; during braking it
@@ -144,8 +135,8 @@ fn following_error_of_type_4() {
 #[test]
 fn following_error_of_type_2() {
     let at = |dynamics: u32| {
-        let dynamics = format!("slep_dyn={dynamics}");
-        let (run, at) = lag_monitor(2, &["slep_max=500", "slep_min=20000", &dynamics]);
+        let limits = format!("slep_max=500, slep_min=20000, slep_dyn={dynamics}");
+        let (run, at) = lag_monitor(2, &limits);
         at.map(|at| (run.records[at].path.a_mm_s2, at))
     };
     // a margin of one per cent: at constant speed the lag is v / Kv itself
@@ -159,7 +150,7 @@ fn following_error_of_type_2() {
 /// Type 1: s = q (s + |dx|) with q = slep_dyn / 1024 over the commanded movement, between slep_min and slep_max.
 #[test]
 fn following_error_of_type_1() {
-    let (run, at) = lag_monitor(1, &["slep_max=100000", "slep_min=2000", "slep_dyn=900"]);
+    let (run, at) = lag_monitor(1, "slep_max=100000, slep_min=2000, slep_dyn=900");
     let reference = run.axis(0, |a| a.reference);
     let q = 900.0 / 1024.0;
     let mut s = 0.0;
@@ -170,7 +161,7 @@ fn following_error_of_type_1() {
     assert_eq!(at, first);
     assert!(at.is_some());
     // 1000 permits q / (1 - q) = 41.7 times the movement of a cycle: 4.2 mm at 100 mm/s
-    assert_eq!(lag_monitor(1, &["slep_max=100000", "slep_min=10000", "slep_dyn=1000"]).1, None);
+    assert_eq!(lag_monitor(1, "slep_max=100000, slep_min=10000, slep_dyn=1000").1, None);
 }
 
 /// At the end of the ramp a feedforward of 120 % commands more than P-AXIS-00407 permits above the maximum of the axis: the limit is
@@ -179,11 +170,7 @@ fn following_error_of_type_1() {
 fn speed_command_above_its_limit() {
     let run = run(
         "%P\nG135\nG90 G00 X450 Y100\nM30\n",
-        &[
-            "X.vorsteuer.vs_v_faktor=12",
-            "X.vorsteuer.vs_v_nenner=10",
-            "X.lr_param.dyn_monitoring_v_err=1",
-        ],
+        "X.vorsteuer: vs_v_faktor=12, vs_v_nenner=10; X.lr_param.dyn_monitoring_v_err=1",
     );
     assert_eq!(run.ids(), [70382], "{:?}", run.diagnostics);
     assert!(run.totals.aborted);

@@ -2,10 +2,9 @@
 
 use kontur::Exit;
 use kontur_interpreter::diag::{Condition, Id};
-use kontur_tests::command::{Output, command};
+use kontur_tests::command::{command, run_line};
 use kontur_tests::{Run, from_polyline, machine, programs, run, run_on, sample_machine};
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
 
 fn text(name: &str) -> String {
     std::fs::read_to_string(programs().join(name)).unwrap()
@@ -62,7 +61,7 @@ fn slopes() {
     let one = 20.0 / v + v / a + ramp_s;
     for (profile, want) in [(0, one - ramp_s), (1, one), (2, one), (3, one)] {
         let setting = format!("channel.prog_start.slope.profile={profile}");
-        let run = run(&text("slopes.nc"), &[&setting]);
+        let run = run(&text("slopes.nc"), &setting);
         for lines in [10..=10, 12..=13] {
             let is = moving_s(&run, &lines);
             assert!(
@@ -112,7 +111,7 @@ fn late_braking() {
                 mm / v + legs.sum::<f64>()
             });
             let want: f64 = blocks.sum();
-            let run = run(program, &[&setting]);
+            let run = run(program, &setting);
             assert!(run.ids().is_empty(), "{:?}", run.diagnostics);
             let is = moving_s(&run, &(10..=14));
             assert!(
@@ -207,21 +206,6 @@ fn every_listed_command_runs() {
         let want = if fails { Exit::Aborted } else { Exit::Finished };
         assert_eq!(outcome.exit, want, "{line}\n{}", outcome.err);
     }
-}
-
-/// A command as shown in a document, run from the root of the repository; outputs go to a folder.
-fn run_line(line: &str, folder: &Path) -> Output {
-    let root = programs().join("..");
-    let mut words: Vec<PathBuf> = Vec::new();
-    for word in line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')) {
-        let output = words.last().is_some_and(|last| last.as_os_str() == "-o");
-        words.push(match word {
-            _ if output => folder.join(word),
-            _ if word.starts_with("programs/") => root.join(word),
-            _ => word.into(),
-        });
-    }
-    command(words)
 }
 
 /// The lessons: every program has its commands, and every command runs.

@@ -1,6 +1,5 @@
 //! Override, additional interface, force and encoder offset from time-stamped inputs, in runs of programs.
 
-use kontur_interpreter::record::AxisRecord;
 use kontur_kit::near;
 use kontur_tests::command::command;
 use kontur_tests::{Run, machine, run_with_inputs};
@@ -37,36 +36,14 @@ fn time_stamps_between_cycles() {
 /// The additional interface with the settings after `filter[0]`, and a step of 1 mm in cycle 10.
 fn additional(filter: &str) -> Run {
     let prefix = "X.lr_param.add_interface";
-    let mut settings = vec![format!("{prefix}.enable=1")];
-    settings.extend(filter.split_whitespace().map(|entry| format!("{prefix}.filter[0].{entry}")));
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    let settings = format!("{prefix}.enable=1; {prefix}.filter[0]: {filter}");
     run_with_inputs(machine(&settings), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)])
-}
-
-/// The signals of the interface: the input, its filter, and the sum after the axis filters that the controller follows; set position and
-/// deviation are those of the program. Conformance: A012, A106.
-#[test]
-fn additional_position() {
-    let run = additional("");
-    let added = run.axis(0, |a| a.add);
-    let expected = |k: usize| if k < 10 { 0.0 } else { 1.0 };
-    assert!(added.iter().enumerate().all(|(k, x)| (x - expected(k)).abs() <= 0.0));
-    let set = |a: &AxisRecord| a.set.abs() + a.ipo.abs() + a.err.abs() + a.dev.abs();
-    assert!(run.axis(0, set).iter().all(|x| *x <= 0.0));
-    let last = run.records.last().unwrap().axes[0];
-    near(last.reference, 1.0, 1e-9);
-    near(last.act, 1.0, 1e-9);
-    assert!(run.said().is_empty());
-    // off: the input has no effect, and a message says so
-    let off = run_with_inputs(machine(&[]), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)]);
-    assert_eq!(off.said(), ["K-0077"]);
-    assert!(off.axis(0, |a| a.add.abs() + a.act.abs()).iter().all(|x| *x <= 0.0));
 }
 
 /// PT1 of 10 ms: `1 - p^n / (1 + g)` with `g = tan(T / 2 tau)`, `p = (1 - g) / (1 + g)`. Conformance: A057.
 #[test]
 fn additional_pt1() {
-    let run = additional("enable=1 order=1 type=PT1 time_constant=10000 share_percent=100");
+    let run = additional("enable=1, order=1, type=PT1, time_constant=10000, share_percent=100");
     let g = libm::tan(0.05);
     let p = (1.0 - g) / (1.0 + g);
     for (k, x) in run.axis(0, |a| a.add).into_iter().enumerate().skip(10) {
@@ -78,17 +55,10 @@ fn additional_pt1() {
 /// The axis filter and the filter of the interface each act on their own part.
 #[test]
 fn both_filters_add_up() {
-    let settings = [
-        "X.filter[0].enable=1",
-        "X.filter[0].order=1",
-        "X.filter[0].type=TIME_DELAY",
-        "X.filter[0].time_constant=3000",
-        "X.lr_param.add_interface.enable=1",
-        "X.lr_param.add_interface.filter[0].enable=1",
-        "X.lr_param.add_interface.filter[0].order=1",
-        "X.lr_param.add_interface.filter[0].type=TIME_DELAY",
-        "X.lr_param.add_interface.filter[0].time_constant=5000",
-    ];
+    let delay = "enable=1, order=1, type=TIME_DELAY, time_constant";
+    let settings = format!(
+        "X.filter[0]: {delay}=3000; X.lr_param.add_interface.enable=1; X.lr_param.add_interface.filter[0]: {delay}=5000"
+    );
     let inputs = [(0.1, "X_add_mm", 0.25), (0.3, "X_add_mm", -0.5)];
     let run = run_with_inputs(machine(&settings), "%P\nG90 G01 X50 F6000\nM30\n", &inputs);
     let (ipo, set) = (run.axis(0, |a| a.ipo), run.axis(0, |a| a.set));
@@ -162,19 +132,14 @@ fn sample_of_feedhold_and_override() {
 #[test]
 fn sample_of_inputs_of_axes() {
     let text = std::fs::read_to_string(kontur_tests::programs().join("inputs_of_axes.nc")).unwrap();
-    let filter = "X.lr_param.add_interface.filter[0]";
-    let settings = [
-        "X.lr_param.add_interface.enable=1",
-        &format!("{filter}.enable=1"),
-        &format!("{filter}.time_constant=20000"),
-        "Y.getriebe[0].window=2000",
-    ];
+    let settings = "X.lr_param.add_interface: enable=1, filter[0].enable=1, filter[0].time_constant=20000; \
+                    Y.getriebe[0].window=2000";
     let inputs = [
         (0.1, "X_add_mm", 0.1),
         (0.2, "Y_force_mm_s2", -1000.0),
         (0.3, "Z_encoder_offset_mm", 0.05),
     ];
-    let run = run_with_inputs(machine(&settings), &text, &inputs);
+    let run = run_with_inputs(machine(settings), &text, &inputs);
     let [x, y, z] = [0, 1, 2].map(|axis| run.records.last().unwrap().axes[axis]);
     // 900 ms are 45 time constants
     near(x.add, 0.1, 1e-9);

@@ -6,47 +6,40 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::Condition;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, run, run_on, sample_machine};
+use kontur_tests::{Run, Settings, run, run_on, sample_machine};
 
 /// Axes of the records: X, Y, Z, then the slave of X; the machine has no spindle.
 const SLAVE: usize = 3;
 /// The spindle of the machine `xyz` after X, Y, Z.
 const SPINDLE: usize = 3;
 
-fn on_gantry(settings: &[String], lines: &str) -> Run {
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    run_on(sample_machine("gantry", &settings), &format!("{lines}\nM30\n"))
-}
-
-fn in_axes(axes: &[&str], entries: &[&str]) -> Vec<String> {
-    axes.iter().flat_map(|a| entries.iter().map(move |e| format!("{a}.{e}"))).collect()
+fn on_gantry(settings: impl Settings, lines: &str) -> Run {
+    run_on(sample_machine("gantry", settings), &format!("{lines}\nM30\n"))
 }
 
 /// The bridge does not rack, whatever shapes the motion of its master and whenever it is switched: same set positions, bit for bit.
 #[test]
 fn a_gantry_slave_is_shaped_like_its_master() {
-    const FIR: [&str; 3] = ["filter_fir.type=1", "filter_fir.order=40", "filter_fir.enable=1"];
+    const FIR: &str = "X,Y,Z.filter_fir: type=1, order=40, enable=1";
     const WAYS: &str = "G01 F6000 X20 Y5\nG00 X-3 Z2\nG02 X10 I6.5 J3 F4000";
     for k in 0..count(10) as u64 {
         let mut random = Random::new(seed() + k);
         let (mode, freq) = (random.below(4) + 1, random.log(3.0, 60.0));
         let guard = format!("#VIB GUARD ON [MODE={mode} FREQ={freq:.3}]");
-        let listed = [
-            "vib_guard.active=1".to_owned(),
-            format!("vib_guard.mode={mode}"),
-            format!("vib_guard.freq={freq:.3}"),
-        ];
-        let listed: Vec<&str> = listed.iter().map(String::as_str).collect();
-        let path = ["X", "Y", "Z"];
+        let listed =
+            |axes: &str| format!("{axes}.vib_guard: active=1, mode={mode}, freq={freq:.3}");
         let order = random.below(60) + 2;
         for (settings, lines) in [
-            (vec![], format!("{guard}\n{WAYS}\n#VIB GUARD OFF\n{WAYS}\n{guard}\nG01 X0")),
-            (vec![], format!("#VIB GUARD ON [MODE={mode} FREQ={freq:.3} AX_DEV=0.05]\n{WAYS}")),
-            (in_axes(&path, &listed), WAYS.to_owned()),
-            (in_axes(&["X", "Y", "Z", "X2"], &listed), WAYS.to_owned()),
-            (in_axes(&path, &FIR), WAYS.to_owned()),
+            (String::new(), format!("{guard}\n{WAYS}\n#VIB GUARD OFF\n{WAYS}\n{guard}\nG01 X0")),
             (
-                in_axes(&path, &FIR[..1]),
+                String::new(),
+                format!("#VIB GUARD ON [MODE={mode} FREQ={freq:.3} AX_DEV=0.05]\n{WAYS}"),
+            ),
+            (listed("X,Y,Z"), WAYS.to_owned()),
+            (listed("X,Y,Z,X2"), WAYS.to_owned()),
+            (FIR.to_owned(), WAYS.to_owned()),
+            (
+                "X,Y,Z.filter_fir.type=1".to_owned(),
                 format!("#FILTER ON [ORDER={order}]\n{WAYS}\n#FILTER OFF\n{WAYS}"),
             ),
         ] {
@@ -70,17 +63,13 @@ fn a_gantry_slave_is_shaped_like_its_master() {
 /// Entries of the slave alone are reported: a kernel has no effect, a standard filter racks the bridge.
 #[test]
 fn filters_of_a_slave_alone_are_reported() {
-    let kernel = on_gantry(&in_axes(&["X2"], &["vib_guard.active=1"]), "G01 X5 F3000");
+    let kernel = on_gantry("X2.vib_guard.active=1", "G01 X5 F3000");
     let said: Vec<_> = kernel.diagnostics.iter().map(|d| d.id).collect();
     assert_eq!(said, [Condition::ListNoEffect]);
     assert!(kernel.records.iter().all(|r| r.axes[SLAVE].set.to_bits() == r.axes[0].set.to_bits()));
-    let low_pass = ["enable=1", "type=1", "order=1", "time_constant=20000"]
-        .map(|entry| format!("filter[0].{entry}"));
-    let low_pass: Vec<&str> = low_pass.iter().map(String::as_str).collect();
-    for (axes, racks) in
-        [(&["X", "Y", "Z"][..], true), (&["X2"], true), (&["X", "Y", "Z", "X2"], false)]
-    {
-        let run = on_gantry(&in_axes(axes, &low_pass), "G01 X5 F3000");
+    for (axes, racks) in [("X,Y,Z", true), ("X2", true), ("X,Y,Z,X2", false)] {
+        let low_pass = "enable=1, type=1, order=1, time_constant=20000";
+        let run = on_gantry(&format!("{axes}.filter[0]: {low_pass}"), "G01 X5 F3000");
         let told = run.diagnostics.iter().find(|d| d.id == Condition::UnequalKernels);
         assert_eq!(told.is_some(), racks, "{axes:?}");
         assert!(told.is_none_or(|d| d.text.contains("X2")), "{told:?}");
@@ -97,11 +86,9 @@ fn convolved(x: &[f64], kernel: &Kernel) -> Vec<f64> {
 #[test]
 fn spindles_are_shaped_by_their_lists() {
     let settings = VibGuardSettings { mode: 1, freq_hz: 10.0, damping: 0.0 };
-    let listed = ["active=1", "mode=1", "freq=10", "damping=0"].map(|e| format!("S.vib_guard.{e}"));
-    let listed: Vec<&str> = listed.iter().map(String::as_str).collect();
     let text = "M3 S1000\nG04 0.5\n#VIB GUARD ON [MODE=3 FREQ=20]\nG01 X5 F3000\n#VIB GUARD OFF\n\
                 M5\nG04 1\nS[M19 POS=90 REV=100]\nM30\n";
-    let shaped = run(text, &listed);
+    let shaped = run(text, "S.vib_guard: active=1, mode=1, freq=10, damping=0");
     assert_eq!(shaped.diagnostics, []);
     let (ipo, set) = (shaped.axis(SPINDLE, |a| a.ipo), shaped.axis(SPINDLE, |a| a.set));
     let kernel = settings.kernel(CycleTime::DEFAULT).unwrap();
@@ -115,10 +102,7 @@ fn spindles_are_shaped_by_their_lists() {
     let apart =
         |r: &kontur_interpreter::record::CycleRecord| r.axes[SPINDLE].set - r.axes[SPINDLE].ipo;
     assert!(plain.records.iter().all(|r| apart(r).abs() <= 0.0));
-    let fir = run(
-        "M3 S1000\nG04 0.5\nM30\n",
-        &["S.filter_fir.type=1", "S.filter_fir.order=100", "S.filter_fir.enable=1"],
-    );
+    let fir = run("M3 S1000\nG04 0.5\nM30\n", "S.filter_fir: type=1, order=100, enable=1");
     // at constant speed it is late by the mean delay, 50 cycles
     let last = fir.records.last().unwrap();
     let behind = last.axes[SPINDLE].ipo - last.axes[SPINDLE].set;
@@ -128,9 +112,7 @@ fn spindles_are_shaped_by_their_lists() {
 /// A guard of a list that cannot be built is off, and the machine runs without it.
 #[test]
 fn a_listed_guard_that_cannot_be_built_is_off() {
-    let listed = in_axes(&["X", "Y", "Z"], &["vib_guard.active=1", "vib_guard.damping=1"]);
-    let listed: Vec<&str> = listed.iter().map(String::as_str).collect();
-    let run = run("G01 X5 F3000\nM30\n", &listed);
+    let run = run("G01 X5 F3000\nM30\n", "X,Y,Z.vib_guard: active=1, damping=1");
     let said = run.diagnostics.iter().filter(|d| d.id == Condition::GuardNotRealisable);
     assert_eq!(said.filter(|d| !d.is_error()).count(), 3, "{:?}", run.diagnostics);
     assert!(!run.totals.aborted);

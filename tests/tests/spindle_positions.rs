@@ -1,5 +1,6 @@
 //! M19: the angle that is held, the direction, the speed; changes of the speed: ramps, G130.
 
+use kontur_kit::Random;
 use kontur_tests::{Run, run};
 
 /// Set angle of the spindle at the end of a line of the program, counted over the revolutions, in deg.
@@ -64,17 +65,16 @@ fn the_acceleration_of_a_spindle_is_weighed() {
 }
 
 /// Ramp times in us (up, down, of speeding up and of braking), acceleration and deceleration 60000 deg/s2.
-fn ramps(us: [u32; 4]) -> Vec<String> {
-    let names = ["tr_beschl_zu", "tr_beschl_ab", "tr_brems_zu", "tr_brems_ab"];
-    let of = |(name, us)| format!("S.getriebe[0].slope_profil.{name}={us}");
-    let least = ["tr_min", "tr_w_min"].map(|name| format!("S.getriebe[0].dynamik.{name}=100"));
-    least.into_iter().chain(names.into_iter().zip(us).map(of)).collect()
+fn ramps([up, on, down, off]: [u32; 4]) -> String {
+    format!(
+        "S.getriebe[0].dynamik: tr_min=100, tr_w_min=100; S.getriebe[0].slope_profil: tr_beschl_zu={up}, \
+         tr_beschl_ab={on}, tr_brems_zu={down}, tr_brems_ab={off}"
+    )
 }
 
 /// Time in s and distance in deg while the spindle changes its speed in some lines, and the largest acceleration and jerk.
 fn change(text: &str, us: [u32; 4], line: u32) -> [f64; 4] {
-    let ramps = ramps(us);
-    let run = run(&format!("%P\n{text}\nM30\n"), &ramps.iter().map(|s| &s[..]).collect::<Vec<_>>());
+    let run = run(&format!("%P\n{text}\nM30\n"), &ramps(us));
     assert_eq!(run.diagnostics, []);
     let t = run.cycle_s;
     let set: Vec<f64> =
@@ -129,9 +129,7 @@ fn changes_of_speed_in_a_row_keep_the_jerk() {
         ("M3 S1000\nG04 0.06\nM5\nG04 0.5", 5, 0.0),
         ("M19 S1000 S.POS180\nG04 0.5", 3, 0.0),
     ] {
-        let ramps = ramps([50_000; 4]);
-        let run =
-            run(&format!("%P\n{text}\nM30\n"), &ramps.iter().map(|s| &s[..]).collect::<Vec<_>>());
+        let run = run(&format!("%P\n{text}\nM30\n"), &ramps([50_000; 4]));
         assert_eq!(run.diagnostics, [], "{text}");
         let t = run.cycle_s;
         let set: Vec<f64> = run.records.iter().map(|r| r.axes[3].set).collect();
@@ -143,5 +141,32 @@ fn changes_of_speed_in_a_row_keep_the_jerk() {
         assert!(worst(&differences(&a)) <= jerk_max * (1.0 + 1e-6), "{text}");
         let last = run.records.iter().rposition(|r| r.line == line).unwrap();
         assert!((v[last - 1] - end).abs() < 1e-6, "{text}: {}", v[last - 1]);
+    }
+}
+
+/// Random commands: a tool that permits everything gives the same bits as one without a spindle.
+#[test]
+fn limits_beyond_those_of_the_list_change_nothing() {
+    let mut random = Random::new(20_261_126);
+    let tools = "tool.wz[3].gueltig=1; \
+                 tool.wz[4]: gueltig=1, log_ax_nr_spdl=4, vb_max=2000000000, a_max=1000000000";
+    for _ in 0..40 {
+        let mut program = String::new();
+        for _ in 0..8 {
+            program += &match random.below(7) {
+                0 => format!("M3 S{}\n", random.below(13_000)),
+                1 => format!("M4 S{}\n", random.below(13_000)),
+                2 => "M5\n".to_owned(),
+                3 => format!("M19 S200 S.POS{}\n", random.below(360)),
+                4 => format!("S[G130={}]\n", 10 + random.below(90)),
+                5 => "S[GET_DYNAMIC_DATA]\n".to_owned(),
+                _ => format!("G04 {}\n", random.below(20) as f64 / 10.0),
+            };
+        }
+        let angles = |tool: u32| {
+            let run = run(&format!("%P\nD{tool}\n{program}M30\n"), tools);
+            run.records.iter().map(|r| r.axes[3].set.to_bits()).collect::<Vec<_>>()
+        };
+        assert_eq!(angles(4), angles(3), "{program}");
     }
 }

@@ -73,7 +73,7 @@ fn same_bits_again() {
     // a value from the list and the same value from a setting
     let (plain, _) = machine(&[]);
     let kv = plain.axes[0].raw("getriebe[0].kv").unwrap();
-    let set = run(&text, &[&format!("X.getriebe[0].kv={kv}")]);
+    let set = run(&text, &format!("X.getriebe[0].kv={kv}"));
     assert_eq!(first.records, set.records);
 }
 

@@ -9,18 +9,21 @@
 //! end X100             the same in the last cycle
 //! X8..8.2              between these positions
 //! S2=45                an axis or spindle whose name may end with a digit
-//! add X0.5             another quantity of the axes: set, act, load, lag, add, reference, err, dev, or rpm, the speed of a spindle in
-//!                      rev/min; `ipo` leads back
+//! most 3 X45           the same in that cycle of this line in which it is largest, whatever its sign; 0 is the whole run
+//! add X0.5             another quantity of the axes: set, act, load, lag, add, reference, err, dev, vel, acc, jerk, ff, cmd, vadd; rpm, the
+//!                      speed of a spindle in rev/min; late, the cycles by which `set` follows `ipo` at constant speed; percent, the
+//!                      lag in per cent of that without feedforward, speed / Kv with Kv 50/s; `ipo` leads back
 //! arrives X100 1.6     the first time at which an axis has come to a position
 //! steps X0.1           what an axis goes at most in a cycle
 //! held 0.4             how long the path is held
 //! by Stop              what limits the path at that time
 //! within 0.6           the run does not last longer
 //! aborted              the run ends with an error
+//! 70082@3@X            a message, its line in the row, its axis
 //! "text"               all texts of `#MSG`
 //! ```
 
-use kontur_interpreter::diag::Condition;
+use kontur_interpreter::diag::{Condition, Diagnostic};
 use kontur_interpreter::record::Rest;
 use kontur_kit::rows::{Row, fits, rows};
 use kontur_tests::suite::{files, folder, name};
@@ -30,9 +33,6 @@ use std::ops::RangeInclusive;
 
 /// mm, deg or s.
 const NEAR: f64 = 1e-9;
-
-/// rev/min: a difference of angles, divided by the cycle time.
-const NEAR_RPM: f64 = 1e-6;
 
 /// Axis and position, or the ends of a range of positions, from `X45`, `X8..8.2` or `S2=45`.
 fn axis(word: &str, axes: &[String]) -> Option<(usize, RangeInclusive<f64>)> {
@@ -56,7 +56,30 @@ fn quantity(run: &Run, name: &str, k: usize, axis: usize) -> f64 {
         "reference" => of(k).reference,
         "err" => of(k).err,
         "dev" => of(k).dev,
+        "vel" => of(k).vel,
+        "acc" => of(k).acc,
+        "jerk" => of(k).jerk,
+        "ff" => of(k).ff,
+        "cmd" => of(k).cmd,
+        "vadd" => of(k).vadd,
+        _ if k == 0 => 0.0,
+        "late" => (of(k).ipo - of(k).set) / (of(k).ipo - of(k - 1).ipo),
+        "percent" => {
+            let way = of(k).reference - of(k - 1).reference;
+            // a spindle begins again after each revolution
+            let way = if way.abs() > 180.0 { way - 360.0 * way.signum() } else { way };
+            100.0 * of(k).lag * 50.0 * run.cycle_s / way
+        }
         _ => (of(k).set - of(k - 1).set) / run.cycle_s / 6.0,
+    }
+}
+
+/// How far a quantity may be from its number.
+fn tolerance(quantity: &str) -> f64 {
+    match quantity {
+        "rpm" | "late" => 1e-6,
+        "percent" => 0.01,
+        _ => NEAR,
     }
 }
 
@@ -70,20 +93,19 @@ fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
 
 /// What a row states and the run does not fulfil.
 fn faults(row: &Row) -> Vec<String> {
-    let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
     let inputs: Vec<_> = row.inputs.iter().map(|(t, name, x)| (*t, name.as_str(), *x)).collect();
     let machine = match row.machine.as_deref() {
-        None => machine(&settings),
+        None => machine(&row.settings),
         Some(name) if programs().join("machines").join(name).is_dir() => {
-            sample_machine(name, &settings)
+            sample_machine(name, &row.settings)
         }
-        Some(name) => suite_machine(name, &settings),
+        Some(name) => suite_machine(name, &row.settings),
     };
     let axes: Vec<String> = machine.0.all_axes().map(|axis| axis.name().to_owned()).collect();
     let run = run_with_inputs(machine, &format!("%P\n{}", row.program), &inputs);
     let (mut wrong, mut ids, mut aborted) = (Vec::new(), Vec::new(), false);
     let mut found = Vec::new();
-    let (mut at, mut what) = (run.records.len().saturating_sub(1), "ipo");
+    let (mut at, mut what) = (vec![run.records.len().saturating_sub(1)], "ipo");
     let (words, texts) =
         row.expected.split_at(row.expected.find('"').unwrap_or(row.expected.len()));
     let mut words = words.split_whitespace();
@@ -91,22 +113,25 @@ fn faults(row: &Row) -> Vec<String> {
         let mut number = || -> f64 { words.next().and_then(|w| w.parse().ok()).expect(&row.text) };
         match word {
             "ok" => {}
-            "at" => at = (number() / run.cycle_s).round() as usize,
-            "line" | "middle" => {
+            "at" => at = vec![(number() / run.cycle_s).round() as usize],
+            "line" | "middle" | "most" => {
                 // %P is before the first line of a row
                 let line = number() as u32 + 1;
-                let of_line: Vec<usize> =
-                    (0..run.records.len()).filter(|k| run.records[*k].line == line).collect();
-                let last = of_line.len().saturating_sub(1);
-                match of_line.get(if word == "line" { last } else { last / 2 }) {
-                    Some(k) => at = *k,
-                    None => wrong.push(format!("line {} has no cycle", line - 1)),
+                at = (0..run.records.len())
+                    .filter(|k| line == 1 || run.records[*k].line == line)
+                    .collect();
+                let last = at.len().saturating_sub(1);
+                match word {
+                    _ if at.is_empty() => wrong.push(format!("line {} has no cycle", line - 1)),
+                    "line" => at = vec![at[last]],
+                    "middle" => at = vec![at[last / 2]],
+                    _ => {}
                 }
             }
-            "end" => at = run.records.len().saturating_sub(1),
+            "end" => at = vec![run.records.len().saturating_sub(1)],
             "ipo" | "set" | "act" | "load" | "lag" | "add" | "reference" | "err" | "dev"
-            | "rpm" => {
-                what = word;
+            | "vel" | "acc" | "jerk" | "ff" | "cmd" | "vadd" | "late" | "percent" | "rpm" => {
+                what = word
             }
             "held" => found.push((word, run.rested(Rest::Held) as f64 * run.cycle_s, number())),
             "within" => {
@@ -114,7 +139,7 @@ fn faults(row: &Row) -> Vec<String> {
                 found.push((word, (run.records.len() as f64 * run.cycle_s).max(limit_s), limit_s));
             }
             "by" => {
-                let limit = format!("{:?}", run.records[at].path.limit);
+                let limit = format!("{:?}", run.records[at[0]].path.limit);
                 if words.next() != Some(&limit) {
                     wrong.push(format!("limited by {limit}"));
                 }
@@ -133,9 +158,12 @@ fn faults(row: &Row) -> Vec<String> {
                 found.push((target, arrival_s(&run, i, *position.end()), time_s));
             }
             _ => match axis(word, &axes) {
-                Some((i, want)) if at < run.records.len() => {
-                    let is = quantity(&run, what, at, i);
-                    let near = if what == "rpm" { NEAR_RPM } else { NEAR };
+                Some((i, want)) if at.iter().all(|k| *k < run.records.len()) => {
+                    let values = at.iter().map(|k| quantity(&run, what, *k, i));
+                    let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+                    let is = values.fold(0.0, larger);
+                    let is = if at.len() > 1 { is.abs() } else { is };
+                    let near = tolerance(what);
                     if is < want.start() - near || is > want.end() + near {
                         wrong.push(format!("{what} {word}: {is}"));
                     }
@@ -149,7 +177,11 @@ fn faults(row: &Row) -> Vec<String> {
     wrong.extend(found.into_iter().filter(differs).map(|(what, is, _)| format!("{what}: {is}")));
     let (said, written): (Vec<_>, Vec<_>) =
         run.diagnostics.iter().partition(|d| d.id != Condition::Message);
-    let said: Vec<String> = said.into_iter().map(|d| d.id.to_string()).collect();
+    let place = |d: &Diagnostic| {
+        let line = d.source.as_ref().map_or(0, |at| at.line.saturating_sub(1));
+        format!("{}@{line}@{}", d.id, d.axis.as_ref().map_or("", |axis| &axis.name))
+    };
+    let said: Vec<String> = said.into_iter().map(place).collect();
     if !fits(&ids, &said) || aborted != run.totals.aborted {
         wrong.push(format!("says {said:?}, aborted {}", run.totals.aborted));
     }
@@ -199,6 +231,10 @@ fn wrong_rows_are_found() {
         "line 1 X9",
         "middle 2 X10",
         "rpm S=1",
+        "most 0 X9",
+        "vel most 1 X9",
+        "percent middle 2 X10",
+        "K-0009@3",
         "\"text\"",
         "arrives X10 0.201",
         "arrives X11 0.2",

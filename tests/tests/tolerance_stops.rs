@@ -54,9 +54,6 @@ fn a_stop_on_a_line_does_not_wait() {
 /// it.
 #[test]
 fn changes_of_speed_on_an_arc() {
-    let fir: Vec<String> =
-        ["X", "Y", "Z"].iter().map(|a| format!("{a}.filter_fir.type=2")).collect();
-    let fir: Vec<&str> = fir.iter().map(String::as_str).collect();
     let (ratio, hold) = ("override_percent", "feedhold");
     let inputs: [Vec<(f64, &str, f64)>; 5] = [
         vec![(0.02, ratio, 50.0)],
@@ -70,7 +67,7 @@ fn changes_of_speed_on_an_arc() {
             "#SLOPE [TYPE={slope}]\n#FILTER ON [ORDER=100 AX_DEV=0.05]\nG01 F12000\nG02 X20 Y0 I10 J0\nM30\n"
         );
         for input in &inputs {
-            let run = run_with_inputs(machine(&fir), &program, input);
+            let run = run_with_inputs(machine("X,Y,Z.filter_fir.type=2"), &program, input);
             assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
             for p in run.set(2) {
                 let (x, y) = (p[0] - 10.0, p[1]);

@@ -2,7 +2,7 @@
 
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_tests::{Run, largest_step, run, run_on, sample_machine};
+use kontur_tests::{Run, Settings, largest_step, run, run_on, sample_machine};
 
 /// Square of 1 mm from the present position of the axes, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
@@ -11,21 +11,8 @@ fn program(lines: &[&str]) -> String {
     format!("%P\nG90\n{}\nM30\n", lines.join("\n"))
 }
 
-fn on(lines: &[&str], settings: &[String]) -> Run {
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    run(&program(lines), &settings)
-}
-
-/// `vib_guard` entries in the path axes.
-fn listed(entries: &str) -> Vec<String> {
-    let of = |axis: &'static str| {
-        entries.split_whitespace().map(move |e| format!("{axis}.vib_guard.{e}")).collect::<Vec<_>>()
-    };
-    ["X", "Y", "Z"].into_iter().flat_map(of).collect()
-}
-
-fn strings(settings: &[&str]) -> Vec<String> {
-    settings.iter().map(|s| (*s).to_owned()).collect()
+fn on(lines: &[&str], settings: impl Settings) -> Run {
+    run(&program(lines), settings)
 }
 
 /// Names of the axes in errors.
@@ -53,16 +40,13 @@ fn near(is: f64, want: f64) {
 #[test]
 fn lists_activate_single_axes() {
     let lines = ["G01 X100 Y100 F6000"];
-    let run = on(&lines, &strings(&["X.vib_guard.active=1"]));
+    let run = on(&lines, "X.vib_guard.active=1");
     assert!(!run.is_unshaped(0) && run.is_unshaped(1));
-    let unequal = [
-        "X.vib_guard.active=1",
-        "X.vib_guard.freq=20",
-        "Y.vib_guard.active=1",
-        "Y.vib_guard.freq=40",
-    ];
-    let run = on(&lines, &strings(&unequal));
+    let run = on(&lines, "X.vib_guard: active=1, freq=20; Y.vib_guard: active=1, freq=40");
     let of = |f| kernel_delay(1, f, 0.1);
+    let filtered = on(&["G01 X10 Y10 F6000"], "X.filter[0]: enable=1, order=4, fg_f0=15");
+    let [unequal] = &filtered.diagnostics[..] else { panic!("{:?}", filtered.diagnostics) };
+    assert!(unequal.text.contains("X 18.447 ms") && unequal.text.contains("Y 0.000 ms"));
     let text: Vec<&str> = run.diagnostics.iter().map(|d| d.text.as_str()).collect();
     let delays = [format!("{:.1}", of(20.0)), format!("{:.1}", of(40.0))];
     assert!(
@@ -99,24 +83,12 @@ fn the_command_activates_all_axes() {
     }
 }
 
-/// Errors at corners and on curves, none at rest. Conformance: V007.
-#[test]
-fn smoothing_leaves_the_contour() {
-    for motion in ["G01 X10 F4000\nY10", "G03 X0 Y0 I5 J0 F4000"] {
-        let run = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", motion], &[]);
-        assert!(largest(&run, |r| r.contour_err_mm) > 1e-3, "{motion}");
-        assert!(largest(&run, |r| r.axes[0].err) > 1e-3, "{motion}");
-        let last = run.records.last().unwrap();
-        assert!(last.contour_err_mm.abs() < 1e-9 && last.axes[0].err.abs() < 1e-9, "{last:?}");
-    }
-}
-
 /// The longer the cycle, the faster the kink, the larger the error. Conformance: V022.
 #[test]
 fn the_error_grows_with_the_cycle() {
     let error = |us: u32| {
         let cycle = format!("kontur.cycle_time_us={us}");
-        let run = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &[cycle]);
+        let run = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &cycle);
         largest(&run, |r| r.contour_err_mm)
     };
     let (one, two, four) = (error(1000), error(2000), error(4000));
@@ -154,11 +126,11 @@ fn the_tolerance_acts_only_where_it_must() {
 #[test]
 fn lists_and_program() {
     let motion = "G01 X100 F6000";
-    let run = on(&["#VIB GUARD ON", motion], &listed("mode=3 freq=20"));
+    let run = on(&["#VIB GUARD ON", motion], "X,Y,Z.vib_guard: mode=3, freq=20");
     near(run.delay_cycles(4), kernel_delay(3, 20.0, 0.1));
-    let active = listed("active=1 mode=1 freq=30");
+    let active = "X,Y,Z.vib_guard: active=1, mode=1, freq=30";
     let run =
-        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], &active);
+        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], active);
     near(run.delay_cycles(3), kernel_delay(1, 30.0, 0.1));
     near(run.delay_cycles(5), kernel_delay(4, 50.0, 0.1));
     near(run.delay_cycles(7), 0.0);
@@ -212,25 +184,18 @@ fn both_commands_in_one_program() {
 /// in another: both act. Conformance: V031, V034, V035, V036, V037.
 #[test]
 fn conflicts_with_lists() {
-    let fir =
-        |axis: &str| ["enable=1", "type=1", "order=20"].map(|e| format!("{axis}.filter_fir.{e}"));
-    let guard = |axis: &str| format!("{axis}.vib_guard.active=1");
-    let motion = "G01 X10 Y10 F6000";
-    let with = |fir: &[String], guard: Option<String>, lines: &[&str]| {
-        let settings: Vec<String> = fir.iter().cloned().chain(guard).collect();
-        on(lines, &settings)
-    };
-    let one_axis = with(&fir("X"), Some(guard("X")), &[motion]);
-    assert!(refused_for(&one_axis).contains(&"X".to_owned()));
-    let filter = with(&[], Some(guard("Y")), &["#FILTER ON [ORDER=20]", motion]);
+    let (fir, motion) = ("X.filter_fir: enable=1, type=1, order=20", "G01 X10 Y10 F6000");
+    let [x, y] = ["X", "Y"].map(|axis| format!("{fir}; {axis}.vib_guard.active=1"));
+    assert!(refused_for(&on(&[motion], &x)).contains(&"X".to_owned()));
+    let filter = on(&["#FILTER ON [ORDER=20]", motion], "Y.vib_guard.active=1");
     assert!(refused_for(&filter).contains(&"Y".to_owned()));
-    let command = with(&fir("Y")[1..2], None, &["#VIB GUARD ON", motion]);
+    let command = on(&["#VIB GUARD ON", motion], "Y.filter_fir.type=1");
     assert!(refused_for(&command).contains(&"Y".to_owned()));
-    let allowed = with(&fir("X"), Some(guard("Y")), &[motion]);
+    let allowed = on(&[motion], &y);
     assert!(!allowed.totals.aborted, "{:?}", allowed.diagnostics);
     assert!(!allowed.is_unshaped(0) && !allowed.is_unshaped(1));
     for command in ["#VIB GUARD OFF", "#FILTER OFF"] {
-        let both = with(&fir("X"), Some(guard("Y")), &[command, motion]);
+        let both = on(&[command, motion], &y);
         assert!(!refused_for(&both).is_empty(), "{command}");
     }
 }
@@ -248,62 +213,24 @@ fn axis_exchange() {
     );
     let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", "#VIB GUARD ON", motion], &[]);
     near(run.delay_cycles(6), kernel_delay(1, 30.0, 0.1));
-    let run = on(&["#PUT AX [Z]", motion], &listed("active=1"));
+    let run = on(&["#PUT AX [Z]", motion], "X,Y,Z.vib_guard.active=1");
     near(run.delay_cycles(4), kernel_delay(1, 30.0, 0.1));
 }
 
-/// Keys in any order, defaults, ranges. Conformance: V043, V045, V046, V047, V052.
+/// Keys in any order, and defaults; ranges are rows of `shaping.txt`. Conformance: V043, V045, V046, V047, V052.
 #[test]
 fn keys_of_the_command() {
     let records = |command: &str| on(&[command, SQUARE], &[]).records;
     assert_eq!(records("#VIB GUARD ON [FREQ=6 MODE=2]"), records("#VIB GUARD ON [MODE=2 FREQ=6]"));
     let motion = "G01 X100 F6000";
     near(on(&["#VIB GUARD ON", motion], &[]).delay_cycles(4), kernel_delay(1, 30.0, 0.1));
-    for (key, id) in [
-        ("MODE=5", "22062"),
-        ("FREQ=0.5", "K-0034"),
-        ("DAMPING=1.1", "K-0034"),
-        ("DAMPING=1", "50820"),
-        ("ACC_FACT=0.9", "K-0034"),
-        ("ACC_FACT=11", "K-0034"),
-    ] {
-        let run = on(&[&format!("#VIB GUARD ON [{key}]"), motion], &[]);
-        assert_eq!(run.said(), [id], "{key}");
-        assert!(run.totals.aborted, "{key}");
-    }
-    for key in ["DAMPING=0", "ACC_FACT=1", "ACC_FACT=10", "MODE=4", "FREQ=1"] {
-        let run = on(&[&format!("#VIB GUARD ON [{key}]"), motion], &[]);
-        assert!(!run.totals.aborted, "{key}: {:?}", run.diagnostics);
-    }
-}
-
-/// Inches under G70, if P-CHAN-00439 says so. Conformance: V049.
-#[test]
-fn tolerance_in_inch() {
-    let dev = |considered: u32| {
-        let setting = format!("channel.contouring_consider_inch={considered}");
-        let lines = [
-            "#VIB GUARD ON [MODE=2 FREQ=40]",
-            "G70",
-            "#VIB GUARD ON [AX_DEV=0.001]",
-            "G71",
-            SQUARE,
-        ];
-        let run = on(&lines, &[setting]);
-        assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-        largest(&run, |r| r.axes[0].dev).max(largest(&run, |r| r.axes[1].dev))
-    };
-    assert!(dev(0) <= 0.001);
-    assert!(dev(1) <= 0.0254 && dev(1) > 0.001, "{}", dev(1));
 }
 
 /// Speed at a corner of 90 degrees: a T with the weight of 10 %, times ACC_FACT. Conformance: V050, V051.
 #[test]
 fn acc_fact() {
     let corner = |weight: u32, acc_fact: u32| {
-        let settings =
-            ["X", "Y"].map(|axis| format!("{axis}.getriebe[0].dynamik.a_trans_weight={weight}"));
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let settings = format!("X,Y.getriebe[0].dynamik.a_trans_weight={weight}");
         let text = program(&[
             "#SLOPE [TYPE=TRAPEZ]",
             &format!("#VIB GUARD ON [MODE=2 FREQ=40 ACC_FACT={acc_fact}]"),
@@ -325,46 +252,5 @@ fn acc_fact() {
         ignored.diagnostics.iter().any(|d| d.text.contains("ACC_FACT")),
         "{:?}",
         ignored.diagnostics
-    );
-}
-
-/// The manual's example: with tolerance, without, without guard. Conformance: V002, V054, V055, V057, V058, V059, V060.
-#[test]
-fn the_square_of_the_manual() {
-    let square = ["X0 Y1", "X1 Y1", "X1 Y0", "X0 Y0"];
-    let mut text = "N010 G00 G90 X0 Y0 Z0\nN020 #SLOPE[TYPE=TRAPEZ]\n".to_owned();
-    let mut n = 30;
-    for command in ["ON [MODE=2 FREQ=40 AX_DEV=0.01]", "ON", "OFF"] {
-        text += &format!("N{n:03} #VIB GUARD {command}\n");
-        n += 10;
-        for (i, corner) in square.iter().enumerate() {
-            let feed = if i == 0 { " F4000" } else { "" };
-            text += &format!("N{n:03} G01 {corner}{feed}\n");
-            n += 10;
-        }
-    }
-    text += "N180 M30\n";
-    let run = run(&text, &[]);
-    assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-    let pass = |from: u64| {
-        let blocks = from..=from + 30;
-        run.records.iter().filter(move |r| r.block.is_some_and(|n| blocks.contains(&n)))
-    };
-    let dev = |from: u64| {
-        pass(from)
-            .flat_map(|r| [r.axes[0].dev, r.axes[1].dev])
-            .fold(0.0, |m: f64, d| m.max(d.abs()))
-    };
-    assert!(dev(40) <= 0.010, "{}", dev(40));
-    assert!(dev(90) > 0.010, "{}", dev(90));
-    assert!(dev(140) <= 0.0);
-    for r in pass(140) {
-        assert!((0..2).all(|i| r.axes[i].set.to_bits() == r.axes[i].ipo.to_bits()), "{r:?}");
-    }
-    // the second pass keeps mode and frequency of the first one
-    let alone = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &[]);
-    near(
-        largest(&alone, |r| r.axes[0].dev),
-        pass(90).map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max),
     );
 }

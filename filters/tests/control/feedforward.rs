@@ -49,88 +49,48 @@ fn run(mut axis: AxisControl, profile: &Profile, gain: f64) -> Vec<ControlOutput
     kept
 }
 
-struct Row {
-    what: &'static str,
-    kv: f64,
-    ta: f64,
-    feedforward: FeedforwardConfig,
-    /// Value and its printed resolution, um: constant speed (last cycle), k = 99 (last sample of constant
-    /// acceleration), largest, smallest lag.
-    columns: [(f64, f64); 4],
-}
+/// Kv in 1/s, time constant of the drive in s, feedforward for it, and four figures with their resolution.
+type LagRow<'a> = (f64, f64, &'a dyn Fn(f64) -> FeedforwardConfig, [(f64, f64); 4]);
 
 /// Conformance: F001, F002, F004, F008, F010, F011, F046, F047, F048.
 #[test]
 fn lag_table() {
-    let row = |what, kv, ta, feedforward, columns| Row { what, kv, ta, feedforward, columns };
     // digits: three, two, one, none after the point
     let (m, c, d, u) = (5e-4, 5e-3, 5e-2, 5e-1);
-    let none = FeedforwardConfig::default();
-    let jerk =
-        FeedforwardConfig { jerk_ratio: 1.0, ..fed(Mode::VEL | Mode::ACC | Mode::JERK, 0.005) };
-    let weighted = FeedforwardConfig { global_ratio: 0.9, ..fed(Mode::VEL, 0.005) };
-    let both = Mode::VEL | Mode::ACC;
-    let rows = [
-        row("none", 50.0, 0.005, none, [(2000.0, m), (1190.7, d), (2000.0, d), (0.0, u)]),
-        row(
-            "VEL",
-            50.0,
-            0.005,
-            fed(Mode::VEL, 0.005),
-            [(0.0, m), (99.25, c), (99.42, c), (-99.42, c)],
-        ),
-        row("VEL+ACC", 50.0, 0.005, fed(both, 0.005), [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
+    let none = |_| FeedforwardConfig::default();
+    let vel = |ta| fed(Mode::VEL, ta);
+    let both = |ta| fed(Mode::VEL | Mode::ACC, ta);
+    let all = Mode::VEL | Mode::ACC | Mode::JERK;
+    let jerk = |ta| FeedforwardConfig { jerk_ratio: 1.0, ..fed(all, ta) };
+    let weighted = |ta| FeedforwardConfig { global_ratio: 0.9, ..fed(Mode::VEL, ta) };
+    // Kv and Ta; lag in um and its printed resolution at constant speed (last cycle), at k = 99 (last sample of constant
+    // acceleration), largest and smallest
+    let rows: [LagRow<'_>; 11] = [
+        (50.0, 0.005, &none, [(2000.0, m), (1190.7, d), (2000.0, d), (0.0, u)]),
+        (50.0, 0.005, &vel, [(0.0, m), (99.25, c), (99.42, c), (-99.42, c)]),
+        (50.0, 0.005, &both, [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
         // the figures 38.70 and -1.45 belong to the derivatives of the profile itself; third differences of its
         // samples spread each jump of the jerk over two cycles
-        row(
-            "VEL+ACC+JERK",
-            50.0,
-            0.005,
-            jerk,
-            [(0.0, m), (-1.45, 2.0 * c), (38.70, d), (-38.70, d)],
-        ),
-        row("VEL 0.9", 50.0, 0.005, weighted, [(200.0, m), (208.4, d), (240.9, d), (-40.9, d)]),
-        row("none", 50.0, 0.002, none, [(2000.0, m), (1136.6, d), (2000.0, d), (0.0, u)]),
-        row(
-            "VEL",
-            50.0,
-            0.002,
-            fed(Mode::VEL, 0.002),
-            [(0.0, m), (39.13, c), (39.25, c), (-39.25, c)],
-        ),
-        row("VEL+ACC", 50.0, 0.002, fed(both, 0.002), [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
-        row("none", 10.0, 0.005, none, [(9999.0, d), (2309.2, d), (9999.0, d), (0.0, u)]),
-        row(
-            "VEL",
-            10.0,
-            0.005,
-            fed(Mode::VEL, 0.005),
-            [(0.06, c), (255.6, d), (294.2, d), (-294.1, d)],
-        ),
-        row(
-            "VEL+ACC",
-            10.0,
-            0.005,
-            fed(both, 0.005),
-            [(0.0, m), (-0.04, c), (0.07, c), (-0.07, c)],
-        ),
+        (50.0, 0.005, &jerk, [(0.0, m), (-1.45, 2.0 * c), (38.70, d), (-38.70, d)]),
+        (50.0, 0.005, &weighted, [(200.0, m), (208.4, d), (240.9, d), (-40.9, d)]),
+        (50.0, 0.002, &none, [(2000.0, m), (1136.6, d), (2000.0, d), (0.0, u)]),
+        (50.0, 0.002, &vel, [(0.0, m), (39.13, c), (39.25, c), (-39.25, c)]),
+        (50.0, 0.002, &both, [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
+        (10.0, 0.005, &none, [(9999.0, d), (2309.2, d), (9999.0, d), (0.0, u)]),
+        (10.0, 0.005, &vel, [(0.06, c), (255.6, d), (294.2, d), (-294.1, d)]),
+        (10.0, 0.005, &both, [(0.0, m), (-0.04, c), (0.07, c), (-0.07, c)]),
     ];
-    for r in rows {
-        let hold = if r.kv == 10.0 { 0.8 } else { 0.4 };
-        let out = run(axis(r.kv, r.ta, r.feedforward), &move_profile(hold), 1.0);
+    for (kv, ta, feedforward, columns) in rows {
+        let hold = if kv == 10.0 { 0.8 } else { 0.4 };
+        let out = run(axis(kv, ta, feedforward(ta)), &move_profile(hold), 1.0);
         let lag = |k: usize| out[k].lag_mm * 1e3;
         let last = cycles(0.15 + hold) - 1;
         let all = || out.iter().map(|o| o.lag_mm * 1e3);
         let got =
             [lag(last), lag(99), all().fold(f64::MIN, f64::max), all().fold(f64::MAX, f64::min)];
-        for (column, (got, (want, digits))) in got.into_iter().zip(r.columns).enumerate() {
-            assert!(
-                (got - want).abs() <= digits,
-                "Kv {}, Ta {}, {}, column {column}: {got:.4}, table {want}",
-                r.kv,
-                r.ta,
-                r.what
-            );
+        for (column, (got, (want, digits))) in got.into_iter().zip(columns).enumerate() {
+            let ok = (got - want).abs() <= digits;
+            assert!(ok, "Kv {kv}, Ta {ta}, column {column}: {got:.4}, table {want}");
         }
     }
 }

@@ -95,6 +95,7 @@ fn magnitude_phase_and_delay_of_the_reference() {
     }
 }
 
+/// Overshoot, settling and steepest slope of every prototype and order. Conformance: A025, A026, A028, A061.
 #[test]
 fn step_responses_of_the_reference() {
     for row in rows("axis_filters_reference") {

@@ -173,18 +173,8 @@ fn sweep_has_a_row_for_every_combination() {
         assert_eq!((cell(row, "state"), cell(row, "error")), ("finished".into(), String::new()));
         // the output of `run` for the same settings
         let settings = [0, 1].map(|i| format!("{}={}", &header[i], &row[i]));
-        let (_, out, _) = f.call(&[
-            "run",
-            "@listed.nc",
-            "--summary",
-            "json",
-            "--set",
-            "X.vib_guard.active=1",
-            "--set",
-            &settings[0],
-            "--set",
-            &settings[1],
-        ]);
+        let set = format!("--set X.vib_guard.active=1 --set {}", settings.join(" --set "));
+        let (_, out, _) = f.line(&format!("run @listed.nc --summary json {set}"));
         let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
         let number = |name: &str| cell(row, name).parse::<f64>().unwrap();
         let near = |a: f64, b: &serde_json::Value| (a - b.as_f64().unwrap()).abs() < 1e-6;
@@ -226,36 +216,26 @@ fn sweep_of_aborted_runs() {
 #[test]
 fn report_draws_signals_and_variants() {
     let f = Folder::new();
-    let words = |name: &'static str| {
-        [
-            "report",
-            "@corner.nc",
-            "--vary",
-            "X.vib_guard.mode=1,4",
-            "--signals",
-            "X_set_mm,X_vel_mm_s",
-            "--window",
-            "0.01..0.05",
-            "-o",
-            name,
-        ]
+    let drawn = |rest: &str| {
+        let columns = "--signals X_set_mm,X_vel_mm_s --window 0.01..0.05";
+        let vary = "--vary X.vib_guard.mode=1,4";
+        assert_eq!(f.line(&format!("report @corner.nc {vary} {columns} {rest}")).0, Exit::Finished);
     };
-    assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
+    drawn("-o @a.svg");
     let picture = f.read("a.svg");
     for name in [">X_set_mm<", ">X_vel_mm_s<", "mode = 1", "mode = 4"] {
         assert!(picture.contains(name), "{name}");
     }
-    assert_eq!(f.call(&words("@a.csv")).0, Exit::Finished);
+    drawn("-o @a.csv");
     let table = f.read("a.csv");
     let rows: Vec<&str> = table.lines().collect();
     assert_eq!(rows[0], "curve,t_s,X_set_mm,X_vel_mm_s");
     assert_eq!(rows.len(), 1 + 2 * 40, "40 cycles of either");
-    let spectrum = [&words("@s.csv")[..], &["--spectrum", "0..100"]].concat();
-    assert_eq!(f.call(&spectrum).0, Exit::Finished);
+    drawn("-o @s.csv --spectrum 0..100");
     assert!(f.read("s.csv").starts_with("curve,f_hz,X_set_mm,X_vel_mm_s\n"));
     // without --signals the contours are overlaid
-    let contours = ["report", "@corner.nc", "--vary", "X.vib_guard.mode=1,4", "-o", "@c.svg"];
-    assert_eq!(f.call(&contours).0, Exit::Finished);
+    let contours = "report @corner.nc --vary X.vib_guard.mode=1,4 -o @c.svg";
+    assert_eq!(f.line(contours).0, Exit::Finished);
     assert!(f.read("c.svg").contains("mode = 4"));
 }
 

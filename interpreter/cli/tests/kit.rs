@@ -82,6 +82,11 @@ impl Folder {
         (exit, text(&out), text(&err))
     }
 
+    /// The same with the words of a line.
+    pub(crate) fn line(&self, line: &str) -> (Exit, String, String) {
+        self.call(&line.split_whitespace().collect::<Vec<_>>())
+    }
+
     /// Text of a file in it.
     pub(crate) fn read(&self, name: &str) -> String {
         std::fs::read_to_string(self.path(name)).unwrap()

@@ -197,15 +197,7 @@ fn a_recording_has_a_verdict_too() {
     assert_eq!(f.call(&[&words[..], &["--rate", "1000"]].concat()).0, Exit::Finished);
     assert_eq!(f.call(&[&words[..], &["--rate", "900"]].concat()).0, Exit::Aborted);
     std::fs::write(f.path("rec.csv"), f.read("rec.csv").replace("Zeit,", "t_s,")).unwrap();
-    let (exit, out, _) = f.call(&[
-        "diff",
-        "@slow.nc",
-        "@rec.csv",
-        "--map",
-        "Y_set_mm=Y_set_mm",
-        "--format",
-        "github",
-    ]);
+    let (exit, out, _) = f.line("diff @slow.nc @rec.csv --map Y_set_mm=Y_set_mm --format github");
     assert_eq!(exit, Exit::Aborted);
     assert!(out.starts_with("::error file=") && out.contains("slow.nc,line="), "{out}");
 }

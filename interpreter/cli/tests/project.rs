@@ -47,19 +47,24 @@ fn project(inside: &str) -> String {
     )
 }
 
+/// A project with all axes and the channel of the built-in machine.
+fn whole() -> String {
+    project(&format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis"))))
+}
+
+/// Writes the project of a folder.
+fn put(folder: &Folder, text: impl AsRef<[u8]>) {
+    fs::write(folder.path("machine.tsproj"), text).unwrap();
+}
+
 /// A folder with a program and `kontur.lis` of the built-in machine without its cycle.
 fn folder() -> Folder {
     let folder = Folder::new();
     let write = |name: &str, text: &str| fs::write(folder.path(name), text).unwrap();
     write("part.nc", "G01 X10 Y5 F6000\nS100 M3\nG00 Z20\nG02 X20 Y5 I5 J0 F3000\nM5\nM30\n");
-    let own: String = list("kontur.lis").lines().filter(|l| !l.contains("cycle_time")).fold(
-        String::new(),
-        |mut s, l| {
-            writeln!(s, "{l}").unwrap();
-            s
-        },
-    );
-    write("kontur.lis", &own);
+    let own = list("kontur.lis");
+    let own: Vec<&str> = own.lines().filter(|l| !l.contains("cycle_time")).collect();
+    write("kontur.lis", &(own.join("\n") + "\n"));
     folder
 }
 
@@ -81,24 +86,30 @@ fn run(folder: &Folder, machine: &str) -> (Exit, String, String) {
     (exit, trace, said)
 }
 
+/// Trace and messages of a run that finishes.
+fn finishes(folder: &Folder, machine: &str) -> (String, String) {
+    let (exit, trace, said) = run(folder, machine);
+    assert_eq!(exit, Exit::Finished, "{said}");
+    (trace, said)
+}
+
+/// Messages of a machine that is refused.
+fn refused(folder: &Folder, machine: &str) -> String {
+    let (exit, _, said) = run(folder, machine);
+    assert_eq!(exit, Exit::Usage, "{said}");
+    said
+}
+
 fn expected() -> String {
     let folder = folder();
     let xyz = folder.path("xyz");
     fs::create_dir(&xyz).unwrap();
-    for name in [
-        "hochlauf.lis",
-        "channel.lis",
-        "axes.lis",
-        "x.lis",
-        "y.lis",
-        "z.lis",
-        "s.lis",
-        "kontur.lis",
-    ] {
-        fs::write(xyz.join(name), list(name)).unwrap();
+    for name in ["hochlauf", "channel", "axes", "x", "y", "z", "s", "kontur"] {
+        let name = format!("{name}.lis");
+        fs::write(xyz.join(&name), list(&name)).unwrap();
     }
-    let (exit, trace, said) = run(&folder, "xyz");
-    assert_eq!((exit, said.as_str()), (Exit::Finished, ""));
+    let (trace, said) = finishes(&folder, "xyz");
+    assert_eq!(said, "");
     trace
 }
 
@@ -110,13 +121,11 @@ fn item(inside: &str) -> String {
 #[test]
 fn a_project_moves_as_its_lists_do() {
     let folder = folder();
-    let inside = format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis")));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    put(&folder, whole());
     let expected = expected();
     // by name, and as the only project of its folder
     for machine in ["machine.tsproj", "."] {
-        let (exit, trace, said) = run(&folder, machine);
-        assert_eq!(exit, Exit::Finished, "{said}");
+        let (trace, said) = finishes(&folder, machine);
         assert_eq!(trace, expected);
         assert!(
             said.contains("K-0140") && said.contains("cycle 1000 us of the GEO task"),
@@ -139,15 +148,13 @@ fn parts_in_files_of_their_own_and_exported_items_too() {
     }
     fs::write(parts.join("Axis 12.xti"), item(&axis("", "s.lis", (1, 3)))).unwrap();
     fs::write(parts.join("../Channel.xti"), item(&channel(&list("channel.lis")))).unwrap();
-    fs::write(folder.path("machine.tsproj"), project(TASK)).unwrap();
-    let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Finished, "{said}");
+    put(&folder, project(TASK));
+    let (trace, _) = finishes(&folder, "machine.tsproj");
     assert_eq!(trace, expected);
 
     // only the items, exported into a folder; without the project the cycle is unknown
     fs::remove_file(folder.path("machine.tsproj")).unwrap();
-    let (exit, trace, said) = run(&folder, "_Config");
-    assert_eq!(exit, Exit::Finished, "{said}");
+    let (trace, said) = finishes(&folder, "_Config");
     assert!(said.contains("no GEO task with a cycle"), "{said}");
     assert!(said.contains("warning[K-0140]") && said.contains("1000 us is assumed"), "{said}");
     // kontur.lis is not in that folder: different drives, the same setpoints
@@ -175,9 +182,8 @@ fn prototypes_are_numbered_and_dialogs_name_the_axes() {
     }
     let other = list("channel.lis").replace("bezeichnung     X", "bezeichnung     X1");
     let inside = format!("{TASK}{same}{}", channel(&other));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Finished, "{said}");
+    put(&folder, project(&inside));
+    let (trace, said) = finishes(&folder, "machine.tsproj");
     assert!(said.contains("numbered in their order"), "{said}");
     assert!(
         said.contains("the list of the channel says X1 (1), Y (2), Z (3): the dialogs count"),
@@ -189,38 +195,32 @@ fn prototypes_are_numbered_and_dialogs_name_the_axes() {
 #[test]
 fn mistakes_are_named_at_their_line_of_the_project() {
     let folder = folder();
-    let place = folder.path("machine.tsproj");
-    let whole = format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis")));
-
-    let wrong = project(&whole).replacen(
+    let wrong = whole().replacen(
         "getriebe[0].kv                         5000",
         "getriebe[0].kv                         fast",
         1,
     );
     let line = wrong.lines().position(|l| l.contains("                         fast")).unwrap() + 1;
-    fs::write(&place, wrong).unwrap();
+    put(&folder, wrong);
     let (_, _, said) = run(&folder, "machine.tsproj");
     assert!(
         said.contains("1001138") && said.contains(&format!("machine.tsproj#X-Achse:{line}:")),
         "{line}: {said}"
     );
 
-    fs::write(&place, project(&whole).replacen("</Axis>", "", 1)).unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Usage);
+    put(&folder, whole().replacen("</Axis>", "", 1));
+    let said = refused(&folder, "machine.tsproj");
     assert!(said.contains("K-0141") && said.contains("no XML"), "{said}");
 
-    fs::write(&place, project(TASK)).unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Usage);
+    put(&folder, project(TASK));
+    let said = refused(&folder, "machine.tsproj");
     assert!(
         said.contains("K-0141") && said.contains("not contain the axis list (AchsMds)"),
         "{said}"
     );
 
-    fs::write(folder.path("other.tsproj"), project(&whole)).unwrap();
-    let (exit, _, said) = run(&folder, ".");
-    assert_eq!(exit, Exit::Usage);
+    fs::write(folder.path("other.tsproj"), whole()).unwrap();
+    let said = refused(&folder, ".");
     assert!(said.contains("several projects"), "{said}");
 }
 
@@ -228,8 +228,8 @@ fn mistakes_are_named_at_their_line_of_the_project() {
 #[test]
 fn a_project_is_not_overwritten() {
     let folder = folder();
-    let whole = project(&format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis"))));
-    fs::write(folder.path("machine.tsproj"), &whole).unwrap();
+    let whole = whole();
+    put(&folder, &whole);
     fs::hard_link(folder.path("machine.tsproj"), folder.path("trace.csv")).unwrap();
     let words = ["run", "@part.nc", "-m", "@machine.tsproj", "-o", "@trace.csv"];
     let (exit, _, said) = folder.call(&words);
@@ -251,9 +251,8 @@ fn hostile_xml_ends_in_a_message() {
     let many = format!("<P>{}</P>", "<SdaMds>x 1</SdaMds>".repeat(5_000));
     let axes = format!("<P>{}</P>", "<AchsMds>kopf.achs_nr 1</AchsMds>".repeat(40));
     for text in [deep, laughs, many, axes, String::new()] {
-        fs::write(folder.path("machine.tsproj"), text).unwrap();
-        let (exit, _, said) = run(&folder, "machine.tsproj");
-        assert_eq!(exit, Exit::Usage);
+        put(&folder, text);
+        let said = refused(&folder, "machine.tsproj");
         assert!(said.contains("K-0141"), "{said}");
     }
 }
@@ -279,9 +278,8 @@ fn the_cycle_of_the_task() {
         ("3333", own.clone(), 0.001, "333.3 us of the GEO task is not a whole number"),
     ] {
         fs::write(folder.path("kontur.lis"), own).unwrap();
-        fs::write(folder.path("machine.tsproj"), inside(units)).unwrap();
-        let (exit, trace, said) = run(&folder, "machine.tsproj");
-        assert_eq!(exit, Exit::Finished, "{said}");
+        put(&folder, inside(units));
+        let (trace, said) = finishes(&folder, "machine.tsproj");
         assert!((step(&trace) - want_s).abs() < 1e-9, "{units}: {}", step(&trace));
         assert!(said.contains(words) && !said.contains("kontur.lis:"), "{said}");
     }
@@ -294,7 +292,7 @@ fn a_cycle_that_is_assumed_is_a_warning() {
     let own = fs::read_to_string(folder.path("kontur.lis")).unwrap();
     let with = |task: &str| {
         let inside = format!("{task}{}{}", all_axes(), channel(&list("channel.lis")));
-        fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+        put(&folder, project(&inside));
     };
     let said = |more: &[&str]| {
         let words = ["check", "@part.nc", "-m", "@machine.tsproj", "--deny", "warnings"];
@@ -332,8 +330,7 @@ fn a_cycle_that_is_assumed_is_a_warning() {
 fn a_solution_has_its_project_below() {
     let folder = folder();
     fs::create_dir_all(folder.path("solution/Project")).unwrap();
-    let inside = format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis")));
-    fs::write(folder.path("solution/Project/machine.tsproj"), project(&inside)).unwrap();
+    fs::write(folder.path("solution/Project/machine.tsproj"), whole()).unwrap();
     fs::copy(folder.path("kontur.lis"), folder.path("solution/Project/kontur.lis")).unwrap();
     let (exit, trace, said) = run(&folder, "solution");
     assert_eq!((exit, trace), (Exit::Finished, expected()), "{said}");

@@ -30,6 +30,7 @@ mod technology;
 mod threads;
 mod tool_dynamics;
 pub(super) mod wear;
+pub(super) mod weight;
 
 use self::angles::ContourLine;
 use self::plane::InPlane;

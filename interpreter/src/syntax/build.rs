@@ -7,13 +7,15 @@ use super::ast::{
     Assign, Block, BlockNumber, Body, Expr, Ident, Jump, JumpKind, Label, LabelKind, Place,
     PlaceKind, ProgramHead, Span, Word, WordKind,
 };
-use super::grammar::Grammar;
+use super::grammar::{Grammar, Rule};
 use super::problem::{self, Context, Problem};
 use super::scan;
-use super::{PROBLEMS_MAX, Rule};
 use crate::diag::Condition;
 use pest::Parser as _;
 use pest::iterators::{Pair, Pairs};
+
+/// Maximum number of diagnostics per block; further ones are most likely noise.
+pub(super) const PROBLEMS_MAX: usize = 10;
 
 /// Builds the tree of one block.
 pub(super) struct Builder<'a> {

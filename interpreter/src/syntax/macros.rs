@@ -5,6 +5,7 @@
 //! use in the program.
 
 use super::ast::Span;
+use super::grammar::HASH_WORDS;
 use crate::diag::{Condition, Diagnostic};
 use crate::source::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock, regions};
 use std::ops::Range;
@@ -128,8 +129,7 @@ fn misfit(block: &str, used: &Range<usize>, text: &str) -> Option<Diagnostic> {
     }
     let command = text.trim_ascii_start().strip_prefix('#')?.trim_ascii_start();
     let name = command.bytes().take_while(u8::is_ascii_alphanumeric).count();
-    let among_words =
-        super::HASH_WORDS.iter().any(|word| word.eq_ignore_ascii_case(&command[..name]));
+    let among_words = HASH_WORDS.iter().any(|word| word.eq_ignore_ascii_case(&command[..name]));
     let number = before.trim_ascii().trim_start_matches(['N', 'n', '/']);
     let is_first = number.bytes().all(|b| b.is_ascii_digit());
     (name > 0 && !among_words && (!is_first || is_word(behind))).then(|| {

@@ -11,7 +11,8 @@ use self::around::{
 };
 use self::expected::{BRACKET, COMMA, END, EQUALS, LEVEL, OPERATOR, VALUE, WORD, expected};
 use super::ast::{Function, Span};
-use super::{Rule, scan};
+use super::grammar::{HASH_WORDS, Rule};
+use super::scan;
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use pest::error::{Error, ErrorVariant, InputLocation};
 use statements::not_a_statement;
@@ -114,8 +115,7 @@ impl Context {
             Self::Control
         } else if let Some(name) = content.strip_prefix('#') {
             let length = name.bytes().take_while(u8::is_ascii_alphanumeric).count();
-            let among_words =
-                super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
+            let among_words = HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
             if among_words { Self::Words } else { Self::Command }
         } else {
             Self::Words

@@ -4,6 +4,7 @@
 //! characters configured in the machine (`X1`, `AP`) are marked, because the grammar does not know which of them exist.
 
 use super::ast::Span;
+use super::grammar::HASH_WORDS;
 use crate::source::regions::{self, Region, regions};
 
 /// Byte that replaces every character of a configured name in the masked text.
@@ -138,7 +139,7 @@ fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
 fn hash_word(bytes: &[u8]) -> Option<usize> {
     let length = 1 + run(&bytes[1..], |b| b.is_ascii_alphanumeric() || b == b'_');
     let name = std::str::from_utf8(&bytes[1..length]).ok()?;
-    super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(name)).then_some(length)
+    HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(name)).then_some(length)
 }
 
 /// A name with a digit needs `=` or a bracket: `X1=10`, but `X10` is X.

@@ -5,7 +5,7 @@ use super::*;
 /// Notes of loading: axis, parameter and text of each.
 fn advice(name: &str, set: &str) -> Vec<(String, &'static str, String)> {
     let set: Vec<&str> = set.split_whitespace().collect();
-    let (machine, found) = load(name, &set, &Disk("", String::new()));
+    let (machine, found) = load(name, &set, &Disk::default());
     let advice = |d: &&Diagnostic| d.id.to_string() == "K-0078";
     assert!(found.iter().filter(advice).all(|d| d.severity == Severity::Note), "{found:?}");
     // only once: not repeated when the chains are built

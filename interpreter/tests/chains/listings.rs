@@ -139,7 +139,7 @@ fn corrections_name_axis_parameter_and_place() {
     let unwritten = ["K-0037", "50989", "50663", "60311"];
     for (id, parameter, settings) in cases {
         let settings: Vec<&str> = settings.split_whitespace().collect();
-        let (machine, mut found) = load("xyz", &settings, &Disk("", String::new()));
+        let (machine, mut found) = load("xyz", &settings, &Disk::default());
         found.extend(machine.chains().1);
         assert_eq!(ids(&found), [id], "{settings:?}: {found:?}");
         let found = &found[0];

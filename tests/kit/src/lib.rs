@@ -8,6 +8,11 @@ pub mod rows;
 pub use oscillator::Oscillator;
 pub use random::{Random, count, environment, seed};
 
+/// The pieces of a text, separated by ` ¦ ` or ends of lines.
+pub fn pieces(text: &str) -> Vec<&str> {
+    text.lines().flat_map(|line| line.split(" ¦ ")).collect()
+}
+
 /// Asserts that two numbers differ by `tolerance` at most.
 ///
 /// # Panics

@@ -20,6 +20,16 @@ pub struct Row {
     pub text: String,
 }
 
+/// Settings from the form that they have at the head of a paragraph: `KEY=VALUE`, or `PREFIX: KEY=VALUE, KEY=VALUE`; several are separated
+/// by `; `.
+pub fn settings(text: &str) -> Vec<String> {
+    let one = |text: &str| match text.split_once(": ") {
+        Some((prefix, keys)) => keys.split(", ").map(|key| format!("{prefix}.{key}")).collect(),
+        None => vec![text.to_owned()],
+    };
+    text.split("; ").filter(|text| !text.is_empty()).flat_map(one).collect()
+}
+
 /// Lines of a program from the form that it has in a row.
 fn lines(text: &str) -> String {
     text.replace(" | ", "\n") + "\n"
@@ -30,16 +40,19 @@ fn lines(text: &str) -> String {
 /// # Panics
 /// If a line is neither the head of a paragraph nor a row.
 pub fn rows(table: &str) -> Vec<Row> {
-    let (mut rows, mut always) = (Vec::new(), Vec::new());
+    let (mut rows, mut always, mut each) = (Vec::new(), Vec::new(), vec![Vec::new()]);
     let (mut here, mut before, mut after) = (Row::default(), String::new(), String::new());
     for line in table.replace("\n    ", " ").lines().filter(|line| !line.starts_with("# ")) {
         if line.is_empty() {
             here = Row { settings: always.clone(), ..Row::default() };
-            (before, after) = Default::default();
-        } else if let Some(setting) = line.strip_prefix("always with ") {
-            always.push(setting.to_owned());
-        } else if let Some(setting) = line.strip_prefix("with ") {
-            here.settings.push(setting.to_owned());
+            (before, after, each) = (String::new(), String::new(), vec![Vec::new()]);
+        } else if let Some(text) = line.strip_prefix("always with ") {
+            always.extend(settings(text));
+            here.settings.extend(settings(text));
+        } else if let Some(text) = line.strip_prefix("with ") {
+            here.settings.extend(settings(text));
+        } else if let Some(text) = line.strip_prefix("each with ") {
+            each = text.split(" | ").map(settings).collect();
         } else if let Some(name) = line.strip_prefix("machine ") {
             here.machine = Some(name.to_owned());
         } else if let Some(text) = line.strip_prefix("before ") {
@@ -59,7 +72,12 @@ pub fn rows(table: &str) -> Vec<Row> {
             let (program, expected) = sides.unwrap_or_default();
             let program = format!("{before}{}{after}M30\n", lines(program));
             let (expected, text) = (expected.to_owned(), line.to_owned());
-            rows.push(Row { program, expected, text, ..here.clone() });
+            let row = Row { program, expected, text, ..here.clone() };
+            rows.extend(each.iter().map(|other| {
+                let settings = [&here.settings[..], other].concat();
+                let text = [&other.join(" "), " ", &row.text].concat();
+                Row { settings, text: text.trim_start().to_owned(), ..row.clone() }
+            }));
         }
     }
     rows

@@ -53,8 +53,7 @@ fn splines_keep_the_tolerance() {
         for [x, y] in points(&mut r) {
             text += &format!("X{x:.3} Y{y:.3}\n");
         }
-        let run =
-            run(&format!("{text}G150\nM30\n"), &[&format!("kontur.cycle_time_us={cycle_us}")]);
+        let run = run(&format!("{text}G150\nM30\n"), &format!("kontur.cycle_time_us={cycle_us}"));
         // a tip without any radius has no direction: refused
         if run.diagnostics.iter().any(|d| d.id == Condition::Unsupported) {
             continue;

@@ -202,8 +202,7 @@ fn judge(wide: &Wide, run: &Run) -> Found {
 
 fn found(n: u64) -> Found {
     let wide = wide(n);
-    let settings: Vec<&str> = wide.case.settings.iter().map(String::as_str).collect();
-    let run = run_with_inputs(machine(&settings), &wide.case.text, &wide.inputs);
+    let run = run_with_inputs(machine(&wide.case.settings), &wide.case.text, &wide.inputs);
     let found = judge(&wide, &run);
     if !found.wrong.is_empty() {
         let Case { text, settings, tolerance_mm, .. } = &wide.case;
@@ -258,19 +257,9 @@ fn wide_programs_that_were_wrong() {
 /// within three cycles even with a thirtieth of the braking, while the filters reach 214 cycles back.
 #[test]
 fn a_feedhold_out_of_a_slow_motion_keeps_the_tolerance() {
-    let mut settings: Vec<String> = ["cycle_time_us=500"].map(|s| format!("kontur.{s}")).into();
-    for (axis, mode, freq_hz) in [("X", 3, 14), ("Y", 1, 11), ("Z", 4, 15)] {
-        settings.push(format!("{axis}.vib_guard.mode={mode}"));
-        settings.push(format!("{axis}.vib_guard.freq={freq_hz}"));
-        let entries = [
-            "dynamik.a_max=20000",
-            "slope_profil.a_brems=6544",
-            "lslope_profil.a_stufe_1=854",
-            "lslope_profil.a_stufe_2=1735",
-        ];
-        settings.extend(entries.map(|entry| format!("{axis}.getriebe[0].{entry}")));
-    }
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    let settings = "kontur.cycle_time_us=500; X.vib_guard: mode=3, freq=14; Y.vib_guard: mode=1, freq=11; \
+                    Z.vib_guard: mode=4, freq=15; X,Y,Z.getriebe[0]: dynamik.a_max=20000, slope_profil.a_brems=6544, \
+                    lslope_profil.a_stufe_1=854, lslope_profil.a_stufe_2=1735";
     let text = "%P\nG90\n#SLOPE [TYPE=STEP]\n#VIB GUARD ON [AX_DEV=0.00583]\nG00 X0.58022 Y-0.8064 Z0.82106\nG00 X0 Y0 Z0\nM30\n";
     for percent in [33.0, 50.0, 100.0] {
         let inputs = [
@@ -280,7 +269,7 @@ fn a_feedhold_out_of_a_slow_motion_keeps_the_tolerance() {
             (0.3072, "feedhold", 1.0),
             (0.6443, "feedhold", 0.0),
         ];
-        let run = run_with_inputs(machine(&settings), text, &inputs);
+        let run = run_with_inputs(machine(settings), text, &inputs);
         let kept = !run.diagnostics.iter().any(|d| d.id == Condition::AxDevNotKept);
         assert!(kept && !run.totals.aborted, "{percent} %");
         let held =
@@ -295,8 +284,7 @@ fn a_feedhold_out_of_a_slow_motion_keeps_the_tolerance() {
 #[test]
 fn holds_save_no_time() {
     let seconds = |wide: &Wide, inputs: &[(f64, &'static str, f64)]| {
-        let settings: Vec<&str> = wide.case.settings.iter().map(String::as_str).collect();
-        let run = run_with_inputs(machine(&settings), &wide.case.text, inputs);
+        let run = run_with_inputs(machine(&wide.case.settings), &wide.case.text, inputs);
         (!run.totals.aborted).then_some((run.records.len() as f64 * run.cycle_s, run.cycle_s))
     };
     let first = seed() * 1_000_000;

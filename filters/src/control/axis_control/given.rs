@@ -1,6 +1,18 @@
 //! Inputs of an axis in one cycle: while they stay the same, an axis at rest is not computed.
 
-use super::AxisInputs;
+/// External influences on an axis; none by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisInputs {
+    /// Position of the additional interface after its filter in mm, added to the set position.
+    ///
+    /// Controller and feedforward use the sum; the monitors of the set position and of the exact stop see the
+    /// programmed part only (Assumption: the documents only name the interface).
+    pub additional_mm: f64,
+    /// External force (friction, process) in mm/s2, as the acceleration of the whole mass.
+    pub force_mm_s2: f64,
+    /// Error of the measuring system of the position loop in mm.
+    pub encoder_offset_mm: f64,
+}
 
 /// The inputs of a cycle, as bits.
 #[derive(Clone, Copy, Debug, Default)]

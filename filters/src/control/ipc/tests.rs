@@ -33,63 +33,32 @@ fn errors_switch_the_axis_off_and_warnings_do_not() {
         change(&mut s);
         config(vec![s])
     };
-    let cases: [(&str, IpcConfig, Issue, bool); 13] = [
+    let numerator = Issue::IpcNumerator { stage: 0, value: 0.0 };
+    let denominator = Issue::IpcDenominator { stage: 0, value: -1.0 };
+    let weight = Issue::IpcWeight { stage: 0, weight: 8.0 };
+    for (config, issue, active) in [
+        (with(|s| s.filters[0].frequency_hz = 0.0), range(IpcParameter::Frequency, 0.0), false),
+        (with(|s| s.filters[0].frequency_hz = -1.0), range(IpcParameter::Frequency, -1.0), false),
+        (with(|s| s.filters[0].frequency_hz = 500.0), range(IpcParameter::Frequency, 500.0), false),
+        (with(|s| s.weight_num = 0.0), numerator, false),
+        (with(|s| s.weight_denom = -1.0), denominator, false),
+        (with(|s| s.filters[0].order = 0), range(IpcParameter::Order, 0.0), false),
+        (with(|s| s.filters[0].order = 4), range(IpcParameter::Order, 4.0), false),
+        (with(|s| s.filters[0].quality = 11.0), range(IpcParameter::Quality, 11.0), false),
+        (with(|s| s.oscillator_damping = 1.0), range(IpcParameter::Damping, 1.0), false),
         (
-            "frequency 0",
-            with(|s| s.filters[0].frequency_hz = 0.0),
-            range(IpcParameter::Frequency, 0.0),
-            false,
-        ),
-        (
-            "numerator",
-            with(|s| s.weight_num = 0.0),
-            Issue::IpcNumerator { stage: 0, value: 0.0 },
-            false,
-        ),
-        (
-            "denominator",
-            with(|s| s.weight_denom = -1.0),
-            Issue::IpcDenominator { stage: 0, value: -1.0 },
-            false,
-        ),
-        ("order 0", with(|s| s.filters[0].order = 0), range(IpcParameter::Order, 0.0), false),
-        ("order 4", with(|s| s.filters[0].order = 4), range(IpcParameter::Order, 4.0), false),
-        (
-            "default frequency",
-            with(|s| s.filters[0].frequency_hz = -1.0),
-            range(IpcParameter::Frequency, -1.0),
-            false,
-        ),
-        (
-            "Nyquist",
-            with(|s| s.filters[0].frequency_hz = 500.0),
-            range(IpcParameter::Frequency, 500.0),
-            false,
-        ),
-        (
-            "quality",
-            with(|s| s.filters[0].quality = 11.0),
-            range(IpcParameter::Quality, 11.0),
-            false,
-        ),
-        ("damping", with(|s| s.oscillator_damping = 1.0), range(IpcParameter::Damping, 1.0), false),
-        (
-            "no band-pass",
             with(|s| s.filters[0].kind = IpcFilterType::AllPass),
             range(IpcParameter::BandPass, 1.0),
             false,
         ),
-        ("weight", with(|s| s.weight_num = 8.0), Issue::IpcWeight { stage: 0, weight: 8.0 }, true),
-        ("limit", IpcConfig { limit_ratio: 0.0, ..with(|_| ()) }, Issue::IpcNoLimit, true),
-        ("slave", IpcConfig { gantry_slave: true, ..with(|_| ()) }, Issue::IpcGantrySlave, false),
-    ];
-    for (what, config, issue, active) in cases {
+        (with(|s| s.weight_num = 8.0), weight, true),
+        (IpcConfig { limit_ratio: 0.0, ..with(|_| ()) }, Issue::IpcNoLimit, true),
+        (IpcConfig { gantry_slave: true, ..with(|_| ()) }, Issue::IpcGantrySlave, false),
+    ] {
+        let what = format!("{issue:?}");
         assert_eq!(config.check(T), [issue], "{what}");
         assert_eq!(config.active(T), active, "{what}");
-        assert!(
-            IpcConfig { enable: false, ..config }.check(T).is_empty(),
-            "{what}: silent while off"
-        );
+        assert!(IpcConfig { enable: false, ..config }.check(T).is_empty(), "{what} while off");
     }
     assert!(with(|_| ()).check(T).is_empty());
     let direct = with(|s| {
@@ -162,17 +131,6 @@ fn delay_shifts_the_output() {
         assert_eq!(run(delay)[delay..], prompt[..50 - delay]);
         assert!(run(delay)[..delay].iter().all(|v| *v == 0.0));
     }
-}
-
-/// Conformance: I024.
-#[test]
-fn parameters_change_at_standstill_only() {
-    let mut ipc = Ipc::new(&config(vec![stage(IpcMode::Direct)]), 500.0, T);
-    let fault = ipc.change(&IpcConfig::default(), 500.0, T, true).unwrap_err();
-    assert_eq!(fault, Fault::IpcChangedMoving);
-    assert_eq!(ipc.stages.len(), 1, "the old parameters stay");
-    ipc.change(&IpcConfig::default(), 500.0, T, false).unwrap();
-    assert!(ipc.stages.is_empty());
 }
 
 /// Largest additive speed for cosines of amplitude 1 at `f_hz` in the speed of the motor and in the command.

@@ -15,18 +15,19 @@
 
 mod chunk;
 mod columns;
+mod group;
 mod numbers;
 
 use super::batch::Batch;
 use super::now;
 use crate::target::{Target, folder_of};
-use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::file::writer::SerializedFileWriter;
 use bytes::Bytes;
 use chunk::{Chunk, closed};
 use columns::Waiting;
+use group::{ROWS_PER_GROUP, to_io};
 use kontur_interpreter::job::{Facts, Totals};
 use kontur_interpreter::record::columns::Column;
 use std::fs::File;
@@ -34,9 +35,6 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// Number of rows of a group.
-const ROWS_PER_GROUP: usize = 65_536;
 
 /// Number of bytes handed to the system at once.
 const PIECE: usize = 1 << 20;
@@ -251,16 +249,6 @@ fn put(file: &mut SerializedFileWriter<BufWriter<File>>, chunks: &[Chunk]) -> io
     }
     group.close().map_err(to_io)?;
     Ok(())
-}
-
-fn to_io(e: ParquetError) -> io::Error {
-    match e {
-        ParquetError::External(inner) => match inner.downcast::<io::Error>() {
-            Ok(e) => *e,
-            Err(other) => io::Error::other(other),
-        },
-        other => io::Error::other(other),
-    }
 }
 
 #[cfg(test)]

@@ -15,19 +15,18 @@ fn the_first_channel_is_that_with_the_smallest_number() {
         first.replace("prog_start.slope.profile           1", "prog_start.slope.profile 0");
     assert_ne!(first, second);
     let inside = format!("{TASK}{}{}{}", all_axes(), of(2, &second), of(1, &first));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    put(&folder, project(&inside));
     let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
+    assert_eq!((exit, &trace), (Exit::Finished, &expected), "{said}");
     assert!(said.contains("one channel is simulated") && !said.contains("kanal_anzahl"), "{said}");
     // the same with separate files: Aux.xti is first by name
     fs::create_dir_all(folder.path("_Config")).unwrap();
     fs::write(folder.path("_Config/Aux.xti"), item(&channel(&second))).unwrap();
     fs::write(folder.path("_Config/Main.xti"), item(&channel(&first))).unwrap();
     let named = "<Channel File=\"Main.xti\" Id=\"1\"/><Channel File=\"Aux.xti\" Id=\"2\"/>";
-    fs::write(folder.path("machine.tsproj"), project(&format!("{TASK}{}{named}", all_axes())))
-        .unwrap();
+    put(&folder, project(&format!("{TASK}{}{named}", all_axes())));
     let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
+    assert_eq!((exit, &trace), (Exit::Finished, &expected), "{said}");
 }
 
 /// Files that the project does not reference and disabled items are not axes; they are reported.
@@ -44,16 +43,15 @@ fn what_does_not_belong_to_the_project_is_left_out() {
         axis("Q", "x.lis", (1, 5)).replace("<Axis Id=\"1\">", "<Axis Id=\"9\" Disabled=\"true\">");
     let channel = channel(&list("channel.lis"));
     let inside = format!("{TASK}<Axis File=\"Axis_1.xti\" Id=\"1\"/>{others}{off}{channel}");
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    put(&folder, project(&inside));
     let (exit, trace, said) = run(&folder, "machine.tsproj");
-    assert_eq!((exit, trace.as_str()), (Exit::Finished, expected.as_str()), "{said}");
+    assert_eq!((exit, &trace), (Exit::Finished, &expected), "{said}");
     assert!(said.contains("Axis_0 (old).xti (not named by the project)"), "{said}");
     assert!(said.contains("`Q-Achse`") && said.contains("(switched off)"), "{said}");
     // without references all of them are exported items: one number twice, the others different
     fs::remove_file(folder.path("machine.tsproj")).unwrap();
     fs::write(folder.path("_Config/CNC/Rest.xti"), item(&format!("{others}{channel}"))).unwrap();
-    let (exit, _, said) = run(&folder, "_Config");
-    assert_eq!(exit, Exit::Usage, "{said}");
+    let said = refused(&folder, "_Config");
     assert!(said.contains("K-0141") && said.contains("kopf.achs_nr 1"), "{said}");
 }
 
@@ -79,7 +77,7 @@ fn a_missing_part_is_named() {
         axis("", "s.lis", (1, 3)),
         channel(&list("channel.lis"))
     );
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    put(&folder, project(&inside));
     let (exit, trace, said) = run(&folder, "machine.tsproj");
     assert_eq!((exit, trace), (Exit::Finished, expected()), "{said}");
     assert!(!said.contains("not found"), "{said}");
@@ -135,20 +133,17 @@ fn names_and_places_of_the_axes() {
         .replace("<DefaultProgName>", "<Other>")
         .replace("</DefaultProgName>", "</Other>");
     let inside = format!("{TASK}{nameless}{}", channel("prog_start.slope.profile 1"));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Usage, "{said}");
+    put(&folder, project(&inside));
+    let said = refused(&folder, "machine.tsproj");
     assert!(said.contains("K-0141") && said.contains("does not name an axis"), "{said}");
     let gap =
         all_axes().replace("<DefaultIndex>2</DefaultIndex>", "<DefaultIndex>4</DefaultIndex>");
     let inside = format!("{TASK}{gap}{}", channel(&list("channel.lis")));
-    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Finished, "{said}");
+    put(&folder, project(&inside));
+    let (_, said) = finishes(&folder, "machine.tsproj");
     assert!(said.contains("DefaultIndex: X 0, Y 1, Z 4"), "{said}");
     // another encoding
-    fs::write(folder.path("machine.tsproj"), b"<P>\xb5</P>").unwrap();
-    let (exit, _, said) = run(&folder, "machine.tsproj");
-    assert_eq!(exit, Exit::Usage, "{said}");
+    put(&folder, b"<P>\xb5</P>");
+    let said = refused(&folder, "machine.tsproj");
     assert!(said.contains("K-0141") && said.contains("UTF-8"), "{said}");
 }

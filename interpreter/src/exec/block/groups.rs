@@ -5,7 +5,7 @@
 mod group;
 
 use super::choice::{Compensation, Corners, FeedType, PathMode, Plane, Selection};
-use crate::exec::motion::dynamics::Weight;
+use crate::exec::motion::weight::Weight;
 pub(in crate::exec) use group::Group;
 
 /// Meaning of a G function.

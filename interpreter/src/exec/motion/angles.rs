@@ -86,48 +86,26 @@ impl Decoder {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");
         let Some((_, angle, span)) = angle else {
             let moves = !words.axes.is_empty() || words.group(Group::Path).is_some();
-            return match self.motion.contour_line.open.take_if(|_| moves) {
-                Some(line) if !line.refused => {
-                    let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
-                    Err(Fault::new(Condition::ContourLineOpen, text, Span::default()))
-                }
-                _ => Ok(ContourLine::Single),
-            };
+            if let Some(line) = self.motion.contour_line.open.take_if(|_| moves)
+                && !line.refused
+            {
+                let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
+                return Err(Fault::new(Condition::ContourLineOpen, text, Span::default()));
+            }
+            return Ok(ContourLine::Single);
         };
         let span = *span;
         let Some(angle) = angle.filter(|a| a.is_finite()) else {
             return Err(Fault::new(Condition::Syntax, "#ANG without an angle", span)
                 .hint("write the angle to the first axis in deg: #ANG=30"));
         };
-        let mode = match words.group(Group::Path).map(|g| g.row.act) {
-            Some(crate::exec::block::groups::Act::Path(mode)) => mode,
-            _ => self.modal.path,
-        };
-        if !matches!(mode, PathMode::Linear | PathMode::Rapid) {
-            return Err(Fault::unsupported("#ANG in another motion than a straight one", span));
-        }
-        let main = self.modal.plane.main_axes();
-        let plane = [main[0], main[1]].map(|m| self.geometry.coordinates.main_axis(m));
-        let [Some(first), Some(second)] = plane else {
-            let text = "the plane of #ANG has no axis in the channel";
-            return Err(Fault::new(Condition::MainAxisMissing, text, span));
-        };
-        let word = |axis: usize| words.axes.iter().position(|(a, _, _)| *a == axis);
-        let here = [first, second].map(|axis| self.geometry.coordinates.programmed(axis));
-        // the end point in program coordinates
-        let end = [first, second].map(|axis| {
-            word(axis).map(|i| {
-                let absolute = words.is_absolute(i, self.modal.absolute);
-                let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
-                let from = self.geometry.coordinates.programmed(axis);
-                (if absolute { value } else { from + value }, absolute)
-            })
-        });
+        let axes = self.axes_of_contour_lines(words, span)?;
+        let here = axes.map(|axis| self.geometry.coordinates.programmed(axis));
+        let end = axes.map(|axis| self.end_of_contour_line(words, axis));
         match (self.motion.contour_line.open.take(), end) {
             (None, [None, None]) => {
-                let [insertion, transition] = [Group::Insertion, Group::Transition];
-                let inserts = words.group(insertion).is_some()
-                    || words.group(transition).is_some()
+                let inserts = words.group(Group::Insertion).is_some()
+                    || words.group(Group::Transition).is_some()
                     || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
                 let refused = inserts || !words.axes.is_empty();
                 let source = self.report.source;
@@ -143,24 +121,15 @@ impl Decoder {
                 let text = "#ANG with both coordinates of the plane";
                 Err(Fault::new(Condition::ContourLineTwice, text, span))
             }
-            (None, [Some((value, _)), None]) => {
-                let end = end_of_line(angle, here, 0, value, span)?;
+            (None, [x, y]) => {
+                let given = usize::from(x.is_none());
+                let (value, _) = x.or(y).unwrap_or_default();
+                let value = end_of_line(angle, here, given, value, span)?;
                 self.motion.contour_line.targets =
-                    vec![Target { axis: second, value: end, absolute: true }];
+                    vec![Target { axis: axes[1 - given], value, absolute: true }];
                 Ok(ContourLine::Single)
             }
-            (None, [None, Some((value, _))]) => {
-                let end = end_of_line(angle, here, 1, value, span)?;
-                self.motion.contour_line.targets =
-                    vec![Target { axis: first, value: end, absolute: true }];
-                Ok(ContourLine::Single)
-            }
-            (Some(first_line), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
-                if !(x_absolute && y_absolute) {
-                    let text =
-                        "the end point of two contour lines is programmed in relative coordinates";
-                    return Err(Fault::new(Condition::ContourLineRelative, text, span));
-                }
+            (Some(first_line), [Some((x, true)), Some((y, true))]) => {
                 if words.group(Group::Insertion).is_some() || words.hashes.len() > 1 {
                     let what = "a chamfer or rounding in a block of two contour lines";
                     return Err(Fault::unsupported(what, span));
@@ -168,11 +137,43 @@ impl Decoder {
                 let corner = corner_of_lines([first_line.angle_deg, angle], here, [x, y], span)?;
                 Ok(ContourLine::Corner(corner, first_line.source))
             }
+            (Some(_), [Some(_), Some(_)]) => {
+                let text =
+                    "the end point of two contour lines is programmed in relative coordinates";
+                Err(Fault::new(Condition::ContourLineRelative, text, span))
+            }
             (Some(_), _) => {
                 let text = "the second of two contour lines needs both coordinates of the plane";
                 Err(Fault::new(Condition::ContourLineOpen, text, span))
             }
         }
+    }
+
+    /// End of a contour line along an axis in the coordinates of the program, and whether it is programmed in absolute ones.
+    fn end_of_contour_line(&self, words: &Words<'_>, axis: usize) -> Option<(f64, bool)> {
+        let i = words.axes.iter().position(|(a, _, _)| *a == axis)?;
+        let absolute = words.is_absolute(i, self.modal.absolute);
+        let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
+        let from = self.geometry.coordinates.programmed(axis);
+        Some((if absolute { value } else { from + value }, absolute))
+    }
+
+    /// The axes of the plane in which `#ANG` draws lines.
+    fn axes_of_contour_lines(&self, words: &Words<'_>, span: Span) -> Outcome<[usize; 2]> {
+        let mode = match words.group(Group::Path).map(|g| g.row.act) {
+            Some(crate::exec::block::groups::Act::Path(mode)) => mode,
+            _ => self.modal.path,
+        };
+        if !matches!(mode, PathMode::Linear | PathMode::Rapid) {
+            return Err(Fault::unsupported("#ANG in another motion than a straight one", span));
+        }
+        let [first, second, _] = self.modal.plane.main_axes();
+        let plane = [first, second].map(|m| self.geometry.coordinates.main_axis(m));
+        let [Some(first), Some(second)] = plane else {
+            let text = "the plane of #ANG has no axis in the channel";
+            return Err(Fault::new(Condition::MainAxisMissing, text, span));
+        };
+        Ok([first, second])
     }
 
     /// The first of two lines, while the second one is still to be read.

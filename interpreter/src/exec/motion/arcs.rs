@@ -53,6 +53,21 @@ impl Modal {
     }
 }
 
+/// Centre, R and G163 exclude each other.
+fn defined_once(words: &Words<'_>, has_centre: bool) -> Outcome<()> {
+    let by_word = words.g.iter().find(|g| g.row.act == Act::Radius);
+    if let (Some(g), true) = (by_word, has_centre || words.radius.is_some()) {
+        let text = "G163 beside I, J, K or R: the radius is given twice";
+        return Err(Fault::new(Condition::CentreWithG163, text, g.span));
+    }
+    match words.radius {
+        Some((_, at)) if has_centre => {
+            Err(Fault::new(Condition::CentreAndRadius, "centre and radius in one block", at))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Decoder {
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
         let from = &self.motion.independent.on_path(from);
@@ -84,82 +99,43 @@ impl Decoder {
             .centre_words(&self.machine.channel, words, [main[0], main[1]], span)
             .map(|word| word.map(|(value, at)| (value * scale, at)));
         let has_centre = centre_words.iter().any(Option::is_some);
-        let by_word = words.g.iter().find(|g| g.row.act == Act::Radius);
-        if let (Some(g), true) = (by_word, has_centre || words.radius.is_some()) {
-            let text = "G163 beside I, J, K or R: the radius is given twice";
-            return Err(Fault::new(Condition::CentreWithG163, text, g.span));
-        }
-        if let Some((radius, at)) = words.radius {
-            if has_centre {
-                let text = "centre and radius in one block";
-                return Err(Fault::new(Condition::CentreAndRadius, text, at));
-            }
+        defined_once(words, has_centre)?;
+        if let Some((radius, _)) = words.radius {
             self.modal.radius_mm = Some(radius * self.modal.unit_mm());
         }
+        let g = words.group(Group::Path).map_or(span, |g| g.span);
         let found = if has_centre {
             let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
-            let limits = &self.machine.channel.arc_centre;
-            let arc = arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits);
-            if let (Ok(Arc { shift, .. }), Err(ArcError::RadiiDiffer { start, end, .. })) =
-                (&arc, arc::radii_agree(s, e, centre, limits))
-            {
-                let text = format!(
-                    "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
-                    (start - end).abs(),
-                    libm::hypot(shift[0], shift[1])
-                );
-                let g = words.group(Group::Path).map_or(span, |g| g.span);
-                let fault = Fault::new(Condition::Odd, text, g);
-                self.report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
-            }
-            arc
+            self.arc_by_centre([s, e], centre, ccw, g)
         } else if let Some(radius) = self.modal.radius_mm {
             arc::by_radius(s, e, radius * scale, ccw)
         } else {
             // without a centre, radius programming is expected; centre correction does not apply to it
             let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
-            let g = words.group(Group::Path).map_or(span, |g| g.span);
             return Err(Fault::new(Condition::ArcRadiusZero, text, g)
                 .hint("write I, J, K or R; R is modal"));
         };
-        let at = words.radius.or(centre_words[0]).or(centre_words[1]);
-        let g = words.group(Group::Path).map_or(span, |g| g.span);
-        let at = at.map_or(g, |(_, at)| at);
+        let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(g, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         if !has_centre && arc.centre.iter().any(|x| x.abs() > LARGEST_MM) {
             let text = "the centre of this radius is outside the data format";
             return Err(Fault::new(Condition::CentreTooFar, text, at));
         }
-        let pitch_word = words.centre[main[2]];
-        if let Some((pitch, at)) = pitch_word {
+        if let Some((pitch, at)) = words.centre[main[2]].filter(|(pitch, _)| *pitch != 0.0) {
             let normal = (0..3)
                 .find(|i| !image.contains(i))
                 .and_then(|m| self.geometry.coordinates.main_axis(m));
             let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
-            if pitch == 0.0 || height == 0.0 {
-                if pitch != 0.0 {
-                    let text = "a pitch has no meaning without travel along the third axis";
-                    self.report.note(Fault::new(Condition::Odd, text, at).warning());
-                }
+            let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
+            if height == 0.0 {
+                let text = "a pitch has no meaning without travel along the third axis";
+                self.report.note(Fault::new(Condition::Odd, text, at).warning());
             } else {
-                let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
             }
         }
-        self.geometry.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
-        self.geometry.last_arc.programmed_mm = self.geometry.last_arc.centre_mm;
-        if self.modal.centre_absolute && tilt.is_none() {
-            let mut centre = start.clone();
-            for k in 0..2 {
-                centre[plane[k]] = arc.centre[k] + self.motion.independent.way[plane[k]];
-            }
-            let programmed = self.geometry.coordinates.program_at(&centre);
-            self.geometry.last_arc.programmed_mm = plane.map(|axis| programmed[axis]);
-        }
+        self.keep_arc(&arc, &start, plane, tilt.is_some());
         self.geometry.last_arc.plane = image;
-        self.geometry.last_arc.shift_mm = arc.shift;
-        self.geometry.last_arc.radius_mm =
-            libm::hypot(self.geometry.last_arc.centre_mm[0], self.geometry.last_arc.centre_mm[1]);
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
         self.feed_group_fits(plane, span)?;
         let arc = ArcPath::new(start, end, shape, &self.motion.feed_axes)
@@ -168,6 +144,47 @@ impl Decoder {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
+    }
+
+    /// An arc by its centre, from one point of the plane to another. Where G165 moves a centre that G164 would refuse, K-0109
+    /// says so at the G function of the path.
+    fn arc_by_centre(
+        &mut self,
+        [s, e]: [[f64; 2]; 2],
+        centre: [f64; 2],
+        ccw: bool,
+        g: Span,
+    ) -> Result<Arc, ArcError> {
+        let limits = &self.machine.channel.arc_centre;
+        let arc = arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)?;
+        if let Err(ArcError::RadiiDiffer { start, end, .. }) =
+            arc::radii_agree(s, e, centre, limits)
+        {
+            let text = format!(
+                "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
+                (start - end).abs(),
+                libm::hypot(arc.shift[0], arc.shift[1])
+            );
+            let fault = Fault::new(Condition::Odd, text, g);
+            self.report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
+        }
+        Ok(arc)
+    }
+
+    /// Keeps centre and radius of an arc for the system variables and for arcs that refer to it.
+    fn keep_arc(&mut self, arc: &Arc, start: &AxisVec, plane: [usize; 2], is_tilted: bool) {
+        let centre_mm = [0, 1].map(|k| arc.centre[k] - start[plane[k]]);
+        let last = &mut self.geometry.last_arc;
+        (last.centre_mm, last.programmed_mm, last.shift_mm) = (centre_mm, centre_mm, arc.shift);
+        last.radius_mm = libm::hypot(centre_mm[0], centre_mm[1]);
+        if self.modal.centre_absolute && !is_tilted {
+            let mut centre = start.clone();
+            for k in 0..2 {
+                centre[plane[k]] = arc.centre[k] + self.motion.independent.way[plane[k]];
+            }
+            let programmed = self.geometry.coordinates.program_at(&centre);
+            self.geometry.last_arc.programmed_mm = plane.map(|axis| programmed[axis]);
+        }
     }
 
     /// 120462 if the feed group is neither the axes of the arc (with its pitch) nor only axes outside it.

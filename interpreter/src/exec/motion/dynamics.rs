@@ -8,6 +8,7 @@
 //! Source: TF5200 programming manual, G127 to G134, G230 to G233; P-AXIS-00292, 00293, 00008, 00201, 00212; 120028, 120030,
 //! 120032, 120034.
 
+use super::weight::Weight;
 use crate::diag::Condition;
 use crate::exec::block::choice::LookAhead;
 use crate::exec::block::modal::Modal;
@@ -26,25 +27,6 @@ struct AxisWeights {
 
 impl AxisWeights {
     const ONE: Self = Self { velocity: 1.0, acceleration: 1.0, ramp: 1.0, rapid_acceleration: 1.0 };
-}
-
-/// The quantity that the G function of a weight changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::exec) enum Weight {
-    /// G127, G128.
-    Velocity,
-    /// G129.
-    RapidVelocity,
-    /// G130, G131.
-    Acceleration,
-    /// G132, G133.
-    Ramp,
-    /// G134.
-    GeometricRamp,
-    /// G230, G231.
-    RapidAcceleration,
-    /// G233.
-    RapidRamp,
 }
 
 /// All weights of the channel.

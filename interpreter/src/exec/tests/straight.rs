@@ -6,7 +6,7 @@ use super::{Options, machine, places, run_with};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::check;
 use crate::source::MemorySources;
-use kontur_kit::Random;
+use kontur_kit::{Random, pieces};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -51,55 +51,16 @@ fn motion(random: &mut Random, number: usize) -> [String; 2] {
 }
 
 /// Words that change the execution of motions, and are valid.
-const MODES: &[&str] = &[
-    "G91",
-    "G90",
-    "G60 X1",
-    "G60",
-    "G360",
-    "G261",
-    "G260",
-    "G54",
-    "G53",
-    "G92 X1",
-    "G70",
-    "G71",
-    "G21",
-    "G20",
-    "G18",
-    "G17",
-    "G93 F2 X3",
-    "G94 F900",
-    "G95 S100 M3 F1 X2",
-    "G901",
-    "G900",
-    "G116",
-    "G130 X50",
-    "X[OVERRIDE FEED_FACT=50]",
-    "#OVERRIDE [FEED_FACT=70]",
-    "X[INDP_ASYN G90 G01 FEED=1000 POS=7]",
-    "#CS ON [1,2,3,0,0,90]",
-    "#CS OFF ALL",
-    "#SLOPE [TYPE=STEP]",
-    "#HSC ON [BSPLINE]",
-    "#HSC OFF",
-    "#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]",
-    "#VIB GUARD OFF",
-    "#MSG [\"%d\", P1]",
-    "V.G.WZ[1].R=2 D1",
-    "G41 X5 Y3",
-    "G40 X0",
-    "#CHR=1",
-    "H5",
-    "P1=P1+1",
-    "L CYCLE [NAME=c.nc @P1=1 MODAL_MOVE]",
-    "#DISABLE MODAL CYCLE",
-    "$FOR P2=1,2,1",
-    "$ENDFOR",
-];
+const MODES: &str = r#"G91 ¦ G90 ¦ G60 X1 ¦ G60 ¦ G360 ¦ G261 ¦ G260 ¦ G54 ¦ G53 ¦ G92 X1 ¦ G70 ¦ G71 ¦ G21 ¦ G20 ¦ G18 ¦ G17
+G93 F2 X3 ¦ G94 F900 ¦ G95 S100 M3 F1 X2 ¦ G901 ¦ G900 ¦ G116 ¦ G130 X50 ¦ X[OVERRIDE FEED_FACT=50]
+#OVERRIDE [FEED_FACT=70] ¦ X[INDP_ASYN G90 G01 FEED=1000 POS=7] ¦ #CS ON [1,2,3,0,0,90] ¦ #CS OFF ALL
+#SLOPE [TYPE=STEP] ¦ #HSC ON [BSPLINE] ¦ #HSC OFF ¦ #VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]
+#VIB GUARD OFF ¦ #MSG ["%d", P1] ¦ V.G.WZ[1].R=2 D1 ¦ G41 X5 Y3 ¦ G40 X0 ¦ #CHR=1 ¦ H5 ¦ P1=P1+1
+L CYCLE [NAME=c.nc @P1=1 MODAL_MOVE] ¦ #DISABLE MODAL CYCLE ¦ $FOR P2=1,2,1 ¦ $ENDFOR"#;
 
 #[test]
 fn plain_motions_do_what_the_words_say() {
+    let [lines, words, modes] = [LINES, PIECES, MODES].map(pieces);
     for seed in 0..400 {
         let mut random = Random::new(seed);
         let stops = ["channel.exact_stop_after_g00=1"];
@@ -107,9 +68,9 @@ fn plain_motions_do_what_the_words_say() {
         let mut texts = [(); 2].map(|()| String::from("%MAIN\nG01 F5000 P1=1\n"));
         for i in 0..60 {
             let other = match (random.below(40), seed % 4) {
-                (0, 0) => Some(LINES[random.below(LINES.len())]),
-                (1, 0) => Some(PIECES[random.below(PIECES.len())]),
-                (2..6, _) => Some(MODES[random.below(MODES.len())]),
+                (0, 0) => Some(random.pick(&lines)),
+                (1, 0) => Some(random.pick(&words)),
+                (2..6, _) => Some(random.pick(&modes)),
                 _ => None,
             };
             let lines = match other {

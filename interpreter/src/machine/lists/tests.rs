@@ -61,10 +61,11 @@ fn the_listing_of_the_feedforward_manual_loads_without_a_message() {
     assert_eq!(value(&list, "antr.sercos.mdt[0].nc_ref"), Some(Value::Text("S_0_0037".to_owned())));
 }
 
-/// Conformance: A011.
+/// Conformance: A011, V053.
 #[test]
 fn every_rule_has_its_message() {
-    let cases: [(&str, &[&str], &str, Option<f64>); 9] = [
+    let cases: [(&str, &[&str], &str, Option<f64>); 10] = [
+        ("vib_guard.ax_dev 0.01", &["1001119"], "vib_guard.ax_dev", None),
         ("getriebe[].kv 3000", &["K-0029"], "getriebe[0].kv", Some(3000.0)),
         ("getriebe[0].kv 3000\ngetriebe[0].kv 4000", &["K-0028"], "getriebe[0].kv", Some(4000.0)),
         ("getriebe[0].kv abc", &["1001138"], "getriebe[0].kv", Some(0.0)),

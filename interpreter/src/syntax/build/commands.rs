@@ -2,11 +2,11 @@
 
 use super::Builder;
 use crate::diag::{Condition, Severity};
-use crate::syntax::Rule;
 use crate::syntax::ast::{
     Block, Body, Command, Control, ControlKind, Declaration, Expr, Group, Item, ItemKind,
     ItemValue, Place, PlaceKind, Span,
 };
+use crate::syntax::grammar::Rule;
 use crate::syntax::problem::Problem;
 use pest::iterators::Pair;
 

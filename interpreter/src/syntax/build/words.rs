@@ -2,12 +2,12 @@
 
 use super::Builder;
 use crate::syntax::Problem;
-use crate::syntax::Rule;
 use crate::syntax::ast::{
     Assign, BinaryOp, Bracket, Call, CallKind, CodeNumber, Expr, GValue, HashWord, Ident, Jump,
     JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
     WordKind,
 };
+use crate::syntax::grammar::Rule;
 use pest::iterators::Pair;
 
 impl Builder<'_> {

@@ -1,6 +1,6 @@
 //! Rules of the grammar in terms the user knows: the possible continuations at a position.
 
-use crate::syntax::Rule;
+use crate::syntax::grammar::Rule;
 
 pub(super) const VALUE: &str = "a value";
 pub(super) const EQUALS: &str = "`=`";

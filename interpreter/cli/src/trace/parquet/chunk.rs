@@ -1,6 +1,6 @@
 //! The columns of a group in the form in which they are copied to files.
 
-use super::to_io;
+use super::group::to_io;
 use ::parquet::basic::{Compression, Encoding};
 use ::parquet::column::page::{CompressedPage, Page, PageWriter};
 use ::parquet::column::writer::{ColumnCloseResult, ColumnWriterImpl};

@@ -1,8 +1,8 @@
 //! The columns of a trace as types of Parquet, and the values of the rows that wait to become a group.
 
 use super::chunk::Chunk;
+use super::group::{ROWS_PER_GROUP, to_io};
 use super::numbers::{Compressor, Numbers};
-use super::{ROWS_PER_GROUP, to_io};
 use crate::trace::batch::{Batch, Head};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, Int64Type};

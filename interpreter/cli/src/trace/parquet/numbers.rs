@@ -4,8 +4,8 @@
 //! compressed from there. A column that does not change within a group is a dictionary of one value and one run of
 //! indices to it: some 80 bytes instead of 25 KB, and nothing to split or compress.
 
-use super::ROWS_PER_GROUP;
 use super::chunk::Chunk;
+use super::group::ROWS_PER_GROUP;
 use ::parquet::basic::{Compression, Encoding};
 use ::parquet::column::page::Page;
 use ::parquet::schema::types::ColumnDescPtr;
