@@ -185,15 +185,15 @@ impl<S: States> LinearPlant<S> {
         let (state, next) = (self.state.as_mut(), self.next.as_mut());
         let n = next.len();
         let phi = &self.phi.as_ref()[..n];
-        for row in 0..n {
+        for (row, next) in next.iter_mut().enumerate() {
             let mut sum = -0.0;
             for i in 0..n {
                 sum += phi[i].as_ref()[row] * state[i];
             }
-            for i in 0..INPUTS {
-                sum += self.gamma[i].as_ref()[row] * inputs[i];
+            for (column, input) in self.gamma.iter().zip(inputs) {
+                sum += column.as_ref()[row] * input;
             }
-            next[row] = sum;
+            *next = sum;
         }
         let before_mm = self.base_mm;
         self.base_mm += next[0];
