@@ -270,10 +270,15 @@ impl KernelFilter {
                 }
             }
         }
+        let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+        // the output rests only where inputs stay the same: not while an axis moves
+        if !same(before, inputs[0]) && !inputs.windows(2).any(|pair| same(pair[0], pair[1])) {
+            self.rest_cycles = 1;
+            return;
+        }
         let (mut before, mut rest_cycles) = (before, self.rest_cycles);
         for (value, x) in values.iter_mut().zip(inputs) {
-            let at_rest = x.to_bits() == before.to_bits();
-            rest_cycles = if at_rest { rest_cycles.saturating_add(1) } else { 1 };
+            rest_cycles = if same(before, *x) { rest_cycles.saturating_add(1) } else { 1 };
             if rest_cycles > self.kernel.length() {
                 *value = *x;
             }

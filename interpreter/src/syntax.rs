@@ -97,6 +97,7 @@ impl Parser {
     ) -> Block {
         let mut plain = Plain::default();
         if Self::plain(raw, &mut plain) {
+            diagnostics.extend(Self::note(raw, &plain, file));
             plain.tree()
         } else {
             self.parse(raw, file, diagnostics, Mode::Block)
@@ -104,9 +105,17 @@ impl Parser {
     }
 
     /// Reads a plain block as numbers; false if it requires the grammar. Whether a block is plain does not depend on
-    /// the names; a plain block causes no diagnostics.
+    /// the names; a plain block causes no diagnostics other than a [note](Self::note).
     pub(crate) fn plain(raw: &RawBlock<'_>, plain: &mut Plain) -> bool {
         raw.characters <= BLOCK_LENGTH && plain.recognize(raw.text.as_bytes()).is_some()
+    }
+
+    /// The note on a plain block with a remark that is not closed.
+    pub(crate) fn note(raw: &RawBlock<'_>, plain: &Plain, file: &Arc<str>) -> Option<Diagnostic> {
+        let problem = open_remark(plain.frame.open_remark?);
+        let mut location = raw.locate(file, problem.span);
+        location.block = plain.frame.number;
+        Some(problem.diagnostic(location))
     }
 
     /// Like [`Self::plain`] for a line that may not be a complete block, word by word. A line is not plain here if its
@@ -277,11 +286,13 @@ fn characters(text: &str, masked: &scan::Masked) -> Vec<Problem> {
     let remark = masked.text.trim_ascii_start().starts_with('%');
     let severity = if remark { Severity::Warning } else { Severity::Error };
     let invalid = masked.invalid.iter().map(|s| problem::invalid(text, *s).severity(severity));
-    let open = masked.open_remark.map(|bracket| {
-        let text = "a remark without `)` extends to the end of the block";
-        Problem::new(Condition::Odd, bracket, text).hint("close it with )")
-    });
-    invalid.chain(open).collect()
+    invalid.chain(masked.open_remark.map(open_remark)).collect()
+}
+
+/// The note on the `(` of a remark that is not closed.
+fn open_remark(bracket: Span) -> Problem {
+    let text = "a remark without `)` extends to the end of the block";
+    Problem::new(Condition::Odd, bracket, text).hint("close it with )")
 }
 
 /// 20301 for a block that is too long.

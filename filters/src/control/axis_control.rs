@@ -321,16 +321,11 @@ impl AxisControl {
             && self.given.is_like(&Given::new(gain, jerk_limited, inputs))
     }
 
-    /// Counts the cycles in which nothing without a fixed memory changes; `calm`: the inputs are the same and nothing
-    /// else moves.
+    /// Counts the cycles in which nothing without a fixed memory changes; `rests`: the inputs are the same, and plant and
+    /// everything else that is not asked here rest.
     #[inline]
-    fn count_still(&mut self, calm: bool) {
-        // a moving plant rules out most cycles at once
-        let still = calm
-            && self.plant.rests()
-            && self.lag.rests()
-            && !self.limiter.is_active()
-            && !self.diverged;
+    fn count_still(&mut self, rests: bool) {
+        let still = rests && self.lag.rests() && !self.limiter.is_active() && !self.diverged;
         self.still_cycles = if still { self.still_cycles.saturating_add(1) } else { 0 };
     }
 }

@@ -25,11 +25,13 @@
 
 mod linear;
 mod models;
+mod row;
 
 use super::fault::Issue;
 use crate::time::CycleTime;
 use linear::{Continuous, LinearPlant};
 pub use models::{ModalConfig, Mode, SpeedLoop, TwoMassConfig};
+pub(crate) use row::{FewStates, InAxis, PlantOfRow};
 
 /// Kind and parameters of the simulated axis.
 #[derive(Clone, Debug, PartialEq)]

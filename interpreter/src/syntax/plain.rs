@@ -2,7 +2,8 @@
 //!
 //! It accepts a block number or a label `N10:`, G and M functions, one-letter addresses with plain numbers or sums in
 //! brackets, and comments. It yields numbers, from which [`Plain::tree`] makes the same tree as the grammar. All other
-//! blocks are left to the grammar, so it never reports an error. The tests compare both over random and damaged lines.
+//! blocks are left to the grammar, so it never reports an error, and nothing but a note on a remark that is not closed. The
+//! tests compare both over random and damaged lines.
 
 mod scan;
 mod sum;
@@ -35,6 +36,8 @@ pub(crate) struct PlainFrame {
     pub(crate) span: Span,
     /// Whether there may be a comment in it: not every character has been checked.
     pub(super) remarks: bool,
+    /// The `(` of a remark after words that is not closed: it extends to the end, which is worth a note.
+    pub(crate) open_remark: Option<Span>,
 }
 
 /// A word of a plain block.
@@ -88,6 +91,10 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
         let value;
         (value, end) = word(bytes, start, letter)?;
         at = blanks(bytes, end);
+        if bytes.get(at) == Some(&b'(') {
+            frame.open_remark = Some(Span::new(at, at + 1));
+            at = bytes.len();
+        }
         followed_by_word(bytes, at)?;
         frame.remarks |= at > end + 1 || matches!(value, PlainValue::Sum(_));
         if !take(PlainWord { letter, value, span: Span::new(start, end) }) {
@@ -95,7 +102,7 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
         }
         empty = false;
     }
-    frame.remarks |= at < bytes.len();
+    frame.remarks |= at < bytes.len() || frame.open_remark.is_some();
     // a remark alone has no span
     if frame.number.is_some() || !empty {
         frame.span = Span::new(begin, end);

@@ -75,19 +75,16 @@ impl Window<'_> {
 
     /// Whether the planner may treat the blocks on both sides of a boundary as parts of one line.
     pub(super) fn only_divides(&self, b: usize) -> bool {
-        let [before, behind] = [b - 1, b].map(|i| &self.blocks[i]);
+        let (before, behind) = (&self.blocks[b - 1], &self.blocks[b]);
         let feed = self.feeds[b];
         let same = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs();
-        !self.forced[b]
+        // between the lines of a contour the acceleration differs most often, so it is compared first
+        before.slope.has_same_rates(&behind.slope, same)
+            && !self.forced[b]
             && !self.carried[b]
             && !is_above(feed.v_mm_s, self.limit(b).v_mm_s)
             && same(self.feeds[b - 1].v_mm_s, feed.v_mm_s)
             && before.block.slope == behind.block.slope
-            && rates(before).zip(rates(behind)).is_some_and(|(x, y)| {
-                // between the lines of a contour the acceleration differs most often, so it is compared first
-                let ramps = || x.ramps.iter().zip(y.ramps).all(|(x, y)| same(*x, y));
-                same(x.acc, y.acc) && same(x.dec, y.dec) && ramps()
-            })
     }
 
     /// Drops the minima at which zero acceleration would cost speed; true if there were any.

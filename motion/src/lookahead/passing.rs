@@ -96,7 +96,7 @@ impl Window<'_> {
 
     /// Whether a kink may be passed with an acceleration.
     fn is_free(&self, b: usize) -> bool {
-        let [before, behind] = [b - 1, b].map(|i| &self.blocks[i]);
+        let (before, behind) = (&self.blocks[b - 1], &self.blocks[b]);
         let cap = self.caps[b];
         // braking to a lower feed rate ends at that feed rate; braking under G901 begins at a boundary
         let late = |i: usize| {

@@ -24,8 +24,9 @@ pub(super) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, ker
     }
     let (mut distance, mut kinks) = (0.0, 0);
     for first in (1..newest).rev().take(BLOCKS) {
-        let [from, inner, before_last, to] =
-            [first - 1, first, newest - 1, newest].map(|i| &segments[i].queued);
+        let queued = |i: usize| &segments[i].queued;
+        let (from, inner) = (queued(first - 1), queued(first));
+        let (before_last, to) = (queued(newest - 1), queued(newest));
         if ![from, inner, to].iter().all(|q| q.block.path.is_straight()) {
             return;
         }

@@ -96,6 +96,15 @@ impl LegLimits {
         (!self.constant_ramp_time).then_some((self.shape, self.a, self.ramps_s()))
     }
 
+    /// Whether plateau and ramp times of both are `same`; false unless both are [scalable](Self::scalable).
+    pub(super) fn has_same_rates(&self, other: &Self, same: impl Fn(f64, f64) -> bool) -> bool {
+        same(self.a, other.a)
+            && !self.constant_ramp_time
+            && !other.constant_ramp_time
+            && same(self.t1, other.t1)
+            && same(self.t2, other.t2)
+    }
+
     /// Whether plateau and ramps differ by at most `ratio`.
     pub(super) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
         let near = |x: f64, y: f64| (x - y).abs() <= ratio * x.max(y);

@@ -93,6 +93,14 @@ impl SlopeLimits {
         }
     }
 
+    /// Whether the rates of both, see [`RampedLimits::rates`], are `same` pair by pair; false where there are none.
+    pub(crate) fn has_same_rates(&self, other: &Self, same: impl Fn(f64, f64) -> bool) -> bool {
+        match (self, other) {
+            (Self::Ramped(a), Self::Ramped(b)) => a.all(b, |a, b| a.has_same_rates(b, &same)),
+            _ => false,
+        }
+    }
+
     /// The whole span: from `v0` to a peak of at most `vf`, then to `ve`, over exactly `length`.
     ///
     /// A `vf` below `max(v0, ve)` counts as that maximum. If the boundary velocities miss the length by rounding

@@ -9,7 +9,7 @@ use crate::control::{
     feedforward::FeedforwardOutput,
     ipc::{IpcInput, IpcOutput},
     monitor::LagMonitor,
-    plant::PlantInput,
+    plant::{FewStates, InAxis, Measured, PlantInput, PlantOfRow},
     position::PositionLoop,
 };
 
@@ -25,10 +25,15 @@ struct Row<'a> {
 impl AxisControl {
     /// Position that the controller, the monitors and the exact stop see.
     pub(super) fn controlled_mm(&self) -> f64 {
-        let m = self.plant.measured();
+        self.seen_mm(self.plant.measured())
+    }
+
+    /// The same for these actual values.
+    #[inline]
+    fn seen_mm(&self, measured: &Measured) -> f64 {
         let true_mm = match self.config.encoder {
-            Encoder::Motor => m.motor_mm,
-            Encoder::Direct => m.load_mm,
+            Encoder::Motor => measured.motor_mm,
+            Encoder::Direct => measured.load_mm,
         };
         self.read_mm(true_mm + self.inputs.encoder_offset_mm)
     }
@@ -78,10 +83,21 @@ impl AxisControl {
         };
         self.setpoint.pass(&set_mm[..count - 1]);
         let row = Row { set_mm: &set_mm[..count], gain, jerk_limited, shown_from };
-        if self.is_plain(gain) {
-            self.cycles::<true>(&row, &mut show)
-        } else {
-            self.cycles::<false>(&row, &mut show)
+        if count == 1 || !self.is_plain(gain) {
+            return self.cycles::<false, _>(&row, InAxis, &mut show).0;
+        }
+        match self.plant.few_states() {
+            None => self.cycles::<true, _>(&row, InAxis, &mut show).0,
+            Some(FewStates::Two(plant)) => {
+                let (count, plant) = self.cycles::<true, _>(&row, plant, &mut show);
+                self.plant.put_back(FewStates::Two(plant));
+                count
+            }
+            Some(FewStates::Three(plant)) => {
+                let (count, plant) = self.cycles::<true, _>(&row, plant, &mut show);
+                self.plant.put_back(FewStates::Three(plant));
+                count
+            }
         }
     }
 
@@ -99,11 +115,12 @@ impl AxisControl {
     /// Steps the axis by the cycles of a row, up to the first one with a fault; the number of cycles. With `PLAIN` the
     /// axis [is so](Self::is_plain), and parts that are off are not asked in every cycle.
     #[inline] // the output is large: used where it is made
-    fn cycles<const PLAIN: bool>(
+    fn cycles<const PLAIN: bool, P: PlantOfRow>(
         &mut self,
         row: &Row<'_>,
+        mut plant: P,
         show: &mut impl FnMut(usize, ControlOutput),
-    ) -> usize {
+    ) -> (usize, P) {
         let Row { gain, jerk_limited, shown_from, .. } = *row;
         let count = row.set_mm.len();
         let (inputs, cycle_s, position) = (self.inputs, self.cycle_s, self.config.position);
@@ -120,8 +137,8 @@ impl AxisControl {
             let position_mm = set_mm + inputs.additional_mm;
             self.moving = (position_mm - self.position_mm).abs() > 0.0;
             (self.set_mm, self.position_mm) = (set_mm, position_mm);
-            let measured = *self.plant.measured();
-            let actual_mm = self.controlled_mm();
+            let measured = *plant.measured(&self.plant);
+            let actual_mm = self.seen_mm(&measured);
 
             let last_reference_mm = self.buffer.reference_mm();
             self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
@@ -164,6 +181,7 @@ impl AxisControl {
                 self.faults.push(late.filter(|_| self.held_mm.is_none()));
             }
             let unstable = self.advance(
+                &mut plant,
                 PlantInput {
                     speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),
                     acc_mm_s2: self.felt_mm_s2(feedforward.additive_acc_mm_s2),
@@ -178,7 +196,9 @@ impl AxisControl {
             }
             let faulty = !self.faults.is_empty();
             let as_before = before == given.set && (same || i > 0);
-            self.count_still(as_before && calm && !faulty);
+            // a moving plant rules out most cycles at once
+            let rests = plant.rests(&self.plant) && as_before && calm && !faulty;
+            self.count_still(rests);
 
             let tcp_before_mm_s = std::mem::replace(&mut self.tcp_mm_s, measured.tcp_mm_s);
             if faulty || i >= shown_from || last {
@@ -209,14 +229,14 @@ impl AxisControl {
             }
             if faulty {
                 self.given = given;
-                return i + 1;
+                return (i + 1, plant);
             }
         }
         if !set_by_set {
             self.exact_stop.pass(row.set_mm);
         }
         self.given = given;
-        count
+        (count, plant)
     }
 
     /// Output of the feedforward in this cycle.
@@ -231,12 +251,17 @@ impl AxisControl {
 
     /// Advances the plant unless it has diverged; a diverged plant is held at its last finite position.
     #[inline]
-    fn advance(&mut self, input: PlantInput, lag_mm: f64) -> Option<Fault> {
+    fn advance(
+        &mut self,
+        plant: &mut impl PlantOfRow,
+        input: PlantInput,
+        lag_mm: f64,
+    ) -> Option<Fault> {
         if self.diverged {
             return None;
         }
         let limit_mm = self.unstable_mm;
-        if lag_mm.abs() <= limit_mm && self.plant.advance(input) {
+        if lag_mm.abs() <= limit_mm && plant.advance(&mut self.plant, input) {
             return None;
         }
         self.diverged = true;

@@ -138,7 +138,11 @@ impl<S: States> LinearPlant<S> {
     /// Advances by one cycle. `rests` is set to whether that changed nothing, bit for bit: with the same input no
     /// further cycle will. A disturbance that changes with time never rests. False if the state is no longer finite;
     /// the last finite measurement then remains.
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "in a row of cycles a call would keep the state in memory"
+    )]
+    #[inline(always)]
     pub(super) fn advance(
         &mut self,
         input: &PlantInput,
@@ -178,33 +182,28 @@ impl<S: States> LinearPlant<S> {
         let inputs: [f64; INPUTS] = [input.speed_mm_s, input.acc_mm_s2, force_mm_s2];
         // plain loops: matrices this small are faster without the dispatch of the library. Each sum begins with -0,
         // which keeps the sign of its first product
-        let (state, next) = (self.state.as_ref(), self.next.as_mut());
+        let (state, next) = (self.state.as_mut(), self.next.as_mut());
         let n = next.len();
-        next.fill(-0.0);
-        let mut add = |column: &S, x: f64| {
-            let column = &column.as_ref()[..n];
-            for row in 0..n {
-                next[row] += column[row] * x;
-            }
-        };
         let phi = &self.phi.as_ref()[..n];
-        for i in 0..n {
-            add(&phi[i], state[i]);
-        }
-        for (column, input) in self.gamma.iter().zip(inputs) {
-            add(column, input);
+        for (row, next) in next.iter_mut().enumerate() {
+            let mut sum = -0.0;
+            for i in 0..n {
+                sum += phi[i].as_ref()[row] * state[i];
+            }
+            for (column, input) in self.gamma.iter().zip(inputs) {
+                sum += column.as_ref()[row] * input;
+            }
+            *next = sum;
         }
         let before_mm = self.base_mm;
         self.base_mm += next[0];
         next[0] = 0.0;
         let mut rests = self.base_mm.to_bits() == before_mm.to_bits();
         for row in 0..n {
-            if next[row].abs() < Self::NEGLIGIBLE {
-                next[row] = 0.0;
-            }
-            rests &= next[row].to_bits() == state[row].to_bits();
+            let settled = if next[row].abs() < Self::NEGLIGIBLE { 0.0 } else { next[row] };
+            rests &= settled.to_bits() == state[row].to_bits();
+            state[row] = settled;
         }
-        std::mem::swap(&mut self.state, &mut self.next);
         rests
     }
 

@@ -221,6 +221,7 @@ impl Files {
         reader.seek(position);
         let Some(raw) = reader.next_block()? else { return Ok(None) };
         if !reading.keep && !reading.declaration && Parser::plain(&raw, plain) {
+            diagnostics.extend(Parser::note(&raw, plain, name));
             return Ok(Some((Fetched::Plain, reader.position())));
         }
         let before = diagnostics.len();

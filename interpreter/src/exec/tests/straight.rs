@@ -46,6 +46,8 @@ fn motion(random: &mut Random, number: usize) -> [String; 2] {
     }
     if random.below(8) == 0 {
         lines = lines.map(|line| line + "(remark (in it)) ; remark");
+    } else if random.below(20) == 0 {
+        lines = lines.map(|line| line + "(open (in it) ; remark");
     }
     lines
 }

@@ -7,7 +7,7 @@ pub(super) fn blanks(bytes: &[u8], mut at: usize) -> usize {
     loop {
         match bytes.get(at) {
             Some(b' ' | b'\t') => at += 1,
-            // one that is not closed may be a mistake, which the grammar reports
+            // one that is not closed may be a mistake, which is reported
             Some(b'(') => match closed_comment(&bytes[at..]) {
                 Some(length) => at += length,
                 None => return at,

@@ -39,13 +39,18 @@ impl Found {
             _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
         // a program with a remark in every line must not exhaust memory
-        let is_new = if self.known.len() >= DIAGNOSTICS_MAX {
-            !self.known.contains(&key) && diagnostic.is_error()
-        } else {
+        let is_new = if self.has_room() {
             self.known.insert(key)
+        } else {
+            !self.known.contains(&key) && diagnostic.is_error()
         };
         self.repeated += u64::from(!is_new && diagnostic.is_error());
         is_new
+    }
+
+    /// Whether warnings and notes are still reported.
+    pub(super) fn has_room(&self) -> bool {
+        self.known.len() < DIAGNOSTICS_MAX
     }
 
     /// Adds a diagnostic found after this number of blocks.

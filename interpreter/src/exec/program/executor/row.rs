@@ -62,6 +62,9 @@ impl Executor {
         let decoder = &self.decoder;
         let take = |word| words.add(decoder, &word);
         let (frame, next) = self.files.plain_line(file, at, take)?;
+        if frame.open_remark.is_some() && self.found.has_room() {
+            return None;
+        }
         words.span = frame.span;
         let number = frame.number;
         decoder.modal.moves_straight(words, &decoder.machine.channel).then_some(Ahead {
