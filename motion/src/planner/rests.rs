@@ -14,6 +14,7 @@ use super::extend::Searched;
 use crate::cap::SpeedLimit;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
+use crate::tolerance::Demands;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -65,6 +66,7 @@ impl Planner {
         ends: (Moment, SpeedLimit),
         mut kept: Vec<Entry>,
     ) -> Vec<Entry> {
+        let mut tried: Option<Demands> = None;
         // a line from dwell to dwell need not be slow, but at its full speed the dwells may have to be longer
         for at_speed in [true, false, false] {
             let end = kept.last().map_or(0.0, |e| e.end.cycles(self.cycle));
@@ -76,6 +78,12 @@ impl Planner {
             }
             let before = self.plan.demands.clone();
             self.plan.demands.shorten(&shorter, at_speed, window, &self.kernels, self.cycle);
+            // the same demands lead to the same plan
+            if tried.as_ref().is_some_and(|tried| tried.are_those_of(&self.plan.demands)) {
+                self.plan.demands = before;
+                break;
+            }
+            tried = Some(self.plan.demands.clone());
             let last = Some(kept.clone());
             let found = self.search(window, forced, ends, last, &mut 1, end - WORTH);
             if let Searched::Kept(shorter) = found {

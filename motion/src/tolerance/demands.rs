@@ -129,6 +129,12 @@ impl Demands {
         }
     }
 
+    /// Whether these demands and others lead to the same plan.
+    pub(crate) fn are_those_of(&self, other: &Self) -> bool {
+        (&self.cap, &self.stop, &self.feed, &self.acceleration)
+            == (&other.cap, &other.stop, &other.feed, &other.acceleration)
+    }
+
     /// Whether a line between two dwells has a demanded speed.
     pub(crate) fn slows(&self, shorter: &Shorter) -> bool {
         shorter.between.iter().any(|b| self.feed[*b].is_finite() || self.acceleration[*b] < 1.0)
