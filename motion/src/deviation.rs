@@ -364,8 +364,11 @@ impl SetPath {
                 along.iter_mut().for_each(|c| *c *= scale);
                 if let Some(before) = &before {
                     // the chord of the angle
-                    let chord =
-                        along.iter().zip(before.iter()).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+                    let chord = along
+                        .iter()
+                        .zip(before.iter())
+                        .map(|(a, b)| (a - b) * (a - b))
+                        .sum::<f64>();
                     sum += 2.0 * libm::asin((0.5 * chord.sqrt()).min(1.0));
                 }
                 before = Some(along);
