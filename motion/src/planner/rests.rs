@@ -77,13 +77,12 @@ impl Planner {
             return kept;
         }
         let before = std::mem::replace(&mut self.plan.demands, asked.clone());
-        match self.search(window, forced, ends, None, &mut 1, end - WORTH) {
-            Searched::Kept(faster) => faster,
-            _ => {
-                self.plan.demands = before;
-                kept
-            }
+        let found = self.search(window, forced, ends, None, &mut 1, end - WORTH);
+        if let Searched::Kept(faster) = found {
+            return faster;
         }
+        self.plan.demands = before;
+        kept
     }
 
     /// The faster plan: `kept`, or one found from dwells as short as each of them could be alone.
