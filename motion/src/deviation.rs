@@ -343,6 +343,40 @@ impl SetPath {
         beside.fold(0.0, f64::max).sqrt()
     }
 
+    /// Sum of the angles in rad between the lines that end at the set points of some cycles; those known so far.
+    pub(crate) fn turn(&self, cycles: Range<u64>) -> f64 {
+        let n = self.axes;
+        let mut before: Option<AxisVec> = None;
+        let mut sum = 0.0;
+        for k in cycles {
+            let (Some(from), Some(to)) = (k.checked_sub(1).and_then(|k| self.get(k)), self.get(k))
+            else {
+                continue;
+            };
+            let mut along = AxisVec::zeros(n);
+            let mut square = 0.0;
+            for i in 0..n {
+                along[i] = to[i] - from[i];
+                square += along[i] * along[i];
+            }
+            if square > 0.0 {
+                let scale = 1.0 / f64::sqrt(square);
+                along.iter_mut().for_each(|c| *c *= scale);
+                if let Some(before) = &before {
+                    // the chord of the angle
+                    let chord = along
+                        .iter()
+                        .zip(before.iter())
+                        .map(|(a, b)| (a - b) * (a - b))
+                        .sum::<f64>();
+                    sum += 2.0 * libm::asin((0.5 * chord.sqrt()).min(1.0));
+                }
+                before = Some(along);
+            }
+        }
+        sum
+    }
+
     /// The shortest vector from a point to the lines between all set points.
     pub(crate) fn shortest(&self, point: &[f64]) -> AxisVec {
         let lines = self.first..self.end().saturating_sub(1);

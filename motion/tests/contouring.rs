@@ -1,7 +1,8 @@
-//! Polynomial contouring: the curve compared with its closed forms and its neighbours; module `tolerance`: effects that
-//! a tolerance must not have.
+//! Polynomial contouring: the curve compared with its closed forms and its neighbours; modules `optimum`: times compared
+//! with the least ones; `tolerance`: effects that a tolerance must not have.
 
 mod along;
+mod optimum;
 mod runs;
 mod tolerance;
 

@@ -40,6 +40,9 @@ pub(crate) struct Demands {
     pub(super) tried: Vec<Option<f64>>,
     /// First boundary without a known even speed, see [`super::even::foresee`].
     pub(super) foreseen: usize,
+    /// Number of excesses of the plan for which even speeds were demanded, at most one of each direction per half
+    /// kernel.
+    pub(super) answered: usize,
     /// Where the last plan exceeded the tolerance.
     pub(super) places: Places,
 }
@@ -55,6 +58,7 @@ impl Default for Demands {
             slower: Vec::new(),
             tried: vec![None],
             foreseen: 0,
+            answered: 0,
             places: Places::default(),
         }
     }
@@ -127,6 +131,18 @@ impl Demands {
             (self.repeats[b], self.tried[b]) = (0, None);
             (self.cap[b], self.stop[b]) = (0.0, Some(kernels.length()));
         }
+    }
+
+    /// Whether even speeds have been demanded because of excesses in at most a share of some cycles.
+    pub(crate) fn answer_few(&mut self, share: f64, cycles: f64, kernels: &Kernels) -> bool {
+        let answered = std::mem::take(&mut self.answered) as f64;
+        answered > 0.0 && 0.5 * answered * f64::from(kernels.length()) <= share * cycles
+    }
+
+    /// Whether these demands and others lead to the same plan.
+    pub(crate) fn are_those_of(&self, other: &Self) -> bool {
+        (&self.cap, &self.stop, &self.feed, &self.acceleration)
+            == (&other.cap, &other.stop, &other.feed, &other.acceleration)
     }
 
     /// Whether a line between two dwells has a demanded speed.

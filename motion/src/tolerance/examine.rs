@@ -47,6 +47,7 @@ impl Monitor {
                 return (Verdict::Kept, found.seen(trial));
             }
             if trial.foresee(demands) {
+                demands.answered = found.exceeded.len();
                 return (Verdict::Tightened, found.seen(trial));
             }
         }
@@ -72,7 +73,9 @@ impl Monitor {
         if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
             return (Verdict::GivenUp(worst), seen);
         }
-        if round > 0 || !trial.foresee(demands) {
+        if round == 0 && trial.foresee(demands) {
+            demands.answered = found.exceeded.len();
+        } else {
             view.tighten(&findings, all, demands);
         }
         (if only { Verdict::Again } else { Verdict::Tightened }, seen)

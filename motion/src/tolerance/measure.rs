@@ -22,6 +22,10 @@ const HALVINGS: u32 = 24;
 const JUMP: f64 = 1.1;
 /// Distance between points of the contour, in tolerances, up to which their vectors to the set path are similar.
 const CLOSE: f64 = 0.1;
+/// Share of a vector along the set path with which it may still count as the shortest one, see [`ALIKE`].
+const ALONG: f64 = 0.045;
+/// Sum of the turns of the set path in rad up to which their sine hardly differs from them.
+const MOST_TURN: f64 = 0.3;
 /// Number of segments of the set path that the nearest set point may pass between two points.
 const MOST_LINES: u64 = 8;
 /// Maximum number of points of the contour examined per cycle.
@@ -79,7 +83,8 @@ impl Foot {
     /// sagitta of the bend (`bend way^2 / 8` per axis) and by the distance of the set path from the chord between the
     /// nearest set points. Where the nearest set point passes to another part of the set path, both ends may still keep
     /// the tolerance to the same segment of it. A vector longer than the tolerance may have components within it: these
-    /// are compared only between points close to each other, where the vector hardly turns.
+    /// are compared only between points close to each other, or where the set path, and with it the vector, hardly
+    /// turns.
     fn may_hide_more(&self, other: &Self, set: &SetPath, bend: f64, tolerance_mm: f64) -> bool {
         let limit = within(tolerance_mm);
         let most = self.deviation_mm.max(other.deviation_mm);
@@ -99,8 +104,22 @@ impl Foot {
             f64::INFINITY
         };
         let close = lines[0] == lines[1] || way <= CLOSE * tolerance_mm;
-        let goes_along = close && self.apart(other) <= JUMP * way;
-        let largest = if goes_along { most } else { self.length.max(other.length) };
+        let longest = self.length.max(other.length);
+        let follows = self.apart(other) <= JUMP * way;
+        let goes_along = close && follows;
+        let largest = if goes_along {
+            most
+        } else if follows && aside.is_finite() && longest + aside + beside > limit {
+            // perpendicular to the set path, the vector turns with it; along it the nearest point lags by as much
+            let turn = set.turn(lines[0].saturating_sub(1)..lines[1] + 1);
+            if turn <= MOST_TURN {
+                most + longest * ALONG + 1.1 * (longest * turn + aside)
+            } else {
+                longest
+            }
+        } else {
+            longest
+        };
         if goes_along && way <= SPACING * tolerance_mm || largest + aside + beside <= limit {
             return false;
         }

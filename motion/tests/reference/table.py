@@ -130,4 +130,5 @@ def main():
                 row(f"{name} F{60 * feed:g}", machine, np.round(points, 4), [feed])
 
 
-main()
+if __name__ == "__main__":
+    main()

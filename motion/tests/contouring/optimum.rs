@@ -1,0 +1,92 @@
+//! Machine time over contoured corners compared with the jerk-limited optimum on the same curves.
+//!
+//! `data/contoured.csv` is made by `reference/contoured.py`, by convex programming on its own form of the curve; it
+//! shares no code with the planner.
+
+use super::*;
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::block::SlopeKind::{self, Hsc};
+
+/// Cycle in us, short enough that the time is hardly rounded.
+const CYCLE_US: u32 = 100;
+
+struct Row {
+    name: String,
+    axes: Vec<AxisDynamics>,
+    feed_mm_s: f64,
+    path_dev_mm: f64,
+    points: Vec<Vec<f64>>,
+    least_s: f64,
+}
+
+/// The machines of the table.
+fn machine(name: &str) -> Vec<AxisDynamics> {
+    let of = |acc: f64, ramp: f64, v_max_mm_s: f64| AxisDynamics {
+        v_max_mm_s,
+        feed: FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] },
+        ..axis(1.0)
+    };
+    match name {
+        "even" => vec![of(1000.0, 0.05, 1000.0); 3],
+        _ => vec![of(4000.0, 0.02, 1000.0), of(3000.0, 0.03, 1000.0), of(800.0, 0.08, 300.0)],
+    }
+}
+
+fn table() -> Vec<Row> {
+    let numbers = |text: &str| text.split(' ').map(|n| n.parse().unwrap()).collect();
+    let mut reader = csv::Reader::from_reader(include_str!("../data/contoured.csv").as_bytes());
+    let rows = reader.records().map(|record| {
+        let record = record.unwrap();
+        Row {
+            name: format!("{} {}", &record[0], &record[1]),
+            axes: machine(&record[1]),
+            feed_mm_s: record[2].parse().unwrap(),
+            path_dev_mm: record[3].parse().unwrap(),
+            points: record[4].split(';').map(numbers).collect(),
+            least_s: record[5].parse().unwrap(),
+        }
+    });
+    rows.collect()
+}
+
+/// Machine time over the least one; `None` if a corner keeps its kink, which is faster there than its curve.
+fn ratio(row: &Row, kind: SlopeKind) -> Option<f64> {
+    let job =
+        Job { dynamics: channel(row.axes.clone()), cycle_us: CYCLE_US, ..Job::new(1.0, kind) };
+    let mut stage = Contouring::new(CycleTime::from_us(CYCLE_US).unwrap());
+    let mut blocks = Vec::new();
+    for (ends, seq) in row.points.windows(2).zip(1..) {
+        let block = job.block(seq, line(&ends[0], &ends[1]), row.feed_mm_s);
+        blocks.extend(stage.push(Block { contour: Some(dev(row.path_dev_mm)), ..block }, false));
+    }
+    blocks.extend(stage.flush());
+    let kinks = blocks.windows(2).any(|w| {
+        let [a, b] = [&w[0].path, &w[1].path];
+        apart(&tangent(a, a.length()), &tangent(b, 0.0)) > 1e-6
+    });
+    let cycles = job.run(&row.points[0], blocks.into_iter()).len() - 1;
+    (!kinks).then(|| cycles as f64 * f64::from(CYCLE_US) * 1e-6 / row.least_s)
+}
+
+#[test]
+fn contoured_corners_are_close_to_the_optimum() {
+    let rows = table();
+    // between two curves the optimum enters and leaves more slowly than the curves permit, with acceleration left; the
+    // planner passes only single boundaries that way
+    let (most, typical) = (1.06, 1.025);
+    for kind in [Hsc, Trapez] {
+        let mut ratios = Vec::new();
+        for row in &rows {
+            let Some(ratio) = ratio(row, kind) else { continue };
+            println!("{kind:?} {ratio:.4} {}", row.name);
+            assert!(ratio > 0.995, "{} {kind:?}: {ratio} of the optimum", row.name);
+            ratios.push((ratio, &row.name));
+        }
+        assert!(2 * ratios.len() > rows.len(), "{} of {}", ratios.len(), rows.len());
+        ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (median, last) = (ratios[ratios.len() / 2].0, ratios[ratios.len() - 1]);
+        println!("{kind:?}: median {median:.4}, at most {:.4}", last.0);
+        assert!(last.0 <= most, "{} {kind:?}: {} times the optimum", last.1, last.0);
+        assert!(median <= typical, "{kind:?}: {median}");
+    }
+}
