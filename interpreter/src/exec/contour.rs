@@ -66,8 +66,6 @@ pub(super) struct Contour {
     engaged: Option<([usize; 2], bool)>,
     /// Whether the last motion ended with an exact stop.
     stopped_exactly: bool,
-    /// Whether a stop that keeps a corner was reported.
-    lost_corner: bool,
 }
 
 impl Contour {
@@ -248,11 +246,6 @@ impl Contour {
             return vec![*akima::rest_inside().in_block(source)];
         }
         let mut faults = self.end_spline();
-        if self.loses_corner(&what) && !std::mem::replace(&mut self.lost_corner, true) {
-            let text = "the path stops here, so that the corner before it is not rounded";
-            let fault = Fault::new(Condition::Fallback, text, Span::default());
-            faults.push(*fault.in_block(source));
-        }
         self.stopped_exactly |= self.held.is_some() && matches!(what, Sync::ExactStop { .. });
         faults.extend(self.flush());
         let events = self.take_events();
@@ -277,7 +270,7 @@ impl Contour {
 
     /// Whether the corner after the last motion would be rounded without this stop, which the program does not ask for. A
     /// contoured corner is rounded with functions and dwells within its curve.
-    fn loses_corner(&self, stop: &Sync) -> bool {
+    pub(super) fn loses_corner(&self, stop: &Sync) -> bool {
         let waits = match stop {
             Sync::Dwell { seconds } => *seconds > 0.0,
             Sync::Technology { .. } | Sync::ProgramStop { .. } => true,

@@ -111,10 +111,20 @@ impl Decoder {
         if matches!(what, Sync::FlushWait) {
             self.motion.independent.all_arrived();
         }
-        let faults = self.contour.sync(what, self.report.source);
+        let faults = self.stop_contour(what);
         self.report.extend(faults);
         let outside = self.limits_of_compensated();
         self.report.extend(outside);
+    }
+
+    /// Stops the path after the last motion, with K-0111 once if that keeps a corner which would be rounded.
+    pub(super) fn stop_contour(&mut self, what: Sync) -> Vec<Fault> {
+        if self.contour.loses_corner(&what) {
+            let text = "the path stops here, so that the corner before it is not rounded";
+            let fault = Fault::new(Condition::Fallback, text, Span::default());
+            self.report.note_once("corner", fault);
+        }
+        self.contour.sync(what, self.report.source)
     }
 
     /// Sets the axes to their real positions; all of them if none is named. The setpoint moves back by the following error,

@@ -77,7 +77,9 @@ impl Smoothing {
         for block in before.iter().chain(&after) {
             self.changed.add(block);
         }
-        before.into_iter().for_each(|block| planner.push(block));
+        for block in before {
+            planner.push(block);
+        }
         self.behind = after;
     }
 

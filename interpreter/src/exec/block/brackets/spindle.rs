@@ -15,7 +15,6 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::Function;
-use crate::exec::motion::weight::Weight;
 use crate::machine::Acknowledged;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, Span};
 pub(super) use item::is_internal;

@@ -214,7 +214,7 @@ impl Executor {
             .map_or(self.decoder.report.source.file, |level| file_number(level.file));
         let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
         self.decoder.report.source = source;
-        let faults = self.decoder.contour.sync(wait, source);
+        let faults = self.decoder.stop_contour(wait);
         self.position = at;
         for fault in faults {
             self.decoder.report.note(Box::new(fault));
