@@ -146,11 +146,11 @@ pub(crate) struct Simulation {
     /// Block of the last stop of every chain.
     stops_at: Vec<SourceRef>,
     jerk_limited: bool,
-    /// What happens when the path has come to rest.
-    pending: Option<Pending>,
-    /// A wait at the end of a block whose corner is rounded, until the block after it is known.
-    at_corner: Option<Pending>,
-    /// A step after such a wait that is not that block.
+    /// What happens when the path has come to rest, in this order.
+    pending: VecDeque<Pending>,
+    /// Waits at the end of a block whose corner is rounded, until the block after it is known.
+    at_corner: VecDeque<Pending>,
+    /// A step after such waits that is not that block.
     postponed: Option<Step>,
     phase: Phase,
     /// The cycle computed last; initially the state at time zero.

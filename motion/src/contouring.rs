@@ -6,7 +6,7 @@
 //! The stage holds one such block and the blocks after it that are too short to be relevant, at most [`SKIPPED`] of them.
 //!
 //! Order of calls: [`Contouring::push`] for each block returns the final blocks and curves; [`Contouring::flush`] where
-//! the path stops. Where it only waits at the end of the held block, [`Contouring::push_behind_stop`] and
+//! the path stops. Where it only waits ([`Contouring::stop_here`]), [`Contouring::push_behind_stop`] and
 //! [`Contouring::flush_behind_stop`] take their places.
 //!
 //! ```
@@ -75,6 +75,8 @@ pub struct Contouring {
     cycle: CycleTime,
     held: Option<Held>,
     skipped: Vec<Block>,
+    /// Number of those before a stop at the corner.
+    stop: Option<usize>,
     ready: Vec<Block>,
     /// Number of those that belong to the block before the corner and to earlier ones.
     before_limit: usize,
@@ -87,7 +89,16 @@ impl Contouring {
     /// An empty stage.
     pub fn new(cycle: CycleTime) -> Self {
         let (skipped, ready, notices) = (Vec::new(), Vec::new(), Vec::new());
-        Self { cycle, held: None, skipped, ready, before_limit: 0, notices, checked: None }
+        Self {
+            cycle,
+            held: None,
+            skipped,
+            stop: None,
+            ready,
+            before_limit: 0,
+            notices,
+            checked: None,
+        }
     }
 
     /// Whether [`Self::push`] would return this block at once and alone: no corner at it is rounded, and no block is
@@ -103,13 +114,19 @@ impl Contouring {
         self.ready.drain(..)
     }
 
-    /// Whether a block is held at whose end the path may wait: no block after it has been pushed.
-    pub fn awaits_next(&self) -> bool {
-        self.held.is_some() && self.skipped.is_empty()
+    /// Lets the path stop after the block pushed last, if a corner there may become a curve; the stop is then at the end of
+    /// the block before the curve. False if it is not, or if the path already stops before that block.
+    pub fn stop_here(&mut self) -> bool {
+        let here = self.skipped.len();
+        let may = self.held.is_some() && self.stop.is_none_or(|stop| stop == here);
+        if may {
+            self.stop = Some(here);
+        }
+        may
     }
 
-    /// As [`Self::push`], where the path comes to rest at the end of the held block: the blocks before that stop, and those
-    /// after it. Both are empty while the block after the corner is not known.
+    /// As [`Self::push`] after [`Self::stop_here`]: the blocks before the stop, and those after it. Both are empty while the
+    /// block after the corner is not known.
     pub fn push_behind_stop(&mut self, block: Block, kernel_active: bool) -> [Vec<Block>; 2] {
         self.take(block, kernel_active);
         self.parted()
@@ -121,7 +138,7 @@ impl Contouring {
         self.ready.drain(..)
     }
 
-    /// As [`Self::flush`], where the path also comes to rest at the end of the held block.
+    /// As [`Self::flush`] after [`Self::stop_here`].
     pub fn flush_behind_stop(&mut self) -> [Vec<Block>; 2] {
         self.keep_corner();
         self.parted()
@@ -137,6 +154,8 @@ impl Contouring {
     /// The held block, with its corner as programmed, and the short ones after it.
     fn emit_sharp(&mut self, held: Held) {
         self.emit(held, None);
+        let before_stop = self.stop.take().unwrap_or_default().min(self.skipped.len());
+        self.ready.extend(self.skipped.drain(..before_stop));
         self.before_limit = self.ready.len();
         self.ready.append(&mut self.skipped);
     }
@@ -209,6 +228,7 @@ impl Contouring {
                 self.before_limit = self.ready.len() + of_held;
                 self.ready.extend(parts.into_iter().map(|(part, _)| part));
                 self.skipped.clear();
+                self.stop = None;
                 from = curve.post_mm;
             }
             refused => {
@@ -248,11 +268,10 @@ impl Contouring {
         self.ready.push(block);
     }
 
-    /// The blocks of a curve, each with its speed in mm/s. Each half has the feed rate of its block, unless the speed
-    /// in the curve is to be constant.
+    /// The blocks of a curve, each with its speed in mm/s. Each part has the feed rate of the block that it belongs to, unless the
+    /// speed in the curve is to be constant.
     ///
-    /// Assumption: the documents do not mention different feed rates; each of the two polynomials of a curve belongs to
-    /// one block (TF5200, polynomial contouring).
+    /// Assumption: the documents do not mention different feed rates; the feed rate changes where the block ends.
     fn parts(
         &mut self,
         from: &Block,
@@ -283,8 +302,8 @@ impl Contouring {
             BlockLimit::Within | BlockLimit::After => 2 * parts,
         };
         let timed = |piece: PolyPiece, i: u32| {
-            let (feed, feed_ratio) = halves[usize::from(i >= parts)];
             let seq = if i < limit { from.seq } else { to.seq };
+            let (feed, feed_ratio) = halves[usize::from(i >= limit)];
             let path = Path::Curve(Box::new(PolyPath::through(vec![piece.clone()], &feed_axes)?));
             let block = Block { seq, path, feed, feed_ratio, ..block.clone() };
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));

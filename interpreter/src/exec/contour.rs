@@ -66,6 +66,17 @@ pub(super) struct Contour {
     engaged: Option<([usize; 2], bool)>,
     /// Whether the last motion ended with an exact stop.
     stopped_exactly: bool,
+    /// The corner at which the path waits, after the last motion has left.
+    waits_at: Passing,
+}
+
+/// How the path passes a corner unless it stops there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Passing {
+    #[default]
+    Sharp,
+    Contoured,
+    Splined,
 }
 
 impl Contour {
@@ -246,6 +257,10 @@ impl Contour {
             return vec![*akima::rest_inside().in_block(source)];
         }
         let mut faults = self.end_spline();
+        // a contoured corner is kept open by waits alone
+        let corner = self.corner();
+        self.waits_at =
+            if corner == Passing::Contoured && what.waits() { corner } else { Passing::Sharp };
         self.stopped_exactly |= self.held.is_some() && matches!(what, Sync::ExactStop { .. });
         faults.extend(self.flush());
         let events = self.take_events();
@@ -271,16 +286,23 @@ impl Contour {
     /// Whether the corner after the last motion would be rounded without this stop, which the program does not ask for. A
     /// contoured corner is rounded with functions and dwells within its curve.
     pub(super) fn loses_corner(&self, stop: &Sync) -> bool {
-        let waits = match stop {
-            Sync::Dwell { seconds } => *seconds > 0.0,
-            Sync::Technology { .. } | Sync::ProgramStop { .. } => true,
-            _ => false,
-        };
-        self.held.as_ref().is_some_and(|held| {
-            let splined = held.block.spline.is_some() && self.hsc.spline().is_some();
-            let contoured = held.block.contour.is_some();
-            ((contoured || splined) && stop.interrupts()) || (splined && waits)
-        })
+        match self.corner() {
+            Passing::Sharp => false,
+            Passing::Contoured => stop.interrupts(),
+            Passing::Splined => stop.interrupts() || stop.waits(),
+        }
+    }
+
+    /// What is to become of the corner after the last motion.
+    fn corner(&self) -> Passing {
+        match &self.held {
+            Some(held) if held.block.contour.is_some() => Passing::Contoured,
+            Some(held) if held.block.spline.is_some() && self.hsc.spline().is_some() => {
+                Passing::Splined
+            }
+            Some(_) => Passing::Sharp,
+            None => self.waits_at,
+        }
     }
 
     /// The corner after the last motion is not rounded.

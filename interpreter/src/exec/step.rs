@@ -161,6 +161,16 @@ pub(crate) enum Sync {
 }
 
 impl Sync {
+    /// Whether the path only waits: at a rounded corner it does so where the block ends, also within the curve.
+    pub(crate) fn waits(&self) -> bool {
+        match self {
+            Self::Dwell { seconds } => *seconds > 0.0,
+            Self::Technology { .. } | Self::ProgramStop { .. } => true,
+            Self::Spindle { state, .. } => !matches!(state, SpindleState::Mark { .. }),
+            _ => false,
+        }
+    }
+
     /// Whether the path stops for this although the program does not ask for it, as it does with commands that empty the
     /// channel (207042443) and with functions and dwells, which are executed within a rounded corner.
     pub(super) fn interrupts(&self) -> bool {

@@ -74,7 +74,7 @@ impl Simulation {
             let k = self.planner.setpoint().k;
             let mut d = Diagnostic::new(Condition::ProbeActuated, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
-            d.source = self.pending.as_ref().and_then(|p| self.program.locate(p.source));
+            d.source = self.pending.front().and_then(|p| self.program.locate(p.source));
             self.messages.own.push(d);
             self.totals.aborted = true;
             self.phase = Phase::Done;

@@ -46,9 +46,9 @@ impl Smoothing {
         }
     }
 
-    /// Whether the path may wait at a rounded corner, whose block after it is still to come.
-    pub(super) fn awaits_next(&self) -> bool {
-        self.contouring.awaits_next()
+    /// Lets the path wait at the corner after the last motion, if it may become a curve.
+    pub(super) fn wait_here(&mut self) -> bool {
+        self.contouring.stop_here()
     }
 
     /// Whether a motion is the block after a corner, rather than one of a spline.

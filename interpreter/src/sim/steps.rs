@@ -1,22 +1,12 @@
 //! The steps of the program: taken from the executor when the planner needs them, and carried out at rest.
 
 use super::{After, Pending, Phase, Simulation, Thread, Underway, times, wait};
-use crate::exec::{EndReason, Event, SourceRef, SpindleState, Step, Sync};
+use crate::exec::{EndReason, Event, SourceRef, Step, Sync};
 use crate::record::Motion;
 use crate::sim::axes::Driver;
 use crate::sim::totals::Programmed;
 use crate::sim::wait::{AwaitedMark, Wait};
 use kontur_motion::block::{Block, SlopeKind};
-
-/// Whether the path waits for this where the block ends, also within the curve of a rounded corner. Everything else stops it
-/// before the corner.
-fn waits_at_corner(what: &Sync) -> bool {
-    match what {
-        Sync::Dwell { .. } | Sync::Technology { .. } | Sync::ProgramStop { .. } => true,
-        Sync::Spindle { state, .. } => !matches!(state, SpindleState::Mark { .. }),
-        _ => false,
-    }
-}
 
 fn runs_banding(events: &[Event]) -> bool {
     events.iter().any(|event| matches!(event, Event::Banding(_)))
@@ -29,30 +19,35 @@ impl Simulation {
             return;
         }
         let step = self.postponed.take().unwrap_or_else(|| self.decoded());
-        let Some(wait) = self.at_corner.take() else {
+        if self.at_corner.is_empty() {
             return self.take(step);
-        };
+        }
+        let blocks = self.program.blocks();
         match step {
+            Step::Sync { what, source, events } if what.waits() && self.smoothing.wait_here() => {
+                let after = After::Sync(what);
+                self.at_corner.push_back(Pending { after, source, events, blocks });
+            }
             Step::Motion { block, source, events }
                 if self.smoothing.joins_corner(&block) && !runs_banding(&events) =>
             {
                 self.register(&block, source, events);
                 if self.smoothing.push_behind_stop(block, &mut self.planner) {
-                    self.pending = Some(wait);
-                    self.not_contoured();
-                    self.planner.finish();
-                } else {
-                    self.at_corner = Some(wait);
+                    self.wait_at_corner();
                 }
             }
             other => {
                 self.postponed = Some(other);
                 self.smoothing.flush_behind_stop(&mut self.planner);
-                self.pending = Some(wait);
-                self.not_contoured();
-                self.planner.finish();
+                self.wait_at_corner();
             }
         }
+    }
+
+    fn wait_at_corner(&mut self) {
+        self.pending = std::mem::take(&mut self.at_corner);
+        self.not_contoured();
+        self.planner.finish();
     }
 
     fn decoded(&mut self) -> Step {
@@ -66,24 +61,25 @@ impl Simulation {
         let blocks = self.program.blocks();
         match step {
             Step::Motion { block, source, events } => self.motion(block, source, events),
-            Step::Sync { what, source, events }
-                if waits_at_corner(&what) && self.smoothing.awaits_next() =>
-            {
-                self.at_corner = Some(Pending { after: After::Sync(what), source, events, blocks });
+            Step::Sync { what, source, events } if what.waits() && self.smoothing.wait_here() => {
+                let after = After::Sync(what);
+                self.at_corner.push_back(Pending { after, source, events, blocks });
             }
             Step::Sync { what, source, events } => {
                 let measures = match &what {
                     Sync::Measured { through, stops } => Some((*through, stops.clone())),
                     _ => None,
                 };
-                self.pending = Some(Pending { after: After::Sync(what), source, events, blocks });
+                let after = After::Sync(what);
+                self.pending.push_back(Pending { after, source, events, blocks });
                 self.path_stops();
                 if let Some((through, stops)) = measures {
                     self.begin_probing(through, &stops);
                 }
             }
             Step::End { reason, source, events } => {
-                self.pending = Some(Pending { after: After::End(reason), source, events, blocks });
+                let after = After::End(reason);
+                self.pending.push_back(Pending { after, source, events, blocks });
                 self.path_stops();
             }
         }
@@ -130,10 +126,14 @@ impl Simulation {
             self.at_halt();
             return;
         }
-        let Some(Pending { after, source, events, blocks }) = self.pending.take() else {
-            self.pull();
-            return;
-        };
+        match self.pending.pop_front() {
+            Some(pending) => self.wait_for(pending),
+            None => self.pull(),
+        }
+    }
+
+    /// Begins the wait for what follows a motion.
+    fn wait_for(&mut self, Pending { after, source, events, blocks }: Pending) {
         self.progress.complete(blocks, &mut self.smoothing.changed);
         self.waits_at = source;
         let k = self.planner.setpoint().k;
@@ -194,6 +194,11 @@ impl Simulation {
                 self.totals.aborted |= reason == EndReason::Aborted;
                 self.phase = Phase::Done;
             }
+        }
+        if matches!(self.phase, Phase::Running)
+            && let Some(next) = self.pending.pop_front()
+        {
+            self.wait_for(next);
         }
     }
 }

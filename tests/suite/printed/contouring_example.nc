@@ -1,6 +1,5 @@
 ; run: exit 0
 ; page 475259787 contouring with stops
-; warning K-0111 at 7:36
 ; end X300 Y300
 N10 X0 Y0 F6000
 N20 G91 G01 F6000
