@@ -19,15 +19,13 @@ impl Simulation {
             return;
         }
         let step = self.postponed.take().unwrap_or_else(|| self.decoded());
-        if self.at_corner.is_empty() {
-            return self.take(step);
-        }
         let blocks = self.program.blocks();
         match step {
             Step::Sync { what, source, events } if what.waits() && self.smoothing.wait_here() => {
                 let after = After::Sync(what);
                 self.at_corner.push_back(Pending { after, source, events, blocks });
             }
+            step if self.at_corner.is_empty() => self.take(step),
             Step::Motion { block, source, events }
                 if self.smoothing.joins_corner(&block) && !runs_banding(&events) =>
             {
@@ -61,10 +59,6 @@ impl Simulation {
         let blocks = self.program.blocks();
         match step {
             Step::Motion { block, source, events } => self.motion(block, source, events),
-            Step::Sync { what, source, events } if what.waits() && self.smoothing.wait_here() => {
-                let after = After::Sync(what);
-                self.at_corner.push_back(Pending { after, source, events, blocks });
-            }
             Step::Sync { what, source, events } => {
                 let measures = match &what {
                     Sync::Measured { through, stops } => Some((*through, stops.clone())),
