@@ -29,7 +29,7 @@ pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
 pub(crate) use program::places::Places;
 pub(crate) use step::{
-    Approach, BandingRun, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion,
+    Approach, AtCorner, BandingRun, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion,
     OscillatingMotion, Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion,
     SpindleState, Step, Sync, TimerCall, Told, WearSetting, WornPart,
 };

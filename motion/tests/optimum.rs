@@ -8,7 +8,7 @@ use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
 /// Cycle of the table in us: short enough that rounding of the time to cycles, and kinks within one cycle, do not
 /// matter.
-const CYCLE_US: u32 = 100;
+pub(crate) const CYCLE_US: u32 = 100;
 /// Kinks may use the velocity jump of 1 ms of acceleration.
 const KINK_WEIGHT: f64 = 10.0;
 
@@ -20,12 +20,12 @@ struct Row {
     least_s: f64,
 }
 
-/// The machines of the table.
-fn machine(name: &str) -> Vec<AxisDynamics> {
+/// The machines of the tables, with a weight of kinks.
+pub(crate) fn machine(name: &str, kink_weight: f64) -> Vec<AxisDynamics> {
     let of = |acc: f64, ramp: f64, v_max_mm_s: f64| AxisDynamics {
         v_max_mm_s,
         feed: FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] },
-        ..axis(KINK_WEIGHT)
+        ..axis(kink_weight)
     };
     match name {
         "even" => vec![of(1000.0, 0.05, 1000.0); 3],
@@ -33,7 +33,7 @@ fn machine(name: &str) -> Vec<AxisDynamics> {
     }
 }
 
-fn numbers(text: &str) -> Vec<f64> {
+pub(crate) fn numbers(text: &str) -> Vec<f64> {
     text.split(' ').map(|n| n.parse().unwrap()).collect()
 }
 
@@ -44,7 +44,7 @@ fn table() -> Vec<Row> {
         let record = record.unwrap();
         Row {
             name: format!("{} {}", &record[0], &record[1]),
-            axes: machine(&record[1]),
+            axes: machine(&record[1], KINK_WEIGHT),
             feeds: numbers(&record[2]),
             points: record[3].split(';').map(numbers).collect(),
             least_s: record[4].parse().unwrap(),

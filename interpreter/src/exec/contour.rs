@@ -20,7 +20,7 @@ use self::interim::Interim;
 use self::item::{Item, Rest};
 use super::fault::{Fault, Outcome};
 use super::geometry::point::Point;
-use super::step::{EndReason, Event, SourceRef, Step, Sync};
+use super::step::{AtCorner, EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
 use kontur_motion::block::SplineSettings;
@@ -259,8 +259,11 @@ impl Contour {
         let mut faults = self.end_spline();
         // a contoured corner is kept open by waits alone
         let corner = self.corner();
-        self.waits_at =
-            if corner == Passing::Contoured && what.waits() { corner } else { Passing::Sharp };
+        let waits = what.at_corner() == AtCorner::Waits;
+        self.waits_at = match corner {
+            Passing::Contoured if waits => corner,
+            _ => Passing::Sharp,
+        };
         self.stopped_exactly |= self.held.is_some() && matches!(what, Sync::ExactStop { .. });
         faults.extend(self.flush());
         let events = self.take_events();
@@ -288,8 +291,8 @@ impl Contour {
     pub(super) fn loses_corner(&self, stop: &Sync) -> bool {
         match self.corner() {
             Passing::Sharp => false,
-            Passing::Contoured => stop.interrupts(),
-            Passing::Splined => stop.interrupts() || stop.waits(),
+            Passing::Contoured => stop.at_corner() == AtCorner::Lost,
+            Passing::Splined => stop.at_corner() != AtCorner::Kept,
         }
     }
 

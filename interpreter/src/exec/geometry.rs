@@ -29,7 +29,8 @@ pub(super) struct LastArc {
     pub(super) plane: [usize; 2],
     /// Centre relative to the start point.
     pub(super) centre_mm: [f64; 2],
-    /// The centre as V.G.I, V.G.J and V.G.K have it: under G161 in coordinates of the program, otherwise relative to the start.
+    /// The centre as V.G.I, V.G.J and V.G.K have it: programmed under G161 in coordinates of the program, otherwise relative to
+    /// the start. Assumption: that of an arc by its radius is relative, whatever G161.
     pub(super) programmed_mm: [f64; 2],
     /// Shift of the centre by G165.
     pub(super) shift_mm: [f64; 2],

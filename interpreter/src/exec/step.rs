@@ -160,29 +160,41 @@ pub(crate) enum Sync {
     },
 }
 
-impl Sync {
-    /// Whether the path only waits: at a rounded corner it does so where the block ends, also within the curve.
-    pub(crate) fn waits(&self) -> bool {
-        match self {
-            Self::Dwell { seconds } => *seconds > 0.0,
-            Self::Technology { .. } | Self::ProgramStop { .. } => true,
-            Self::Spindle { state, .. } => !matches!(state, SpindleState::Mark { .. }),
-            _ => false,
-        }
-    }
+/// What a stop means for a corner before it that would be rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum AtCorner {
+    /// The path waits where the block ends, also within the curve (475113099).
+    Waits,
+    /// The program does not ask for the stop, and the corner is lost.
+    Lost,
+    /// The corner is kept, as with commands that empty the channel (207042443).
+    Kept,
+}
 
-    /// Whether the path stops for this although the program does not ask for it, as it does with commands that empty the
-    /// channel (207042443) and with functions and dwells, which are executed within a rounded corner.
-    pub(super) fn interrupts(&self) -> bool {
-        matches!(
-            self,
+impl Sync {
+    pub(crate) fn at_corner(&self) -> AtCorner {
+        match self {
+            Self::Dwell { seconds } if *seconds > 0.0 => AtCorner::Waits,
+            Self::Technology { .. }
+            | Self::ProgramStop { .. }
+            | Self::Spindle { state: SpindleState::Rest | SpindleState::Reached, .. } => {
+                AtCorner::Waits
+            }
             Self::Independent { .. }
-                | Self::Shaping(_)
-                | Self::ReadActual
-                | Self::TakeActual
-                | Self::SetPosition { .. }
-                | Self::MachineData { .. }
-        )
+            | Self::Shaping(_)
+            | Self::ReadActual
+            | Self::TakeActual
+            | Self::SetPosition { .. }
+            | Self::MachineData { .. } => AtCorner::Lost,
+            // an exact stop without a motion is a dwell of no time
+            Self::Dwell { .. }
+            | Self::Spindle { state: SpindleState::Mark { .. }, .. }
+            | Self::ExactStop { .. }
+            | Self::Stop
+            | Self::FlushWait
+            | Self::Measured { .. }
+            | Self::ThreadEnd => AtCorner::Kept,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The steps of the program: taken from the executor when the planner needs them, and carried out at rest.
 
 use super::{After, Pending, Phase, Simulation, Thread, Underway, times, wait};
-use crate::exec::{EndReason, Event, SourceRef, Step, Sync};
+use crate::exec::{AtCorner, EndReason, Event, SourceRef, Step, Sync};
 use crate::record::Motion;
 use crate::sim::axes::Driver;
 use crate::sim::totals::Programmed;
@@ -21,7 +21,9 @@ impl Simulation {
         let step = self.postponed.take().unwrap_or_else(|| self.decoded());
         let blocks = self.program.blocks();
         match step {
-            Step::Sync { what, source, events } if what.waits() && self.smoothing.wait_here() => {
+            Step::Sync { what, source, events }
+                if what.at_corner() == AtCorner::Waits && self.smoothing.wait_here() =>
+            {
                 let after = After::Sync(what);
                 self.at_corner.push_back(Pending { after, source, events, blocks });
             }

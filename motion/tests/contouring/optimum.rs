@@ -4,11 +4,9 @@
 //! shares no code with the planner.
 
 use super::*;
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use crate::optimum::{CYCLE_US, machine, numbers};
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{self, Hsc};
-
-/// Cycle in us, short enough that the time is hardly rounded.
-const CYCLE_US: u32 = 100;
 
 struct Row {
     name: String,
@@ -19,27 +17,13 @@ struct Row {
     least_s: f64,
 }
 
-/// The machines of the table.
-fn machine(name: &str) -> Vec<AxisDynamics> {
-    let of = |acc: f64, ramp: f64, v_max_mm_s: f64| AxisDynamics {
-        v_max_mm_s,
-        feed: FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] },
-        ..axis(1.0)
-    };
-    match name {
-        "even" => vec![of(1000.0, 0.05, 1000.0); 3],
-        _ => vec![of(4000.0, 0.02, 1000.0), of(3000.0, 0.03, 1000.0), of(800.0, 0.08, 300.0)],
-    }
-}
-
 fn table() -> Vec<Row> {
-    let numbers = |text: &str| text.split(' ').map(|n| n.parse().unwrap()).collect();
     let mut reader = csv::Reader::from_reader(include_str!("../data/contoured.csv").as_bytes());
     let rows = reader.records().map(|record| {
         let record = record.unwrap();
         Row {
             name: format!("{} {}", &record[0], &record[1]),
-            axes: machine(&record[1]),
+            axes: machine(&record[1], 1.0),
             feed_mm_s: record[2].parse().unwrap(),
             path_dev_mm: record[3].parse().unwrap(),
             points: record[4].split(';').map(numbers).collect(),

@@ -134,7 +134,8 @@ impl Decoder {
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
             }
         }
-        self.keep_arc(&arc, &start, plane, tilt.is_some());
+        let absolute = self.modal.centre_absolute && has_centre && tilt.is_none();
+        self.keep_arc(&arc, &start, plane, absolute);
         self.geometry.last_arc.plane = image;
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
         self.feed_group_fits(plane, span)?;
@@ -171,13 +172,14 @@ impl Decoder {
         Ok(arc)
     }
 
-    /// Keeps centre and radius of an arc for the system variables and for arcs that refer to it.
-    fn keep_arc(&mut self, arc: &Arc, start: &AxisVec, plane: [usize; 2], is_tilted: bool) {
+    /// Keeps centre and radius of an arc for the system variables and for arcs that refer to it; `absolute`: its centre was
+    /// programmed in absolute coordinates.
+    fn keep_arc(&mut self, arc: &Arc, start: &AxisVec, plane: [usize; 2], absolute: bool) {
         let centre_mm = [0, 1].map(|k| arc.centre[k] - start[plane[k]]);
         let last = &mut self.geometry.last_arc;
         (last.centre_mm, last.programmed_mm, last.shift_mm) = (centre_mm, centre_mm, arc.shift);
         last.radius_mm = libm::hypot(centre_mm[0], centre_mm[1]);
-        if self.modal.centre_absolute && !is_tilted {
+        if absolute {
             let mut centre = start.clone();
             for k in 0..2 {
                 centre[plane[k]] = arc.centre[k] + self.motion.independent.way[plane[k]];
