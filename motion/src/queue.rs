@@ -252,8 +252,11 @@ impl Queued {
         groups.into_iter().enumerate().map(part).collect()
     }
 
-    /// See [`Slope::plans_across`](crate::block::Slope::plans_across).
+    /// See [`Slope::plans_across`](crate::block::Slope::plans_across). A block too short for a change of speed with constant
+    /// ramp times is planned across as well: otherwise a polygon of such blocks would not leave the speed of its slowest
+    /// kink (Assumption: P-CHAN-00349 lowers the excitation of single motions, 149301515).
     pub(crate) fn plans_across(&self) -> bool {
-        self.block.slope.plans_across()
+        let way_mm = || self.velocity.v_mm_s * self.slope.constant_ramps_s();
+        self.block.slope.plans_across() || self.block.path.length() < way_mm()
     }
 }

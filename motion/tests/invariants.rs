@@ -324,3 +324,45 @@ fn limits_hold_at_extreme_ratios() {
         }
     }
 }
+
+/// With constant ramp times (P-CHAN-00349 = 1) a polygon of short chords is passed at least at the speed of its kinks, at which a
+/// path with constant jerk is slowest; a higher feed never makes it slower, and the axes keep their limits.
+#[test]
+fn constant_ramp_times_on_short_blocks() {
+    let mut r = Random::from_state(9);
+    for program in 0..count(20) {
+        let turn = r.log(0.002, 0.3);
+        let length = r.log(0.01, 0.5);
+        let mut at = [0.0_f64, 0.0];
+        let paths: Vec<Path> = (0..150)
+            .map(|i| {
+                let from = AxisVec::from_slice(&at);
+                let (sin, cos) = libm::sincos(if i % 2 == 0 { turn } else { -turn });
+                let l = length * (0.5 + r.ratio());
+                at = [at[0] + l * cos, at[1] + l * sin];
+                Path::Line(LinePath::new(from, AxisVec::from_slice(&at), &[]).unwrap())
+            })
+            .collect();
+        let way_mm: f64 = paths.iter().map(Path::length).sum();
+        for kind in [Trapez, Sin2] {
+            let slope = |constant_ramp_time| Slope { kind, optimised: false, constant_ramp_time };
+            let [constant, jerk] =
+                [true, false].map(|on| job(vec![axis(0.03), axis(0.03)], slope(on)));
+            let mut before = usize::MAX;
+            for feed in [20.0, 60.0, 200.0, 600.0] {
+                let out = run(&constant, &paths, feed);
+                let (v, a, _) = load(&constant, &out);
+                assert!(v <= 1.0 + 1e-6 && a <= 3.0, "{program} {kind:?} {feed}: {v} {a}");
+                let cycles = out.len();
+                let slower = cycles > before.saturating_add(before / 100 + 2);
+                assert!(!slower, "{program} {kind:?}: {cycles} at {feed}, less took {before}");
+                before = cycles;
+                let fastest = run(&jerk, &paths, feed);
+                let middle = &fastest[fastest.len() / 4..fastest.len() * 3 / 4];
+                let least = middle.iter().map(|s| s.v_mm_s).fold(f64::INFINITY, f64::min);
+                let most = 1000.0 * way_mm / least + 200.0;
+                assert!(cycles as f64 <= most, "{program} {kind:?} {feed}: {cycles}, {most}");
+            }
+        }
+    }
+}

@@ -73,6 +73,11 @@ impl LegLimits {
         [self.t1, self.t2]
     }
 
+    /// Time of both ramps if a short leg keeps them, otherwise 0.
+    pub(super) fn constant_ramps_s(&self) -> f64 {
+        if self.constant_ramp_time { self.ramps } else { 0.0 }
+    }
+
     /// The same shape with another plateau and one time for both ramps.
     pub(super) fn with(&self, a: f64, ramp_s: f64) -> Self {
         Self::new(self.shape, self.constant_ramp_time, a, ramp_s, ramp_s)

@@ -54,6 +54,11 @@ impl RampedLimits {
         Self { up: self.up, down: self.down.with(dec_mm_s2, ramp_s) }
     }
 
+    /// Time in s of the longer change of speed with constant ramp times (P-CHAN-00349 = 1); 0 without them.
+    pub(crate) fn constant_ramps_s(&self) -> f64 {
+        self.up.constant_ramps_s().max(self.down.constant_ramps_s())
+    }
+
     /// Plateaus and ramp times; `None` with constant ramp times (P-CHAN-00349 = 1).
     pub(crate) fn rates(&self) -> Option<Rates> {
         let (shape, acc, [t1, t2]) = self.up.scalable()?;

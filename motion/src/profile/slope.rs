@@ -93,6 +93,14 @@ impl SlopeLimits {
         }
     }
 
+    /// See [`RampedLimits::constant_ramps_s`].
+    pub(crate) fn constant_ramps_s(&self) -> f64 {
+        match self {
+            Self::Step(_) => 0.0,
+            Self::Ramped(l) => l.constant_ramps_s(),
+        }
+    }
+
     /// Whether the rates of both, see [`RampedLimits::rates`], are `same` pair by pair; false where there are none.
     pub(crate) fn has_same_rates(&self, other: &Self, same: impl Fn(f64, f64) -> bool) -> bool {
         match (self, other) {
