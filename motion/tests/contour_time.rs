@@ -152,7 +152,7 @@ fn a_larger_tolerance_never_lengthens_and_nothing_crawls() {
         let feed = r.log(5.0, 500.0);
         let rounding: fn(f64) -> ContourMode = r.pick(&[
             |eps| ContourMode::Dev { path_dev_mm: eps },
-            |eps| ContourMode::Ptp { path_dev_mm: eps, path_dist_mm: f64::INFINITY },
+            |eps| ContourMode::Ptp { path_dev_mm: Some(eps), path_dist_mm: None },
             |eps| ContourMode::Dist { pre_mm: eps, post_mm: eps },
         ]);
         let mut tolerances: Vec<f64> = (0..5).map(|_| r.log(1e-3, 2.0)).collect();

@@ -210,7 +210,7 @@ fn distances_are_limited_to_half_of_what_may_go() {
     // unequal ones: only the one that is too long
     close(ends(dist(3.0, 4.0)), (2.0, 4.0));
     close(ends(dist(0.5, 1.5)), (0.5, 1.5));
-    let ptp = ContourMode::Ptp { path_dev_mm: 0.1, path_dist_mm: 1.0 };
+    let ptp = ContourMode::Ptp { path_dev_mm: Some(0.1), path_dist_mm: Some(1.0) };
     close(
         ends(ContourSettings { mode: ptp, ..ContourSettings::default() }),
         (0.8 * 2.0_f64.sqrt() / 3.0, 0.8 * 2.0_f64.sqrt() / 3.0),

@@ -296,6 +296,11 @@ impl Contour {
         }
     }
 
+    /// Whether G61 rounds the corner after the last motion.
+    pub(super) fn contours_once(&self) -> bool {
+        !self.hsc.on && self.corner() == Passing::Contoured
+    }
+
     /// What is to become of the corner after the last motion.
     fn corner(&self) -> Passing {
         match &self.held {

@@ -77,6 +77,7 @@ impl Step {
                 | Sync::ThreadEnd => true,
                 Sync::ExactStop { .. }
                 | Sync::Stop
+                | Sync::Halt
                 | Sync::FlushWait
                 | Sync::ProgramStop { .. }
                 | Sync::Shaping(_)
@@ -97,8 +98,10 @@ pub(crate) enum Sync {
         /// Whether this includes axes in independent motion (P-CHAN-00297 = 1).
         alone: bool,
     },
-    /// Only a stop at the end of the previous block (`#FLUSH`, G115 and similar).
+    /// Only a stop at the end of the previous block, which the program asks for (`#FLUSH`, a measuring run).
     Stop,
+    /// Such a stop where the program does not ask for it (OSC ON, `#TIMER READ SYN`).
+    Halt,
     /// G04, `#TIME`: dwell, in s.
     Dwell {
         /// Time in s, not negative.
@@ -180,7 +183,8 @@ impl Sync {
             | Self::Spindle { state: SpindleState::Rest | SpindleState::Reached, .. } => {
                 AtCorner::Waits
             }
-            Self::Independent { .. }
+            Self::Halt
+            | Self::Independent { .. }
             | Self::Shaping(_)
             | Self::ReadActual
             | Self::TakeActual

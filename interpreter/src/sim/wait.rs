@@ -106,7 +106,7 @@ impl Wait {
             Sync::Spindle { spindle, state } => (Until::Spindle(spindle, state), Action::None),
             // the axis delay expires in the first cycle of rest
             Sync::ThreadEnd => (Until::Cycles(1, Rest::Spindle), Action::ThreadEnd),
-            Sync::Stop | Sync::ProgramStop { .. } => (Until::Now, Action::None),
+            Sync::Stop | Sync::Halt | Sync::ProgramStop { .. } => (Until::Now, Action::None),
             Sync::Dwell { seconds } => (cycles(seconds, Rest::Dwell), Action::None),
             Sync::Technology { seconds } => (cycles(seconds, Rest::Technology), Action::None),
             Sync::Independent { axes } => (Until::Arrived(axes), Action::None),

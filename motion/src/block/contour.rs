@@ -26,15 +26,15 @@ pub enum ContourMode {
         /// Coordinates in the three main axes (the first three of the channel); where not given, those of the corner.
         point_mm: [Option<f64>; 3],
     },
-    /// PTP: as DEV, with the corner distance bounded as well. Assumption: the documents describe the purpose of this
-    /// mode, not its curve.
+    /// PTP: the curve of DEV, from its deviation or, alternatively, its corner distance (475241483). Assumption: the documents
+    /// describe the purpose of this mode, not its curve.
     Ptp {
-        /// `PATH_DEV` in mm, default 1.
-        path_dev_mm: f64,
-        /// `PATH_DIST` in mm, default 1.
-        path_dist_mm: f64,
+        /// `PATH_DEV` in mm, if it is a limit.
+        path_dev_mm: Option<f64>,
+        /// `PATH_DIST` in mm, if it is a limit; negative: not bounded.
+        path_dist_mm: Option<f64>,
     },
-    /// `DIST_SOFT`; not published, replaced by [`Self::Ptp`] with `PATH_DEV` 1 mm and a notice.
+    /// `DIST_SOFT`; not published, replaced by [`Self::Ptp`] with a notice: by the distance or, without one, a deviation of 1 mm.
     DistSoft {
         /// `PATH_DIST` in mm, default 1; negative: not bounded.
         path_dist_mm: f64,

@@ -76,7 +76,7 @@ pub(super) fn curve(
     if corner.mixed {
         return Err(NoContour::NotPossible);
     }
-    if skipped.is_empty() && corner.jump <= TANGENTIAL {
+    if skipped.is_empty() && corner.is_smooth() {
         return Ok(None);
     }
     if corner.angle_rad >= PI - NEEDLE_RAD {
@@ -118,7 +118,12 @@ fn bounds(settings: &ContourSettings) -> Result<Bounds, NoContour> {
             Err(NoContour::DistanceTooSmall { value_mm, least_mm })
         }
     };
-    let within = |dev: f64, dist: f64| Bounds { pre: dist, post: dist, dev: Some(dev), ..free };
+    let within = |dev: Option<f64>, dist: Option<f64>| {
+        let dev = dev.map(deviation).transpose()?;
+        let dist = dist.filter(|dist| !(*dist < 0.0)).map(|dist| distance(dist, SMALLEST_MM));
+        let dist = dist.transpose()?.unwrap_or(f64::INFINITY);
+        Ok(Bounds { pre: dist, post: dist, dev, ..free })
+    };
     match settings.mode {
         ContourMode::Dev { path_dev_mm } => {
             Ok(Bounds { dev: Some(deviation(path_dev_mm)?), ..free })
@@ -131,16 +136,10 @@ fn bounds(settings: &ContourSettings) -> Result<Bounds, NoContour> {
             let (pre, post) = (distance(pre_mm, 0.0)?, distance(post_mm, 0.0)?);
             Ok(Bounds { pre, post, symmetric: false, point: point_mm, passes_point: true, ..free })
         }
-        ContourMode::Ptp { path_dev_mm, path_dist_mm } => {
-            Ok(within(deviation(path_dev_mm)?, distance(path_dist_mm, SMALLEST_MM)?))
-        }
+        ContourMode::Ptp { path_dev_mm, path_dist_mm } => within(path_dev_mm, path_dist_mm),
         ContourMode::DistSoft { path_dist_mm } | ContourMode::DistMaster { path_dist_mm } => {
-            let dist = if path_dist_mm < 0.0 {
-                f64::INFINITY
-            } else {
-                distance(path_dist_mm, SMALLEST_MM)?
-            };
-            Ok(within(1.0, dist))
+            let unbounded = path_dist_mm < 0.0;
+            within(unbounded.then_some(1.0), Some(path_dist_mm))
         }
     }
 }
@@ -195,6 +194,11 @@ impl<'a> Corner<'a> {
             track_dev: (settings.track_dev_deg > 0.0).then_some(settings.track_dev_deg),
             measured,
         }
+    }
+
+    /// Whether the transition is tangential in every axis or, without a limit for tracking axes, in the others (475086859).
+    fn is_smooth(&self) -> bool {
+        self.jump <= TANGENTIAL || (self.track_dev.is_none() && self.angle_rad <= TANGENTIAL)
     }
 
     fn distance(&self, p: &[f64], q: &[f64]) -> f64 {

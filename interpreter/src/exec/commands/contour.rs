@@ -6,7 +6,7 @@ use super::keys::arguments;
 use super::range::{at_least, between};
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::contour::contouring::{ContourParameters, Mode};
+use crate::exec::contour::contouring::{ContourParameters, Mode, PtpLimit};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::report::Report;
@@ -22,14 +22,14 @@ arguments! {
         dist_soft: Flag "DIST_SOFT", "", "rounded as PTP (K-0111)";
         dist_master: Flag "DIST_MASTER", "", "rounded as PTP (K-0111)";
         pos: Flag "POS", "", "as DIST, through an interim point X Y Z (X2.7 or X=2.7)";
-        ptp: Flag "PTP", "", "PATH_DEV or PATH_DIST";
+        ptp: Flag "PTP", "", "PATH_DEV or PATH_DIST; the one that is written limits the curve, or both";
         auto_dev: Flag "AUTO_DEV", "", "as DEV (K-0111)";
         auto_vel: MaybeNumber "AUTO_VEL", "", "not supported";
         vel: MaybeNumber "VEL", "", "of AUTO_VEL, not supported";
         path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 1";
         pre_dist: Number "PRE_DIST" in at_least(0.0), "mm", "default 1";
         post_dist: Number "POST_DIST" in at_least(0.0), "mm", "default 1";
-        path_dist: Number "PATH_DIST" in at_least(-1.0), "mm", "";
+        path_dist: Number "PATH_DIST" in at_least(-1.0), "mm", "of PTP, DIST_SOFT, default 1; negative: no limit";
         relevant_path: Number "RELEVANT_PATH" in at_least(0.0), "mm", "default 0; shorter blocks are skipped";
         track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default 0";
         relevant_track: Number "RELEVANT_TRACK" in between(0.0, 1e6), "deg", "default 0";
@@ -198,6 +198,14 @@ impl ContourArguments {
         set(&mut settings.pre_mm, self.pre_dist, unit);
         set(&mut settings.post_mm, self.post_dist, unit);
         set(&mut settings.path_dist_mm, self.path_dist, unit);
+        if settings.mode == Mode::Ptp {
+            settings.ptp = match (self.path_dev, self.path_dist) {
+                (Some(_), None) => PtpLimit::Deviation,
+                (None, Some(_)) => PtpLimit::Distance,
+                (Some(_), Some(_)) => PtpLimit::Both,
+                (None, None) => settings.ptp,
+            };
+        }
         let common = &mut settings.common;
         set(&mut common.relevant_path_mm, self.relevant_path, unit);
         set(&mut common.track_dev_deg, self.track_dev, 1.0);

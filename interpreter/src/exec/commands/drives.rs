@@ -74,7 +74,7 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let text = "#DRIVE WR SYN: the simulated drive keeps the values of its lists";
             decoder.report.note_once("#DRIVE", Fault::new(Condition::Fallback, text, call.span()));
             if keys.wait.is_some() {
-                decoder.sync(Sync::Stop);
+                decoder.sync(Sync::Halt);
             }
         }
         [word, syn] if word.is("WAIT") && syn.is("SYN") => {
@@ -84,7 +84,7 @@ fn drive(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let text = "#DRIVE WAIT SYN needs SWITCH_OK";
                 return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
             }
-            decoder.sync(Sync::Stop);
+            decoder.sync(Sync::Halt);
         }
         [word, ..] => return Err(call.unexpected(word)),
         [] => {

@@ -244,7 +244,7 @@ fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     decoder.contour.event(Event::Timer { id, act });
     if act == TimerAct::Read {
-        decoder.sync(Sync::Stop);
+        decoder.sync(Sync::Halt);
     }
     Ok(())
 }

@@ -217,6 +217,7 @@ impl Compensator {
         let flushes = matches!(
             rest.what,
             Sync::Stop
+                | Sync::Halt
                 | Sync::FlushWait
                 | Sync::ReadActual
                 | Sync::TakeActual

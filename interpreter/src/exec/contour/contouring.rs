@@ -18,6 +18,15 @@ pub(in crate::exec) enum Mode {
     DistMaster,
 }
 
+/// What limits a curve of PTP: the values written last, of which one is an alternative to the other (475241483).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::exec) enum PtpLimit {
+    #[default]
+    Deviation,
+    Distance,
+    Both,
+}
+
 /// Parameters of `#CONTOUR MODE`; each keeps its value until it is programmed again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct ContourParameters {
@@ -26,6 +35,7 @@ pub(in crate::exec) struct ContourParameters {
     pub(in crate::exec) pre_mm: f64,
     pub(in crate::exec) post_mm: f64,
     pub(in crate::exec) path_dist_mm: f64,
+    pub(in crate::exec) ptp: PtpLimit,
     pub(in crate::exec) point_mm: [Option<f64>; 3],
     /// Common to all modes.
     pub(in crate::exec) common: ContourSettings,
@@ -40,6 +50,7 @@ impl Default for ContourParameters {
             pre_mm: 1.0,
             post_mm: 1.0,
             path_dist_mm: 1.0,
+            ptp: PtpLimit::default(),
             point_mm: [None; 3],
             common: ContourSettings::default(),
         }
@@ -54,7 +65,11 @@ impl ContourParameters {
             Mode::Dev => ContourMode::Dev { path_dev_mm },
             Mode::Dist => ContourMode::Dist { pre_mm, post_mm },
             Mode::Pos => ContourMode::Pos { pre_mm, post_mm, point_mm },
-            Mode::Ptp => ContourMode::Ptp { path_dev_mm, path_dist_mm },
+            Mode::Ptp => ContourMode::Ptp {
+                path_dev_mm: (self.ptp != PtpLimit::Distance || path_dist_mm < 0.0)
+                    .then_some(path_dev_mm),
+                path_dist_mm: (self.ptp != PtpLimit::Deviation).then_some(path_dist_mm),
+            },
             Mode::DistSoft => ContourMode::DistSoft { path_dist_mm },
             Mode::DistMaster => ContourMode::DistMaster { path_dist_mm },
         };

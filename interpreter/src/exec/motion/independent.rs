@@ -5,7 +5,7 @@
 //! ([`Independent::way`]), so that they stay continuous. The simulation adds the shift to the path.
 //!
 //! Source: TF5200 programming manual, independent axes (208612235); 21068, 21071. Assumption: INCL_OFFSETS has no effect on an
-//! increment (G91).
+//! increment (G91), and an increment of a modulo axis is not replaced by the shortest way.
 
 use super::slope::{slope_of_number, slope_type};
 use super::state::Function;
@@ -13,7 +13,7 @@ use crate::diag::Condition;
 use crate::exec::block::collected::Words as BlockWords;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::Geometry;
+use crate::exec::geometry::{Geometry, modulo};
 use crate::exec::names::AxisNames;
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
@@ -190,11 +190,7 @@ impl Decoder {
     ) -> Outcome<()> {
         self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
         self.motion.areas.moves_unwatched(axis, &self.names, span)?;
-        if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
-            let name = self.machine.axes[axis].name();
-            let text = format!("{name} cannot move independently within a spline");
-            return Err(Fault::new(Condition::IndependentInSpline, text, span));
-        }
+        self.moves_outside_curves(axis, span)?;
         let words = Words::read(self, axis, rest)?;
         for function in words.functions {
             match function {
@@ -238,7 +234,15 @@ impl Decoder {
             * self.modal.axis_unit(&self.machine.axes[axis])
             * self.geometry.scale.factor(axis);
         let offset_mm = self.geometry.included_offset(axis, "INDP", words.offsets, &self.names)?;
-        let target = if relative { start[axis] + way } else { way + offset_mm };
+        let target = if relative {
+            start[axis] + way
+        } else if self.machine.axes[axis].is_modulo() {
+            // always the shortest way (208606347)
+            let range_deg = self.machine.axes[axis].modulo_deg();
+            modulo::unwrapped(way + offset_mm, None, start[axis], range_deg)
+        } else {
+            way + offset_mm
+        };
         self.geometry.coordinates.place(axis, target);
         self.check_limit(axis, target, at);
         let slope = words.slope.unwrap_or(self.machine.channel.dynamics.slope);
@@ -264,6 +268,24 @@ impl Decoder {
         };
         list.push(axis);
         Ok(())
+    }
+
+    /// 120697 for a positioning axis within a spline, K-0154 for one while polynomial contouring is active (208606347).
+    pub(super) fn moves_outside_curves(&self, axis: usize, span: Span) -> Outcome<()> {
+        let condition = if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
+            Condition::IndependentInSpline
+        } else if self.modal.contouring || self.contour.contours_once() {
+            Condition::IndependentInContouring
+        } else {
+            return Ok(());
+        };
+        let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
+        let place = match condition {
+            Condition::IndependentInSpline => "within a spline",
+            _ => "while contouring is active",
+        };
+        let text = format!("{name} cannot move independently {place}");
+        Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
     }
 
     /// 21071 for a main axis that the active coordinate systems turn, or that a transformation moves.

@@ -81,6 +81,7 @@ impl Decoder {
         self.motion.areas.moves_unwatched(axis, &self.names, span)?;
         match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => {
+                self.moves_outside_curves(axis, span)?;
                 self.moves_untransformed(axis, span)?;
                 self.oscillation(axis, &keys, span)
             }
@@ -146,7 +147,7 @@ impl Decoder {
             self.join(vec![axis]);
         }
         // a path in motion stops first
-        self.sync(Sync::Stop);
+        self.sync(Sync::Halt);
         self.check_limit(axis, reversal_mm[0], at);
         self.check_limit(axis, reversal_mm[1], second_at);
         let from_mm = self.geometry.coordinates.target()[axis];

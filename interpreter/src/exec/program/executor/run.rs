@@ -84,7 +84,7 @@ impl Executor {
             }
         }
         if self.decoder.contour.waiting() >= EVENTS_MAX {
-            self.decoder.sync(Sync::Stop);
+            self.decoder.sync(Sync::Halt);
         }
         self.settle(faulty);
     }
