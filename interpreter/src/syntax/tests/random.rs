@@ -10,17 +10,19 @@ fn nearly_plain() -> impl Strategy<Value = String> {
         prop_oneof!["-?[0-9]{1,5}(\\.[0-9]{0,6})?", "[-+]?\\.?[0-9]{0,20}", "-?0?\\.[0-9]{1,17}",];
     let word = prop_oneof![
         4 => ("[XYZABCIJKRFUW]", number).prop_map(|(l, n)| format!("{l}{n}")),
-        2 => "[GgMm][0-9]{1,3}",
+        2 => ("[XYZABCIJKRFUSTW]", "(=| |\\t| ?= ?|\\(a\\)=?|-|= -|==)", "-?[0-9]{1,3}(\\.[0-9]{0,3})?")
+            .prop_map(|(l, e, n)| format!("{l}{e}{n}")),
+        2 => "[GgMmHh][0-9]{1,3}",
         2 => "\\([a-zX1;äö\\[\\]\" ]{0,6}(\\([a-z]\\))?\\)",
-        2 => sum().prop_map(|sum| format!("X{sum}")),
+        2 => ("(|=|-|=-| |- )", sum()).prop_map(|(e, sum)| format!("X{e}{sum}")),
         1 => "[A-Z]{1,2}[0-9]{0,3}",
         1 => "[ \\t;(P=.:#$@\"\\[\\]%/*-]{1,2}",
         1 => "(SIN|MOD|OR|AND|P1|V\\.P\\.A|PI|TRUE|N5)",
     ];
     let gap = prop_oneof![4 => Just(" "), 1 => Just(""), 1 => Just("\t ")];
-    ("(N[0-9]{1,6} ?:?|/|)", prop::collection::vec((word, gap), 0..7)).prop_map(|(head, words)| {
-        words.into_iter().fold(head, |line, (word, gap)| line + &word + gap)
-    })
+    ("(/[0-9]{0,2} ?)?(N[0-9]{1,6} ?:?|)", prop::collection::vec((word, gap), 0..7)).prop_map(
+        |(head, words)| words.into_iter().fold(head, |line, (word, gap)| line + &word + gap),
+    )
 }
 
 /// Sums in brackets, and texts that look like them.
@@ -194,6 +196,10 @@ fn usual_lines_of_cam_programs_are_plain() {
         "N30 ( open ; X1",
         "N30 X1 Y2 (open (in it) ; Z1",
         "X[P1 + 2*[3 - P2]] Y[-5.5/2] Z[7]",
+        "G01 X=1.5 Y = -2 F=1000 H5",
+        "X 1.5 Y -[P1+2] S=1000 M3",
+        "/N10 X1",
+        "/2 X(depth) =5",
     ] {
         let mut block = Plain::default();
         assert!(block.recognize(line.as_bytes()).is_some(), "{line}");

@@ -62,7 +62,7 @@ impl Executor {
         let decoder = &self.decoder;
         let take = |word| words.add(decoder, &word);
         let (frame, next) = self.files.plain_line(file, at, take)?;
-        if frame.open_remark.is_some() && self.found.has_room() {
+        if frame.skip.is_some() || (frame.open_remark.is_some() && self.found.has_room()) {
             return None;
         }
         words.span = frame.span;

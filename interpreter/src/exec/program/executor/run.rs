@@ -67,8 +67,11 @@ impl Executor {
         match fetched {
             Fetched::Plain => {
                 let plain = self.files.plain();
-                let (number, words) =
-                    (plain.frame.number, StraightWords::read(&self.decoder, plain));
+                let number = plain.frame.number;
+                let words = match plain.frame.skip {
+                    None => StraightWords::read(&self.decoder, plain),
+                    Some(_) => None,
+                };
                 self.source_of(file, at, number);
                 match words {
                     Some(words) => self.decoder.straight_motion(&words, None, None),
