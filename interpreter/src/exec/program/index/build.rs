@@ -8,7 +8,8 @@ use super::head::{
     word,
 };
 use super::keyword::Keyword;
-use super::{Entry, EntryId, Index, LabelPlace, Section};
+use super::entry::{Entry, EntryId};
+use super::{Index, LabelPlace, Section};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};

@@ -5,7 +5,8 @@
 //! few statements later. Where it does not, as in a long loop or after a fault, the whole entry is kept separately.
 
 use super::packed::{Bytes, GROUP, Numbers};
-use super::{Entry, EntryId, Keyword};
+use super::entry::{Entry, EntryId};
+use super::keyword::Keyword;
 use crate::source::Position;
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
