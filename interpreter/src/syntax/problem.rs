@@ -84,4 +84,3 @@ pub(super) fn too_deep(text: &str, at: usize) -> Problem {
     };
     Problem::new(condition, span, format!("{what} nested more than {limit} deep"))
 }
-
