@@ -102,7 +102,7 @@ impl Decoder {
         self.planes_and_units(&words);
         let takes_axes = axis_functions(&words, &mut self.report);
         let at_once = self.machine.channel.offsets.tools_at_once;
-        let tool_before = at_once.then(|| self.geometry.coordinates.tool_offsets().clone());
+        let tool_before = at_once.then(|| self.geometry.coordinates.tool().clone());
         self.tools_and_offsets(&words, takes_axes);
         if let Some(before) = tool_before {
             self.tool_moves(&before, &mut words, takes_axes);

@@ -146,7 +146,7 @@ impl Decoder {
     ) {
         let with_tool = words.tool.filter(|_| self.machine.channel.offsets.tool_data_with_tool);
         let Some((_, span)) = words.tool_data.or(with_tool) else { return };
-        let now = self.geometry.coordinates.tool_offsets();
+        let now = self.geometry.coordinates.tool();
         let changed = (0..now.len()).filter(|axis| now[*axis].to_bits() != before[*axis].to_bits());
         let moved: Vec<usize> = changed
             .filter(|axis| words.axes.iter().all(|(programmed, _, _)| programmed != axis))
