@@ -1,9 +1,9 @@
 //! Effects of the events of a block on the running machine: kernels, feedforward, machine data.
 
-use super::Simulation;
-use super::axes::Driver;
 use super::chain::AxisChain;
-use super::out::MESSAGES_MAX;
+use super::driver::Driver;
+use super::messages::MESSAGES_MAX;
+use super::state::Simulation;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::{Event, ShapingSetup, TimerCall};
 use crate::machine::ChainSetup;
