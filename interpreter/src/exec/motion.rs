@@ -127,7 +127,7 @@ impl MotionState {
     /// Whether the feed rate refers to the main axes.
     fn feeds_main_axes(&self, coordinates: &Coordinates) -> bool {
         let is_main = |axis: usize| coordinates.main_index(axis).is_some();
-        (0..self.feed_axes.len()).all(|axis| self.feed_axes[axis] == is_main(axis))
+        self.limits.feed_axes().iter().enumerate().all(|(axis, member)| *member == is_main(axis))
     }
 }
 
@@ -277,7 +277,7 @@ impl Decoder {
             }
             let (start, end) =
                 (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
-            LinePath::new(start, end, &self.motion.feed_axes).map(Path::Line)
+            LinePath::new(start, end, self.motion.limits.feed_axes()).map(Path::Line)
         };
         if self.motion.areas.is_defining() {
             return self.area_block(path.as_ref(), words, span);
@@ -306,7 +306,7 @@ impl Decoder {
         let moves = |axis: &usize| {
             path.extent(*axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
         };
-        let moved = (0..self.motion.feed_axes.len()).filter(moves);
+        let moved = (0..self.motion.limits.feed_axes().len()).filter(moves);
         let feed_ratio = if full { 1.0 } else { self.motion.overrides.ratio(rapid, moved) };
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
@@ -408,7 +408,9 @@ impl Decoder {
             return Err(Fault::unsupported(what, span));
         }
         let Some(cutting) = self.motion.cutting.speed else { return Ok(()) };
-        for (path, rpm) in cutting::pieces(cutting, &block.path, &self.motion.feed_axes, span)? {
+        for (path, rpm) in
+            cutting::pieces(cutting, &block.path, self.motion.limits.feed_axes(), span)?
+        {
             let feed = self.modal.feed_per_revolution(&self.machine, &path, rpm);
             let block = Box::new(Block { path, feed, ..block.clone() });
             let InPlane { plane, tilt, .. } = in_plane;

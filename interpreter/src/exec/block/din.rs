@@ -307,7 +307,7 @@ impl Decoder {
             Act::StopAtTransitions(stop) => {
                 let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
                 if std::mem::replace(&mut self.modal.look_ahead, mode) != mode {
-                    self.motion.dynamics_changed();
+                    self.motion.limits.changed();
                 }
             }
             Act::LookAheadFunctions => look_ahead_functions(g, &mut self.report)?,

@@ -157,7 +157,6 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
         None => Vec::new(),
     };
     if named.is_empty() {
-        decoder.motion.feed_axes_named = false;
         default_feed_group(decoder);
         if !decoder.machine.channel.feed.lists_axes {
             let text = "#FGROUP without axes, and none in the list: the main axes are used";
@@ -171,8 +170,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
             return Err(Fault::new(Condition::FeedGroupTwice, text, call.span()));
         }
     }
-    (decoder.motion.feed_axes, decoder.motion.feed_axes_named) = (members, true);
-    decoder.motion.dynamics_changed();
+    decoder.motion.limits.set_feed_axes(members, true);
     Ok(())
 }
 

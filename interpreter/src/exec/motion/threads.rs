@@ -140,7 +140,7 @@ impl Decoder {
             }
             self.motion.threads.pitch_mm[main] = Some(pitch_mm);
         }
-        let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else {
+        let Some(line) = LinePath::new(start, end, self.motion.limits.feed_axes()) else {
             let Some((axis, _, at)) = words.axes.first().filter(|_| mode.is_tapping()) else {
                 return Ok(());
             };

@@ -5,18 +5,18 @@ use crate::exec::decoder::Decoder;
 /// The feed group of the channel list; if it has none, the main axes.
 pub(super) fn default_feed_group(decoder: &mut Decoder) {
     let channel = &decoder.machine.channel;
-    decoder.motion.feed_axes = if channel.feed.lists_axes {
+    let members = if channel.feed.lists_axes {
         channel.feed.axes.clone()
     } else {
         let is_main = |axis| decoder.geometry.coordinates.main_index(axis).is_some();
         (0..decoder.machine.axes.len()).map(is_main).collect()
     };
-    decoder.motion.dynamics_changed();
+    decoder.motion.limits.set_feed_axes(members, false);
 }
 
 /// Called after a change of names and main axes.
 pub(super) fn exchanged(decoder: &mut Decoder) {
-    if !decoder.motion.feed_axes_named {
+    if !decoder.motion.limits.feed_axes_named() {
         default_feed_group(decoder);
     }
 }
