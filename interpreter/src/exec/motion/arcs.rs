@@ -55,7 +55,7 @@ impl Modal {
 
 /// Centre, R and G163 exclude each other.
 fn defined_once(words: &Words<'_>, has_centre: bool) -> Outcome<()> {
-    let by_word = words.g.iter().find(|g| g.row.act == Act::Radius);
+    let by_word = words.with(Act::Radius);
     if let (Some(g), true) = (by_word, has_centre || words.radius.is_some()) {
         let text = "G163 beside I, J, K or R: the radius is given twice";
         return Err(Fault::new(Condition::CentreWithG163, text, g.span));

@@ -4,7 +4,7 @@
 //! It reports and does the same as [`Decoder::execute_words`] for the same words; the tests compare both. Everything that
 //! consecutive motions have in common is computed once, and reused until another kind of block follows.
 
-use super::InPlane;
+use super::plane::InPlane;
 use super::state::Straight;
 use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::modal::Modal;

@@ -378,7 +378,7 @@ impl Decoder {
 
 /// G166 in the block.
 fn has_full_override(words: &Words<'_>) -> bool {
-    words.g.iter().any(|g| g.row.act == Act::FullOverride)
+    words.has(Act::FullOverride)
 }
 
 /// Whether the path passes from one block of a chain to the next below the speed of both.
