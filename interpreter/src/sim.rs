@@ -52,6 +52,16 @@ use state::Phase;
 use std::sync::Arc;
 use wait::Parts;
 
+/// A cycle of a path that waits at rest.
+enum Waited {
+    /// It waits in this cycle.
+    Cycle,
+    /// The condition is met.
+    Over,
+    /// It can never be met.
+    InVain,
+}
+
 impl Simulation {
     /// Connects the real-time inputs, before the first cycle; false if they never change anything.
     ///
@@ -163,35 +173,11 @@ impl Simulation {
                     Ok(Next::Rest) => self.at_rest(),
                     Err(e) => self.fail(&format!("look-ahead: {e}")),
                 },
-                Phase::Waiting(wait) => {
-                    let k = self.planner.setpoint().k;
-                    let parts = Parts {
-                        chains: &self.chains,
-                        drivers: &self.drivers,
-                        spindles: &self.spindles,
-                        independent: &self.independent,
-                        cycle: self.cycle,
-                    };
-                    // a held path does not begin a thread: it would miss the mark
-                    let bars = wait.mark().is_some_and(|m| self.inputs.bar(m.full_override));
-                    if !bars && wait.is_over(parts) {
-                        self.go_on();
-                        continue;
-                    }
-                    if (bars || wait.is_held(&self.independent, k)) && self.inputs.is_over() {
-                        self.held_for_ever();
-                        return false;
-                    }
-                    if self.inputs.is_over()
-                        && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
-                    {
-                        self.never_arrives(chain, lacks);
-                        return false;
-                    }
-                    wait.begin_cycle(parts, k);
-                    self.planner.hold(SpeedLimit::Stop);
-                    break;
-                }
+                Phase::Waiting(_) => match self.wait() {
+                    Waited::Cycle => break,
+                    Waited::Over => self.go_on(),
+                    Waited::InVain => return false,
+                },
                 Phase::Stopping(stopping) => {
                     let set_rests = self.planner.brake_is_over()
                         && !self.independent.any_moving()
@@ -215,6 +201,37 @@ impl Simulation {
         self.watch_probe();
         self.watch_banding();
         true
+    }
+
+    /// Waits for one more cycle, unless what the path waits for has come or never will.
+    fn wait(&mut self) -> Waited {
+        let Phase::Waiting(wait) = &mut self.phase else { return Waited::Over };
+        let k = self.planner.setpoint().k;
+        let parts = Parts {
+            chains: &self.chains,
+            drivers: &self.drivers,
+            spindles: &self.spindles,
+            independent: &self.independent,
+            cycle: self.cycle,
+        };
+        // a held path does not begin a thread: it would miss the mark
+        let bars = wait.mark().is_some_and(|m| self.inputs.bar(m.full_override));
+        if !bars && wait.is_over(parts) {
+            return Waited::Over;
+        }
+        if (bars || wait.is_held(&self.independent, k)) && self.inputs.is_over() {
+            self.held_for_ever();
+            return Waited::InVain;
+        }
+        if self.inputs.is_over()
+            && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
+        {
+            self.never_arrives(chain, lacks);
+            return Waited::InVain;
+        }
+        wait.begin_cycle(parts, k);
+        self.planner.hold(SpeedLimit::Stop);
+        Waited::Cycle
     }
 
     /// Ends the run because of an internal error of kontur.

@@ -38,17 +38,15 @@ impl Simulation {
         let (program, start, found) = Program::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let drivers = drivers(&machine);
-        let mut chains = Vec::with_capacity(setups.len());
-        for (i, setup) in setups.into_iter().enumerate() {
+        let chain = |(i, setup): (usize, _)| {
             let x = match drivers.get(i) {
                 Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
                 _ => 0.0,
             };
-            match AxisChain::new(setup, x, AxisInputs::default(), cycle) {
-                Ok(chain) => chains.push(chain),
-                Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
-            }
-        }
+            let chain = AxisChain::new(setup, x, AxisInputs::default(), cycle);
+            chain.map_err(|e| vec![fault::plant(&e, &machine, i)])
+        };
+        let chains = setups.into_iter().enumerate().map(chain).collect::<Result<Vec<_>, _>>()?;
         let window = machine.channel.look_ahead_blocks as usize;
         let spindles: Vec<_> = machine
             .spindles
@@ -95,21 +93,26 @@ impl Simulation {
             cycle,
             program,
         };
-        let mode = simulation.machine.channel.overrides.mode;
-        simulation.planner.set_override_mode(mode);
-        simulation.feedforward(false, &vec![1.0; n]);
-        for spindle in 0..simulation.spindles.len() {
-            simulation.spindle_feedforward(spindle, false, 1.0);
+        simulation.set_up();
+        Ok(simulation)
+    }
+
+    /// What the lists apply before the first block.
+    fn set_up(&mut self) {
+        let mode = self.machine.channel.overrides.mode;
+        self.planner.set_override_mode(mode);
+        self.feedforward(false, &vec![1.0; self.path_axes()]);
+        for spindle in 0..self.spindles.len() {
+            self.spindle_feedforward(spindle, false, 1.0);
         }
-        let setup = simulation.program.shaping().clone();
-        for i in 0..simulation.chains.len() {
-            if matches!(simulation.drivers[i], Driver::Spindle(_)) {
-                simulation.set_kernel(i, &setup);
+        let setup = self.program.shaping().clone();
+        for i in 0..self.chains.len() {
+            if matches!(self.drivers[i], Driver::Spindle(_)) {
+                self.set_kernel(i, &setup);
             }
         }
-        simulation.swap_kernels(&setup);
-        simulation.planner.report_changes(true);
-        Ok(simulation)
+        self.swap_kernels(&setup);
+        self.planner.report_changes(true);
     }
 }
 

@@ -11,7 +11,7 @@ mod statements;
 use super::ast::Span;
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 pub(super) use context::Context;
-pub(super) use failure::{FORMATTED_TEXT, from_error, list_among_values, place_of};
+pub(super) use failure::{FORMATTED_TEXT, from_error, list_among_values, of_declaration, place_of};
 pub(super) use statements::statement;
 pub(crate) use statements::statement_meant;
 use std::borrow::Cow;

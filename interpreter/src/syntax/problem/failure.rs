@@ -78,27 +78,44 @@ pub(in crate::syntax) fn from_error(
     let problem = match no_word(before, &expected) {
         Some((length, text)) if context == Context::Words => {
             let start = offset + before.trim_ascii_end().len() - length;
-            let problem = Problem::syntax(Span::new(start, start + length), text);
-            let second = is_numbered(before) && is_numbered(&masked[start..]);
-            let condition = match second {
-                true if masked[offset..start].split_whitespace().nth(1).is_some() => {
-                    Condition::BlockNumberBehindWords
-                }
-                true => Condition::BlockNumberTwice,
-                false => Condition::Syntax,
-            };
-            let problem = Problem { condition, ..problem };
-            if condition == Condition::Syntax
-                && masked[start..].bytes().take(length).all(|b| b.is_ascii_alphabetic())
-            {
-                problem.hint("remarks begin with ; or are written in ( )")
-            } else {
-                problem
-            }
+            let span = Span::new(start, start + length);
+            among_words(
+                Problem::syntax(span, text),
+                before,
+                &masked[offset..start],
+                &masked[start..],
+            )
         }
         _ => refine(problem, before, rest, context, masked, &expected),
     };
     hints::completed(problem, context, masked, before, rest, &expected)
+}
+
+/// Letters that do not begin a word, after `read`: a second block number, or a remark; `from`: the text from them on.
+fn among_words(problem: Problem, before: &str, read: &str, from: &str) -> Problem {
+    if is_numbered(before) && is_numbered(from) {
+        return problem.of(if read.split_whitespace().nth(1).is_some() {
+            Condition::BlockNumberBehindWords
+        } else {
+            Condition::BlockNumberTwice
+        });
+    }
+    let length = problem.span.len as usize;
+    if from.bytes().take(length).all(|b| b.is_ascii_alphabetic()) {
+        return problem.hint("remarks begin with ; or are written in ( )");
+    }
+    problem
+}
+
+/// A problem between `#VAR` and `#ENDVAR`.
+pub(in crate::syntax) fn of_declaration(found: Problem, masked: &str) -> Problem {
+    match masked.trim_ascii_start().as_bytes().first() {
+        Some(b'R' | b'r') => found.of(Condition::RadiusArray),
+        Some(b'V' | b'v' | b'P' | b'p' | b'@') => found.of(Condition::DeclarationCharacter),
+        _ => found
+            .of(Condition::DeclarationCharacter)
+            .hint("check whether #ENDVAR is missing before it"),
+    }
 }
 
 /// The vendor's number for faults common to all kinds of blocks.
