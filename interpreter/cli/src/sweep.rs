@@ -188,6 +188,57 @@ fn write(
     target.show().map_err(to_error)
 }
 
+/// Runs these combinations with progress on the terminal, and enters their rows into the journal; the first one that failed.
+fn run_open(
+    args: &SweepArgs,
+    combinations: &[Vec<usize>],
+    open: &[usize],
+    mut journal: Option<&mut Journal>,
+    console: &mut Console,
+    mut take: impl FnMut(usize, Row, Vec<PathBuf>),
+) -> Result<Option<(usize, Failure)>, Error> {
+    let before = combinations.len() - open.len();
+    let mut progress = console.progress();
+    let _running = Running::start();
+    let mut failed: Option<(usize, Failure)> = None;
+    let mut written = Ok(());
+    std::thread::scope(|scope| {
+        let (send, receive) = mpsc::channel();
+        scope.spawn(move || {
+            open.par_iter().for_each_with(send, |send, &i| {
+                if Running::is_interrupted() {
+                    return;
+                }
+                let row = row(args, &combinations[i]);
+                // the receiver exists until the last sender is dropped
+                let _ = send.send((i, row));
+            });
+        });
+        for (count, (i, row)) in receive.into_iter().enumerate() {
+            progress.show_rest(before + count + 1, combinations.len(), count + 1);
+            match row {
+                Ok((row, read)) => {
+                    if let (Some(journal), Ok(())) = (&mut journal, &written) {
+                        written = journal.write(i, &row);
+                    }
+                    take(i, row, read);
+                }
+                // the first combination that fails, not the first one to report it
+                Err(e) if failed.as_ref().is_none_or(|(first, _)| i < *first) => {
+                    failed = Some((i, e));
+                }
+                Err(_) => {}
+            }
+        }
+    });
+    drop(progress);
+    written?;
+    if Running::is_interrupted() {
+        failed = failed.or(Some((0, Failure::Interrupted)));
+    }
+    Ok(failed)
+}
+
 /// Runs the combinations that are not in the journal, with progress on the terminal; returns all rows, and the files
 /// that were read for them.
 fn run_all(
@@ -209,46 +260,11 @@ fn run_all(
             format!("continues where it was stopped: {before} of {} runs are complete", done.len());
         console.say(Severity::Note, &text);
     }
-    let mut progress = console.progress();
-    let _running = Running::start();
-    let mut failed: Option<(usize, Failure)> = None;
-    let mut written = Ok(());
     let mut reads = BTreeSet::new();
-    std::thread::scope(|scope| {
-        let (send, receive) = mpsc::channel();
-        scope.spawn(move || {
-            open.par_iter().for_each_with(send, |send, &i| {
-                if Running::is_interrupted() {
-                    return;
-                }
-                let row = row(args, &combinations[i]);
-                // the receiver exists until the last sender is dropped
-                let _ = send.send((i, row));
-            });
-        });
-        for (count, (i, row)) in receive.into_iter().enumerate() {
-            progress.show_rest(before + count + 1, combinations.len(), count + 1);
-            match row {
-                Ok((row, read)) => {
-                    reads.extend(read);
-                    if let (Some(journal), Ok(())) = (&mut journal, &written) {
-                        written = journal.write(i, &row);
-                    }
-                    done[i] = Some(row);
-                }
-                // the first combination that fails, not the first one to report it
-                Err(e) if failed.as_ref().is_none_or(|(first, _)| i < *first) => {
-                    failed = Some((i, e));
-                }
-                Err(_) => {}
-            }
-        }
-    });
-    drop(progress);
-    written?;
-    if Running::is_interrupted() {
-        failed = failed.or(Some((0, Failure::Interrupted)));
-    }
+    let failed = run_open(args, combinations, &open, journal, console, |i, row, read| {
+        reads.extend(read);
+        done[i] = Some(row);
+    })?;
     match failed {
         None => {}
         Some((_, Failure::Interrupted)) => return Err(Error::Stopped),
