@@ -6,6 +6,7 @@
 mod functions;
 mod insertions;
 mod offsets;
+mod presets;
 
 use super::choice::{Compensation, FeedType, LookAhead, PathMode, Plane};
 use super::collected::{CycleCall, GWord, Placed, Words};

@@ -72,34 +72,11 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
         }
         (_, false) => {
-            let changes = keys.changes(decoder, on);
-            decoder.motion.limits.change_vector(meant, |v| changes.apply(v));
+            let change = keys.change(decoder, on);
+            decoder.motion.limits.change_vector(meant, change);
         }
     }
     Ok(())
-}
-
-/// New values of the limits, by key; `Some(None)`: no limit.
-struct VectorChanges {
-    vel_mm_s: Option<Option<f64>>,
-    acc_mm_s2: Option<Option<f64>>,
-    dec_mm_s2: Option<Option<f64>>,
-    jerk_mm_s3: Option<Option<f64>>,
-    radial_acc_mm_s2: Option<Option<f64>>,
-    radial_jerk_mm_s3: Option<Option<f64>>,
-    trans_acc_mm_s2: Option<Option<f64>>,
-}
-
-impl VectorChanges {
-    fn apply(&self, v: &mut VectorLimits) {
-        v.vel_mm_s = self.vel_mm_s.unwrap_or(v.vel_mm_s);
-        v.acc_mm_s2 = self.acc_mm_s2.unwrap_or(v.acc_mm_s2);
-        v.dec_mm_s2 = self.dec_mm_s2.unwrap_or(v.dec_mm_s2);
-        v.jerk_mm_s3 = self.jerk_mm_s3.unwrap_or(v.jerk_mm_s3);
-        v.radial_acc_mm_s2 = self.radial_acc_mm_s2.unwrap_or(v.radial_acc_mm_s2);
-        v.radial_jerk_mm_s3 = self.radial_jerk_mm_s3.unwrap_or(v.radial_jerk_mm_s3);
-        v.trans_acc_mm_s2 = self.trans_acc_mm_s2.unwrap_or(v.trans_acc_mm_s2);
-    }
 }
 
 impl VectorArguments {
@@ -109,7 +86,7 @@ impl VectorArguments {
     }
 
     /// What the keys change, in mm and s; accelerations that are tiny in them are noted.
-    fn changes(&self, decoder: &mut Decoder, on: bool) -> VectorChanges {
+    fn change(&self, decoder: &mut Decoder, on: bool) -> impl Fn(&mut VectorLimits) + use<> {
         let listed = decoder.machine.channel.dynamics.vector;
         let t = decoder.machine.channel.dynamics.vector_time_s;
         let per_time2 = (t * t).recip();
@@ -125,15 +102,21 @@ impl VectorArguments {
             let (x, _) = key?;
             Some(if on { x.map(|x| x * scale).or(listed) } else { None })
         };
-        let unit_mm_s = decoder.modal.unit_mm() / 60.0;
-        VectorChanges {
-            vel_mm_s: value(self.vel, unit_mm_s, listed.vel_mm_s),
-            acc_mm_s2: value(self.acc, per_time2, listed.acc_mm_s2),
-            dec_mm_s2: value(self.dec, per_time2, listed.dec_mm_s2),
-            jerk_mm_s3: value(self.jerk, 1.0, listed.jerk_mm_s3),
-            radial_acc_mm_s2: value(self.radial_acc, per_time2, listed.radial_acc_mm_s2),
-            radial_jerk_mm_s3: value(self.radial_jerk, per_time2 / t, listed.radial_jerk_mm_s3),
-            trans_acc_mm_s2: value(self.trans_acc, 1.0, listed.trans_acc_mm_s2),
+        let vel = value(self.vel, decoder.modal.unit_mm() / 60.0, listed.vel_mm_s);
+        let acc = value(self.acc, per_time2, listed.acc_mm_s2);
+        let dec = value(self.dec, per_time2, listed.dec_mm_s2);
+        let jerk = value(self.jerk, 1.0, listed.jerk_mm_s3);
+        let radial_acc = value(self.radial_acc, per_time2, listed.radial_acc_mm_s2);
+        let radial_jerk = value(self.radial_jerk, per_time2 / t, listed.radial_jerk_mm_s3);
+        let trans_acc = value(self.trans_acc, 1.0, listed.trans_acc_mm_s2);
+        move |v| {
+            v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
+            v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);
+            v.dec_mm_s2 = dec.unwrap_or(v.dec_mm_s2);
+            v.jerk_mm_s3 = jerk.unwrap_or(v.jerk_mm_s3);
+            v.radial_acc_mm_s2 = radial_acc.unwrap_or(v.radial_acc_mm_s2);
+            v.radial_jerk_mm_s3 = radial_jerk.unwrap_or(v.radial_jerk_mm_s3);
+            v.trans_acc_mm_s2 = trans_acc.unwrap_or(v.trans_acc_mm_s2);
         }
     }
 }
