@@ -23,15 +23,15 @@ mod values;
 pub(crate) use block::dialect::unknown_g;
 pub(crate) use block::groups::unsupported as unsupported_function;
 pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value};
-pub(crate) use program::ahead::{Ahead, Decoded, connection};
+pub(crate) use program::ahead::connection;
 pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
 pub(crate) use program::places::Places;
 pub(crate) use step::{
-    Approach, AtCorner, BandingRun, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion,
-    OscillatingMotion, Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion,
-    SpindleState, Step, Sync, TimerCall, Told, WearSetting, WornPart,
+    Ahead, Approach, AtCorner, BandingRun, CuttingSpeed, Decoded, EndReason, Event, Feedback,
+    IndependentMotion, OscillatingMotion, Probed, ShapingSettings, ShapingSetup, SourceRef,
+    SpindleMotion, SpindleState, Step, Sync, TimerCall, Told, WearSetting, WornPart,
 };
 pub(crate) use values::system::{meaning_of, meanings};
 

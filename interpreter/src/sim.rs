@@ -11,17 +11,21 @@ mod axes;
 mod banding;
 mod batch;
 mod chain;
+mod driver;
 mod fault;
 mod independent;
 mod inputs;
+mod messages;
 mod out;
 mod patience;
 mod probe;
 mod program;
+mod reaction;
 mod real_time;
 mod smoothing;
 mod spindle;
 mod start;
+mod state;
 mod steps;
 mod thread;
 mod times;
@@ -30,160 +34,32 @@ mod wait;
 mod wear;
 
 pub use inputs::{Change, Changes, Signal};
-pub(crate) use out::{Measuring, Messages, Samples};
+pub(crate) use messages::Messages;
+pub(crate) use out::{Measuring, Samples};
 pub(crate) use start::impossible_axes;
+pub(crate) use state::Simulation;
 pub use thread::Work;
 pub(crate) use thread::give;
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::exec::{EndReason, Event, SourceRef, Step, Sync};
-use crate::machine::Machine;
-use crate::record::{CycleRecord, Motion, RowBuffer};
-use axes::Driver;
-use banding::Banding;
-use batch::{Batch, MOST};
+use crate::record::{CycleRecord, RowBuffer};
+use batch::MOST;
 use chain::AxisChain;
-use independent::IndependentAxes;
-use inputs::Inputs;
-use kontur_filters::time::CycleTime;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::cap::SpeedLimit;
-use kontur_motion::planner::{Next, Planner};
-use probe::Probing;
-use program::Program;
-use smoothing::Smoothing;
+use kontur_motion::planner::Next;
 use spindle::Spindle;
-use std::collections::VecDeque;
+use state::Phase;
 use std::sync::Arc;
-use times::Times;
-use totals::{Programmed, Progress};
-use wait::{Parts, Wait};
-use wear::Wear;
+use wait::Parts;
 
-/// Phase of a run.
-#[derive(Debug)]
-enum Phase {
-    /// The row of time zero has not been output yet.
-    Start,
-    /// The planner determines the motion.
-    Running,
-    /// At rest until the condition is met.
-    Waiting(Wait),
-    /// Braking after a fault, until the axes have come to rest.
-    Stopping(fault::Stopping),
-    Done,
-}
-
-/// A block on its way from the program to the machine.
-#[derive(Debug)]
-struct Underway {
-    seq: u64,
-    source: SourceRef,
-    programmed: Programmed,
-    motion: Motion,
-    /// Its programmed time in s (G93).
-    time_s: Option<f64>,
-    /// Programmed end of the block.
-    target: AxisVec,
-    jerk_limited: bool,
-    events: Vec<Event>,
-}
-
-/// A thread of G33 that is being cut.
-#[derive(Clone, Copy, Debug)]
-struct Thread {
-    /// Whether the override has no effect on it.
-    full_override: bool,
-    /// Whether its pitch has changed, which is reported once.
-    broken: bool,
-}
-
-/// Continuation after the path has come to rest.
-#[derive(Debug)]
-enum After {
-    Sync(Sync),
-    End(EndReason),
-}
-
-/// A continuation with its block.
-#[derive(Debug)]
-struct Pending {
-    after: After,
-    source: SourceRef,
-    /// They occur when the path has stopped.
-    events: Vec<Event>,
-    /// Blocks of the program up to it.
-    blocks: u64,
-}
-
-/// One channel running one program.
-#[derive(Debug)]
-pub(crate) struct Simulation {
-    machine: Arc<Machine>,
-    cycle: CycleTime,
-    program: Program,
-    smoothing: Smoothing,
-    planner: Planner,
-    /// Path axes, spindles, gantry slaves.
-    chains: Vec<AxisChain>,
-    drivers: Vec<Driver>,
-    spindles: Vec<Spindle>,
-    /// Setpoint of every spindle in this cycle, in deg.
-    spindle_deg: Vec<f64>,
-    inputs: Inputs,
-    independent: IndependentAxes,
-    /// Feedforward gain of every chain.
-    gains: Vec<f64>,
-    underway: VecDeque<Underway>,
-    current: SourceRef,
-    /// Block of the last cycle, see [`Self::block_of_cycle`].
-    shown: SourceRef,
-    motion: Motion,
-    /// Whether feedhold or override 0 keeps the path at rest in this cycle.
-    is_held: bool,
-    /// Block for which the path waits at rest.
-    waits_at: SourceRef,
-    /// Block of the last stop of every chain.
-    stops_at: Vec<SourceRef>,
-    jerk_limited: bool,
-    /// What happens when the path has come to rest, in this order.
-    pending: VecDeque<Pending>,
-    /// Waits at the end of a block whose corner is rounded, until the block after it is known.
-    at_corner: VecDeque<Pending>,
-    /// A step after such waits that is not that block.
-    postponed: Option<Step>,
-    phase: Phase,
-    /// The cycle computed last; initially the state at time zero.
-    record: CycleRecord,
-    /// Programmed end of the block, for every chain.
-    targets: Vec<f64>,
-    /// Cycles that are computed in a row.
-    batch: Batch,
-    /// Set positions of the path axes in the previous cycle, before their filters.
-    path_position: AxisVec,
-    /// G33: the share of a cycle by which the axes lag the planner, to be synchronous with the mark of the spindle.
-    thread_delay: f64,
-    /// The thread of G33 that is cut, with conditions that may break it.
-    thread: Option<Thread>,
-    times: Times,
-    /// The measuring run under way.
-    probing: Option<Probing>,
-    /// The cycle last reported to the program.
-    told: Option<u64>,
-    /// The motion of edge banding under way.
-    banding: Option<Banding>,
-    /// `#OTC`.
-    wear: Wear,
-    /// In a thread, the set positions of the path axes in the previous cycle as planned.
-    planned: AxisVec,
-    max_cycles: u64,
-    /// The limit as given, for its message.
-    max_time_s: f64,
-    /// Position at which a fault has stopped each axis.
-    frozen: Vec<Option<f64>>,
-    messages: Messages,
-    progress: Progress,
-    totals: Totals,
+/// A cycle of a path that waits at rest.
+enum Waited {
+    /// It waits in this cycle.
+    Cycle,
+    /// The condition is met.
+    Over,
+    /// It can never be met.
+    InVain,
 }
 
 impl Simulation {
@@ -297,35 +173,11 @@ impl Simulation {
                     Ok(Next::Rest) => self.at_rest(),
                     Err(e) => self.fail(&format!("look-ahead: {e}")),
                 },
-                Phase::Waiting(wait) => {
-                    let k = self.planner.setpoint().k;
-                    let parts = Parts {
-                        chains: &self.chains,
-                        drivers: &self.drivers,
-                        spindles: &self.spindles,
-                        independent: &self.independent,
-                        cycle: self.cycle,
-                    };
-                    // a held path does not begin a thread: it would miss the mark
-                    let bars = wait.mark().is_some_and(|m| self.inputs.bar(m.full_override));
-                    if !bars && wait.is_over(parts) {
-                        self.go_on();
-                        continue;
-                    }
-                    if (bars || wait.is_held(&self.independent, k)) && self.inputs.is_over() {
-                        self.held_for_ever();
-                        return false;
-                    }
-                    if self.inputs.is_over()
-                        && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
-                    {
-                        self.never_arrives(chain, lacks);
-                        return false;
-                    }
-                    wait.begin_cycle(parts, k);
-                    self.planner.hold(SpeedLimit::Stop);
-                    break;
-                }
+                Phase::Waiting(_) => match self.wait() {
+                    Waited::Cycle => break,
+                    Waited::Over => self.go_on(),
+                    Waited::InVain => return false,
+                },
                 Phase::Stopping(stopping) => {
                     let set_rests = self.planner.brake_is_over()
                         && !self.independent.any_moving()
@@ -351,6 +203,37 @@ impl Simulation {
         true
     }
 
+    /// Waits for one more cycle, unless what the path waits for has come or never will.
+    fn wait(&mut self) -> Waited {
+        let Phase::Waiting(wait) = &mut self.phase else { return Waited::Over };
+        let k = self.planner.setpoint().k;
+        let parts = Parts {
+            chains: &self.chains,
+            drivers: &self.drivers,
+            spindles: &self.spindles,
+            independent: &self.independent,
+            cycle: self.cycle,
+        };
+        // a held path does not begin a thread: it would miss the mark
+        let bars = wait.mark().is_some_and(|m| self.inputs.bar(m.full_override));
+        if !bars && wait.is_over(parts) {
+            return Waited::Over;
+        }
+        if (bars || wait.is_held(&self.independent, k)) && self.inputs.is_over() {
+            self.held_for_ever();
+            return Waited::InVain;
+        }
+        if self.inputs.is_over()
+            && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
+        {
+            self.never_arrives(chain, lacks);
+            return Waited::InVain;
+        }
+        wait.begin_cycle(parts, k);
+        self.planner.hold(SpeedLimit::Stop);
+        Waited::Cycle
+    }
+
     /// Ends the run because of an internal error of kontur.
     pub(crate) fn fail(&mut self, text: &str) {
         self.messages.own.push(fault::internal(text));
@@ -360,13 +243,13 @@ impl Simulation {
 
     /// Ends the run where the program needs a cycle beyond its time limit; braking after a fault is not limited.
     fn is_out_of_time(&mut self) -> bool {
-        let last = self.max_cycles;
+        let last = self.limit.cycles;
         if self.planner.setpoint().k <= last || matches!(self.phase, Phase::Stopping(_)) {
             return false;
         }
-        let mut late = fault::out_of_time(last, self.max_time_s, self.cycle);
+        let mut late = fault::out_of_time(last, self.limit.seconds, self.cycle);
         let waits = matches!(self.phase, Phase::Waiting(_));
-        let block = if waits { self.waits_at } else { self.current };
+        let block = if waits { self.blocks.waits_at } else { self.blocks.current };
         late.source = self.program.locate(block);
         self.messages.own.push(late);
         self.totals.aborted = true;

@@ -43,6 +43,7 @@ use ast::{Block, BlockNumber, Body, Span};
 use build::{Builder, PROBLEMS_MAX};
 use grammar::{Grammar, Rule};
 use pest::Parser as _;
+use pest::error::Error;
 use problem::Problem;
 pub(crate) use problem::statement_meant;
 use std::sync::Arc;
@@ -246,38 +247,30 @@ impl Parser {
         }
         match parsed {
             Ok(pairs) => builder.block(pairs),
-            Err(error) => {
-                let mut found = problem::from_error(&error, &masked.text, context, 0);
-                if mode == Mode::Declaration && found.condition == Condition::Syntax {
-                    let first = masked.text.trim_ascii_start().as_bytes().first();
-                    found = match first {
-                        Some(b'R' | b'r') => found.of(Condition::RadiusArray),
-                        Some(b'V' | b'v' | b'P' | b'p' | b'@') => {
-                            found.of(Condition::DeclarationCharacter)
-                        }
-                        _ => found
-                            .of(Condition::DeclarationCharacter)
-                            .hint("check whether #ENDVAR is missing before it"),
-                    };
-                }
-                // the text after a function without its bracket is not a word
-                let lost = found.condition == Condition::FunctionBracket;
-                let jump = found.condition == Condition::GotoTarget;
-                let end = jump.then_some(found.span.start as usize);
-                builder.report_error(found);
-                let rule = match (context, mode) {
-                    (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
-                    _ => Rule::head_only,
-                };
-                // nor is the text written in place of a label
-                let read = &masked.text[..end.unwrap_or(masked.text.len())];
-                match Grammar::parse(rule, read) {
-                    Ok(pairs) => builder.block(pairs),
-                    Err(_) => Block::default(),
-                }
-            }
+            Err(error) => rest_of(builder, &error, &masked.text, mode),
         }
     }
+}
+
+/// Reports the failure of the grammar; the block of what can still be read.
+fn rest_of(mut builder: Builder<'_>, error: &Error<Rule>, masked: &str, mode: Mode) -> Block {
+    let context = problem::Context::of(masked);
+    let mut found = problem::from_error(error, masked, context, 0);
+    if mode == Mode::Declaration && found.condition == Condition::Syntax {
+        found = problem::of_declaration(found, masked);
+    }
+    // the text after a function without its bracket is not a word
+    let lost = found.condition == Condition::FunctionBracket;
+    let jump = found.condition == Condition::GotoTarget;
+    let end = jump.then_some(found.span.start as usize);
+    builder.report_error(found);
+    let rule = match (context, mode) {
+        (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
+        _ => Rule::head_only,
+    };
+    // nor is the text written in place of a label
+    let read = &masked[..end.unwrap_or(masked.len())];
+    Grammar::parse(rule, read).map_or_else(|_| Block::default(), |pairs| builder.block(pairs))
 }
 
 /// The problems of single characters: invalid ones, and the `(` of a remark that is not closed.

@@ -23,172 +23,17 @@
 //! assert!((plant.measured().motor_mm - 99.0).abs() < 1e-9);
 //! ```
 
+mod config;
 mod linear;
 mod models;
+mod quantities;
 mod row;
 
-use super::fault::Issue;
 use crate::time::CycleTime;
+pub use config::{ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig};
 use linear::{Continuous, LinearPlant};
-pub use models::{ModalConfig, Mode, SpeedLoop, TwoMassConfig};
+pub use quantities::{Disturbance, Measured, PlantError, PlantInput};
 pub(crate) use row::{FewStates, InAxis, PlantOfRow};
-
-/// Kind and parameters of the simulated axis.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PlantModel {
-    /// Actual = set position, one cycle later (P-AXIS-00096 `antr.simu.ist_gleich_soll`).
-    Follow,
-    /// The vendor's simulated drive (drive type 4): velocity loop of second order.
-    ///
-    /// Assumption: `v = u / (1 + 2D s/w0 + s2/w0^2)`; the manual's formula is a picture. The vendor discretises with
-    /// P-AXIS-00239/00238, here with the true cycle.
-    Simulated {
-        /// Damping ratio D, below 1 (P-AXIS-00051/00050), default 0.6.
-        damping_ratio: f64,
-        /// Natural angular frequency w0 in 1/s (P-AXIS-00062/00061), default 100.
-        natural_rad_s: f64,
-    },
-    /// Velocity loop of first order, `dv/dt = (u - v)/Ta`.
-    FirstOrder {
-        /// Time constant Ta in s.
-        time_constant_s: f64,
-    },
-    /// Motor and load, coupled by a damped spring, with velocity and current loop.
-    TwoMass(TwoMassConfig),
-    /// Rigid body with any number of vibration modes, with velocity and current loop.
-    Modal(ModalConfig),
-}
-
-impl PlantModel {
-    /// The vendor's default drive: D = 0.6, w0 = 100 1/s.
-    pub const VENDOR_DEFAULT: Self = Self::Simulated { damping_ratio: 0.6, natural_rad_s: 100.0 };
-}
-
-/// Disturbance force, sinusoidal or constant, whose amplitude may increase with the speed of the load up to a nominal
-/// speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disturbance {
-    /// Amplitude as the acceleration of the whole mass in mm/s2.
-    pub amplitude_mm_s2: f64,
-    /// Frequency in Hz; 0: a constant force.
-    pub frequency_hz: f64,
-    /// Load speed in mm/s from which the amplitude is reached in full; 0: at any speed.
-    pub full_speed_mm_s: f64,
-}
-
-/// The simulated axis as configured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlantConfig {
-    /// Drive and mechanics.
-    pub model: PlantModel,
-    /// Dead time of the speed command in cycles, 0..=5 (P-AXIS-00194), default 0.
-    pub dead_time_cycles: usize,
-    /// Disturbance force, none by default.
-    pub disturbance: Option<Disturbance>,
-}
-
-impl Default for PlantConfig {
-    fn default() -> Self {
-        Self { model: PlantModel::VENDOR_DEFAULT, dead_time_cycles: 0, disturbance: None }
-    }
-}
-
-impl PlantConfig {
-    /// Largest dead time in cycles.
-    pub const MAX_DEAD_TIME: usize = 5;
-
-    /// The configuration with the documented corrections: 80044 (damping), 110040 (dead time).
-    pub fn checked(mut self) -> (Self, Vec<Issue>) {
-        let mut issues = Vec::new();
-        if let PlantModel::Simulated { damping_ratio, .. } = &mut self.model
-            && *damping_ratio >= 1.0
-        {
-            issues.push(Issue::SimulationDamping { damping_ratio: *damping_ratio });
-            *damping_ratio = 0.999;
-        }
-        if self.dead_time_cycles > Self::MAX_DEAD_TIME {
-            let cycles = u32::try_from(self.dead_time_cycles).unwrap_or(u32::MAX);
-            issues.push(Issue::DeadTime { cycles });
-            self.dead_time_cycles = Self::MAX_DEAD_TIME;
-        }
-        (self, issues)
-    }
-}
-
-/// A plant whose parameters describe no physical system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PlantError {
-    /// A time constant, frequency, mass ratio or gain that must be positive (and finite) is not.
-    #[error("{0} must be positive and finite")]
-    NotPositive(&'static str),
-    /// A value is not a finite number.
-    #[error("{0} must be finite")]
-    NotFinite(&'static str),
-    /// The exact discretisation has no finite result: the model is far too fast for the cycle.
-    #[error("the model cannot be discretised at this cycle time")]
-    TooStiff,
-}
-
-/// Inputs of the plant in a cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlantInput {
-    /// Speed command in mm/s, additive velocity included.
-    pub speed_mm_s: f64,
-    /// Additive torque as acceleration in mm/s2.
-    pub acc_mm_s2: f64,
-    /// External force as acceleration of the whole mass in mm/s2, in addition to the configured disturbance.
-    pub force_mm_s2: f64,
-    /// Reference position in mm, for the model without dynamics.
-    pub reference_mm: f64,
-}
-
-/// What can be measured on the plant.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Measured {
-    /// Motor encoder in mm of axis travel.
-    pub motor_mm: f64,
-    /// Motor speed in mm/s.
-    pub motor_mm_s: f64,
-    /// Load (direct) encoder in mm.
-    pub load_mm: f64,
-    /// Load speed in mm/s.
-    pub load_mm_s: f64,
-    /// Tool point in mm.
-    pub tcp_mm: f64,
-    /// Speed of the tool point in mm/s.
-    pub tcp_mm_s: f64,
-}
-
-impl Measured {
-    #[inline]
-    fn rigid(position_mm: f64, speed_mm_s: f64) -> Self {
-        Self {
-            motor_mm: position_mm,
-            motor_mm_s: speed_mm_s,
-            load_mm: position_mm,
-            load_mm_s: speed_mm_s,
-            tcp_mm: position_mm,
-            tcp_mm_s: speed_mm_s,
-        }
-    }
-
-    /// Replaces the previous measurement unless a value is not finite; false in that case.
-    #[inline] // where it is made, its values are still in registers: as a whole it would be read back before it is written
-    fn replace(self, before: &mut Self) -> bool {
-        let finite = self.is_finite();
-        if finite {
-            *before = self;
-        }
-        finite
-    }
-
-    /// Whether every value is finite.
-    #[inline]
-    pub fn is_finite(&self) -> bool {
-        let Self { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s } = self;
-        [motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s].iter().all(|v| v.is_finite())
-    }
-}
 
 /// The simulated axis with its state.
 #[derive(Clone, Debug)]

@@ -8,8 +8,10 @@
 //!
 //! Source: TE13xx TC3 Scope View, export in csv.
 
+mod channel;
 mod even;
 
+pub(crate) use channel::Channel;
 pub(crate) use even::{DropOut, Even};
 
 use crate::Error;
@@ -51,17 +53,6 @@ const TIME_UNITS: [(&str, f64); 10] = [
 ];
 /// Units of times in exports of TwinCAT Scope in s: milliseconds, and ticks of file times.
 const SCOPE_UNITS: [f64; 2] = [1e-3, 1e-7];
-
-/// One recorded signal.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Channel {
-    /// Name in the file.
-    pub(crate) name: String,
-    /// Times in s from the first time of the file; empty without a column of times.
-    pub(crate) times_s: Vec<f64>,
-    /// Values as written in the file.
-    pub(crate) values: Vec<f64>,
-}
 
 /// Reads every channel of a file.
 ///

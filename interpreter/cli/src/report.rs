@@ -19,7 +19,7 @@ mod views;
 use crate::args::ReportArgs;
 use crate::console::Console;
 use crate::files::STANDARD;
-use crate::request::Opened;
+use crate::request::{Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
 use crate::{Error, Exit, times};
@@ -62,45 +62,16 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     let mut beside: Vec<Beside> = Vec::new();
     let mut read_texts = BTreeSet::new();
     for (program, values, request) in requests(args)? {
-        let opened = request.open().map_err(|e| announce_lists(e, console))?;
-        let Opened { mut run, reads } = opened;
-        keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;
-        let mut summary = Collector::new(run.facts());
-        let mut recording = Recording::new(run.facts());
-        let mut times = times::Collector::new(run.facts());
-        let cycle_s = run.facts().cycle_s();
-        let is_drawn = |t: f64| args.window.is_none_or(|(from, to)| t >= from && t <= to);
-        let take = |rows: &Rows<'_>| {
-            times.add(rows);
-            recording.add(&rows.during(|k| is_drawn(k as f64 * cycle_s)));
-            Ok(())
-        };
-        let take = Some((times::Collector::asked().and(Recording::asked()), take));
-        drive(&mut run, Shown::ALONE, console, Some(&mut summary), take)?;
-        // including the subroutines that the run reached
-        keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;
-        recording.finish();
-        let totals = run.totals();
-        let summary = summary.finish(&totals);
-        if let (Some((from, to)), true) = (args.window, summary.cycles > 0)
-            && recording.buckets.is_empty()
-        {
-            let text = format!("--window {from}..{to}: the run ends at {} s", summary.duration_s);
-            return Err(Error::Usage(text));
-        }
+        // runs of one program are distinguished by the varied values
+        let program = if values.is_empty() { program } else { format!("{program}, {values}") };
+        let (run, times) = drawn(args, program, &request, &output, console)?;
         // several runs of one program show its text once
-        let files = run.facts().files.all();
+        let files = run.recording.facts.files.all();
         let texts =
             files.iter().map(|f| read_texts.insert(f.clone()).then(|| lines_of(f)).flatten());
         let texts = texts.collect();
-        beside.push(Beside { times: times.finish(), texts, window: args.window });
-        // runs of one program are distinguished by the varied values
-        let program = if values.is_empty() { program } else { format!("{program}, {values}") };
-        runs.push(Drawn {
-            recording,
-            summary: Summary { program, ..summary },
-            guards: totals.guards,
-        });
+        beside.push(Beside { times, texts, window: args.window });
+        runs.push(run);
     }
     // refused programs cannot be drawn
     if runs.iter().any(|r| r.summary.cycles > 0) {
@@ -112,6 +83,44 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     }
     let aborted = runs.iter().any(|r| r.summary.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+/// Runs one program, and records what is drawn of it.
+fn drawn(
+    args: &ReportArgs,
+    program: String,
+    request: &Request,
+    output: &Path,
+    console: &mut Console,
+) -> Result<(Drawn, times::Times), Error> {
+    let outputs = [output.to_owned()];
+    let Opened { mut run, reads } = request.open().map_err(|e| announce_lists(e, console))?;
+    keep_apart(&reads.so_far(), &outputs)?;
+    let mut summary = Collector::new(run.facts());
+    let mut recording = Recording::new(run.facts());
+    let mut times = times::Collector::new(run.facts());
+    let cycle_s = run.facts().cycle_s();
+    let is_drawn = |t: f64| args.window.is_none_or(|(from, to)| t >= from && t <= to);
+    let take = |rows: &Rows<'_>| {
+        times.add(rows);
+        recording.add(&rows.during(|k| is_drawn(k as f64 * cycle_s)));
+        Ok(())
+    };
+    let take = Some((times::Collector::asked().and(Recording::asked()), take));
+    drive(&mut run, Shown::ALONE, console, Some(&mut summary), take)?;
+    // including the subroutines that the run reached
+    keep_apart(&reads.so_far(), &outputs)?;
+    recording.finish();
+    let totals = run.totals();
+    let summary = summary.finish(&totals);
+    if let (Some((from, to)), true) = (args.window, summary.cycles > 0)
+        && recording.buckets.is_empty()
+    {
+        let text = format!("--window {from}..{to}: the run ends at {} s", summary.duration_s);
+        return Err(Error::Usage(text));
+    }
+    let summary = Summary { program, ..summary };
+    Ok((Drawn { recording, summary, guards: totals.guards }, times.finish()))
 }
 
 /// The form of a report.

@@ -5,12 +5,12 @@ use crate::console::{Console, Progress};
 use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened};
-use crate::target::{create_all, keep_apart};
+use crate::target::{Target, create_all, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
 use kontur_interpreter::job::{Run, Sink, Totals, Work};
 use kontur_interpreter::record::{Asked, Rows};
-use kontur_interpreter::summary::Collector;
+use kontur_interpreter::summary::{Collector, Summary};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread::{Builder, available_parallelism};
@@ -66,26 +66,14 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     let summary = summary.map(|summary| summary.finish(&totals));
     let mut times = times.map(times::Collector::finish);
     if let (Some(times), Some(table)) = (&times, &mut table) {
-        let text = times.csv().map_err(io::Error::from);
-        let written = text.and_then(|text| table.file()?.write_all(&text));
-        let name = || outputs.last().map(|path| path.display().to_string()).unwrap_or_default();
-        written.and_then(|()| table.show()).map_err(|e| Error::io(name(), e))?;
+        let name = outputs.last().map(|path| path.display().to_string()).unwrap_or_default();
+        write_times(times, table).map_err(|e| Error::io(name, e))?;
     }
     if let Some(times) = times.as_mut().filter(|_| summary.is_some() && !totals.aborted) {
         times::try_out(times, &args.simulation.request(&args.program));
     }
-    let text = summary.map(|summary| match (args.summary, &times) {
-        (SummaryForm::Json, Some(times)) => times.json_of(&summary),
-        (SummaryForm::Json, None) => summary.json(),
-        (SummaryForm::Text | SummaryForm::None, times) => {
-            summary.text() + &times.as_ref().map(times::Times::text).unwrap_or_default()
-        }
-    });
-    match text {
-        // stdout is used by the trace
-        Some(text) if args.output.iter().any(|o| is_standard(o)) => console.error_text(&text),
-        Some(text) => console.print(&text)?,
-        None => {}
+    if let Some(summary) = summary {
+        show_summary(args, &summary, times.as_ref(), console)?;
     }
     if let Some(e) = interrupted {
         return Err(e);
@@ -95,6 +83,34 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
         Totals { aborted: true, .. } => Exit::Aborted,
         _ => Exit::Finished,
     })
+}
+
+fn write_times(times: &times::Times, table: &mut Target) -> io::Result<()> {
+    let text = times.csv().map_err(io::Error::from)?;
+    table.file()?.write_all(&text)?;
+    table.show()
+}
+
+/// Prints the summary, with the times of the blocks if there are any.
+fn show_summary(
+    args: &RunArgs,
+    summary: &Summary,
+    times: Option<&times::Times>,
+    console: &mut Console,
+) -> Result<(), Error> {
+    let text = match (args.summary, times) {
+        (SummaryForm::Json, Some(times)) => times.json_of(summary),
+        (SummaryForm::Json, None) => summary.json(),
+        (SummaryForm::Text | SummaryForm::None, times) => {
+            summary.text() + &times.map(times::Times::text).unwrap_or_default()
+        }
+    };
+    if args.output.iter().any(|o| is_standard(o)) {
+        // stdout is used by the trace
+        console.error_text(&text);
+        return Ok(());
+    }
+    console.print(&text)
 }
 
 /// Continues with the other outputs where stdout is no longer read.

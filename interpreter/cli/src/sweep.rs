@@ -20,6 +20,7 @@
 //! ```
 
 mod columns;
+mod idle;
 mod journal;
 mod one;
 #[cfg(feature = "parquet")]
@@ -29,17 +30,16 @@ mod plan;
 mod rows;
 
 use crate::args::{SweepArgs, Vary};
-use crate::combinations::{combinations, put, settings, without_effect};
+use crate::combinations::{combinations, put, settings};
 use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened};
-use crate::table::Cell;
 use crate::target::{Target, create_all, keep_apart};
 use crate::{Error, Exit};
+use idle::{idle, is_finished, is_there};
 use journal::Journal;
 use kontur_interpreter::diag::Severity;
-use kontur_interpreter::summary::State;
-use one::row;
+use one::{Failure, row};
 pub use plan::Plan;
 use rayon::prelude::*;
 pub use rows::Row;
@@ -53,18 +53,6 @@ use std::sync::mpsc;
 pub const WITHOUT_EFFECT: &str = "without_effect";
 /// The message about such a parameter.
 pub const NO_DIFFERENCE: &str = "all values give the same results in these columns; the program sets its own value, the value is not used, or it affects other results";
-
-/// Reasons for a missing row.
-enum Failure {
-    Open(OpenError),
-    Interrupted,
-}
-
-impl Failure {
-    const fn usage(text: String) -> Self {
-        Self::Open(OpenError::Usage(text))
-    }
-}
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
 ///
@@ -129,40 +117,6 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     }
     let any_finished = rows.cells.iter().any(|row| is_finished(&args.vary, row));
     Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
-}
-
-/// Whether the run of a row finished.
-fn is_finished(vary: &[Vary], row: &[Cell]) -> bool {
-    matches!(&row[vary.len()], Cell::Word(state) if state == State::Finished.name())
-}
-
-/// Keys of parameters without influence on any row. Empty if every run has ended with an error, since such rows are
-/// alike for that reason.
-fn idle<'v>(vary: &'v [Vary], combinations: &[Vec<usize>], rows: &[Vec<Cell>]) -> Vec<&'v str> {
-    if !rows.iter().any(|row| is_finished(vary, row)) {
-        return Vec::new();
-    }
-    // a result that is missing in every row is not informative; missing in some rows it is a result like any other
-    let first = vary.len() + columns::STATE.len();
-    let told: Vec<usize> =
-        (first..rows[0].len()).filter(|c| rows.iter().any(|row| is_there(&row[*c]))).collect();
-    if told.is_empty() {
-        return Vec::new();
-    }
-    let result = |cell: &Cell| match cell.number() {
-        Some(x) => (Some(x).filter(|x| x.is_finite()), String::new()),
-        None => (None, cell.text()),
-    };
-    let state = vary.len()..first;
-    let columns = || state.clone().chain(told.iter().copied());
-    let results: Vec<Vec<_>> =
-        rows.iter().map(|row| columns().map(|c| result(&row[c])).collect()).collect();
-    without_effect(vary, combinations, &results).iter().map(|v| v.key.as_str()).collect()
-}
-
-/// Whether a run has this result: a text, or a number.
-fn is_there(cell: &Cell) -> bool {
-    cell.number().is_none_or(f64::is_finite)
 }
 
 /// Amplitudes with a window that no run reaches.
@@ -234,6 +188,57 @@ fn write(
     target.show().map_err(to_error)
 }
 
+/// Runs these combinations with progress on the terminal, and enters their rows into the journal; the first one that failed.
+fn run_open(
+    args: &SweepArgs,
+    combinations: &[Vec<usize>],
+    open: &[usize],
+    mut journal: Option<&mut Journal>,
+    console: &mut Console,
+    mut take: impl FnMut(usize, Row, Vec<PathBuf>),
+) -> Result<Option<(usize, Failure)>, Error> {
+    let before = combinations.len() - open.len();
+    let mut progress = console.progress();
+    let _running = Running::start();
+    let mut failed: Option<(usize, Failure)> = None;
+    let mut written = Ok(());
+    std::thread::scope(|scope| {
+        let (send, receive) = mpsc::channel();
+        scope.spawn(move || {
+            open.par_iter().for_each_with(send, |send, &i| {
+                if Running::is_interrupted() {
+                    return;
+                }
+                let row = row(args, &combinations[i]);
+                // the receiver exists until the last sender is dropped
+                let _ = send.send((i, row));
+            });
+        });
+        for (count, (i, row)) in receive.into_iter().enumerate() {
+            progress.show_rest(before + count + 1, combinations.len(), count + 1);
+            match row {
+                Ok((row, read)) => {
+                    if let (Some(journal), Ok(())) = (&mut journal, &written) {
+                        written = journal.write(i, &row);
+                    }
+                    take(i, row, read);
+                }
+                // the first combination that fails, not the first one to report it
+                Err(e) if failed.as_ref().is_none_or(|(first, _)| i < *first) => {
+                    failed = Some((i, e));
+                }
+                Err(_) => {}
+            }
+        }
+    });
+    drop(progress);
+    written?;
+    if Running::is_interrupted() {
+        failed = failed.or(Some((0, Failure::Interrupted)));
+    }
+    Ok(failed)
+}
+
 /// Runs the combinations that are not in the journal, with progress on the terminal; returns all rows, and the files
 /// that were read for them.
 fn run_all(
@@ -255,46 +260,11 @@ fn run_all(
             format!("continues where it was stopped: {before} of {} runs are complete", done.len());
         console.say(Severity::Note, &text);
     }
-    let mut progress = console.progress();
-    let _running = Running::start();
-    let mut failed: Option<(usize, Failure)> = None;
-    let mut written = Ok(());
     let mut reads = BTreeSet::new();
-    std::thread::scope(|scope| {
-        let (send, receive) = mpsc::channel();
-        scope.spawn(move || {
-            open.par_iter().for_each_with(send, |send, &i| {
-                if Running::is_interrupted() {
-                    return;
-                }
-                let row = row(args, &combinations[i]);
-                // the receiver exists until the last sender is dropped
-                let _ = send.send((i, row));
-            });
-        });
-        for (count, (i, row)) in receive.into_iter().enumerate() {
-            progress.show_rest(before + count + 1, combinations.len(), count + 1);
-            match row {
-                Ok((row, read)) => {
-                    reads.extend(read);
-                    if let (Some(journal), Ok(())) = (&mut journal, &written) {
-                        written = journal.write(i, &row);
-                    }
-                    done[i] = Some(row);
-                }
-                // the first combination that fails, not the first one to report it
-                Err(e) if failed.as_ref().is_none_or(|(first, _)| i < *first) => {
-                    failed = Some((i, e));
-                }
-                Err(_) => {}
-            }
-        }
-    });
-    drop(progress);
-    written?;
-    if Running::is_interrupted() {
-        failed = failed.or(Some((0, Failure::Interrupted)));
-    }
+    let failed = run_open(args, combinations, &open, journal, console, |i, row, read| {
+        reads.extend(read);
+        done[i] = Some(row);
+    })?;
     match failed {
         None => {}
         Some((_, Failure::Interrupted)) => return Err(Error::Stopped),

@@ -2,23 +2,25 @@
 
 mod background;
 pub(crate) mod batch;
+mod clock;
 pub(crate) mod csv;
 pub(crate) mod fixed;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;
+mod writer;
 
 use crate::Error;
 use crate::console::Console;
 use crate::files::STANDARD;
 use crate::target::Target;
 use background::Background;
-use batch::{Batch, Numbers};
+use batch::Numbers;
 use kontur_interpreter::job::{Facts, Run};
 use kontur_interpreter::record::columns::{self, Column};
 use kontur_interpreter::record::{Asked, Rows};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use writer::Writer;
 
 /// One trace file.
 #[derive(Debug)]
@@ -39,44 +41,6 @@ enum Way {
     Ended(Writer),
     /// The reader is gone.
     Closed,
-}
-
-/// The writer of a file.
-#[derive(Debug)]
-enum Writer {
-    Csv(Box<csv::CsvWriter>),
-    #[cfg(feature = "parquet")]
-    Parquet(Box<parquet::ParquetWriter>),
-}
-
-impl Writer {
-    fn write(&mut self, batch: &Batch) -> io::Result<()> {
-        match self {
-            Self::Csv(w) => w.write(batch),
-            #[cfg(feature = "parquet")]
-            Self::Parquet(w) => w.write(batch),
-        }
-    }
-
-    /// Hands over waiting rows, as far as possible before the end.
-    fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::Csv(w) => w.flush(),
-            #[cfg(feature = "parquet")]
-            Self::Parquet(w) => w.flush(),
-        }
-    }
-
-    fn finish(self, run: &Run) -> io::Result<()> {
-        // only Parquet stores values that are known at the end
-        #[cfg(not(feature = "parquet"))]
-        let _ = run;
-        match self {
-            Self::Csv(mut w) => w.finish(),
-            #[cfg(feature = "parquet")]
-            Self::Parquet(w) => w.finish(run.facts(), &run.totals()),
-        }
-    }
 }
 
 impl Trace {
@@ -185,14 +149,6 @@ impl Trace {
 /// [`Error::Usage`] for an unknown word.
 pub(crate) fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, Error> {
     columns::select(signals, facts).map_err(|e| Error::Usage(format!("--signals: {e}")))
-}
-
-#[expect(
-    clippy::disallowed_methods,
-    reason = "what waits too long could be lost; no value depends on it"
-)]
-fn now() -> Instant {
-    Instant::now()
 }
 
 fn error(path: &Path, e: io::Error) -> Error {

@@ -1,7 +1,8 @@
 //! Requests with an immediate answer: check, explain, response, tune; and the runs of a sweep.
 
+use crate::arguments;
 use crate::errors::{self, Said, said};
-use crate::{arguments, interruptible};
+use crate::interrupt::interruptible;
 use kontur::args::ResponseArgs;
 use kontur::args::SweepArgs;
 use kontur::args::TuneArgs;

@@ -1,8 +1,9 @@
 //! A program under way.
 
+use crate::arguments;
 use crate::columns::Columns;
 use crate::errors::{self, Said, said};
-use crate::{arguments, interruptible};
+use crate::interrupt::interruptible;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::{Run, Sink, Stop};
 use kontur_interpreter::record::columns::select;

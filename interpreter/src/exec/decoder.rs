@@ -211,7 +211,7 @@ impl Decoder {
 
     /// The parameters of an axis or spindle, given by its logical number, have changed: the path stops, and its chain is replaced.
     pub(super) fn axis_changes(&mut self, number: u32, span: Span) {
-        self.motion.dynamics_changed();
+        self.motion.limits.changed();
         // first: a kernel is replaced only after the axes have been at standstill for its whole length
         self.update_shaping(span);
         self.sync(Sync::MachineData { axis: number });

@@ -201,7 +201,7 @@ impl Geometry {
     /// Axis positions of the tip of the tool.
     pub(in crate::exec) fn tip(&self, positions: &AxisVec) -> AxisVec {
         let mut tip = positions.clone();
-        for (x, tool) in tip.iter_mut().zip(self.coordinates.tool_offsets().iter()) {
+        for (x, tool) in tip.iter_mut().zip(self.coordinates.tool().iter()) {
             *x -= tool;
         }
         tip

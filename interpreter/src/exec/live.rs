@@ -4,8 +4,7 @@
 //! reaches them. Whatever reads the machine goes through [`Live`], which then asks for it and waits until the machine
 //! has come to the step that is being decoded: the answer is the one it would have had on one thread.
 
-use super::program::ahead::Line;
-use super::step::{Feedback, Probed, Told};
+use super::step::{Feedback, Line, Probed, Told};
 use super::step::{TimerAct, TimerCall};
 use super::values::timers::Timers;
 use std::cell::{Ref, RefCell};

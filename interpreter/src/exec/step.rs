@@ -1,7 +1,10 @@
 //! The output of the executor to the simulation: motions, stops and events, in program order.
 
+mod decoded;
 mod event;
+mod line;
 
+pub(crate) use decoded::{Decoded, Opened, Rare};
 pub(crate) use event::{
     Approach, BandingRun, CuttingSpeed, Event, SpindleMotion, TimerAct, TimerCall, WearSetting,
     WornPart,
@@ -14,6 +17,8 @@ use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::independent::IndependentSpeed;
+pub(crate) use line::Ahead;
+pub(in crate::exec) use line::{Line, line};
 use std::sync::Arc;
 
 /// Position of a block in the programs of a run.

@@ -212,94 +212,119 @@ fn check_together(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     check_gear_stage(parameters, axis, diagnostics);
+    let mut together = Together { parameters, axis, diagnostics };
+    together.software_limits();
+    together.modulo_range();
+    together.speed_band();
+    together.mode();
+    select_modulo_calculation(together.parameters);
+    together.feedforward();
+    together.simulated_damping();
+}
 
-    let mut put = |parameters: &mut Parameters,
-                   condition: Condition,
-                   place: Place,
-                   text: String,
-                   value: f64| {
+/// The parameters of one axis, and the corrections of them.
+struct Together<'a> {
+    parameters: &'a mut Parameters,
+    axis: Option<&'a AxisRef>,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl Together<'_> {
+    /// Replaces a value, and reports it.
+    fn put(&mut self, condition: Condition, place: Place, text: impl Into<String>, value: f64) {
         let row = place.row;
-        let wrong = parameters.listed(place).unwrap_or_default();
-        let at = parameters.set_by(place).and_then(|s| s.at.clone());
-        let unit = unit_of(parameters, row);
+        let wrong = self.parameters.listed(place).unwrap_or_default();
+        let at = self.parameters.set_by(place).and_then(|s| s.at.clone());
+        let unit = unit_of(self.parameters, row);
         let diagnostic = Diagnostic::new(condition, text)
             .value(ValueKind::Wrong, wrong, unit)
             .value(ValueKind::Corrected, value, unit)
             .corrected(value);
-        parameters.set(row, [0; 2], Value::Number(value), at.clone());
-        diagnostics.push(finish(diagnostic, row, at, axis));
-    };
-    let number = |p: &Parameters, param: Param<Number>| p.listed(param).unwrap_or_default();
-
-    // P-AXIS-00177, P-AXIS-00178: an empty range
-    let (lower, upper) = (axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT);
-    let (low, high) = (number(parameters, lower), number(parameters, upper));
-    if low >= high {
-        let text = format!(
-            "kenngr.swe_neg: software limits {low} and {high} leave no travel, the defaults are used"
-        );
-        put(parameters, Condition::SoftwareLimitRange, lower.place(), text.clone(), -1e8);
-        put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
+        self.parameters.set(row, [0; 2], Value::Number(value), at.clone());
+        self.diagnostics.push(finish(diagnostic, row, at, self.axis));
     }
 
-    // P-AXIS-00126, P-AXIS-00127: a modulo range without or beyond its format
-    let (upper, lower) = (axis_general::MODULO_UPPER, axis_general::MODULO_LOWER);
-    let (high, low) = (number(parameters, upper), number(parameters, lower));
-    let wrong = match high - low {
-        range if range <= 0.0 => Some((Condition::ModuloRangeEmpty, "not above 0")),
-        range if range > MODULO_RANGE_MAX => Some((Condition::ModuloRangeTooLarge, "too large")),
-        _ => None,
-    };
-    if let Some((condition, what)) = wrong.filter(|_| kind_of(parameters) != AxisKind::Linear) {
-        let text = format!(
-            "getriebe[0].moduloo: the modulo range {high} - {low} is {what}, the defaults are used"
-        );
-        put(parameters, condition, upper.place(), text.clone(), 3_600_000.0);
-        if parameters.set_by(lower).is_some() {
-            put(parameters, condition, lower.place(), text, 0.0);
+    fn number(&self, param: Param<Number>) -> f64 {
+        self.parameters.listed(param).unwrap_or_default()
+    }
+
+    /// P-AXIS-00177, P-AXIS-00178: an empty range.
+    fn software_limits(&mut self) {
+        let (lower, upper) = (axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT);
+        let (low, high) = (self.number(lower), self.number(upper));
+        if low >= high {
+            let text = format!(
+                "kenngr.swe_neg: software limits {low} and {high} leave no travel, the defaults are used"
+            );
+            self.put(Condition::SoftwareLimitRange, lower.place(), text.clone(), -1e8);
+            self.put(Condition::SoftwareLimitRange, upper.place(), text, 1e8);
         }
     }
 
-    // P-AXIS-00217: no tolerance would let a spindle reach its speed
-    let band = axis_functions::SPEED_BAND;
-    if number(parameters, band) == 0.0 {
-        let text = "kenngr.vb_prozent: a deviation of 0 lets no speed be reached, 100 is used";
-        put(parameters, Condition::SpeedBandZero, band.place(), text.to_owned(), 100.0);
-    }
-
-    // P-AXIS-00015: modes of spindles, and undefined modes
-    if let Some((condition, what, used)) = wrong_mode(parameters) {
-        let mode = parameters.get(axis_general::MODE);
-        let text = format!("kenngr.achs_mode: {mode} {what}, {used} is used");
-        put(parameters, condition, axis_general::MODE.place(), text, f64::from(used));
-    }
-
-    select_modulo_calculation(parameters);
-
-    // P-AXIS-00566 permits velocity feedforward only
-    let flags = parameters.get(axis_drive::FEEDFORWARD);
-    if parameters.get(axis_drive::FF_WITHOUT_DELAY) && flags & 0x6 != 0 {
-        let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
-                    acceleration and jerk feedforward are off"
-            .to_owned();
-        put(
-            parameters,
-            Condition::WithoutDelayNeedsVelocityOnly,
-            axis_drive::FEEDFORWARD.place(),
-            text,
-            f64::from(flags & 0x101),
-        );
-    }
-
-    // P-AXIS-00051 / P-AXIS-00050 is the damping of the simulated drive
-    let numerator = axis_drive::SIMU_DAMPING_NUM;
-    let (z, n) =
-        (number(parameters, numerator), number(parameters, axis_drive::SIMU_DAMPING_DENOM));
-    if z >= n {
+    /// P-AXIS-00126, P-AXIS-00127: a modulo range without or beyond its format.
+    fn modulo_range(&mut self) {
+        let (upper, lower) = (axis_general::MODULO_UPPER, axis_general::MODULO_LOWER);
+        let (high, low) = (self.number(upper), self.number(lower));
+        let (condition, what) = match high - low {
+            range if range <= 0.0 => (Condition::ModuloRangeEmpty, "not above 0"),
+            range if range > MODULO_RANGE_MAX => (Condition::ModuloRangeTooLarge, "too large"),
+            _ => return,
+        };
+        if kind_of(self.parameters) == AxisKind::Linear {
+            return;
+        }
         let text = format!(
-            "antr.simu.daempfung_z: damping {z}/{n} of the simulated drive is not below 1, 0.999 is used"
+            "getriebe[0].moduloo: the modulo range {high} - {low} is {what}, the defaults are used"
         );
-        put(parameters, Condition::SimulationDamping, numerator.place(), text, 0.999 * n);
+        self.put(condition, upper.place(), text.clone(), 3_600_000.0);
+        if self.parameters.set_by(lower).is_some() {
+            self.put(condition, lower.place(), text, 0.0);
+        }
+    }
+
+    /// P-AXIS-00217: no tolerance would let a spindle reach its speed.
+    fn speed_band(&mut self) {
+        let band = axis_functions::SPEED_BAND;
+        if self.number(band) == 0.0 {
+            let text = "kenngr.vb_prozent: a deviation of 0 lets no speed be reached, 100 is used";
+            self.put(Condition::SpeedBandZero, band.place(), text, 100.0);
+        }
+    }
+
+    /// P-AXIS-00015: modes of spindles, and undefined modes.
+    fn mode(&mut self) {
+        if let Some((condition, what, used)) = wrong_mode(self.parameters) {
+            let mode = self.parameters.get(axis_general::MODE);
+            let text = format!("kenngr.achs_mode: {mode} {what}, {used} is used");
+            self.put(condition, axis_general::MODE.place(), text, f64::from(used));
+        }
+    }
+
+    /// P-AXIS-00566 permits velocity feedforward only.
+    fn feedforward(&mut self) {
+        let flags = self.parameters.get(axis_drive::FEEDFORWARD);
+        if self.parameters.get(axis_drive::FF_WITHOUT_DELAY) && flags & 0x6 != 0 {
+            let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
+                        acceleration and jerk feedforward are off";
+            self.put(
+                Condition::WithoutDelayNeedsVelocityOnly,
+                axis_drive::FEEDFORWARD.place(),
+                text,
+                f64::from(flags & 0x101),
+            );
+        }
+    }
+
+    /// P-AXIS-00051 / P-AXIS-00050 is the damping of the simulated drive.
+    fn simulated_damping(&mut self) {
+        let numerator = axis_drive::SIMU_DAMPING_NUM;
+        let (z, n) = (self.number(numerator), self.number(axis_drive::SIMU_DAMPING_DENOM));
+        if z >= n {
+            let text = format!(
+                "antr.simu.daempfung_z: damping {z}/{n} of the simulated drive is not below 1, 0.999 is used"
+            );
+            self.put(Condition::SimulationDamping, numerator.place(), text, 0.999 * n);
+        }
     }
 }
 

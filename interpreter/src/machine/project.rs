@@ -37,17 +37,18 @@
 
 mod axes;
 mod content;
+mod list;
 
 use super::chain::{OWN_LIST, SEPARATORS, beside};
 use super::kind::{AxisKind, kind_of};
 use super::lists::{self, ListFiles};
-use super::parameters::Parameters;
 use super::table::{ListKind, channel as of, kontur as own};
 use crate::diag::{Condition, Diagnostic, Severity};
 use axes::spindles_of;
+use content::Content;
 pub use content::Part;
-use content::{Content, ListText};
 use kontur_filters::time::CycleTime;
+use list::{ListText, parameters};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
@@ -174,7 +175,7 @@ impl<'a> Project<'a> {
         let (numbers, renumbered) = content.number_axes(&axes)?;
         let spindle: Vec<bool> =
             axes.iter().map(|axis| kind_of(axis) == AxisKind::Spindle).collect();
-        let named = self.name_axes(&mut content, &numbers, &spindle);
+        let named = content.name_axes(&numbers, &spindle, &mut self.said);
         let channel = content.channel_defaults.iter().chain([&content.channels[0].list]);
         let channel = parameters(ListKind::Channel, &channel.collect::<Vec<_>>());
         if channel.set_by(of::AXIS_NAME.and(0).place()).is_none() {
@@ -306,13 +307,4 @@ impl<'a> Project<'a> {
         }
         format!("; {why}{replaced}")
     }
-}
-
-/// The parameters of texts, without messages: the lists are read again as files.
-fn parameters(kind: ListKind, texts: &[&ListText]) -> Parameters {
-    let mut all = Parameters::new(kind);
-    for text in texts {
-        all.apply(&lists::read(kind, "", text.text.as_bytes(), &mut Vec::new()));
-    }
-    all
 }

@@ -1,12 +1,13 @@
 //! Effects of the events of a block on the running machine: kernels, feedforward, machine data.
 
-use super::Simulation;
-use super::axes::Driver;
 use super::chain::AxisChain;
-use super::out::MESSAGES_MAX;
+use super::driver::Driver;
+use super::messages::MESSAGES_MAX;
+use super::state::Simulation;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::{Event, ShapingSetup, TimerCall};
 use crate::machine::ChainSetup;
+use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
@@ -20,16 +21,12 @@ impl Simulation {
             Event::Independent { axis, motion } => {
                 let dynamics = self.machine.axes[axis].dynamics();
                 let started = self.independent.start(axis, k, motion, &dynamics, self.cycle);
-                if let Err(e) = started {
-                    self.messages.own.push(super::fault::internal(&format!("look-ahead: {e}")));
-                }
+                self.check_started(started);
             }
             Event::Oscillation { axis, motion } => {
                 let dynamics = self.machine.axes[axis].dynamics();
                 let started = self.independent.oscillate(axis, k, &motion, &dynamics, self.cycle);
-                if let Err(e) = started {
-                    self.messages.own.push(super::fault::internal(&format!("look-ahead: {e}")));
-                }
+                self.check_started(started);
             }
             Event::Couple { slave, master, ratio, master_mm } => {
                 self.independent.couple(slave, master, ratio, master_mm);
@@ -46,58 +43,59 @@ impl Simulation {
                 self.spindle_feedforward(spindle, on, weight_ratio);
             }
             Event::SoftwareLimits { axis, limits_mm } => self.limit_axis(axis, limits_mm),
-            Event::Spindle { spindle, motion } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.command(motion);
-                    spindle.cut(&self.path_position);
-                }
-            }
-            Event::SpindleFollows { spindle, way } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.follow(way, &self.path_position);
-                }
-            }
-            Event::CuttingSpeed { spindle, cutting } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.keep_cutting_speed(cutting);
-                    spindle.cut(&self.path_position);
-                }
-            }
-            Event::SpindleAcceleration { spindle, ratio } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.weigh_acceleration(ratio);
-                }
-            }
-            Event::SpindleDynamics { spindle, dynamics } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.set_dynamics(&dynamics);
-                }
-            }
-            Event::SpindleLimits { spindle, limits } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.limit(limits);
-                }
-            }
             Event::Timer { id, act } => {
                 let time_s = self.cycle.time_of(k);
                 self.program.timer(TimerCall { id, act, time_s });
             }
-            other => {
-                let block = match &other {
-                    Event::Message { source, .. } => Some(*source),
-                    _ => None,
-                };
-                let time_s = self.cycle.time_of(self.planner.setpoint().k);
-                if let Some(mut message) = self.totals.note(other, time_s) {
-                    if self.messages.own.len() >= MESSAGES_MAX {
-                        self.messages.unshown += 1;
-                        return;
-                    }
-                    message.source = block.and_then(|block| self.program.locate(block));
-                    self.messages.own.push(message);
-                }
-            }
+            Event::Spindle { spindle, .. }
+            | Event::SpindleFollows { spindle, .. }
+            | Event::CuttingSpeed { spindle, .. }
+            | Event::SpindleAcceleration { spindle, .. }
+            | Event::SpindleDynamics { spindle, .. }
+            | Event::SpindleLimits { spindle, .. } => self.act_on_spindle(spindle, event),
+            other => self.note(other),
         }
+    }
+
+    fn check_started(&mut self, started: Result<(), Infeasible>) {
+        if let Err(e) = started {
+            self.messages.own.push(super::fault::internal(&format!("look-ahead: {e}")));
+        }
+    }
+
+    fn act_on_spindle(&mut self, spindle: usize, event: Event) {
+        let Some(spindle) = self.spindles.get_mut(spindle) else { return };
+        match event {
+            Event::Spindle { motion, .. } => {
+                spindle.command(motion);
+                spindle.cut(&self.path_position);
+            }
+            Event::SpindleFollows { way, .. } => spindle.follow(way, &self.path_position),
+            Event::CuttingSpeed { cutting, .. } => {
+                spindle.keep_cutting_speed(cutting);
+                spindle.cut(&self.path_position);
+            }
+            Event::SpindleAcceleration { ratio, .. } => spindle.weigh_acceleration(ratio),
+            Event::SpindleDynamics { dynamics, .. } => spindle.set_dynamics(&dynamics),
+            Event::SpindleLimits { limits, .. } => spindle.limit(limits),
+            _ => {}
+        }
+    }
+
+    /// Counts an event that moves nothing, or outputs its message.
+    fn note(&mut self, event: Event) {
+        let block = match &event {
+            Event::Message { source, .. } => Some(*source),
+            _ => None,
+        };
+        let time_s = self.cycle.time_of(self.planner.setpoint().k);
+        let Some(mut message) = self.totals.note(event, time_s) else { return };
+        if self.messages.own.len() >= MESSAGES_MAX {
+            self.messages.unshown += 1;
+            return;
+        }
+        message.source = block.and_then(|block| self.program.locate(block));
+        self.messages.own.push(message);
     }
 
     /// Applies the external wear; K-0138 if it exceeds what the tool permits.

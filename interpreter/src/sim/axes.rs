@@ -1,67 +1,34 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
+use super::driver::Driver;
 use super::spindle::Spindle;
-use super::{Phase, Simulation};
-use crate::exec::{ShapingSetup, SourceRef};
-use crate::machine::{Axis, Machine};
+use super::state::{Phase, Simulation};
+use crate::exec::SourceRef;
 use crate::record::{CycleRecord, PathRecord, Rest, RowBuffer};
-use kontur_filters::kernel::Kernel;
 use kontur_motion::ahead::Row;
-use std::sync::Arc;
-
-/// Source of the setpoint of a chain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Driver {
-    /// Path axis; gantry slaves follow the path axis that is their master.
-    Path(usize),
-    Spindle(usize),
-    /// A gantry slave whose master is not in the channel.
-    Standing,
-}
-
-impl Driver {
-    /// The kernel of a chain with this driver.
-    pub(super) fn kernel(self, setup: &ShapingSetup) -> Option<&Arc<Kernel>> {
-        let shaping = match self {
-            Self::Path(p) => setup.axes.get(p),
-            Self::Spindle(s) => setup.spindles.get(s),
-            Self::Standing => None,
-        };
-        shaping.and_then(|shaping| shaping.kernel.as_ref())
-    }
-}
-
-/// The driver of every chain, in the order of [`Machine::all_axes`].
-pub(super) fn drivers(machine: &Machine) -> Vec<Driver> {
-    let slave = |axis: &Axis| machine.master_of(axis).map_or(Driver::Standing, Driver::Path);
-    let slaves = machine.gantry_slaves.iter().map(slave);
-    let paths = (0..machine.axes.len()).map(Driver::Path);
-    let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
-    paths.chain(spindles).chain(slaves).collect()
-}
 
 impl Simulation {
     /// Block that the cycle belongs to. Waits for the remainder of a motion belong to its block, as long as no other
     /// block has had cycles since.
     fn block_of_cycle(&self) -> SourceRef {
-        let is_over = self.shown != self.current || self.current.line == 0;
+        let is_over = self.blocks.shown != self.blocks.current || self.blocks.current.line == 0;
         match &self.phase {
-            Phase::Waiting(wait) if is_over || wait.is_of_its_own_block() => self.waits_at,
-            Phase::Running if self.is_held => self.shown,
-            Phase::Stopping(stopping) => stopping.waited_at.unwrap_or(self.current),
-            _ => self.current,
+            Phase::Waiting(wait) if is_over || wait.is_of_its_own_block() => self.blocks.waits_at,
+            Phase::Running if self.is_held => self.blocks.shown,
+            Phase::Stopping(stopping) => stopping.waited_at.unwrap_or(self.blocks.current),
+            _ => self.blocks.current,
         }
     }
 
     /// Enters the blocks up to number `seq` at a path length, with all events in cycle `k` before the axes move.
     pub(super) fn enter_blocks(&mut self, seq: u64, s_mm: f64, k: u64) {
-        while self.underway.front().is_some_and(|u| u.seq <= seq) {
-            if let Some(block) = self.underway.pop_front() {
+        while self.queue.underway.front().is_some_and(|u| u.seq <= seq) {
+            if let Some(block) = self.queue.underway.pop_front() {
                 let changed = &mut self.smoothing.changed;
                 self.progress.begin(block.programmed, s_mm, changed);
                 // the block began after the previous cycle
                 self.time_begins(block.time_s, block.source, k.saturating_sub(1));
-                self.current = block.source;
+                self.blocks.current = block.source;
                 self.motion = block.motion;
                 for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {
                     if let Driver::Path(p) = driver {
@@ -94,10 +61,10 @@ impl Simulation {
         for (p, position) in positions.iter_mut().enumerate() {
             *position += if alone { self.independent.way_mm(p, k) } else { 0.0 };
         }
-        if self.thread_delay > 0.0 {
+        if self.thread.delay > 0.0 {
             for (p, position) in positions.iter_mut().enumerate() {
-                let before = std::mem::replace(&mut self.planned[p], *position);
-                *position += (before - *position) * self.thread_delay;
+                let before = std::mem::replace(&mut self.thread.planned[p], *position);
+                *position += (before - *position) * self.thread.delay;
             }
         }
         if alone {
@@ -127,7 +94,7 @@ impl Simulation {
                 && let Some(target_deg) = self.spindles[s].take_target()
             {
                 chain.expect_stop(target_deg);
-                self.stops_at[i] = self.current;
+                self.blocks.stops_at[i] = self.blocks.current;
             }
         }
         self.run_chains(most, rows);
@@ -146,7 +113,7 @@ impl Simulation {
             for (i, chain) in self.chains.iter_mut().enumerate() {
                 if self.drivers[i] == Driver::Path(axis) {
                     chain.expect_stop(self.path_position[axis]);
-                    self.stops_at[i] = source;
+                    self.blocks.stops_at[i] = source;
                 }
             }
         }
@@ -155,7 +122,7 @@ impl Simulation {
     /// The record is that of cycle `k`, in which nothing but the path and its block differ from the one before, apart from the
     /// axes.
     pub(super) fn pass(&mut self, k: u64, path: Row) {
-        let at = self.current;
+        let at = self.blocks.current;
         let CycleRecord { path: record, .. } = &mut self.record;
         *record = PathRecord {
             s_mm: path.s_mm,
@@ -183,7 +150,7 @@ impl Simulation {
             _ => None,
         };
         let at = self.block_of_cycle();
-        self.shown = at;
+        self.blocks.shown = at;
         self.record.file = at.file;
         self.record.line = at.line;
         self.record.block = at.block;

@@ -3,36 +3,15 @@
 //! Until then the planner requests nothing beyond the motion, so that the path would rest at its end; after the stop it
 //! passes the end like any other.
 
-use super::inputs::Inputs;
+use super::state::{Banding, Phase, Simulation};
 use super::wait::Wait;
-use super::{Phase, Simulation, probe};
 use crate::diag::{Condition, Diagnostic};
-use crate::exec::{BandingRun, Event, SourceRef};
-use kontur_motion::axis::AxisVec;
-
-/// A motion of edge banding.
-#[derive(Clone, Debug)]
-pub(super) struct Banding {
-    run: BandingRun,
-    /// Number of the block.
-    seq: u64,
-    source: SourceRef,
-    /// Actual positions in the previous cycle.
-    before_mm: AxisVec,
-    signalled: bool,
-}
-
-impl Banding {
-    /// Actual positions at the signal of this cycle, if there is one.
-    fn latched(&self, inputs: &Inputs, now_mm: &[f64]) -> Option<AxisVec> {
-        probe::signal(inputs, &self.before_mm, now_mm)
-    }
-}
+use crate::exec::{BandingRun, Event};
 
 impl Simulation {
     /// Registers the start of the motion.
     pub(super) fn begin_banding(&mut self, run: BandingRun) {
-        let (seq, source) = (self.planner.setpoint().seq, self.current);
+        let (seq, source) = (self.planner.setpoint().seq, self.blocks.current);
         let before_mm = self.actual_mm();
         self.banding = Some(Banding { run, seq, source, before_mm, signalled: false });
         if self.inputs.probe {
@@ -81,7 +60,7 @@ impl Simulation {
         }
         let BandingRun { number, value, seconds, .. } = run;
         self.act(Event::MFunction { number, value }, self.planner.setpoint().k);
-        self.waits_at = source;
+        self.blocks.waits_at = source;
         self.phase = Phase::Waiting(Wait::before_resuming(seconds, self.cycle));
     }
 

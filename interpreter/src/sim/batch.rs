@@ -13,15 +13,15 @@
 //! waits, feedhold at rest, independent axes, threads, probes, wear, spindles that position or follow the path, exact
 //! stops.
 
-use super::axes::Driver;
-use super::chain::{AxisChain, Mark};
+use super::SettledStop;
+use super::chain::AxisChain;
+use super::driver::Driver;
 use super::out::Samples;
 use super::spindle::Spindle;
-use super::{Phase, SettledStop, Simulation, Underway};
-use crate::record::{AxisColumns, AxisRecord, RowBuffer};
-use kontur_filters::control::fault::{Fault, Faults};
+use super::state::{Phase, Simulation, Underway};
+use crate::record::{AxisColumns, RowBuffer};
+use kontur_filters::control::fault::Faults;
 use kontur_filters::ring::Ring;
-use kontur_motion::ahead::Ahead;
 
 /// Largest number of cycles in a row: their columns stay in the first-level cache.
 pub(super) const MOST: usize = Ring::ROOM;
@@ -34,38 +34,6 @@ const FEW: usize = 8;
 
 /// Largest number of single cycles before rows are tried again.
 const MOST_PATIENCE: u64 = 32;
-
-/// Cycles after the current one whose axes have already been computed.
-#[derive(Debug, Default)]
-pub(super) struct Batch {
-    ahead: Ahead,
-    /// How many of them wait to be taken.
-    computed: usize,
-    /// How many are tried: after a fault few, because what lies after the next one is computed in vain.
-    tried: usize,
-    /// Cycle before which cycles are computed singly, because too few follow in a row.
-    single_before: u64,
-    /// Least number of single cycles when too few follow in a row.
-    patience: u64,
-    /// Faults of the last computed cycle.
-    pub(super) faults: Vec<(usize, Fault)>,
-    /// The chains and their records before the row, and the spindles.
-    marks: Vec<Option<Mark>>,
-    records_before: Vec<AxisRecord>,
-    spindles_before: Vec<Spindle>,
-    /// Set positions of the spindles from the current cycle on.
-    spindle_deg: Vec<Vec<f64>>,
-    /// Of one chain from the current cycle on: interpolated setpoints, and set positions.
-    ipo: Vec<f64>,
-    set: Vec<f64>,
-}
-
-impl Batch {
-    /// Whether computed cycles have not been taken yet.
-    pub(super) const fn is_pending(&self) -> bool {
-        self.computed > 0
-    }
-}
 
 impl Simulation {
     /// Takes the cycles that have been computed, and completes their rows if there are any; the number of cycles.
@@ -113,11 +81,11 @@ impl Simulation {
         // do not read in vain: with an event in every block that would be most of the reading
         let changes =
             |block: &&Underway| !block.events.is_empty() || block.jerk_limited != self.jerk_limited;
-        let before = self.underway.iter().find(changes).map_or(u64::MAX, |block| block.seq);
+        let before = self.queue.underway.iter().find(changes).map_or(u64::MAX, |block| block.seq);
         self.planner.look_ahead(most, before, &mut self.batch.ahead);
         let waits_for_input = |later: usize| {
             let next = k + 1 + later as u64;
-            next > self.max_cycles || self.inputs.is_due(self.cycle.time_of(next), self.cycle)
+            next > self.limit.cycles || self.inputs.is_due(self.cycle.time_of(next), self.cycle)
         };
         let read = self.batch.ahead.len();
         let count = (0..read).find(|later| waits_for_input(*later)).unwrap_or(read);
@@ -140,8 +108,8 @@ impl Simulation {
         matches!(self.phase, Phase::Running)
             && self.frozen.iter().all(Option::is_none)
             && !self.is_held
-            && self.thread.is_none()
-            && self.thread_delay <= 0.0
+            && self.thread.cut.is_none()
+            && self.thread.delay <= 0.0
             && self.probing.is_none()
             && self.banding.is_none()
             && self.independent.is_unused()
@@ -197,7 +165,7 @@ impl Simulation {
 
     /// Whether the actual position of a chain is inside the window of its stop.
     fn settled(&mut self, axis: usize) {
-        let (source, settling_s) = (self.stops_at[axis], self.record.axes[axis].settling_s);
+        let (source, settling_s) = (self.blocks.stops_at[axis], self.record.axes[axis].settling_s);
         let k = self.planner.setpoint().k;
         self.totals.stops.add(SettledStop { axis, source, k, settling_s });
     }

@@ -5,60 +5,11 @@
 //! as under feedhold, with P-CHAN-00214 = 1 as in rapid blocks. Measuring type 7 has no probe: its signal is the lag of an axis at a
 //! fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
 
-use super::inputs::Inputs;
-use super::{Phase, Simulation};
+use super::state::{Phase, Probing, Simulation};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::{Feedback, Probed};
 use crate::record::AxisRecord;
 use kontur_motion::axis::AxisVec;
-
-/// A measuring run.
-#[derive(Clone, Debug)]
-pub(super) struct Probing {
-    /// Whether the path continues through the signal.
-    through: bool,
-    /// Axes whose lag is the signal, with that lag in mm (deg); if empty, the signal is that of the probe.
-    stops: Vec<(usize, f64)>,
-    /// Actual positions in the previous cycle.
-    before_mm: AxisVec,
-    /// Actual positions at the signal.
-    signal_mm: Option<AxisVec>,
-}
-
-impl Probing {
-    /// Whether the path is to stop, or has stopped.
-    pub(super) fn holds(&self) -> bool {
-        self.signal_mm.is_some() && !self.through
-    }
-
-    /// Actual positions at the signal of this cycle, if there is one.
-    fn latched(&self, inputs: &Inputs, now_mm: &[f64], lag_mm: &[f64]) -> Option<AxisVec> {
-        if !self.stops.is_empty() {
-            let at_rest = |(axis, most): &(usize, f64)| {
-                lag_mm.get(*axis).is_some_and(|lag| lag.abs() > *most)
-            };
-            return self.stops.iter().any(at_rest).then(|| AxisVec::from_slice(now_mm));
-        }
-        signal(inputs, &self.before_mm, now_mm)
-    }
-}
-
-/// Actual positions where the probe signals between two cycles, if it does.
-pub(super) fn signal(inputs: &Inputs, before_mm: &[f64], now_mm: &[f64]) -> Option<AxisVec> {
-    if inputs.probe {
-        return Some(AxisVec::from_slice(now_mm));
-    }
-    let passed = |(axis, surface): (usize, Option<f64>)| {
-        let (before, now) = (*before_mm.get(axis)?, *now_mm.get(axis)?);
-        let surface = surface?;
-        let passes = (before < surface && surface <= now) || (now <= surface && surface < before);
-        passes.then(|| (surface - before) / (now - before))
-    };
-    let surfaces = inputs.surfaces_mm.iter().copied().enumerate();
-    let share = surfaces.filter_map(passed).min_by(f64::total_cmp)?;
-    let between = |(before, now): (&f64, &f64)| before + (now - before) * share;
-    Some(before_mm.iter().zip(now_mm).map(between).collect())
-}
 
 impl Simulation {
     /// Makes the next motion a measuring run, before any of it has been executed.
@@ -74,7 +25,7 @@ impl Simulation {
             let k = self.planner.setpoint().k;
             let mut d = Diagnostic::new(Condition::ProbeActuated, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
-            d.source = self.pending.front().and_then(|p| self.program.locate(p.source));
+            d.source = self.queue.pending.front().and_then(|p| self.program.locate(p.source));
             self.messages.own.push(d);
             self.totals.aborted = true;
             self.phase = Phase::Done;

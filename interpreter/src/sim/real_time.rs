@@ -1,7 +1,8 @@
 //! Effects of the inputs of a run on the path and on all independent motions: override, feedhold, and a hold without
 //! end.
 
-use super::{Phase, Probing, Simulation, fault};
+use super::fault;
+use super::state::{Phase, Probing, Simulation};
 use crate::diag::Diagnostic;
 use kontur_motion::independent::Steering;
 use kontur_motion::realtime::FeedholdBraking;
@@ -41,13 +42,13 @@ impl Simulation {
 
     /// K-0132, once for each thread: the path does not follow the spindle.
     pub(super) fn watch_thread(&mut self) {
-        let Some(thread) = &mut self.thread else { return };
+        let Some(thread) = &mut self.thread.cut else { return };
         let why = self.inputs.changes_speed(thread.full_override);
         if let (Some(why), false) = (why, thread.broken)
             && matches!(self.phase, Phase::Running)
         {
             thread.broken = true;
-            let at = self.current;
+            let at = self.blocks.current;
             let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
             d.source = self.program.locate(at);
             self.messages.own.push(d);

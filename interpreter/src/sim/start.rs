@@ -1,26 +1,24 @@
 //! A simulation before its first cycle: every axis at rest where the program starts.
 
-use super::axes::{Driver, drivers};
-use super::batch::Batch;
 use super::chain::AxisChain;
+use super::driver::{Driver, drivers};
+use super::fault;
 use super::independent::IndependentAxes;
 use super::inputs::Inputs;
+use super::messages::Messages;
 use super::program::Program;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
-use super::times::Times;
+use super::state::{Batch, BlockRefs, Phase, Queue, Simulation, Threading, TimeLimit, Times};
 use super::totals::{Progress, Totals};
 use super::wear::Wear;
-use super::{Messages, Phase, Simulation, fault};
 use crate::diag::Diagnostic;
-use crate::exec::{Options, SourceRef};
+use crate::exec::Options;
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
-use kontur_filters::time::CycleTime;
 use kontur_motion::planner::Planner;
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 impl Simulation {
@@ -36,22 +34,19 @@ impl Simulation {
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
-        let max_time_s = options.max_time_s;
-        let max_cycles = cycles_in(max_time_s, cycle);
+        let limit = TimeLimit::new(options.max_time_s, cycle);
         let (program, start, found) = Program::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let drivers = drivers(&machine);
-        let mut chains = Vec::with_capacity(setups.len());
-        for (i, setup) in setups.into_iter().enumerate() {
+        let chain = |(i, setup): (usize, _)| {
             let x = match drivers.get(i) {
                 Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
                 _ => 0.0,
             };
-            match AxisChain::new(setup, x, AxisInputs::default(), cycle) {
-                Ok(chain) => chains.push(chain),
-                Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
-            }
-        }
+            let chain = AxisChain::new(setup, x, AxisInputs::default(), cycle);
+            chain.map_err(|e| vec![fault::plant(&e, &machine, i)])
+        };
+        let chains = setups.into_iter().enumerate().map(chain).collect::<Result<Vec<_>, _>>()?;
         let window = machine.channel.look_ahead_blocks as usize;
         let spindles: Vec<_> = machine
             .spindles
@@ -69,62 +64,56 @@ impl Simulation {
             frozen: vec![None; chains.len()],
             motion: Motion::None,
             is_held: false,
-            stops_at: vec![SourceRef::default(); chains.len()],
+            blocks: BlockRefs::none(chains.len()),
             inputs: Inputs::none(chains.len()),
             independent: IndependentAxes::new(n),
             chains,
             drivers,
             spindle_deg: vec![0.0; spindles.len()],
             spindles,
-            underway: VecDeque::new(),
-            current: SourceRef::default(),
-            shown: SourceRef::default(),
-            waits_at: SourceRef::default(),
             jerk_limited: false,
-            pending: VecDeque::new(),
-            at_corner: VecDeque::new(),
-            postponed: None,
+            queue: Queue::default(),
             phase: Phase::Start,
             record: CycleRecord { axes: records, ..CycleRecord::default() },
             path_position: start[..n].iter().copied().collect(),
-            thread_delay: 0.0,
-            thread: None,
+            thread: Threading {
+                delay: 0.0,
+                cut: None,
+                planned: start[..n].iter().copied().collect(),
+            },
+            limit,
             times: Times::default(),
             probing: None,
             told: None,
             banding: None,
             wear: Wear::default(),
-            planned: start[..n].iter().copied().collect(),
-            max_cycles,
-            max_time_s,
             messages: Messages { own: diagnostics, program: found, ..Messages::default() },
             progress: Progress::default(),
             machine,
             cycle,
             program,
         };
-        let mode = simulation.machine.channel.overrides.mode;
-        simulation.planner.set_override_mode(mode);
-        simulation.feedforward(false, &vec![1.0; n]);
-        for spindle in 0..simulation.spindles.len() {
-            simulation.spindle_feedforward(spindle, false, 1.0);
-        }
-        let setup = simulation.program.shaping().clone();
-        for i in 0..simulation.chains.len() {
-            if matches!(simulation.drivers[i], Driver::Spindle(_)) {
-                simulation.set_kernel(i, &setup);
-            }
-        }
-        simulation.swap_kernels(&setup);
-        simulation.planner.report_changes(true);
+        simulation.set_up();
         Ok(simulation)
     }
-}
 
-/// Number of whole cycles in a time in s: 286 cycles of 1 ms for 0.286 s, although the quotient is slightly lower.
-fn cycles_in(time_s: f64, cycle: CycleTime) -> u64 {
-    const ROUNDING: f64 = 1e-6;
-    (time_s / cycle.seconds() + ROUNDING) as u64
+    /// What the lists apply before the first block.
+    fn set_up(&mut self) {
+        let mode = self.machine.channel.overrides.mode;
+        self.planner.set_override_mode(mode);
+        self.feedforward(false, &vec![1.0; self.path_axes()]);
+        for spindle in 0..self.spindles.len() {
+            self.spindle_feedforward(spindle, false, 1.0);
+        }
+        let setup = self.program.shaping().clone();
+        for i in 0..self.chains.len() {
+            if matches!(self.drivers[i], Driver::Spindle(_)) {
+                self.set_kernel(i, &setup);
+            }
+        }
+        self.swap_kernels(&setup);
+        self.planner.report_changes(true);
+    }
 }
 
 /// Reasons why axes of a machine cannot be simulated: plants that are not physical, or cannot be discretised.

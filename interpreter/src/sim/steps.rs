@@ -1,9 +1,10 @@
 //! The steps of the program: taken from the executor when the planner needs them, and carried out at rest.
 
-use super::{After, Pending, Phase, Simulation, Thread, Underway, times, wait};
+use super::state::{After, Pending, Phase, Simulation, Thread, Underway};
+use super::{times, wait};
 use crate::exec::{AtCorner, EndReason, Event, SourceRef, Step, Sync};
 use crate::record::Motion;
-use crate::sim::axes::Driver;
+use crate::sim::driver::Driver;
 use crate::sim::totals::Programmed;
 use crate::sim::wait::{AwaitedMark, Wait};
 use kontur_motion::block::{Block, SlopeKind};
@@ -18,16 +19,16 @@ impl Simulation {
         if self.smoothing.resume(&mut self.planner) {
             return;
         }
-        let step = self.postponed.take().unwrap_or_else(|| self.decoded());
+        let step = self.queue.postponed.take().unwrap_or_else(|| self.decoded());
         let blocks = self.program.blocks();
         match step {
             Step::Sync { what, source, events }
                 if what.at_corner() == AtCorner::Waits && self.smoothing.wait_here() =>
             {
                 let after = After::Sync(what);
-                self.at_corner.push_back(Pending { after, source, events, blocks });
+                self.queue.at_corner.push_back(Pending { after, source, events, blocks });
             }
-            step if self.at_corner.is_empty() => self.take(step),
+            step if self.queue.at_corner.is_empty() => self.take(step),
             Step::Motion { block, source, events }
                 if self.smoothing.joins_corner(&block) && !runs_banding(&events) =>
             {
@@ -37,7 +38,7 @@ impl Simulation {
                 }
             }
             other => {
-                self.postponed = Some(other);
+                self.queue.postponed = Some(other);
                 self.smoothing.flush_behind_stop(&mut self.planner);
                 self.wait_at_corner();
             }
@@ -45,7 +46,7 @@ impl Simulation {
     }
 
     fn wait_at_corner(&mut self) {
-        self.pending = std::mem::take(&mut self.at_corner);
+        self.queue.pending = std::mem::take(&mut self.queue.at_corner);
         self.not_contoured();
         self.planner.finish();
     }
@@ -67,7 +68,7 @@ impl Simulation {
                     _ => None,
                 };
                 let after = After::Sync(what);
-                self.pending.push_back(Pending { after, source, events, blocks });
+                self.queue.pending.push_back(Pending { after, source, events, blocks });
                 self.path_stops();
                 if let Some((through, stops)) = measures {
                     self.begin_probing(through, &stops);
@@ -75,7 +76,7 @@ impl Simulation {
             }
             Step::End { reason, source, events } => {
                 let after = After::End(reason);
-                self.pending.push_back(Pending { after, source, events, blocks });
+                self.queue.pending.push_back(Pending { after, source, events, blocks });
                 self.path_stops();
             }
         }
@@ -97,7 +98,7 @@ impl Simulation {
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         let (motion, time_s) = (Motion::of(block), times::time_of(block));
         let (seq, target) = (block.seq, block.path.end().clone());
-        self.underway.push_back(Underway {
+        self.queue.underway.push_back(Underway {
             seq,
             source,
             programmed,
@@ -122,7 +123,7 @@ impl Simulation {
             self.at_halt();
             return;
         }
-        match self.pending.pop_front() {
+        match self.queue.pending.pop_front() {
             Some(pending) => self.wait_for(pending),
             None => self.pull(),
         }
@@ -131,7 +132,7 @@ impl Simulation {
     /// Begins the wait for what follows a motion.
     fn wait_for(&mut self, Pending { after, source, events, blocks }: Pending) {
         self.progress.complete(blocks, &mut self.smoothing.changed);
-        self.waits_at = source;
+        self.blocks.waits_at = source;
         let k = self.planner.setpoint().k;
         self.time_ends(k);
         for event in events {
@@ -156,7 +157,7 @@ impl Simulation {
             {
                 let way_mm = self.independent.done_mm(p);
                 chain.expect_stop(self.planner.setpoint().position[p] + way_mm);
-                self.stops_at[i] = self.current;
+                self.blocks.stops_at[i] = self.blocks.current;
             }
         }
     }
@@ -167,16 +168,16 @@ impl Simulation {
             return;
         };
         if let Some(AwaitedMark { spindle, deg, full_override }) = wait.mark() {
-            self.thread = Some(Thread { full_override, broken: false });
+            self.thread.cut = Some(Thread { full_override, broken: false });
             let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
-            self.thread_delay = share.unwrap_or(0.0);
-            self.planned.copy_from_slice(&self.path_position);
+            self.thread.delay = share.unwrap_or(0.0);
+            self.thread.planned.copy_from_slice(&self.path_position);
         }
         match wait.into_action() {
             wait::Action::None => {}
             wait::Action::ThreadEnd => {
-                self.thread_delay = 0.0;
-                self.thread = None;
+                self.thread.delay = 0.0;
+                self.thread.cut = None;
             }
             wait::Action::Halted => self.call_at_halt(),
             wait::Action::Resume => self.resume(),
@@ -192,7 +193,7 @@ impl Simulation {
             }
         }
         if matches!(self.phase, Phase::Running)
-            && let Some(next) = self.pending.pop_front()
+            && let Some(next) = self.queue.pending.pop_front()
         {
             self.wait_for(next);
         }

@@ -4,31 +4,13 @@
 //! Assumption: a warning, for the first motion that takes a tenth more than its time: the ramps of a motion from rest take more in
 //! any case.
 
-use super::Simulation;
 use super::fault;
+use super::state::{Simulation, Timed};
 use crate::exec::SourceRef;
 use kontur_motion::block::{Block, Feed};
 
 /// Excess over a programmed time, relative to it, that ramps may take without a message.
 const TOLERATED: f64 = 0.1;
-
-/// The motion under way, if its time is programmed.
-#[derive(Clone, Copy, Debug)]
-struct Timed {
-    time_s: f64,
-    /// Cycle after which it began.
-    from_k: u64,
-    source: SourceRef,
-    /// Whether an override or a feedhold acts on it.
-    changed: bool,
-}
-
-/// Programmed times and what became of them.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Times {
-    current: Option<Timed>,
-    told: bool,
-}
 
 /// The programmed time of a motion in s, without an override of the program.
 pub(super) fn time_of(block: &Block) -> Option<f64> {

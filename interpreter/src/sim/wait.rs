@@ -1,7 +1,7 @@
 //! Waits of the machine while the path is at rest, and what follows them.
 
-use super::axes::Driver;
 use super::chain::{AxisChain, Remaining};
+use super::driver::Driver;
 use super::independent::IndependentAxes;
 use super::patience::Patience;
 use super::spindle::Spindle;

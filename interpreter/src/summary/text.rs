@@ -24,6 +24,28 @@ impl Summary {
     }
 
     fn write_text(&self, out: &mut String) -> std::fmt::Result {
+        self.write_times(out)?;
+        writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
+        if let Some(ripple) = &self.speed_ripple {
+            let (low, high) = (ripple.v_min_mm_s, ripple.v_max_mm_s);
+            let place = self.place(&ripple.file, ripple.line, None);
+            let percent = 100.0 * ripple.ratio;
+            writeln!(
+                out,
+                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {CORNER_DEG} deg excluded)"
+            )?;
+        }
+        self.write_contour_error(out)?;
+        if self.cycles > 0 {
+            self.write_axes(out)?;
+        }
+        if self.duration_s > 0.0 {
+            self.write_limits(out)?;
+        }
+        self.write_messages(out)
+    }
+
+    fn write_times(&self, out: &mut String) -> std::fmt::Result {
         writeln!(out, "{}  {}", self.program, self.state.name())?;
         let cycle_ms = f64::from(self.cycle_us) / 1000.0;
         writeln!(out, "  machine        {}, cycle {cycle_ms} ms", self.machine)?;
@@ -46,56 +68,52 @@ impl Summary {
         for what in &self.not_counted {
             writeln!(out, "  not counted    {what}")?;
         }
-        writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
-        if let Some(ripple) = &self.speed_ripple {
-            let (low, high) = (ripple.v_min_mm_s, ripple.v_max_mm_s);
-            let place = self.place(&ripple.file, ripple.line, None);
-            let percent = 100.0 * ripple.ratio;
+        Ok(())
+    }
+
+    fn write_contour_error(&self, out: &mut String) -> std::fmt::Result {
+        let Some(worst) = &self.max_contour_error else { return Ok(()) };
+        if worst.mm > 0.0 {
+            let place = self.place(&worst.file, worst.line, worst.block);
+            let (mm, time_s) = (worst.mm, worst.time_s);
+            writeln!(out, "  contour error  at most {mm:.6} mm at t = {time_s:.6} s, {place}")?;
+        } else {
+            writeln!(out, "  contour error  none")?;
+        }
+        // the set points may follow a contour of which they leave out a part; and a component can exceed the
+        // shortest vector if it belongs to a slightly longer one
+        let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
+        if deviation > worst.mm * (1.0 + HARDLY_LONGER) * (1.0 + HARDLY_LONGER) + LEAST_SHOWN {
             writeln!(
                 out,
-                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {CORNER_DEG} deg excluded)"
+                "  missed         up to {deviation:.6} mm (deg) of the contour in one axis, see |dev|"
             )?;
         }
-        if let Some(worst) = &self.max_contour_error {
-            if worst.mm > 0.0 {
-                let place = self.place(&worst.file, worst.line, worst.block);
-                let (mm, time_s) = (worst.mm, worst.time_s);
-                writeln!(out, "  contour error  at most {mm:.6} mm at t = {time_s:.6} s, {place}")?;
-            } else {
-                writeln!(out, "  contour error  none")?;
-            }
-            // the set points may follow a contour of which they leave out a part; and a component can exceed the
-            // shortest vector if it belongs to a slightly longer one
-            let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
-            if deviation > worst.mm * (1.0 + HARDLY_LONGER) * (1.0 + HARDLY_LONGER) + LEAST_SHOWN {
-                writeln!(
-                    out,
-                    "  missed         up to {deviation:.6} mm (deg) of the contour in one axis, see |dev|"
-                )?;
-            }
+        Ok(())
+    }
+
+    /// What limited the speed, by its share of the time.
+    fn write_limits(&self, out: &mut String) -> std::fmt::Result {
+        write!(out, "  speed limited by ")?;
+        let mut shares: Vec<(&str, f64)> =
+            self.time_by_v_limit_s.iter().map(|(name, s)| (*name, *s)).collect();
+        if let Some((_, stop)) =
+            shares.iter_mut().find(|(name, _)| *name == SpeedLimit::Stop.name())
+        {
+            *stop -= self.dwell_s + self.technology_s;
         }
-        if self.cycles > 0 {
-            self.write_axes(out)?;
+        shares.push((Rest::Dwell.name(), self.dwell_s));
+        shares.push((Rest::Technology.name(), self.technology_s));
+        shares.retain(|(_, s)| *s > 0.5e-9);
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        for (i, (name, seconds)) in shares.iter().enumerate() {
+            let comma = if i > 0 { ", " } else { "" };
+            write!(out, "{comma}{name} {:.1} %", 100.0 * seconds / self.duration_s)?;
         }
-        if self.duration_s > 0.0 {
-            write!(out, "  speed limited by ")?;
-            let mut shares: Vec<(&str, f64)> =
-                self.time_by_v_limit_s.iter().map(|(name, s)| (*name, *s)).collect();
-            if let Some((_, stop)) =
-                shares.iter_mut().find(|(name, _)| *name == SpeedLimit::Stop.name())
-            {
-                *stop -= self.dwell_s + self.technology_s;
-            }
-            shares.push((Rest::Dwell.name(), self.dwell_s));
-            shares.push((Rest::Technology.name(), self.technology_s));
-            shares.retain(|(_, s)| *s > 0.5e-9);
-            shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-            for (i, (name, seconds)) in shares.iter().enumerate() {
-                let comma = if i > 0 { ", " } else { "" };
-                write!(out, "{comma}{name} {:.1} %", 100.0 * seconds / self.duration_s)?;
-            }
-            writeln!(out)?;
-        }
+        writeln!(out)
+    }
+
+    fn write_messages(&self, out: &mut String) -> std::fmt::Result {
         let count = |severity| self.messages.iter().filter(|m| m.severity == severity).count();
         let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         if errors + warnings > 0 || self.messages_omitted > 0 {

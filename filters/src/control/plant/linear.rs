@@ -1,6 +1,6 @@
 //! Exact discretisation of a linear plant and its step.
 
-use super::{Disturbance, Measured, PlantError, PlantInput};
+use super::quantities::{Disturbance, Measured, PlantError, PlantInput};
 use crate::time::CycleTime;
 use nalgebra::{DMatrix, RowDVector};
 

@@ -1,21 +1,17 @@
 //! The continuous models as state equations.
 
-use super::{
-    PlantError, PlantModel,
-    linear::{Continuous, INPUTS},
-};
+use super::config::{ModalConfig, PlantModel, SpeedLoop, TwoMassConfig};
+use super::linear::{Continuous, INPUTS};
+use super::quantities::PlantError;
 use nalgebra::{DMatrix, RowDVector};
 use std::f64::consts::TAU;
 
-/// Velocity loop (PI) and current loop (first order) of a drive, per unit of the whole mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpeedLoop {
-    /// Proportional gain in 1/s: acceleration per speed error.
-    pub gain_per_s: f64,
-    /// Integral time Tn in s; `None`: without an integral part.
-    pub integral_time_s: Option<f64>,
-    /// Time constant Ti of the current loop in s.
-    pub current_time_s: f64,
+fn positive(value: f64, what: &'static str) -> Result<(), PlantError> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(PlantError::NotPositive(what)) }
+}
+
+fn finite(value: f64, what: &'static str) -> Result<(), PlantError> {
+    if value.is_finite() { Ok(()) } else { Err(PlantError::NotFinite(what)) }
 }
 
 impl SpeedLoop {
@@ -25,88 +21,6 @@ impl SpeedLoop {
             .map_or(Ok(()), |t| positive(t, "integral time of the velocity loop"))?;
         positive(self.current_time_s, "time constant of the current loop")
     }
-}
-
-/// Motor and load on a damped spring.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoMassConfig {
-    /// Mass (inertia) of the load over that of the motor.
-    pub load_to_motor_ratio: f64,
-    /// Free resonance in Hz: motor against load, `sqrt(c (1/J_M + 1/J_L))`.
-    pub resonance_hz: f64,
-    /// Damping ratio of the free resonance.
-    pub damping_ratio: f64,
-    /// Loops of the drive, closed by the motor encoder.
-    pub speed_loop: SpeedLoop,
-}
-
-/// One vibration mode: natural frequency, damping, and participation of each point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode {
-    /// Natural frequency in Hz.
-    pub frequency_hz: f64,
-    /// Damping ratio.
-    pub damping_ratio: f64,
-    /// Participation of the motor.
-    pub motor: f64,
-    /// Participation of the load encoder. Same sign as the motor: a mode of the structure; opposite sign: a mode of the
-    /// drive train.
-    pub load: f64,
-    /// Participation of the tool point.
-    pub tool: f64,
-    /// Participation of the point at which the disturbance force acts.
-    pub disturbance: f64,
-}
-
-/// Rigid body of unit mass with vibration modes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ModalConfig {
-    /// The modes.
-    pub modes: Vec<Mode>,
-    /// Loops of the drive, closed by the motor encoder.
-    pub speed_loop: SpeedLoop,
-}
-
-impl ModalConfig {
-    /// Rack and pinion axis with a column at 53 Hz and a tool point at 11 Hz, the two dominant vibrations of the
-    /// application example of Improved Position Control.
-    ///
-    /// Assumption: the manual only gives frequencies and amplitudes; the other values are chosen to reproduce both
-    /// amplitudes and their reduction.
-    pub fn rack_and_pinion() -> Self {
-        let column = Mode {
-            frequency_hz: 53.0,
-            damping_ratio: 0.010,
-            motor: 0.20,
-            load: 0.20,
-            tool: 0.80,
-            disturbance: 0.80,
-        };
-        let tool = Mode {
-            frequency_hz: 11.0,
-            damping_ratio: 0.020,
-            motor: 0.12,
-            load: 0.12,
-            tool: 2.44,
-            disturbance: 0.0,
-        };
-        Self {
-            modes: vec![column, tool],
-            speed_loop: SpeedLoop {
-                gain_per_s: 200.0,
-                integral_time_s: Some(0.030),
-                current_time_s: 0.0005,
-            },
-        }
-    }
-}
-
-fn positive(value: f64, what: &'static str) -> Result<(), PlantError> {
-    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(PlantError::NotPositive(what)) }
-}
-
-fn finite(value: f64, what: &'static str) -> Result<(), PlantError> {
-    if value.is_finite() { Ok(()) } else { Err(PlantError::NotFinite(what)) }
 }
 
 /// State equations of a model, `None` for the one without dynamics.

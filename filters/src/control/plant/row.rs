@@ -4,7 +4,8 @@
 //! in registers from cycle to cycle.
 
 use super::linear::LinearPlant;
-use super::{Dynamics, Measured, Plant, PlantInput};
+use super::quantities::{Measured, PlantInput};
+use super::{Dynamics, Plant};
 
 /// Where the plant is while its axis runs through a row of cycles. `own` is the plant in the axis.
 pub(crate) trait PlantOfRow {

@@ -1,6 +1,7 @@
 #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
 use super::*;
+use crate::control::fault::Issue;
 
 const T: CycleTime = CycleTime::DEFAULT;
 

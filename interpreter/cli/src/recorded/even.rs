@@ -1,6 +1,6 @@
 //! Signals at equal steps: sampling times from printed ones, and missing samples.
 
-use super::Channel;
+use super::channel::Channel;
 use crate::table::number;
 use serde::Serialize;
 use std::ops::Range;

@@ -29,82 +29,93 @@ pub(super) fn model(runs: &[Drawn], axis: usize) -> VibGuardSettings {
 
 /// Spectrum and deflection of the axes that move.
 pub(super) fn views(runs: &[Drawn]) -> Vec<Shown> {
-    let moving = || {
-        runs.iter().enumerate().flat_map(|(run, r)| {
+    let moving: Vec<Moving> = runs
+        .iter()
+        .enumerate()
+        .flat_map(|(run, r)| {
             let all = r.recording.accelerations.iter().enumerate();
             all.filter(|(_, a)| a.iter().any(|a| a.abs() >= LEAST))
                 .map(move |(axis, _)| (run, axis))
         })
-    };
-    if moving().next().is_none() {
+        .collect();
+    if moving.is_empty() {
         return Vec::new();
     }
-    let guarded = runs.iter().any(|r| !r.guards.is_empty());
-    let unit = |end: &str| {
-        let mut units: Vec<String> = Vec::new();
-        for (run, axis) in moving() {
-            let unit = format!("{}{end}", runs[run].recording.facts.axes[axis].unit());
-            if !units.contains(&unit) {
-                units.push(unit);
-            }
-        }
-        units.join(", ")
-    };
-    let axis_name =
-        |run: usize, axis: usize| name(runs, run, &runs[run].recording.facts.axes[axis].name);
+    let open = runs.iter().any(|r| !r.guards.is_empty());
     let note = part(runs);
+    vec![
+        Shown { kind: "spectrum", open, note: note.clone(), view: spectra(runs, &moving) },
+        Shown { kind: "spring", open, note, view: residuals(runs, &moving) },
+    ]
+}
+
+/// Number of a run and of an axis in it that moves.
+type Moving = (usize, usize);
+
+/// The units of the axes, each once.
+fn units(runs: &[Drawn], moving: &[Moving], end: &str) -> String {
+    let mut units: Vec<String> = Vec::new();
+    for (run, axis) in moving {
+        let unit = format!("{}{end}", runs[*run].recording.facts.axes[*axis].unit());
+        if !units.contains(&unit) {
+            units.push(unit);
+        }
+    }
+    units.join(", ")
+}
+
+fn axis_name(runs: &[Drawn], (run, axis): Moving) -> String {
+    name(runs, run, &runs[run].recording.facts.axes[axis].name)
+}
+
+/// Spectra of the commanded accelerations.
+fn spectra(runs: &[Drawn], moving: &[Moving]) -> View<Source> {
     let highest = runs.iter().flat_map(|r| &r.guards).map(|g| g.1.freq_hz).fold(0.0, f64::max);
     let nyquist_hz = |r: &Drawn| 0.5 / r.recording.facts.cycle_s();
     let top_hz =
         runs.iter().map(nyquist_hz).fold(0.0, f64::max).min(TOP_HZ.max(TOP_RATIO * highest));
-    let spectra: Vec<Line<Source>> = moving()
-        .map(|(run, axis)| {
-            let r = &runs[run].recording;
-            let spectrum = AmplitudeSpectrum::of(&r.accelerations[axis], r.facts.cycle_s());
-            let lines: Points = spectrum.lines((0.0, top_hz)).collect();
-            Line {
-                name: axis_name(run, axis),
-                style: style(runs, run, Some(axis)),
-                points: Source::Given {
-                    run,
-                    axis,
-                    points: thinned(lines.into_iter(), MOST_POINTS),
-                },
-            }
-        })
-        .collect();
-    let peak = spectra.iter().filter_map(|l| match &l.points {
-        Source::Given { points, .. } => Some(points.iter().map(|p| p[1]).fold(0.0, f64::max)),
-        _ => None,
-    });
-    let peak = peak.fold(1e-9, f64::max);
-    let spectrum = View {
+    let mut peak = 1e-9_f64;
+    let mut lines = Vec::new();
+    for &(run, axis) in moving {
+        let r = &runs[run].recording;
+        let spectrum = AmplitudeSpectrum::of(&r.accelerations[axis], r.facts.cycle_s());
+        let all: Points = spectrum.lines((0.0, top_hz)).collect();
+        let points = thinned(all.into_iter(), MOST_POINTS);
+        peak = points.iter().map(|p| p[1]).fold(peak, f64::max);
+        lines.push(Line {
+            name: axis_name(runs, (run, axis)),
+            style: style(runs, run, Some(axis)),
+            points: Source::Given { run, axis, points },
+        });
+    }
+    let unit = units(runs, moving, "/s\u{b2}");
+    View {
         title: "Spectrum of commanded acceleration".to_owned(),
         x: Scale::linear("frequency in Hz", (0.0, top_hz)),
-        y: Scale::linear(format!("amplitude in {}", unit("/s\u{b2}")), (0.0, 1.12 * peak)),
-        lines: spectra,
+        y: Scale::linear(format!("amplitude in {unit}"), (0.0, 1.12 * peak)),
+        lines,
         marks: guard_marks(runs),
         ..View::default()
+    }
+}
+
+/// Deflections of vibrations that the axes excite.
+fn residuals(runs: &[Drawn], moving: &[Moving]) -> View<Source> {
+    let line = |(run, axis): &Moving| Line {
+        name: axis_name(runs, (*run, *axis)),
+        style: style(runs, *run, Some(*axis)).wide(1.4),
+        points: Source::Spring { run: *run, axis: *axis },
     };
-    let lines: Vec<Line<Source>> = moving()
-        .map(|(run, axis)| Line {
-            name: axis_name(run, axis),
-            style: style(runs, run, Some(axis)).wide(1.4),
-            points: Source::Spring { run, axis },
-        })
-        .collect();
-    let most = moving().map(|(run, axis)| most_and_left(runs, run, axis).0).fold(1e-9, f64::max);
-    let residual = View {
-        title: residual_title(runs, moving()),
+    let most = moving.iter().map(|(run, axis)| most_and_left(runs, *run, *axis).0);
+    let most = most.fold(1e-9, f64::max);
+    let label = format!("deflection in {}", units(runs, moving, ""));
+    View {
+        title: residual_title(runs, moving.iter().copied()),
         x: Scale::linear("time in s", span(runs)),
-        y: Scale::linear(format!("deflection in {}", unit("")), (-1.1 * most, 1.1 * most)),
-        lines,
+        y: Scale::linear(label, (-1.1 * most, 1.1 * most)),
+        lines: moving.iter().map(line).collect(),
         ..View::default()
-    };
-    vec![
-        Shown { kind: "spectrum", open: guarded, note: note.clone(), view: spectrum },
-        Shown { kind: "spring", open: guarded, note, view: residual },
-    ]
+    }
 }
 
 /// The frequencies of the guards, each once, with their axes.

@@ -1,17 +1,29 @@
 //! One run of a sweep: its row, with the requested amplitudes.
 
+use super::columns;
 use super::rows::{Outcome, Row};
-use super::{Failure, columns};
 use crate::args::{Amplitude, SweepArgs};
 use crate::combinations::put;
 use crate::interrupt::Running;
-use crate::request::{Opened, Request};
+use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::Collector;
 use std::path::PathBuf;
+
+/// Reasons for a missing row.
+pub(super) enum Failure {
+    Open(OpenError),
+    Interrupted,
+}
+
+impl Failure {
+    const fn usage(text: String) -> Self {
+        Self::Open(OpenError::Usage(text))
+    }
+}
 
 /// Collects the row of one run.
 struct Collected<'a> {

@@ -1,8 +1,8 @@
 //! A sweep as numbered runs, for callers that distribute them themselves.
 
-use super::one::row;
+use super::idle::idle;
+use super::one::{Failure, row};
 use super::rows::Row;
-use super::{Failure, idle};
 use crate::Error;
 use crate::args::SweepArgs;
 use crate::combinations::combinations;

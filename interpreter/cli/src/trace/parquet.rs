@@ -19,7 +19,7 @@ mod group;
 mod numbers;
 
 use super::batch::Batch;
-use super::now;
+use super::clock::now;
 use crate::target::{Target, folder_of};
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::reader::{FileReader as _, SerializedFileReader};

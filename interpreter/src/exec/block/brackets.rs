@@ -146,62 +146,62 @@ impl Decoder {
         if words.brackets_before(bracket).any(|other| excludes(&self.names, other, axis, bracket)) {
             return Err(self.names.twice(axis, group.span));
         }
-        match group.items.split_first() {
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
-                let rest = Group { items: rest.to_vec(), span: group.span };
-                let title = format!("{}[OVERRIDE]", self.names.name(axis));
-                self.set_overrides(Some(axis), Some(&rest), &title, group.span)
-            }
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
-                if word.is("INDP_SYN") || word.is("INDP_ASYN") =>
-            {
-                no_word_of(&self.names, axis, words, group.span)?;
-                no_function_of(
-                    self.names.name(axis),
-                    &self.machine.channel.functions.m_outputs,
-                    words,
-                )?;
-                self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
-            }
+        let Some((
+            Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
+            rest,
+        )) = group.items.split_first()
+        else {
+            let text = "an axis command is expected in the bracket";
+            return Err(Fault::new(Condition::Syntax, text, group.span));
+        };
+        if matches!(group.items[0].kind, ItemKind::Flag(_))
+            && let Some(outcome) = self.axis_command(axis, word, rest, group, words)
+        {
+            return outcome;
+        }
+        if OF_FUNCTIONS.iter().any(|other| word.is(other)) {
+            let name = self.names.name(axis);
+            let text = format!("{name}[{} ..]: its function must come first", word.text);
+            return Err(Fault::new(Condition::AxisFunctionMissing, text, *span));
+        }
+        self.motion.lifting(word, *span)?;
+        Err(no_function(self.names.name(axis), word, *span))
+    }
+
+    /// The command of an axis with this word; `None` if it is none.
+    fn axis_command(
+        &mut self,
+        axis: usize,
+        word: &Ident,
+        rest: &[Item],
+        group: &Group,
+        words: &Words<'_>,
+    ) -> Option<Outcome<()>> {
+        let alone = no_word_of(&self.names, axis, words, group.span);
+        if word.is("OVERRIDE") {
+            let rest = Group { items: rest.to_vec(), span: group.span };
+            let title = format!("{}[OVERRIDE]", self.names.name(axis));
+            Some(self.set_overrides(Some(axis), Some(&rest), &title, group.span))
+        } else if word.is("INDP_SYN") || word.is("INDP_ASYN") {
+            let outputs = &self.machine.channel.functions.m_outputs;
+            let fits = alone.and_then(|()| no_function_of(self.names.name(axis), outputs, words));
+            Some(
+                fits.and_then(|()| {
+                    self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
+                }),
+            )
+        } else if word.is("OSC") || word.is("OSC_ON") {
             // OSC_ON: the spelling of the diagnosis manual, 120470
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
-                if word.is("OSC") || word.is("OSC_ON") =>
-            {
-                no_word_of(&self.names, axis, words, group.span)?;
-                let items = if word.is("OSC") { rest } else { &group.items[..] };
-                self.oscillating_axis(axis, items, group.span)
-            }
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
-                if word.is("DIST_CTRL") && switches_off(rest) =>
-            {
-                Ok(())
-            }
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("COMP") => {
-                self.axis_compensation(axis, rest, group.span)
-            }
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("SET_POSITION") => {
-                no_word_of(&self.names, axis, words, group.span)?;
-                self.set_position(axis, rest, group.span)
-            }
-            Some((
-                Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
-                _,
-            )) if OF_FUNCTIONS.iter().any(|other| word.is(other)) => {
-                let name = self.names.name(axis);
-                let text = format!("{name}[{} ..]: its function must come first", word.text);
-                Err(Fault::new(Condition::AxisFunctionMissing, text, *span))
-            }
-            Some((
-                Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
-                _,
-            )) => {
-                self.motion.lifting(word, *span)?;
-                Err(no_function(self.names.name(axis), word, *span))
-            }
-            _ => {
-                let text = "an axis command is expected in the bracket";
-                Err(Fault::new(Condition::Syntax, text, group.span))
-            }
+            let items = if word.is("OSC") { rest } else { &group.items[..] };
+            Some(alone.and_then(|()| self.oscillating_axis(axis, items, group.span)))
+        } else if word.is("DIST_CTRL") && switches_off(rest) {
+            Some(Ok(()))
+        } else if word.is("COMP") {
+            Some(self.axis_compensation(axis, rest, group.span))
+        } else if word.is("SET_POSITION") {
+            Some(alone.and_then(|()| self.set_position(axis, rest, group.span)))
+        } else {
+            None
         }
     }
 

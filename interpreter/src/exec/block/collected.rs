@@ -107,6 +107,16 @@ impl<'b> Words<'b> {
         last.map_or(modal, |(_, absolute)| *absolute)
     }
 
+    /// The first G function with this effect.
+    pub(in crate::exec) fn with(&self, act: Act) -> Option<&GWord> {
+        self.g.iter().find(|g| g.row.act == act)
+    }
+
+    /// Whether a G function has this effect.
+    pub(in crate::exec) fn has(&self, act: Act) -> bool {
+        self.with(act).is_some()
+    }
+
     /// The G function of a group.
     pub(in crate::exec) fn group(&self, group: Group) -> Option<&GWord> {
         self.g.iter().find(|g| g.row.group == group)

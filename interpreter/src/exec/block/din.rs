@@ -6,6 +6,7 @@
 mod functions;
 mod insertions;
 mod offsets;
+mod presets;
 
 use super::choice::{Compensation, FeedType, LookAhead, PathMode, Plane};
 use super::collected::{CycleCall, GWord, Placed, Words};
@@ -102,7 +103,7 @@ impl Decoder {
         self.planes_and_units(&words);
         let takes_axes = axis_functions(&words, &mut self.report);
         let at_once = self.machine.channel.offsets.tools_at_once;
-        let tool_before = at_once.then(|| self.geometry.coordinates.tool_offsets().clone());
+        let tool_before = at_once.then(|| self.geometry.coordinates.tool().clone());
         self.tools_and_offsets(&words, takes_axes);
         if let Some(before) = tool_before {
             self.tool_moves(&before, &mut words, takes_axes);
@@ -307,7 +308,7 @@ impl Decoder {
             Act::StopAtTransitions(stop) => {
                 let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
                 if std::mem::replace(&mut self.modal.look_ahead, mode) != mode {
-                    self.motion.dynamics_changed();
+                    self.motion.limits.changed();
                 }
             }
             Act::LookAheadFunctions => look_ahead_functions(g, &mut self.report)?,

@@ -58,10 +58,9 @@ impl Decoder {
         ratio: f64,
         span: Span,
     ) {
-        let before = self.motion.limited_weights(&self.machine, &self.modal);
-        self.motion.weights.set(weight, axis, ratio);
-        self.motion.dynamics_changed();
-        for (axis, cut) in self.motion.limited_weights(&self.machine, &self.modal) {
+        let before = self.motion.limits.cuts(&self.machine, &self.modal);
+        self.motion.limits.set_weight(weight, axis, ratio);
+        for (axis, cut) in self.motion.limits.cuts(&self.machine, &self.modal) {
             // the same result of an earlier word was reported there
             let earlier =
                 (ratio - 1.0).abs() < 1e-12 || cut.weight().is_some_and(|cause| cause != weight);

@@ -5,6 +5,7 @@
 //!
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
+mod members;
 mod taken;
 
 use super::row::{Call, Row};
@@ -15,6 +16,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::exec::values::number::whole;
 use crate::syntax::ast::{ItemKind, Span};
+use members::{default_feed_group, exchanged, full_feedforward, full_feedforward_of_all, release};
 use taken::take_all;
 
 /// Row of `#PUT AX`.
@@ -155,7 +157,6 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
         None => Vec::new(),
     };
     if named.is_empty() {
-        decoder.motion.feed_axes_named = false;
         default_feed_group(decoder);
         if !decoder.machine.channel.feed.lists_axes {
             let text = "#FGROUP without axes, and none in the list: the main axes are used";
@@ -169,28 +170,8 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
             return Err(Fault::new(Condition::FeedGroupTwice, text, call.span()));
         }
     }
-    (decoder.motion.feed_axes, decoder.motion.feed_axes_named) = (members, true);
-    decoder.motion.dynamics_changed();
+    decoder.motion.limits.set_feed_axes(members, true);
     Ok(())
-}
-
-/// The feed group of the channel list; if it has none, the main axes.
-fn default_feed_group(decoder: &mut Decoder) {
-    let channel = &decoder.machine.channel;
-    decoder.motion.feed_axes = if channel.feed.lists_axes {
-        channel.feed.axes.clone()
-    } else {
-        let is_main = |axis| decoder.geometry.coordinates.main_index(axis).is_some();
-        (0..decoder.machine.axes.len()).map(is_main).collect()
-    };
-    decoder.motion.dynamics_changed();
-}
-
-/// Called after a change of names and main axes.
-fn exchanged(decoder: &mut Decoder) {
-    if !decoder.motion.feed_axes_named {
-        default_feed_group(decoder);
-    }
 }
 
 /// As [`exchange`], for a command that arranges all axes anew: none of them may be coupled (21312).
@@ -248,30 +229,6 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
         decoder.update_shaping(span);
     }
     Ok(())
-}
-
-fn release(decoder: &mut Decoder, axis: usize) {
-    decoder.names.rename(axis, None);
-    if let Some(main) = decoder.geometry.coordinates.main_index(axis) {
-        decoder.geometry.coordinates.set_main_axis(main, None);
-    }
-}
-
-/// The G136 weights of exchanged axes return to 100 %.
-fn full_feedforward(decoder: &mut Decoder, axes: &[usize]) {
-    let weights = &mut decoder.motion.feedforward.weight_ratios;
-    if axes.iter().any(|axis| weights[*axis] < 1.0) {
-        for axis in axes {
-            weights[*axis] = 1.0;
-        }
-        decoder.contour.event(decoder.motion.feedforward.event());
-    }
-}
-
-/// As above, for every axis of the machine.
-fn full_feedforward_of_all(decoder: &mut Decoder) {
-    let all: Vec<usize> = (0..decoder.machine.axes.len()).collect();
-    full_feedforward(decoder, &all);
 }
 
 /// A logical axis number (P-AXIS-00016); 21567 outside its range (diagnosis 255232651).

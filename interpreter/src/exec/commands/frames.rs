@@ -166,7 +166,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
         return Err(Fault::unsupported("#CS between #MCS ON and #MCS OFF", call.span()));
     }
     no_compensation(decoder, call)?;
-    if decoder.geometry.coordinates.stack_active() > 0 {
+    if decoder.geometry.coordinates.stack().active() > 0 {
         let what = format!("{} while a system of #CS SELECT is active", call.title());
         return Err(
             Fault::unsupported(what, call.span()).hint("use #CS DEL ALL to delete the stack")

@@ -54,8 +54,8 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match &call.command.tail[..] {
         [] => {}
         [word] if word.is("ALL") => {
-            decoder.motion.vector = [if on { listed } else { VectorLimits::default() }; 2];
-            decoder.motion.dynamics_changed();
+            let vector = if on { listed } else { VectorLimits::default() };
+            decoder.motion.limits.change_vector([true, true], |v| *v = vector);
             return Ok(());
         }
         [word, ..] => return Err(call.unexpected(word)),
@@ -63,58 +63,62 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = VectorArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let named = [keys.feed.is_some(), keys.rapid.is_some()];
     let meant = if named == [false, false] { [true, true] } else { named };
-    let limits = [
-        keys.vel,
-        keys.acc,
-        keys.dec,
-        keys.jerk,
-        keys.radial_acc,
-        keys.radial_jerk,
-        keys.trans_acc,
-    ];
-    if !on && limits.iter().all(Option::is_none) {
-        for (vector, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
-            *vector = VectorLimits::default();
+    match (on, keys.limits_nothing()) {
+        (false, true) => {
+            decoder.motion.limits.change_vector(meant, |v| *v = VectorLimits::default());
         }
-        decoder.motion.dynamics_changed();
-        return Ok(());
-    }
-    if limits.iter().all(Option::is_none) {
-        let text = "#VECTOR LIMIT ON limits nothing: a key or ALL is expected";
-        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
-    }
-    let value = |key: Option<(Option<f64>, Span)>, scale: f64, listed: Option<f64>| {
-        let (x, _) = key?;
-        Some(if on { x.map(|x| x * scale).or(listed) } else { None })
-    };
-    let t = decoder.machine.channel.dynamics.vector_time_s;
-    let per_time2 = (t * t).recip();
-    for (key, name) in [(keys.acc, "ACC"), (keys.dec, "DEC"), (keys.radial_acc, "RADIAL_ACC")] {
-        let Some((Some(x), span)) = key else { continue };
-        let acc_mm_s2 = x * per_time2;
-        if acc_mm_s2 < TINY_MM_S2 && t > 1.0 {
-            let text = format!("{name}={x} mm/min2 is {acc_mm_s2:.3} mm/s2");
-            decoder.report.note(Fault::new(Condition::PathAccelerationTiny, text, span));
+        (true, true) => {
+            let text = "#VECTOR LIMIT ON limits nothing: a key or ALL is expected";
+            return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+        }
+        (_, false) => {
+            let change = keys.change(decoder, on);
+            decoder.motion.limits.change_vector(meant, change);
         }
     }
-    let vel = value(keys.vel, decoder.modal.unit_mm() / 60.0, listed.vel_mm_s);
-    let acc = value(keys.acc, per_time2, listed.acc_mm_s2);
-    let dec = value(keys.dec, per_time2, listed.dec_mm_s2);
-    let jerk = value(keys.jerk, 1.0, listed.jerk_mm_s3);
-    let radial_acc = value(keys.radial_acc, per_time2, listed.radial_acc_mm_s2);
-    let radial_jerk = value(keys.radial_jerk, per_time2 / t, listed.radial_jerk_mm_s3);
-    let trans_acc = value(keys.trans_acc, 1.0, listed.trans_acc_mm_s2);
-    for (v, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
-        v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
-        v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);
-        v.dec_mm_s2 = dec.unwrap_or(v.dec_mm_s2);
-        v.jerk_mm_s3 = jerk.unwrap_or(v.jerk_mm_s3);
-        v.radial_acc_mm_s2 = radial_acc.unwrap_or(v.radial_acc_mm_s2);
-        v.radial_jerk_mm_s3 = radial_jerk.unwrap_or(v.radial_jerk_mm_s3);
-        v.trans_acc_mm_s2 = trans_acc.unwrap_or(v.trans_acc_mm_s2);
-    }
-    decoder.motion.dynamics_changed();
     Ok(())
+}
+
+impl VectorArguments {
+    fn limits_nothing(&self) -> bool {
+        let Self { vel, acc, dec, jerk, radial_acc, radial_jerk, trans_acc, .. } = self;
+        [vel, acc, dec, jerk, radial_acc, radial_jerk, trans_acc].iter().all(|key| key.is_none())
+    }
+
+    /// What the keys change, in mm and s; accelerations that are tiny in them are noted.
+    fn change(&self, decoder: &mut Decoder, on: bool) -> impl Fn(&mut VectorLimits) + use<> {
+        let listed = decoder.machine.channel.dynamics.vector;
+        let t = decoder.machine.channel.dynamics.vector_time_s;
+        let per_time2 = (t * t).recip();
+        for (key, name) in [(self.acc, "ACC"), (self.dec, "DEC"), (self.radial_acc, "RADIAL_ACC")] {
+            let Some((Some(x), span)) = key else { continue };
+            let acc_mm_s2 = x * per_time2;
+            if acc_mm_s2 < TINY_MM_S2 && t > 1.0 {
+                let text = format!("{name}={x} mm/min2 is {acc_mm_s2:.3} mm/s2");
+                decoder.report.note(Fault::new(Condition::PathAccelerationTiny, text, span));
+            }
+        }
+        let value = |key: Option<(Option<f64>, Span)>, scale: f64, listed: Option<f64>| {
+            let (x, _) = key?;
+            Some(if on { x.map(|x| x * scale).or(listed) } else { None })
+        };
+        let vel = value(self.vel, decoder.modal.unit_mm() / 60.0, listed.vel_mm_s);
+        let acc = value(self.acc, per_time2, listed.acc_mm_s2);
+        let dec = value(self.dec, per_time2, listed.dec_mm_s2);
+        let jerk = value(self.jerk, 1.0, listed.jerk_mm_s3);
+        let radial_acc = value(self.radial_acc, per_time2, listed.radial_acc_mm_s2);
+        let radial_jerk = value(self.radial_jerk, per_time2 / t, listed.radial_jerk_mm_s3);
+        let trans_acc = value(self.trans_acc, 1.0, listed.trans_acc_mm_s2);
+        move |v| {
+            v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
+            v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);
+            v.dec_mm_s2 = dec.unwrap_or(v.dec_mm_s2);
+            v.jerk_mm_s3 = jerk.unwrap_or(v.jerk_mm_s3);
+            v.radial_acc_mm_s2 = radial_acc.unwrap_or(v.radial_acc_mm_s2);
+            v.radial_jerk_mm_s3 = radial_jerk.unwrap_or(v.radial_jerk_mm_s3);
+            v.trans_acc_mm_s2 = trans_acc.unwrap_or(v.trans_acc_mm_s2);
+        }
+    }
 }
 
 /// Row of `#VECTORVEL`.
@@ -198,7 +202,7 @@ fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
     decoder.modal.commanded.transition_min_mm_s = value * decoder.modal.unit_mm() / 60.0;
-    decoder.motion.dynamics_changed();
+    decoder.motion.limits.changed();
     Ok(())
 }
 

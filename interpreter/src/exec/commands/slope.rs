@@ -22,7 +22,7 @@ fn default(decoder: &mut Decoder) {
 fn set_old(decoder: &mut Decoder, old: bool) {
     if decoder.modal.commanded.old_slope != old {
         decoder.modal.commanded.old_slope = old;
-        decoder.motion.dynamics_changed();
+        decoder.motion.limits.changed();
     }
 }
 

@@ -62,9 +62,9 @@ fn name(group: &Group) -> Outcome<&Ident> {
 
 /// Index of a name in the stack.
 fn place(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
-    let mut names = decoder.geometry.coordinates.stack();
+    let mut names = decoder.geometry.coordinates.stack().names();
     names.position(|known| known == &*name.text).ok_or_else(|| {
-        let names: Vec<&str> = decoder.geometry.coordinates.stack().collect();
+        let names: Vec<&str> = decoder.geometry.coordinates.stack().names().collect();
         let hint = if names.is_empty() {
             "write #CS ADD [name][x,y,z,a,b,c] before it".to_owned()
         } else {
@@ -83,7 +83,7 @@ fn changes(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
         let what = format!("{} between #MCS ON and #MCS OFF", call.title());
         return Err(Fault::unsupported(what, call.span()));
     }
-    if coordinates.systems() != coordinates.stack_active() {
+    if coordinates.systems() != coordinates.stack().active() {
         let what = format!("{} while a system of #CS ON is active", call.title());
         return Err(Fault::unsupported(what, call.span()));
     }
@@ -113,7 +113,7 @@ fn add(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(wrong_form(&text, name.span)
             .hint("use up to eight characters, but not ACS, IMCS or MCS"));
     }
-    if decoder.geometry.coordinates.stack().any(|known| known == &*name.text) {
+    if decoder.geometry.coordinates.stack().names().any(|known| known == &*name.text) {
         let text = format!("the stack already has a coordinate system {}", name.text);
         return Err(Fault::new(Condition::SystemNameInUse, text, name.span));
     }
@@ -147,7 +147,7 @@ fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let place = place(decoder, name(first)?)?;
     let frame = frames::system(decoder, values)?;
     frames::turns_alike(decoder, call, &frame)?;
-    if place < decoder.geometry.coordinates.stack_active() {
+    if place < decoder.geometry.coordinates.stack().active() {
         changes(decoder, call)?;
     }
     decoder.geometry.coordinates.stack_set(place, frame);
@@ -163,7 +163,7 @@ fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.command.on.is_some() {
         return Err(wrong_form("neither ON nor OFF is allowed here", call.span()));
     }
-    if decoder.geometry.coordinates.stack_active() > 0 {
+    if decoder.geometry.coordinates.stack().active() > 0 {
         changes(decoder, call)?;
     }
     if !decoder.geometry.coordinates.stack_delete(all) && !all {

@@ -7,64 +7,30 @@
 //! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS, offsets in the coordinate system. Assumption: axes
 //! that a rotation couples take their offsets over together.
 
+mod active;
+mod kinds;
 mod layer;
 mod machine;
+mod offsets;
 mod stack;
+mod systems;
 mod words;
+mod zero;
 
 use super::frame::Frame;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
+pub(in crate::exec) use active::Rotation;
+use active::{Active, Suspended};
+pub(in crate::exec) use kinds::{OffsetKind, Target};
 use kontur_motion::axis::AxisVec;
 use layer::Layer;
-use machine::Suspended;
+pub(in crate::exec) use stack::SYSTEMS_MAX;
 use stack::Stack;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// Last group of the table of zero offsets (P-ZERO-00002).
-pub(in crate::exec) const LAST_ZERO_GROUP: u32 = 96;
-
-/// Contour rotation (G68, `#ROTATION`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) struct Rotation {
-    /// Main axes of the plane.
-    pub(in crate::exec::geometry) plane: [usize; 2],
-    pub(in crate::exec) deg: f64,
-    /// Centre in mm in the plane.
-    pub(in crate::exec) centre: [f64; 2],
-}
-
-/// A coordinate word in mm (deg).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) struct Target {
-    pub(in crate::exec) axis: usize,
-    pub(in crate::exec) value: f64,
-    /// G90 (absolute) instead of an increment (G91).
-    pub(in crate::exec) absolute: bool,
-}
-
-/// Kind of offset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) enum OffsetKind {
-    /// G54 to G59, G159.
-    Zero,
-    /// G92.
-    Additive,
-    /// `#PSET`.
-    Preset,
-    Tool,
-    /// G101.
-    Measuring,
-}
-
-impl OffsetKind {
-    pub(in crate::exec) const ALL: [Self; 5] =
-        [Self::Zero, Self::Additive, Self::Preset, Self::Tool, Self::Measuring];
-}
-
-/// Coordinate systems that can be stored. Source: TF5200, #CS DEF.
-pub(in crate::exec) const SYSTEMS_MAX: usize = 5;
+use std::collections::BTreeMap;
+pub(in crate::exec) use zero::LAST_ZERO_GROUP;
+use zero::ZeroOffsets;
 
 /// Coordinates of all axes of the machine, in channel order.
 #[derive(Clone, Debug)]
@@ -73,29 +39,14 @@ pub(in crate::exec) struct Coordinates {
     program: AxisVec,
     /// Targets of the axes after the previous block.
     target: AxisVec,
-    /// Offset contained in the target of each axis.
-    applied: AxisVec,
     /// Last coordinate words.
     word: AxisVec,
     /// First, second and third main axis.
     main: [Option<usize>; 3],
-    zero_table: BTreeMap<u32, AxisVec>,
-    /// Whether G53 has its own offsets (P-ZERO-00001).
-    has_g53: bool,
-    /// Zero-offset group of the axes that are not main axes, if their offsets belong to the channel instead of a coordinate
-    /// system (P-CHAN-00397 = 0).
-    channel_group: Option<u32>,
-    /// Axes with entries excluded from a group (G160).
-    zero_masked: BTreeSet<(u32, usize)>,
-    /// Offsets below all coordinate systems.
-    lowest: Layer,
-    /// Active coordinate systems, the last one innermost.
-    systems: Vec<Layer>,
+    zeros: ZeroOffsets,
+    active: Active,
+    /// Length and offsets of the tool.
     tool: AxisVec,
-    /// Measuring offsets (G101).
-    measuring: AxisVec,
-    mirrored: Vec<bool>,
-    rotation: Option<Rotation>,
     stored: BTreeMap<u32, Frame>,
     /// Named systems (`#CS ADD`).
     stack: Stack,
@@ -113,19 +64,11 @@ impl Coordinates {
         Self {
             program: start.clone(),
             target: start.clone(),
-            applied: AxisVec::zeros(n),
             word: start.clone(),
             main,
-            zero_table: BTreeMap::new(),
-            has_g53: false,
-            channel_group: None,
-            zero_masked: BTreeSet::new(),
-            lowest: Layer::new(Frame::IDENTITY, n),
-            systems: Vec::new(),
+            zeros: ZeroOffsets::default(),
+            active: Active::none(n),
             tool: AxisVec::zeros(n),
-            measuring: AxisVec::zeros(n),
-            mirrored: vec![false; n],
-            rotation: None,
             stored: BTreeMap::new(),
             stack: Stack::default(),
             suspended: None,
@@ -149,14 +92,14 @@ impl Coordinates {
     /// Source: TF5200 programming manual 207902603 (V.A.PROG), tccncprogramming 15556682379: the mental coordinates are those
     /// of the program, the programmed ones are mirrored. Assumption: under a rotation an increment counts as a position.
     pub(in crate::exec) fn traversed_word(&self, axis: usize) -> f64 {
-        let word = match (&self.rotation, self.main_index(axis)) {
+        let word = match (&self.active.rotation, self.main_index(axis)) {
             (Some(r), Some(main)) => {
                 let turn = Frame::rotation(r.plane[0], r.plane[1], r.deg, r.centre);
                 turn.apply(self.programmed_point())[main]
             }
             _ => self.word[axis],
         };
-        if self.mirrored[axis] { 0.0 - word } else { word }
+        if self.active.mirrored[axis] { 0.0 - word } else { word }
     }
 
     /// Axis of a main axis index.
@@ -183,45 +126,54 @@ impl Coordinates {
     /// Offset that an absolute word of this axis would apply, except for the offsets in the frame.
     #[inline]
     pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
-        let offset = self.layer_offset(&self.lowest, axis) + self.tool[axis] + self.measuring[axis];
+        let offset = self.layer_offset(&self.active.lowest, axis)
+            + self.tool[axis]
+            + self.active.measuring[axis];
         // the frame consists of the main axes only
-        if self.systems.is_empty() || self.main_index(axis).is_some() || self.is_of_channel(axis) {
+        if self.active.systems.is_empty()
+            || self.main_index(axis).is_some()
+            || self.is_of_channel(axis)
+        {
             return offset;
         }
-        offset + self.systems.iter().map(|layer| self.layer_offset(layer, axis)).sum::<f64>()
+        offset + self.active.systems.iter().map(|layer| self.layer_offset(layer, axis)).sum::<f64>()
     }
 
     /// Active offset without those of these kinds.
     pub(in crate::exec) fn offset_without(&self, kinds: &[OffsetKind], axis: usize) -> f64 {
         let tool = if kinds.contains(&OffsetKind::Tool) { 0.0 } else { self.tool[axis] };
         let measuring =
-            if kinds.contains(&OffsetKind::Measuring) { 0.0 } else { self.measuring[axis] };
-        let offset = self.layer_without(&self.lowest, kinds, axis) + tool + measuring;
-        if self.systems.is_empty() || self.main_index(axis).is_some() || self.is_of_channel(axis) {
+            if kinds.contains(&OffsetKind::Measuring) { 0.0 } else { self.active.measuring[axis] };
+        let offset = self.layer_without(&self.active.lowest, kinds, axis) + tool + measuring;
+        if self.active.systems.is_empty()
+            || self.main_index(axis).is_some()
+            || self.is_of_channel(axis)
+        {
             return offset;
         }
-        let in_systems = self.systems.iter().map(|layer| self.layer_without(layer, kinds, axis));
+        let in_systems =
+            self.active.systems.iter().map(|layer| self.layer_without(layer, kinds, axis));
         offset + in_systems.sum::<f64>()
     }
 
     /// Offset contained in the target of an axis.
     pub(in crate::exec) fn applied_offset(&self, axis: usize) -> f64 {
-        self.applied[axis]
+        self.active.applied[axis]
     }
 
     /// Measuring offset included by G101.
     pub(in crate::exec) fn measuring_offset(&self, axis: usize) -> f64 {
-        self.measuring[axis]
+        self.active.measuring[axis]
     }
 
     pub(in crate::exec) fn set_measuring_offset(&mut self, axis: usize, value_mm: f64) {
-        self.measuring[axis] = value_mm;
+        self.active.measuring[axis] = value_mm;
     }
 
     /// An axis moves to a position without offsets and systems (independent axes, 208612235).
     pub(in crate::exec) fn place(&mut self, axis: usize, position_mm: f64) {
         (self.word[axis], self.target[axis]) = (position_mm, position_mm);
-        self.applied[axis] = self.active_offset(axis);
+        self.active.applied[axis] = self.active_offset(axis);
         self.recompute_program();
     }
 
@@ -230,12 +182,6 @@ impl Coordinates {
         std::array::from_fn(|m| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis)))
     }
 
-    /// Offsets of the tool by axis.
-    pub(in crate::exec) fn tool_offsets(&self) -> &AxisVec {
-        &self.tool
-    }
-
-    /// Replaces the tool offsets of all axes.
     /// Length and offsets of the tool, by axis.
     pub(in crate::exec) fn tool(&self) -> &AxisVec {
         &self.tool
@@ -246,20 +192,20 @@ impl Coordinates {
     }
 
     pub(in crate::exec) fn mirrored(&self, axis: usize) -> bool {
-        self.mirrored[axis]
+        self.active.mirrored[axis]
     }
 
     pub(in crate::exec) fn set_mirrored(&mut self, axis: usize, mirrored: bool) {
-        self.mirrored[axis] = mirrored;
+        self.active.mirrored[axis] = mirrored;
         self.frame_changed();
     }
 
     pub(in crate::exec) fn rotation(&self) -> Option<&Rotation> {
-        self.rotation.as_ref()
+        self.active.rotation.as_ref()
     }
 
     pub(in crate::exec) fn set_rotation(&mut self, rotation: Option<Rotation>) {
-        self.rotation = rotation;
+        self.active.rotation = rotation;
         self.frame_changed();
     }
 
@@ -282,18 +228,6 @@ impl Coordinates {
         Ok(())
     }
 
-    pub(in crate::exec) fn store_system(&mut self, id: u32, frame: Frame) {
-        self.stored.insert(id, frame);
-    }
-
-    pub(in crate::exec) fn stored_system(&self, id: u32) -> Option<Frame> {
-        self.stored.get(&id).copied()
-    }
-
-    pub(in crate::exec) fn stored_systems(&self) -> usize {
-        self.stored.len()
-    }
-
     /// Frame over the main axes.
     pub(in crate::exec) fn frame(&self) -> &Frame {
         &self.frame
@@ -314,13 +248,13 @@ impl Coordinates {
     /// The frame with these offsets in its systems.
     fn frame_with(&self, offset: impl Fn(&Layer, usize) -> f64) -> Frame {
         let mirror = Frame::mirror(std::array::from_fn(|i| {
-            self.main[i].is_some_and(|axis| self.mirrored[axis])
+            self.main[i].is_some_and(|axis| self.active.mirrored[axis])
         }));
-        let mut frame = match &self.rotation {
+        let mut frame = match &self.active.rotation {
             Some(r) => mirror.after(&Frame::rotation(r.plane[0], r.plane[1], r.deg, r.centre)),
             None => mirror,
         };
-        for layer in self.systems.iter().rev() {
+        for layer in self.active.systems.iter().rev() {
             for (t, axis) in frame.t.iter_mut().zip(self.main) {
                 *t += axis.map_or(0.0, |axis| offset(layer, axis));
             }
@@ -345,13 +279,14 @@ impl Coordinates {
 
     fn write_program(&self, position: &AxisVec, program: &mut AxisVec) {
         for axis in 0..position.len() {
-            let bare = position[axis] - self.applied[axis];
-            program[axis] = if self.mirrored[axis] { -bare } else { bare };
+            let bare = position[axis] - self.active.applied[axis];
+            program[axis] = if self.active.mirrored[axis] { -bare } else { bare };
         }
         if self.plain {
             return;
         }
-        let bare = self.main.map(|m| m.map_or(0.0, |axis| position[axis] - self.applied[axis]));
+        let bare =
+            self.main.map(|m| m.map_or(0.0, |axis| position[axis] - self.active.applied[axis]));
         let inside = self.frame.inverse(bare);
         for (main, value) in inside.into_iter().enumerate() {
             if let Some(axis) = self.main[main] {
@@ -363,7 +298,7 @@ impl Coordinates {
     /// Machine coordinates of a programmed point, over the main axes, with the offsets contained in the targets.
     pub(in crate::exec) fn to_machine(&self, p: [f64; 3]) -> [f64; 3] {
         let q = self.frame.apply(p);
-        std::array::from_fn(|i| q[i] + self.main[i].map_or(0.0, |axis| self.applied[axis]))
+        std::array::from_fn(|i| q[i] + self.main[i].map_or(0.0, |axis| self.active.applied[axis]))
     }
 }
 

@@ -55,7 +55,7 @@ impl Modal {
 
 /// Centre, R and G163 exclude each other.
 fn defined_once(words: &Words<'_>, has_centre: bool) -> Outcome<()> {
-    let by_word = words.g.iter().find(|g| g.row.act == Act::Radius);
+    let by_word = words.with(Act::Radius);
     if let (Some(g), true) = (by_word, has_centre || words.radius.is_some()) {
         let text = "G163 beside I, J, K or R: the radius is given twice";
         return Err(Fault::new(Condition::CentreWithG163, text, g.span));
@@ -139,7 +139,7 @@ impl Decoder {
         self.geometry.last_arc.plane = image;
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
         self.feed_group_fits(plane, span)?;
-        let arc = ArcPath::new(start, end, shape, &self.motion.feed_axes)
+        let arc = ArcPath::new(start, end, shape, self.motion.limits.feed_axes())
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
         Ok(match tilt {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
@@ -193,7 +193,7 @@ impl Decoder {
     ///
     /// The page does not define F for this case. Here it is the feed rate in the plane, as without `#FGROUP`.
     fn feed_group_fits(&mut self, plane: [usize; 2], span: Span) -> Outcome<()> {
-        let feed = &self.motion.feed_axes;
+        let feed = self.motion.limits.feed_axes();
         // the group of the lists consists of the main axes, also after an axis exchange
         if *feed == self.machine.channel.feed.axes {
             return Ok(());

@@ -97,7 +97,7 @@ impl Decoder {
             "edge banding with tool radius compensation"
         } else if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
             "edge banding in a spline"
-        } else if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
+        } else if self.modal.contouring || words.has(Act::ContourOnce) {
             "edge banding with contouring"
         } else if self.contour.inserts() || words.group(Group::Insertion).is_some() {
             "edge banding with chamfers and roundings"
@@ -137,7 +137,7 @@ impl Decoder {
 
 /// K-0135 for a block of edge banding without a motion.
 pub(in crate::exec) fn banding_without_motion(words: &Words<'_>, span: Span) -> Box<Fault> {
-    let selected = words.g.iter().any(|g| g.row.act == Act::Banding(true));
+    let selected = words.has(Act::Banding(true));
     if selected && !words.axes.is_empty() {
         let text = "G108 in the block of the motion: axis words do not move in its block";
         Fault::new(Condition::MeasuringWay, text, span).hint("write G108 in a block before it")

@@ -167,7 +167,7 @@ impl Decoder {
         }
         self.motion.couplings.active.push((group, followers));
         self.motion.couplings.last = group;
-        self.motion.dynamics_changed();
+        self.motion.limits.changed();
         Ok(())
     }
 
@@ -189,7 +189,7 @@ impl Decoder {
             for follower in followers {
                 self.contour.event(Event::Uncouple { slave: follower.pair.slave });
             }
-            self.motion.dynamics_changed();
+            self.motion.limits.changed();
         }
         Ok(())
     }

@@ -55,7 +55,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         let interrupts = g.row.number == 310;
-        let through = words.g.iter().any(|g| g.row.act == Act::MeasureThrough);
+        let through = words.has(Act::MeasureThrough);
         let kind = self.motion.measuring.kind;
         self.measuring_fits(g, words, through)?;
         self.end_thread();
@@ -140,7 +140,7 @@ impl Decoder {
             let text = "a measuring run while tool radius compensation is active";
             return Err(Fault::new(Condition::MeasuringCompensated, text, g.span));
         }
-        if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
+        if self.modal.contouring || words.has(Act::ContourOnce) {
             let text = "a measuring run while contouring is active";
             return Err(Fault::new(Condition::MeasuringWithContouring, text, g.span)
                 .hint("write G260 before it and G261 after it"));

@@ -108,9 +108,10 @@ impl Decoder {
         let tilt = Tilt { axes, m, t_mm: centre };
         let (start, end) = local_ends(&tilt, &from, &target);
         let shape = ArcShape { plane: [x, y], centre_mm: [0.0; 2], sweep_rad };
-        let arc = ArcPath::new(start, end, shape, &self.motion.feed_axes).ok_or_else(|| {
-            Fault::new(Condition::ArcRadiusZero, "the radius of the arc is 0", span)
-        })?;
+        let arc =
+            ArcPath::new(start, end, shape, self.motion.limits.feed_axes()).ok_or_else(|| {
+                Fault::new(Condition::ArcRadiusZero, "the radius of the arc is 0", span)
+            })?;
         Ok(Path::Tilted(Box::new(TiltedArc::new(arc, tilt, from, target))))
     }
 }

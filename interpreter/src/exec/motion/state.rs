@@ -3,15 +3,16 @@
 pub(in crate::exec) mod areas;
 pub(in crate::exec) mod coupling;
 mod cutting;
+mod limits;
 pub(in crate::exec) mod measuring;
 pub(in crate::exec) mod wear;
 
 use self::areas::Areas;
 use self::coupling::Couplings;
 use self::cutting::Cutting;
+use self::limits::PathLimits;
 use self::measuring::Measuring;
 use self::wear::OnlineCompensation;
-use super::dynamics::{Cut, Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
 use crate::exec::block::modal::{FeedWord, Modal};
@@ -20,9 +21,9 @@ use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::{Event, SourceRef};
 use crate::machine::{Acknowledged, Channel, Machine, SpindleMoment};
 use crate::syntax::ast::Span;
-use kontur_motion::axis::{AxisDynamics, AxisVec};
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{
-    Block, ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance, VectorLimits,
+    Block, ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -44,15 +45,7 @@ impl Feedforward {
 /// State that the motions own.
 #[derive(Debug)]
 pub(in crate::exec) struct MotionState {
-    pub(in crate::exec) weights: Weights,
-    /// Members of the feed group (`#FGROUP`).
-    pub(in crate::exec) feed_axes: Vec<bool>,
-    /// Whether they were set by `#FGROUP [..]`.
-    pub(in crate::exec) feed_axes_named: bool,
-    /// Active `#VECTOR LIMIT` in feed and in rapid blocks.
-    pub(in crate::exec) vector: [VectorLimits; 2],
-    /// Dynamics in feed and in rapid blocks; reused while the limits do not change.
-    pub(in crate::exec::motion) dynamics: [Option<Arc<ChannelDynamics>>; 2],
+    pub(in crate::exec) limits: PathLimits,
     pub(in crate::exec) overrides: Overrides,
     pub(in crate::exec) independent: Independent,
     pub(in crate::exec) couplings: Couplings,
@@ -85,11 +78,7 @@ impl MotionState {
     pub(in crate::exec) fn new(machine: &Machine, counts_times: bool) -> Self {
         let n = machine.axes.len();
         Self {
-            weights: Weights::new(n),
-            feed_axes: machine.channel.feed.axes.clone(),
-            feed_axes_named: false,
-            vector: [VectorLimits::default(); 2],
-            dynamics: [None, None],
+            limits: PathLimits::new(machine),
             overrides: Overrides::new(n),
             independent: Independent::new(n),
             couplings: Couplings::of_lists(machine),
@@ -122,34 +111,20 @@ impl MotionState {
         modal: &Modal,
         rapid: bool,
     ) -> Arc<ChannelDynamics> {
-        if !self.measuring.runs || machine.channel.measuring.as_feed {
-            return self.dynamics(machine, modal, rapid);
+        if self.measuring.runs && !machine.channel.measuring.as_feed {
+            return Arc::new(self.limits.measuring(machine, modal, &self.couplings));
         }
-        let weights = self.weights.of_velocities();
-        let (mut dynamics, _) = channel_dynamics(machine, &weights, modal, self.vector[0]);
-        dynamics.feed_axes.clone_from(&self.feed_axes);
-        self.couplings.limit(&mut dynamics.axes);
-        dynamics.axes.iter_mut().for_each(AxisDynamics::use_rapid);
-        Arc::new(dynamics)
+        self.dynamics(machine, modal, rapid)
     }
 
-    /// Active dynamics in feed or rapid blocks; rebuilt after a change.
+    /// Active dynamics in feed or rapid blocks.
     pub(super) fn dynamics(
         &mut self,
         machine: &Machine,
         modal: &Modal,
         rapid: bool,
     ) -> Arc<ChannelDynamics> {
-        let mode = usize::from(rapid && self.vector[0] != self.vector[1]);
-        if let Some(dynamics) = &self.dynamics[mode] {
-            return Arc::clone(dynamics);
-        }
-        let (mut dynamics, _) = channel_dynamics(machine, &self.weights, modal, self.vector[mode]);
-        dynamics.feed_axes.clone_from(&self.feed_axes);
-        self.couplings.limit(&mut dynamics.axes);
-        let dynamics = Arc::new(dynamics);
-        self.dynamics[mode] = Some(Arc::clone(&dynamics));
-        dynamics
+        self.limits.dynamics(machine, modal, &self.couplings, rapid)
     }
 
     /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
@@ -157,20 +132,6 @@ impl MotionState {
         let main = name.eq_ignore_ascii_case(&channel.spindles.main_name);
         let listed = self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
         if main { Some(0) } else { listed }
-    }
-
-    /// Called after a change of anything that determines the dynamics.
-    pub(in crate::exec) fn dynamics_changed(&mut self) {
-        self.dynamics = [None, None];
-    }
-
-    /// Axes whose limits differ from those that their weights request, and why.
-    pub(in crate::exec) fn limited_weights(
-        &self,
-        machine: &Machine,
-        modal: &Modal,
-    ) -> Vec<(usize, Cut)> {
-        channel_dynamics(machine, &self.weights, modal, self.vector[0]).1
     }
 }
 

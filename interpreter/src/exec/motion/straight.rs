@@ -4,7 +4,7 @@
 //! It reports and does the same as [`Decoder::execute_words`] for the same words; the tests compare both. Everything that
 //! consecutive motions have in common is computed once, and reused until another kind of block follows.
 
-use super::InPlane;
+use super::plane::InPlane;
 use super::state::Straight;
 use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::modal::Modal;
@@ -154,7 +154,9 @@ impl Decoder {
         let offsets = shared.as_ref().map(|shared| &shared.offsets[..]);
         coordinates.program_with(offsets, words.targets.iter().map(|(target, _)| *target));
         let end = coordinates.target().clone();
-        let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else { return shared };
+        let Some(line) = LinePath::new(start, end, self.motion.limits.feed_axes()) else {
+            return shared;
+        };
         let path = Path::Line(line);
         self.check_line(path.start(), words);
         let shared = if let Some(shared) = shared {
@@ -196,8 +198,12 @@ impl Decoder {
         let targets = words.targets.iter().map(|(target, _)| *target);
         coordinates.program_with(Some(&shared.offsets), targets);
         let ends = (&start[..], &coordinates.target()[..]);
-        let time_s =
-            self.contour.pass_by(ends, &self.motion.feed_axes, self.report.source, words.span)?;
+        let time_s = self.contour.pass_by(
+            ends,
+            self.motion.limits.feed_axes(),
+            self.report.source,
+            words.span,
+        )?;
         self.moved = true;
         self.check_line(&start, words);
         Some(time_s)

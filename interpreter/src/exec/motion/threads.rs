@@ -140,7 +140,7 @@ impl Decoder {
             }
             self.motion.threads.pitch_mm[main] = Some(pitch_mm);
         }
-        let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else {
+        let Some(line) = LinePath::new(start, end, self.motion.limits.feed_axes()) else {
             let Some((axis, _, at)) = words.axes.first().filter(|_| mode.is_tapping()) else {
                 return Ok(());
             };
@@ -378,7 +378,7 @@ impl Decoder {
 
 /// G166 in the block.
 fn has_full_override(words: &Words<'_>) -> bool {
-    words.g.iter().any(|g| g.row.act == Act::FullOverride)
+    words.has(Act::FullOverride)
 }
 
 /// Whether the path passes from one block of a chain to the next below the speed of both.

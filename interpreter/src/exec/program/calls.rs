@@ -11,7 +11,7 @@ use crate::exec::options::Value;
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Param, Text};
 use crate::suggest;
-use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Call, CallKind, Group, Ident, Item, ItemKind, ItemValue, Span};
 use std::sync::Arc;
 
 /// Maximum number of program levels. Assumption: the vendor prints no number.
@@ -23,6 +23,15 @@ pub(super) fn too_deep() -> String {
     format!(
         "subroutines nested more than {subroutines} deep: {LEVELS_MAX} levels including the main program"
     )
+}
+
+/// The bracket of `L CYCLE`.
+#[derive(Default)]
+struct CycleKeys {
+    name: Option<Ident>,
+    passed: Passed,
+    /// For a modal cycle: whether every block calls it, and not only those that move.
+    modal: Option<bool>,
 }
 
 /// Maximum number of local subroutines named in a hint.
@@ -176,52 +185,10 @@ impl Executor {
 
     /// `L CYCLE [NAME=.. @P1=..]`.
     fn call_cycle(&mut self, group: &Group, local: bool, span: Span) {
-        let mut name = None;
-        let mut passed = Passed::new();
-        let (mut modal, mut faulty) = (None, false);
+        let mut keys = CycleKeys::default();
+        let mut faulty = false;
         for item in &group.items {
-            let outcome: Outcome<()> = match &item.kind {
-                ItemKind::Missing => Ok(()),
-                ItemKind::Flag(word) if word.is("MODAL_MOVE") || word.is("MODAL") => {
-                    modal = Some(false);
-                    Ok(())
-                }
-                ItemKind::Flag(word) if word.is("MODAL_BLOCK") => {
-                    modal = Some(true);
-                    Ok(())
-                }
-                ItemKind::Pair { key, value } if key.is("NAME") => match self.cycle_name(value) {
-                    Ok(found) if name.is_none() => {
-                        name = Some(found);
-                        Ok(())
-                    }
-                    Ok(_) => Err(Fault::new(Condition::CycleKeyTwice, "NAME twice", key.span)),
-                    Err(fault) => Err(fault),
-                },
-                ItemKind::Pair { key, .. } if !is_cycle_parameter(&key.text) => {
-                    let text = format!("{}: a cycle takes @P1 to @P200", key.text);
-                    Err(Fault::new(Condition::Range, text, key.span))
-                }
-                ItemKind::Pair { key, value } if key.text.starts_with("@P") => {
-                    match self.cycle_value(value) {
-                        Ok(value) => {
-                            if passed.insert(key.text[1..].into(), value).is_none() {
-                                Ok(())
-                            } else {
-                                let text = format!("{} twice", key.text);
-                                Err(Fault::new(Condition::CycleKeyTwice, text, key.span))
-                            }
-                        }
-                        Err(fault) => Err(fault),
-                    }
-                }
-                _ => {
-                    let text = "L CYCLE: NAME= or @P..= is expected";
-                    Err(Fault::new(Condition::TokenUnknown, text, item.span)
-                        .hint("write L CYCLE [NAME=\"file\" @P1=..]; @X and @S are words inside the cycle"))
-                }
-            };
-            if let Err(fault) = outcome {
+            if let Err(fault) = self.cycle_key(item, &mut keys) {
                 // the rest of a word that is not understood would be another error
                 let ends = fault.diagnostic.id == Condition::TokenUnknown.id();
                 faulty = true;
@@ -234,12 +201,10 @@ impl Executor {
         if faulty {
             return;
         }
+        let CycleKeys { name, passed, modal } = keys;
         let Some(name) = name else {
-            self.decoder.report.note(Fault::new(
-                Condition::TokenUnknown,
-                "L CYCLE needs NAME",
-                span,
-            ));
+            let fault = Fault::new(Condition::TokenUnknown, "L CYCLE needs NAME", span);
+            self.decoder.report.note(fault);
             return;
         };
         if self.decoder.modal.path.is_thread() {
@@ -262,6 +227,42 @@ impl Executor {
             self.decoder.calls.modal_cycle = Some(modal);
         }
         self.push_level(target, Some(passed));
+    }
+
+    /// Reads one entry of the bracket of `L CYCLE`.
+    fn cycle_key(&self, item: &Item, keys: &mut CycleKeys) -> Outcome<()> {
+        match &item.kind {
+            ItemKind::Missing => {}
+            ItemKind::Flag(word) if word.is("MODAL_MOVE") || word.is("MODAL") => {
+                keys.modal = Some(false);
+            }
+            ItemKind::Flag(word) if word.is("MODAL_BLOCK") => keys.modal = Some(true),
+            ItemKind::Pair { key, value } if key.is("NAME") => {
+                let name = self.cycle_name(value)?;
+                if keys.name.is_some() {
+                    return Err(Fault::new(Condition::CycleKeyTwice, "NAME twice", key.span));
+                }
+                keys.name = Some(name);
+            }
+            ItemKind::Pair { key, .. } if !is_cycle_parameter(&key.text) => {
+                let text = format!("{}: a cycle takes @P1 to @P200", key.text);
+                return Err(Fault::new(Condition::Range, text, key.span));
+            }
+            ItemKind::Pair { key, value } if key.text.starts_with("@P") => {
+                let value = self.cycle_value(value)?;
+                if keys.passed.insert(key.text[1..].into(), value).is_some() {
+                    let text = format!("{} twice", key.text);
+                    return Err(Fault::new(Condition::CycleKeyTwice, text, key.span));
+                }
+            }
+            _ => {
+                let text = "L CYCLE: NAME= or @P..= is expected";
+                let hint =
+                    "write L CYCLE [NAME=\"file\" @P1=..]; @X and @S are words inside the cycle";
+                return Err(Fault::new(Condition::TokenUnknown, text, item.span).hint(hint));
+            }
+        }
+        Ok(())
     }
 
     fn cycle_name(&self, value: &ItemValue) -> Result<Ident, Box<Fault>> {

@@ -57,7 +57,7 @@ impl Decoder {
         if self.modal != restored {
             self.modal = restored;
             self.geometry.apply_tool(self.modal.plane.main_axes());
-            self.motion.dynamics_changed();
+            self.motion.limits.changed();
         }
     }
 }

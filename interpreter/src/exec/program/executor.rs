@@ -8,7 +8,6 @@ mod run;
 
 use self::budget::Budget;
 use self::found::Found;
-use super::ahead::{Decoded, Opened, Rare};
 use super::files::Files;
 use super::places::position;
 use super::reached::Reached;
@@ -16,7 +15,9 @@ use super::state::{Level, Sequences, Target};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels};
-use crate::exec::step::{EndReason, ShapingSetup, SourceRef, Step, Sync, Told};
+use crate::exec::step::{
+    Decoded, EndReason, Opened, Rare, ShapingSetup, SourceRef, Step, Sync, Told,
+};
 use crate::machine::Machine;
 use crate::machine::table::channel as of;
 use crate::source::{Position, Sources};

@@ -1,14 +1,13 @@
 //! Open program files: text, structure, and the parsed blocks that run more than once.
 
 use super::actual::needs_actual;
-use super::ahead::Opened;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
 use super::places::whole_block;
 use super::state::Numbers;
 use super::unusable::{FileError, is_foreign};
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::options::SkipLevels;
-use crate::exec::step::Sync;
+use crate::exec::step::{Opened, Sync};
 use crate::source::{BlockReader, Position, RawBlock, Sources};
 use crate::syntax::ast::{Block, LabelKind, Span};
 use crate::syntax::macros;

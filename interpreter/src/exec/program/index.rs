@@ -5,6 +5,7 @@
 
 mod build;
 mod entries;
+mod entry;
 mod head;
 mod keyword;
 mod labels;
@@ -14,10 +15,11 @@ mod tests;
 
 use crate::diag::Location;
 use crate::source::Position;
-use crate::syntax::ast::{LabelKind, Span};
+use crate::syntax::ast::LabelKind;
 pub(super) use build::STRUCTURE_MAX;
 pub(in crate::exec) use build::build;
 use entries::Entries;
+pub(in crate::exec) use entry::{Entry, EntryId};
 pub(in crate::exec) use head::{number_of, structure};
 pub(in crate::exec) use keyword::Keyword;
 pub(super) use labels::Labels;
@@ -26,34 +28,6 @@ use std::sync::Arc;
 
 /// Highest number of a label. Assumption: that of a block number of 32 bits; 20834 and 20838 print no limit.
 pub(in crate::exec::program) const LABEL_MAX: u64 = u32::MAX as u64;
-
-/// Index of an entry.
-pub(in crate::exec) type EntryId = u32;
-
-/// One statement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::exec) struct Entry {
-    pub(in crate::exec::program) position: Position,
-    /// The keyword in its block.
-    pub(in crate::exec::program) span: Span,
-    pub(in crate::exec::program) keyword: Keyword,
-    /// Statement that opened the structure; an opening statement refers to itself.
-    pub(in crate::exec::program) open: Option<EntryId>,
-    /// Next clause of the structure, finally its closing statement.
-    pub(in crate::exec::program) next: Option<EntryId>,
-    /// Closing statement.
-    pub(in crate::exec::program) end: Option<EntryId>,
-    /// Innermost structure around it.
-    pub(in crate::exec::program) parent: Option<EntryId>,
-}
-
-impl Entry {
-    /// A statement without partners; `start` is the position of the keyword in its block.
-    fn alone(position: Position, start: usize, keyword: Keyword) -> Self {
-        let span = Span::new(start, start + keyword.text().len());
-        Self { position, span, keyword, open: None, next: None, end: None, parent: None }
-    }
-}
 
 /// Target of a jump.
 #[derive(Clone, Copy, Debug)]

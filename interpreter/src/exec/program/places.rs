@@ -2,9 +2,8 @@
 //!
 //! The program may already be decoded further on, on another thread, so it is read independently of that.
 
-use super::ahead::Opened;
 use crate::diag::Location;
-use crate::exec::step::SourceRef;
+use crate::exec::step::{Opened, SourceRef};
 use crate::source::{BlockReader, Position, Sources};
 use crate::syntax::ast::Span;
 use std::fmt;

@@ -1,7 +1,7 @@
 //! Names and numbers of the axes of a project.
 
 use super::content::Content;
-use super::{Project, parameters};
+use super::list::{ListText, parameters};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::kind::logical_number;
 use crate::machine::lists;
@@ -10,79 +10,67 @@ use crate::machine::table::{ListKind, channel as of};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-impl Project<'_> {
-    /// Enters the axes of the first channel from their dialogs, as the tool does, and reports differences from its
-    /// list. Empty if no dialog names an axis: the list of the channel then applies.
-    pub(super) fn name_axes(
-        &mut self,
-        content: &mut Content,
-        numbers: &[u32],
-        spindle: &[bool],
-    ) -> Vec<(String, u32)> {
-        let mut named: Vec<(u32, String, u32)> = content
-            .axes
-            .iter()
-            .zip(numbers)
-            .zip(spindle)
-            .filter(|((axis, _), spindle)| {
-                !**spindle && axis.channel == Some(1) && !axis.program_name.is_empty()
-            })
-            .map(|((axis, number), _)| (axis.index, axis.program_name.clone(), *number))
-            .collect();
-        named.sort_by_key(|(index, ..)| *index);
-        if named.iter().zip(0..).any(|((index, ..), place)| *index != place) {
-            let places: Vec<String> =
-                named.iter().map(|(index, name, _)| format!("{name} {index}")).collect();
-            let message = format!(
-                "the dialogs of the axes leave places of the channel empty or give one twice (DefaultIndex: {}): they are taken one after the other, the first three are the main axes",
-                places.join(", ")
-            );
-            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
-            self.said.push(said.hint("number the axes of the channel without gaps"));
-        }
-        let named: Vec<(String, u32)> =
-            named.into_iter().map(|(_, name, number)| (name, number)).collect();
-        let list = &mut content.channels[0].list;
-        let before = parameters(ListKind::Channel, &[list]);
-        let listed: Vec<(String, u32)> = (0..32)
-            .map_while(|i| {
-                let number = before.listed(of::AXIS_NUMBER.and(i).place())?;
-                Some((before.get(of::AXIS_NAME.and(i))?, number as u32))
-            })
-            .collect();
-        if named.is_empty() || named == listed {
-            return named;
-        }
-        if !listed.is_empty() {
-            let names = |of: &[(String, u32)]| -> String {
-                let each: Vec<String> =
-                    of.iter().map(|(name, number)| format!("{name} ({number})")).collect();
-                each.join(", ")
-            };
-            let message = format!(
-                "the dialogs of the axes say {}, the list of the channel says {}: the dialogs count",
-                names(&named),
-                names(&listed)
-            );
-            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
-            self.said.push(said.hint("activate the configuration once, or make both say the same"));
-        }
-        let mut entries = format!("gruppe[0].achs_anzahl {}\n", named.len());
-        for (i, (name, number)) in named.iter().enumerate() {
-            let _ = writeln!(
-                entries,
-                "gruppe[0].achse[{i}].bezeichnung {name}\ngruppe[0].achse[{i}].log_achs_nr {number}"
-            );
-        }
-        let own: Vec<String> = (0..32)
-            .flat_map(|i| {
-                ["bezeichnung", "log_achs_nr"].map(|key| format!("gruppe[0].achse[{i}].{key}"))
-            })
-            .chain(["gruppe[0].achs_anzahl".to_owned()])
-            .collect();
-        list.replace(&own.iter().map(String::as_str).collect::<Vec<_>>(), &entries);
-        named
+/// Axes with their logical numbers, in the order of the channel.
+type Named = Vec<(String, u32)>;
+
+/// The axes of the first channel by their dialogs.
+fn of_dialogs(
+    content: &Content,
+    numbers: &[u32],
+    spindle: &[bool],
+    said: &mut Vec<Diagnostic>,
+) -> Named {
+    let mut named: Vec<(u32, String, u32)> = content
+        .axes
+        .iter()
+        .zip(numbers)
+        .zip(spindle)
+        .filter(|((axis, _), spindle)| {
+            !**spindle && axis.channel == Some(1) && !axis.program_name.is_empty()
+        })
+        .map(|((axis, number), _)| (axis.index, axis.program_name.clone(), *number))
+        .collect();
+    named.sort_by_key(|(index, ..)| *index);
+    if named.iter().zip(0..).any(|((index, ..), place)| *index != place) {
+        let places: Vec<String> =
+            named.iter().map(|(index, name, _)| format!("{name} {index}")).collect();
+        let message = format!(
+            "the dialogs of the axes leave places of the channel empty or give one twice (DefaultIndex: {}): they are taken one after the other, the first three are the main axes",
+            places.join(", ")
+        );
+        let warning = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+        said.push(warning.hint("number the axes of the channel without gaps"));
     }
+    named.into_iter().map(|(_, name, number)| (name, number)).collect()
+}
+
+/// The axes by the list of the channel.
+fn of_list(list: &ListText) -> Named {
+    let channel = parameters(ListKind::Channel, &[list]);
+    (0..32)
+        .map_while(|i| {
+            let number = channel.listed(of::AXIS_NUMBER.and(i).place())?;
+            Some((channel.get(of::AXIS_NAME.and(i))?, number as u32))
+        })
+        .collect()
+}
+
+/// Replaces the axes in the list of the channel.
+fn enter(list: &mut ListText, named: &Named) {
+    let mut entries = format!("gruppe[0].achs_anzahl {}\n", named.len());
+    for (i, (name, number)) in named.iter().enumerate() {
+        let _ = writeln!(
+            entries,
+            "gruppe[0].achse[{i}].bezeichnung {name}\ngruppe[0].achse[{i}].log_achs_nr {number}"
+        );
+    }
+    let own: Vec<String> = (0..32)
+        .flat_map(|i| {
+            ["bezeichnung", "log_achs_nr"].map(|key| format!("gruppe[0].achse[{i}].{key}"))
+        })
+        .chain(["gruppe[0].achs_anzahl".to_owned()])
+        .collect();
+    list.replace(&own.iter().map(String::as_str).collect::<Vec<_>>(), &entries);
 }
 
 /// K-0141: two axis lists have the same number, others have different ones.
@@ -102,6 +90,39 @@ pub(super) fn same_number(content: &Content, numbers: &[u32]) -> Diagnostic {
 }
 
 impl Content {
+    /// Enters the axes of the first channel from their dialogs, as the tool does, and reports differences from its
+    /// list. Empty if no dialog names an axis: the list of the channel then applies.
+    pub(super) fn name_axes(
+        &mut self,
+        numbers: &[u32],
+        spindle: &[bool],
+        said: &mut Vec<Diagnostic>,
+    ) -> Named {
+        let named = of_dialogs(self, numbers, spindle, said);
+        let list = &mut self.channels[0].list;
+        let listed = of_list(list);
+        if named.is_empty() || named == listed {
+            return named;
+        }
+        if !listed.is_empty() {
+            let names = |of: &Named| -> String {
+                let each: Vec<String> =
+                    of.iter().map(|(name, number)| format!("{name} ({number})")).collect();
+                each.join(", ")
+            };
+            let message = format!(
+                "the dialogs of the axes say {}, the list of the channel says {}: the dialogs count",
+                names(&named),
+                names(&listed)
+            );
+            let warning =
+                Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            said.push(warning.hint("activate the configuration once, or make both say the same"));
+        }
+        enter(list, &named);
+        named
+    }
+
     /// The parameters of each axis list, over those that all axes share.
     pub(super) fn axis_parameters(&self) -> Vec<Parameters> {
         let defaults = self.axis_defaults.as_ref().map(|list| parameters(ListKind::Axis, &[list]));

@@ -6,7 +6,7 @@ use crate::machine::table::param::{Number, Param};
 use kontur_filters::control::fault::{Derivative, Fault};
 
 /// A value and its limit, with as many digits as it takes to tell them apart.
-pub(super) fn distinct(value: f64, limit: f64) -> (String, String) {
+pub(in crate::sim) fn distinct(value: f64, limit: f64) -> (String, String) {
     let rough = (rounded(value), rounded(limit));
     if rough.0 != rough.1 {
         return rough;
@@ -16,7 +16,7 @@ pub(super) fn distinct(value: f64, limit: f64) -> (String, String) {
 }
 
 /// Value and limit of a fault, in the unit of the axis, `mm` or `deg`.
-pub(super) fn text(fault: &Fault, unit: &'static str) -> String {
+pub(in crate::sim) fn text(fault: &Fault, unit: &'static str) -> String {
     let r = rounded;
     let speed = per_s(unit, 1);
     match *fault {
@@ -59,7 +59,7 @@ pub(super) fn text(fault: &Fault, unit: &'static str) -> String {
 }
 
 /// Order of a derivative of the position.
-pub(super) const fn order(what: Derivative) -> usize {
+pub(in crate::sim) const fn order(what: Derivative) -> usize {
     match what {
         Derivative::Velocity => 1,
         Derivative::Acceleration => 2,
@@ -68,14 +68,14 @@ pub(super) const fn order(what: Derivative) -> usize {
 }
 
 /// Unit of a derivative of a position in `mm` or `deg`.
-pub(super) fn per_s(unit: &str, order: usize) -> &'static str {
+pub(in crate::sim) fn per_s(unit: &str, order: usize) -> &'static str {
     const LINEAR: [&str; 4] = ["mm", "mm/s", "mm/s2", "mm/s3"];
     const ROTARY: [&str; 4] = ["deg", "deg/s", "deg/s2", "deg/s3"];
     if unit == "deg" { ROTARY[order] } else { LINEAR[order] }
 }
 
 /// The condition of a fault; spindles have separate numbers for their speed.
-pub(super) const fn condition(fault: &Fault, spindle: bool) -> Condition {
+pub(in crate::sim) const fn condition(fault: &Fault, spindle: bool) -> Condition {
     match fault {
         Fault::FollowingError { .. } => Condition::FollowingError,
         Fault::BeyondLimit { actual_mm, limit_mm } => {
@@ -107,7 +107,7 @@ pub(super) const fn condition(fault: &Fault, spindle: bool) -> Condition {
 }
 
 /// Parameters of the warning and of the error.
-pub(super) const fn thresholds(what: Derivative) -> (Param<Number>, Param<Number>) {
+pub(in crate::sim) const fn thresholds(what: Derivative) -> (Param<Number>, Param<Number>) {
     match what {
         Derivative::Velocity => (of::SPEED_WARNING, of::SPEED_ERROR),
         Derivative::Acceleration => (of::ACC_WARNING, of::ACC_ERROR),

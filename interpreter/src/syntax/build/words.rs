@@ -3,14 +3,47 @@
 use super::Builder;
 use crate::syntax::Problem;
 use crate::syntax::ast::{
-    Assign, BinaryOp, Bracket, Call, CallKind, CodeNumber, Expr, GValue, HashWord, Ident, Jump,
-    JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
+    Assign, BinaryOp, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident,
+    Jump, JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
     WordKind,
 };
 use crate::syntax::grammar::Rule;
 use pest::iterators::Pair;
 
-impl Builder<'_> {
+/// What a word may consist of.
+struct Parts<'t> {
+    name: Option<&'t str>,
+    place: Option<Place>,
+    number: u32,
+    code: CodeNumber,
+    computed: Option<Expr>,
+    value: Option<Expr>,
+    /// First sign of the value.
+    sign: Option<Sign>,
+    operator: Option<BinaryOp>,
+    /// Values of a list; `None`: left out.
+    slots: Vec<Option<Expr>>,
+    group: Option<Group>,
+}
+
+impl Default for Parts<'_> {
+    fn default() -> Self {
+        Self {
+            name: None,
+            place: None,
+            number: 0,
+            code: CodeNumber::Literal(0),
+            computed: None,
+            value: None,
+            sign: None,
+            operator: None,
+            slots: Vec::new(),
+            group: None,
+        }
+    }
+}
+
+impl<'a> Builder<'a> {
     pub(super) fn word(&mut self, pair: Pair<'_, Rule>, span: Span) -> Word {
         let rule = pair.as_rule();
         let kind = match rule {
@@ -38,27 +71,55 @@ impl Builder<'_> {
 
     /// Words that consist of an address and at most one value.
     fn valued_word(&mut self, pair: Pair<'_, Rule>, rule: Rule) -> WordKind {
-        let mut name = None;
-        let mut place = None;
-        let mut number = 0;
-        let mut code = CodeNumber::Literal(0);
-        let mut computed = None;
-        let mut value = None;
-        let mut sign = None;
-        let mut operator = None;
-        let mut slots = Vec::new();
-        let mut group = None;
+        let parts = self.parts(pair);
+        let address = || parts.name.map_or(Name::Letter(b'?'), Name::new);
+        let value = parts.value;
+        match rule {
+            Rule::g_cycle => WordKind::G {
+                number: parts.number,
+                value: Some(Box::new(GValue::List(parts.slots))),
+            },
+            Rule::g_word => WordKind::G {
+                number: parts.number,
+                value: value.map(|v| Box::new(GValue::Scalar(v))),
+            },
+            Rule::g_computed => {
+                WordKind::ComputedG(Box::new(parts.computed.unwrap_or_else(Self::zero)))
+            }
+            Rule::m_word => WordKind::M(parts.code, value.map(Box::new)),
+            Rule::h_word => WordKind::H(parts.code, value.map(Box::new)),
+            Rule::bracket_word => WordKind::Bracket(Box::new(Bracket {
+                name: address(),
+                group: parts.group.unwrap_or_default(),
+            })),
+            Rule::hash_word => self.hash_word(parts.name.unwrap_or_default(), value, parts.group),
+            _ => {
+                let value = value.unwrap_or_else(Self::zero);
+                match parts.place {
+                    Some(target) => WordKind::Assign(Box::new(Assign {
+                        target,
+                        operator: parts.operator,
+                        value,
+                    })),
+                    None => WordKind::Address { name: address(), sign: parts.sign, value },
+                }
+            }
+        }
+    }
+
+    fn parts(&mut self, pair: Pair<'_, Rule>) -> Parts<'a> {
+        let mut parts = Parts::default();
         for part in pair.into_inner() {
             let span = self.span(&part);
             match part.as_rule() {
                 Rule::g_number | Rule::g_cycle_number => {
-                    number = part.as_str()[1..].parse().unwrap_or(u32::MAX);
+                    parts.number = part.as_str()[1..].parse().unwrap_or(u32::MAX);
                 }
-                Rule::code_number => code = self.code_number(part),
-                Rule::index => computed = Some(self.index(part)),
+                Rule::code_number => parts.code = self.code_number(part),
+                Rule::index => parts.computed = Some(self.index(part)),
                 Rule::parameter | Rule::variable => {
                     let place = Place { kind: self.place_kind(part), span };
-                    computed = Some(Expr { kind: place.into(), span });
+                    parts.computed = Some(Expr { kind: place.into(), span });
                 }
                 Rule::marked_name
                 | Rule::bracket_name
@@ -67,71 +128,47 @@ impl Builder<'_> {
                 | Rule::letter
                 | Rule::name_letters
                 | Rule::bracket_hash
-                | Rule::hash_name => name = Some(self.written(span)),
-                Rule::place => place = Some(self.place(part)),
+                | Rule::hash_name => parts.name = Some(self.written(span)),
+                Rule::place => parts.place = Some(self.place(part)),
                 Rule::compound => {
-                    operator = Some(BinaryOp::from_text(&part.as_str()[..1]));
+                    parts.operator = Some(BinaryOp::from_text(&part.as_str()[..1]));
                 }
                 rule @ (Rule::expression | Rule::signed_number) => {
-                    sign = match part.as_str().as_bytes().first() {
+                    parts.sign = match part.as_str().as_bytes().first() {
                         Some(b'+') => Some(Sign::Plus),
                         Some(b'-') => Some(Sign::Minus),
                         _ => None,
                     };
-                    value = Some(if rule == Rule::expression {
+                    parts.value = Some(if rule == Rule::expression {
                         self.expression(part)
                     } else {
                         self.signed_number(part)
                     });
                 }
-                Rule::slot => slots.push(part.into_inner().next().map(|p| self.expression(p))),
-                Rule::group => group = Some(self.group(part)),
+                Rule::slot => {
+                    parts.slots.push(part.into_inner().next().map(|p| self.expression(p)));
+                }
+                Rule::group => parts.group = Some(self.group(part)),
                 _ => {}
             }
         }
-        let address = || name.map_or(Name::Letter(b'?'), Name::new);
-        match (rule, value) {
-            (Rule::g_cycle, _) => {
-                WordKind::G { number, value: Some(Box::new(GValue::List(slots))) }
-            }
-            (Rule::g_word, value) => {
-                WordKind::G { number, value: value.map(|v| Box::new(GValue::Scalar(v))) }
-            }
-            (Rule::g_computed, _) => {
-                WordKind::ComputedG(Box::new(computed.unwrap_or_else(Self::zero)))
-            }
-            (Rule::m_word, value) => WordKind::M(code, value.map(Box::new)),
-            (Rule::h_word, value) => WordKind::H(code, value.map(Box::new)),
-            (Rule::bracket_word, _) => WordKind::Bracket(Box::new(Bracket {
-                name: address(),
-                group: group.unwrap_or_default(),
-            })),
-            (Rule::hash_word, value) => {
-                let words: Vec<&str> = name
-                    .unwrap_or_default()
-                    .trim_start_matches('#')
-                    .split_ascii_whitespace()
-                    .collect();
-                let name: Box<str> = words.join(" ").to_ascii_uppercase().into();
-                if let Some(value) = &value {
-                    let (before, size) = self.masked.split_at(value.span.start as usize);
-                    if before.ends_with(|c: char| c.is_ascii_alphabetic()) {
-                        let size = &size[..value.span.len as usize];
-                        let text = format!("#{name} without `=` before its value");
-                        let hint = format!("write #{name}={size}");
-                        self.report(Problem::syntax(value.span, text).hint(hint));
-                    }
-                }
-                WordKind::Hash(Box::new(HashWord { name, value, bracket: group }))
-            }
-            (_, value) => {
-                let value = value.unwrap_or_else(Self::zero);
-                match place {
-                    Some(target) => WordKind::Assign(Box::new(Assign { target, operator, value })),
-                    None => WordKind::Address { name: address(), sign, value },
-                }
+        parts
+    }
+
+    /// A word that begins with `#`; without `=` before its value it is reported.
+    fn hash_word(&mut self, name: &str, value: Option<Expr>, bracket: Option<Group>) -> WordKind {
+        let words: Vec<&str> = name.trim_start_matches('#').split_ascii_whitespace().collect();
+        let name: Box<str> = words.join(" ").to_ascii_uppercase().into();
+        if let Some(value) = &value {
+            let (before, size) = self.masked.split_at(value.span.start as usize);
+            if before.ends_with(|c: char| c.is_ascii_alphabetic()) {
+                let size = &size[..value.span.len as usize];
+                let text = format!("#{name} without `=` before its value");
+                let hint = format!("write #{name}={size}");
+                self.report(Problem::syntax(value.span, text).hint(hint));
             }
         }
+        WordKind::Hash(Box::new(HashWord { name, value, bracket }))
     }
 
     fn code_number(&mut self, pair: Pair<'_, Rule>) -> CodeNumber {

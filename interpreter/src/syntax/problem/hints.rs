@@ -1,8 +1,9 @@
 //! What to write instead, for blocks that the grammar refuses, judged by the text around the position of the error.
 
-use super::around::last_word;
+use super::Problem;
+use super::around::{last_word, token};
+use super::context::{Context, content};
 use super::expected::VALUE;
-use super::{Context, Problem, content, token};
 use crate::diag::Condition;
 use crate::syntax::scan;
 

@@ -40,9 +40,31 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
         ]);
         paths.push(path);
     }
+    let few = curves.len() <= MOST_PATHS;
+    let panels = panels(curves, &paths)?;
+    let with_errors = || {
+        labels(curves)
+            .into_iter()
+            .zip(&paths)
+            .map(|(label, path)| format!("{label}: {:.5} mm", path.contour_error_mm))
+            .collect()
+    };
+    let plot = Plot {
+        title: format!("90 degree corner at F{feed_mm_min}"),
+        subtitle: format!("constant speed, {}; gray: programmed contour", cycle_text(cycle)),
+        legend: if few { with_errors() } else { vec!["contour error".to_owned()] },
+        columns: panels.len(),
+        row_height: 560.0,
+        panels,
+    };
+    Ok(Answer { table, plot })
+}
+
+/// The paths, and the error over the order where filters differ in theirs.
+fn panels(curves: &[Curve], paths: &[CornerPath]) -> Result<Vec<View<Points>>, Error> {
     let errors: Option<Vec<[f64; 2]>> = curves
         .iter()
-        .zip(&paths)
+        .zip(paths)
         .map(|(curve, path)| Some([curve.order?, path.contour_error_mm]))
         .collect();
     let over_order = errors.filter(|errors| errors.len() > 2);
@@ -50,7 +72,7 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
     let mut panels = Vec::new();
     let few = curves.len() <= MOST_PATHS;
     if few {
-        panels.push(contour(&paths, worst));
+        panels.push(contour(paths, worst));
     }
     if let Some(points) = over_order {
         panels.push(View {
@@ -69,22 +91,7 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
         );
         return Err(Error::Usage(text));
     }
-    let with_errors = || {
-        labels(curves)
-            .into_iter()
-            .zip(&paths)
-            .map(|(label, path)| format!("{label}: {:.5} mm", path.contour_error_mm))
-            .collect()
-    };
-    let plot = Plot {
-        title: format!("90 degree corner at F{feed_mm_min}"),
-        subtitle: format!("constant speed, {}; gray: programmed contour", cycle_text(cycle)),
-        legend: if few { with_errors() } else { vec!["contour error".to_owned()] },
-        columns: panels.len(),
-        row_height: 560.0,
-        panels,
-    };
-    Ok(Answer { table, plot })
+    Ok(panels)
 }
 
 /// The paths around the corner, in a window of a few times the error.

@@ -60,7 +60,22 @@ pub(super) fn view(
             lines.push(Line::series(series, points));
         }
     }
-    let [magnitude, phase, delay] = lines;
+    let plot = Plot {
+        title: "Frequency response".to_owned(),
+        subtitle: format!("{}; dashed: -3 dB", cycle_text(cycle)),
+        legend: labels(curves),
+        columns: 1,
+        row_height: 270.0,
+        panels: panels(range, lines),
+    };
+    Ok(Answer { table, plot })
+}
+
+/// Magnitude, phase and group delay over the frequency.
+fn panels(
+    range: (f64, f64),
+    [magnitude, phase, delay]: [Vec<Line<Points>>; 3],
+) -> Vec<View<Points>> {
     let all = |lines: &[Line<Points>]| {
         lines.iter().flat_map(|l| &l.points).map(|p| p[1]).collect::<Vec<_>>()
     };
@@ -78,7 +93,7 @@ pub(super) fn view(
         levels,
         ..View::default()
     };
-    let panels = vec![
+    vec![
         panel(
             "Magnitude",
             "magnitude in dB",
@@ -88,18 +103,8 @@ pub(super) fn view(
         ),
         panel("Phase", "phase in deg", around(all(&phase).into_iter(), 10.0), phase, Vec::new()),
         panel("Group delay", "group delay in ms", shown, delay, Vec::new()),
-    ];
-    let plot = Plot {
-        title: "Frequency response".to_owned(),
-        subtitle: format!("{}; dashed: -3 dB", cycle_text(cycle)),
-        legend: labels(curves),
-        columns: 1,
-        row_height: 270.0,
-        panels,
-    };
-    Ok(Answer { table, plot })
+    ]
 }
-
 impl Sample {
     fn magnitude(&self) -> f64 {
         self.magnitude_db

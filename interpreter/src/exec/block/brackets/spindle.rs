@@ -185,8 +185,8 @@ impl Decoder {
         })
     }
 
-    /// Whether the bracket contains M19, and any of M3, M4, M5 and M19: its synchronisation counts instead of that of the speed
-    /// (208010763).
+    /// Carries out one item. Whether the bracket contains M19, and any of M3, M4, M5 and M19: its synchronisation counts instead of
+    /// that of the speed (208010763).
     fn spindle_action(
         &mut self,
         spindle: usize,
@@ -195,26 +195,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         match *item {
-            SpindleItem::Turn(number) => {
-                if number == 19 && spindle == 0 {
-                    self.motion.cutting.positions_main_spindle(span)?;
-                }
-                let state = &mut self.motion.spindles[spindle];
-                let directs =
-                    matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;
-                state.turning = if directs {
-                    state.turning.with_direction(number)
-                } else {
-                    Turning::of(number)
-                };
-                if let Some(index) = self.motion.spindles[spindle].index {
-                    self.motion.takes_time(
-                        Function::Spindle { spindle: index, m: number },
-                        &self.machine.channel,
-                        &mut self.contour,
-                    );
-                }
-            }
+            SpindleItem::Turn(number) => self.spindle_turns(spindle, number, positions, span)?,
             SpindleItem::Function(function, value) => {
                 self.motion.call(function, value, &self.machine.channel, &mut self.contour);
             }
@@ -223,26 +204,8 @@ impl Decoder {
                 let text = "G74: the spindle is treated as homed at its position and does not turn";
                 self.report.note_once("S[G74]", Fault::new(Condition::Fallback, text, span));
             }
-            SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
-                let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
-                let condition =
-                    if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
-                return Err(Fault::new(condition, text, span));
-            }
-            SpindleItem::Speed(rpm) => {
-                self.motion.spindles[spindle].rpm = rpm;
-                self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
-                if let Some(index) = self.motion.spindles[spindle].index.filter(|_| !turns) {
-                    self.motion.takes_time(
-                        Function::Speed { spindle: index },
-                        &self.machine.channel,
-                        &mut self.contour,
-                    );
-                }
-            }
-            SpindleItem::Position(deg) => {
-                self.motion.spindles[spindle].angle_deg = deg;
-            }
+            SpindleItem::Speed(rpm) => self.spindle_speed(spindle, rpm, turns, span)?,
+            SpindleItem::Position(deg) => self.motion.spindles[spindle].angle_deg = deg,
             SpindleItem::Acceleration(percent) => {
                 let ratio = weight_ratio((percent, span))?;
                 if ratio == 0.0 {
@@ -256,9 +219,7 @@ impl Decoder {
             }
             SpindleItem::Feedforward(on) => {
                 self.motion.spindles[spindle].feedforward = on;
-                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-                    self.contour.event(event);
-                }
+                self.spindle_feedforward(spindle);
             }
             SpindleItem::Weight(percent) if percent < 0.0 => {
                 let text = format!("feedforward weight {percent} % is negative");
@@ -267,10 +228,54 @@ impl Decoder {
             SpindleItem::Weight(percent) => {
                 let percent = limited_weight(percent, span, &mut self.report);
                 self.motion.spindles[spindle].weight_ratio = percent / 100.0;
-                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-                    self.contour.event(event);
-                }
+                self.spindle_feedforward(spindle);
             }
+        }
+        Ok(())
+    }
+
+    fn spindle_feedforward(&mut self, spindle: usize) {
+        if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
+            self.contour.event(event);
+        }
+    }
+
+    /// M3, M4, M5 and M19; `positions`: beside M19.
+    fn spindle_turns(
+        &mut self,
+        spindle: usize,
+        number: u32,
+        positions: bool,
+        span: Span,
+    ) -> Outcome<()> {
+        if number == 19 && spindle == 0 {
+            self.motion.cutting.positions_main_spindle(span)?;
+        }
+        let state = &mut self.motion.spindles[spindle];
+        let directs =
+            matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;
+        state.turning =
+            if directs { state.turning.with_direction(number) } else { Turning::of(number) };
+        if let Some(index) = state.index {
+            let function = Function::Spindle { spindle: index, m: number };
+            self.motion.takes_time(function, &self.machine.channel, &mut self.contour);
+        }
+        Ok(())
+    }
+
+    /// S; `turns`: beside M3, M4, M5 or M19.
+    fn spindle_speed(&mut self, spindle: usize, rpm: f64, turns: bool, span: Span) -> Outcome<()> {
+        if !(0.0..=1e6).contains(&rpm) {
+            let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
+            let condition =
+                if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
+            return Err(Fault::new(condition, text, span));
+        }
+        self.motion.spindles[spindle].rpm = rpm;
+        self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
+        if let Some(index) = self.motion.spindles[spindle].index.filter(|_| !turns) {
+            let function = Function::Speed { spindle: index };
+            self.motion.takes_time(function, &self.machine.channel, &mut self.contour);
         }
         Ok(())
     }

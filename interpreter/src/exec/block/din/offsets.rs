@@ -1,7 +1,7 @@
 //! Tool offsets, zero offsets, presets, mirrors, rotations and software limits of a block.
 
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::choice::{Compensation, PathMode};
+use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{self, Act, Group};
 use crate::exec::decoder::Decoder;
@@ -9,7 +9,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
 use crate::exec::report::Report;
-use crate::exec::values::number::{LARGEST_MM, whole};
+use crate::exec::values::number::whole;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
@@ -22,7 +22,7 @@ fn zero_group(g: &GWord) -> Outcome<u32> {
     let wrong = |condition, text: String| {
         Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Wrong, value, "-"))
     };
-    let group = crate::exec::values::number::whole(value, 0, 999).ok_or_else(|| {
+    let group = whole(value, 0, 999).ok_or_else(|| {
         let condition =
             if by_axes { Condition::MaskedGroupFormat } else { Condition::ZeroGroupFormat };
         wrong(condition, format!("zero-offset group {value} is outside the data format"))
@@ -146,7 +146,7 @@ impl Decoder {
     ) {
         let with_tool = words.tool.filter(|_| self.machine.channel.offsets.tool_data_with_tool);
         let Some((_, span)) = words.tool_data.or(with_tool) else { return };
-        let now = self.geometry.coordinates.tool_offsets();
+        let now = self.geometry.coordinates.tool();
         let changed = (0..now.len()).filter(|axis| now[*axis].to_bits() != before[*axis].to_bits());
         let moved: Vec<usize> = changed
             .filter(|axis| words.axes.iter().all(|(programmed, _, _)| programmed != axis))
@@ -169,104 +169,6 @@ impl Decoder {
                 self.geometry.coordinates.programmed(axis) / self.coordinate_unit(axis, true);
             words.axes.push((axis, value, span));
         }
-    }
-
-    /// `#PSET X10`, `#PRESET X0`, `#PRESET`: returns whether the axis words of the block belong to the command.
-    pub(super) fn position_presets(&mut self, words: &Words<'_>) -> bool {
-        let named = |h: &str| words.hashes.iter().find(|(hash, _, _)| &*hash.name == h);
-        let (sets, at) = match (named("PSET"), named("PRESET")) {
-            (Some((_, _, at)), _) => (true, *at),
-            (None, Some((_, _, at))) => (false, *at),
-            (None, None) => return false,
-        };
-        if let Some(g) = words.of_the_path() {
-            let text = format!("G{:02} in the block of #PSET or #PRESET", g.row.number);
-            self.report.note(Fault::new(Condition::PresetWithPath, text, g.span));
-            return true;
-        }
-        if let Some(span) = words.axis_before(at) {
-            let text = "a word of an axis before #PSET or #PRESET";
-            self.report.note(Fault::new(Condition::CommandNotAlone, text, span));
-            return true;
-        }
-        if (0..self.machine.axes.len()).any(|axis| self.geometry.coordinates.mirrored(axis)) {
-            let text = "#PSET and #PRESET cannot be used with mirroring";
-            self.report.note(Fault::new(Condition::PresetWhileMirrored, text, at));
-            return true;
-        }
-        if !sets && self.contour.awaits_departure() {
-            let text = "#PRESET before the motion that ends tool radius compensation";
-            self.report.note(Fault::new(Condition::FlushAfterCompensation, text, at));
-            return true;
-        }
-        let coordinates = &self.geometry.coordinates;
-        let conflict = if self.modal.compensation != Compensation::Off {
-            Some((Condition::PresetWithCompensation, "tool radius compensation"))
-        } else if self.modal.diameter.is_some() {
-            Some((Condition::PresetWithDiameters, "diameter programming (G51)"))
-        } else if coordinates.rotation().is_some() {
-            Some((Condition::Syntax, "rotation"))
-        } else {
-            None
-        };
-        if let Some((condition, what)) = conflict {
-            let text = format!("#PSET and #PRESET cannot be used with {what}");
-            self.report.note(Fault::new(condition, text, at));
-            return true;
-        }
-        let beside = words.axes.iter().find(|(axis, _, _)| coordinates.main_index(*axis).is_none());
-        if let Some((_, _, span)) = beside.filter(|_| coordinates.systems() > 0) {
-            let what =
-                "#PSET and #PRESET of an axis that is not a main axis, in a coordinate system";
-            self.report.note(Fault::unsupported(what, *span));
-            return true;
-        }
-        if let Err(fault) = self.presets_fit(words, sets) {
-            self.report.note(fault);
-            return true;
-        }
-        for (axis, value, _) in &words.axes {
-            let value = sets.then(|| self.preset_mm(*axis, *value));
-            self.geometry.coordinates.preset_position(*axis, value);
-        }
-        if words.axes.is_empty() && !sets {
-            for axis in 0..self.machine.axes.len() {
-                self.geometry.coordinates.preset_position(axis, None);
-            }
-        } else if words.axes.is_empty() {
-            self.report.note(
-                Fault::new(Condition::Syntax, "#PSET without axis words", at)
-                    .hint("write the axes and their coordinates: #PSET X0 Y0"),
-            );
-        }
-        true
-    }
-
-    /// The coordinate of `#PSET` in mm, scaled like every coordinate of the axis: offsets are not scaled (207656459), so that
-    /// only then the axis need not move to be there (207101835).
-    fn preset_mm(&self, axis: usize, value: f64) -> f64 {
-        value * self.modal.axis_unit(&self.machine.axes[axis]) * self.geometry.scale.factor(axis)
-    }
-
-    /// 20604 for a value of `#PSET` outside the data format, 20711 if the resulting offset is (251955595, 252303755).
-    fn presets_fit(&self, words: &Words<'_>, sets: bool) -> Outcome<()> {
-        for (axis, value, span) in words.axes.iter().filter(|_| sets) {
-            let value_mm = self.preset_mm(*axis, *value);
-            let offset_mm = self.geometry.coordinates.target()[*axis] - value_mm;
-            let (condition, what) = if value_mm.abs() > LARGEST_MM {
-                (Condition::PresetTooLarge, "the position")
-            } else if offset_mm.abs() > LARGEST_MM {
-                (Condition::PresetOffsetTooLarge, "the offset")
-            } else {
-                continue;
-            };
-            let text = format!(
-                "#PSET {}{value}: {what} is outside the data format",
-                self.names.name(*axis)
-            );
-            return Err(Fault::new(condition, text, *span));
-        }
-        Ok(())
     }
 
     /// G74 cancels the position presets of its axes, without axes those of all (207101835); 20137 (250902411).

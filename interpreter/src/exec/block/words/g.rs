@@ -30,29 +30,9 @@ impl Decoder {
             }));
         }
         let Some(row) = groups::row(number) else {
-            if let Some(fault) = self.dialect.homing(number, span) {
-                return Err(fault);
-            }
-            let fault =
-                Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
-                    .with(|d| d.value(ValueKind::Current, number, "-"));
-            return Err(match dialect::unknown_g(number) {
-                Some(hint) => fault.hint(hint),
-                None => fault,
-            });
+            return Err(self.unknown_g(number, span));
         };
-        if self.machine.channel.language.several_dimensions
-            && let Act::Absolute(absolute) = row.act
-        {
-            if block.dimensions.is_empty() {
-                block.dimensions.push((0, self.modal.absolute));
-            }
-            block.dimensions.push((block.axes.len(), absolute));
-        } else if row.group != Group::None
-            && let Some(first) = block.group(row.group)
-        {
-            return Err(duplicate(first.row, row, span));
-        }
+        self.occupy_group(row, span, block)?;
         for other in &block.g {
             if let Some(why) = groups::exclude(other.row, row) {
                 let text = format!("G{:02} and G{number:02} in one block: {why}", other.row.number);
@@ -73,32 +53,68 @@ impl Decoder {
         if let Some(fault) = value.and_then(|value| dialect::high_speed(number, value, span)) {
             return Err(fault);
         }
-        let value = match (value, row.value) {
+        let value = self.g_value(row, value, span)?;
+        block.g.push(GWord { row, value, span });
+        Ok(())
+    }
+
+    fn unknown_g(&mut self, number: u32, span: Span) -> Box<Fault> {
+        if let Some(fault) = self.dialect.homing(number, span) {
+            return fault;
+        }
+        let fault =
+            Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
+                .with(|d| d.value(ValueKind::Current, number, "-"));
+        match dialect::unknown_g(number) {
+            Some(hint) => fault.hint(hint),
+            None => fault,
+        }
+    }
+
+    /// A group has one function in a block; G90 and G91 may follow each other if the list permits it.
+    fn occupy_group(&self, row: &'static Row, span: Span, block: &mut Words<'_>) -> Outcome<()> {
+        if self.machine.channel.language.several_dimensions
+            && let Act::Absolute(absolute) = row.act
+        {
+            if block.dimensions.is_empty() {
+                block.dimensions.push((0, self.modal.absolute));
+            }
+            block.dimensions.push((block.axes.len(), absolute));
+        } else if row.group != Group::None
+            && let Some(first) = block.group(row.group)
+        {
+            return Err(duplicate(first.row, row, span));
+        }
+        Ok(())
+    }
+
+    /// The value after `=`, if the function takes one.
+    fn g_value(&self, row: &Row, value: Option<&GValue>, span: Span) -> Outcome<Option<f64>> {
+        let number = row.number;
+        match (value, row.value) {
             (None, ValueRule::Required) => {
                 let text = format!("G{number} needs a value");
-                return Err(Fault::new(Condition::ValueMissing, text, span));
+                Err(Fault::new(Condition::ValueMissing, text, span))
             }
             (Some(GValue::Scalar(expr)), ValueRule::Required | ValueRule::Optional) => {
-                let value = self.number(expr);
-                Some(value.map_err(|fault| match row.act {
+                let value = self.number(expr).map_err(|fault| match row.act {
                     Act::Dwell if fault.diagnostic.id == Condition::ParameterUnknown.id() => {
                         fault.hint("write the time in seconds without an address: G04 0.5")
                     }
                     _ => fault,
-                })?)
+                })?;
+                Ok(Some(value))
             }
             (Some(GValue::Scalar(expr)), ValueRule::Never) => {
                 let text = format!("G{number:02} takes no value");
-                return Err(Fault::new(Condition::Syntax, text, expr.span).hint(form(number)));
+                Err(Fault::new(Condition::Syntax, text, expr.span).hint(form(number)))
             }
             (Some(GValue::List(_)), _) => {
                 let text = format!("G{number:02} takes no list");
-                return Err(Fault::new(Condition::Syntax, text, span).hint(form(number)));
+                Err(Fault::new(Condition::Syntax, text, span).hint(form(number)))
             }
-            (None, _) => None,
-        };
-        block.g.push(GWord { row, value, span });
-        Ok(())
+            (None, _) => Ok(None),
+        }
     }
 
     fn cycle_word(

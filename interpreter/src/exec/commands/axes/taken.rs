@@ -1,6 +1,6 @@
 //! The axes that `#CALL AX` and `#SET AX` take into the channel: names, numbers, places.
 
-use super::{exchanged, full_feedforward};
+use super::members::{exchanged, full_feedforward};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::row::Call;
 use crate::exec::decoder::Decoder;

@@ -2,33 +2,10 @@
 //!
 //! Source: TF5200 programming manual, temporary transition to the machine coordinate system.
 
-use super::super::frame::Frame;
-use super::layer::{Layer, NO_GROUP};
-use super::{Coordinates, Rotation};
+use super::Coordinates;
+use super::active::{Active, Suspended};
+use super::layer::NO_GROUP;
 use kontur_motion::axis::AxisVec;
-
-/// Frames and offsets that `#MCS OFF` restores.
-#[derive(Clone, Debug)]
-pub(super) struct Suspended {
-    applied: AxisVec,
-    lowest: Layer,
-    channel_group: Option<u32>,
-    systems: Vec<Layer>,
-    measuring: AxisVec,
-    mirrored: Vec<bool>,
-    rotation: Option<Rotation>,
-    /// EX TOOL: a tool change takes effect only after `#MCS OFF`.
-    without_tools: bool,
-    /// Offsets of the tool that was selected before; those of a newly selected tool apply.
-    tool_aside: bool,
-}
-
-impl Suspended {
-    /// Coordinate systems to restore.
-    pub(super) fn systems(&self) -> &[Layer] {
-        &self.systems
-    }
-}
 
 impl Coordinates {
     /// Whether programmed coordinates are axis positions (`#MCS ON`).
@@ -42,19 +19,10 @@ impl Coordinates {
             return;
         }
         let n = self.target.len();
-        let zeros = || AxisVec::zeros(n);
-        self.suspended = Some(Box::new(Suspended {
-            applied: std::mem::replace(&mut self.applied, zeros()),
-            lowest: std::mem::replace(&mut self.lowest, Layer::new(Frame::IDENTITY, n)),
-            channel_group: self.channel_group,
-            systems: std::mem::take(&mut self.systems),
-            measuring: std::mem::replace(&mut self.measuring, zeros()),
-            mirrored: std::mem::replace(&mut self.mirrored, vec![false; n]),
-            rotation: self.rotation.take(),
-            without_tools,
-            tool_aside: true,
-        }));
-        self.tool = zeros();
+        let kept = Active { channel_group: self.active.channel_group, ..Active::none(n) };
+        let active = std::mem::replace(&mut self.active, kept);
+        self.suspended = Some(Box::new(Suspended { active, without_tools, tool_aside: true }));
+        self.tool = AxisVec::zeros(n);
         self.select_zero_group(NO_GROUP, false);
         self.frame_changed();
     }
@@ -63,11 +31,7 @@ impl Coordinates {
     /// on.
     pub(in crate::exec) fn leave_machine(&mut self) -> bool {
         let Some(before) = self.suspended.take() else { return false };
-        let Suspended { applied, lowest, channel_group, systems, .. } = *before;
-        let Suspended { measuring, mirrored, rotation, .. } = *before;
-        (self.applied, self.lowest, self.systems) = (applied, lowest, systems);
-        self.channel_group = channel_group;
-        (self.measuring, self.mirrored, self.rotation) = (measuring, mirrored, rotation);
+        self.active = before.active;
         self.frame_changed();
         true
     }

@@ -1,6 +1,7 @@
 //! Positions programmed by the words of a block.
 
-use super::{Coordinates, OffsetKind, Target};
+use super::Coordinates;
+use super::kinds::{OffsetKind, Target};
 use kontur_motion::axis::AxisVec;
 
 impl Coordinates {
@@ -18,9 +19,9 @@ impl Coordinates {
             if let Some(main) = self.main_index(axis) {
                 (point[main], programmed[main]) = (value, true);
             } else {
-                let value = if self.mirrored[axis] { -value } else { value };
+                let value = if self.active.mirrored[axis] { -value } else { value };
                 self.target[axis] = value + self.offset_without(kinds, axis);
-                self.applied[axis] = self.active_offset(axis);
+                self.active.applied[axis] = self.active_offset(axis);
             }
         }
         let moved = frame.apply(point);
@@ -28,7 +29,7 @@ impl Coordinates {
             let follows = (0..3).any(|i| programmed[i] && frame.m[main][i] != 0.0);
             if let (Some(axis), true) = (self.main[main], follows) {
                 self.target[axis] = moved[main] + rest[main];
-                self.applied[axis] = self.active_offset(axis);
+                self.active.applied[axis] = self.active_offset(axis);
             }
         }
         self.recompute_program();
@@ -74,11 +75,11 @@ impl Coordinates {
 
     #[inline]
     fn program_plain(&mut self, offsets: Option<&[f64]>, axis: usize, value: f64, absolute: bool) {
-        let value = if self.mirrored[axis] { -value } else { value };
+        let value = if self.active.mirrored[axis] { -value } else { value };
         if absolute {
-            self.applied[axis] =
+            self.active.applied[axis] =
                 offsets.map_or_else(|| self.active_offset(axis), |offsets| offsets[axis]);
-            self.target[axis] = value + self.applied[axis];
+            self.target[axis] = value + self.active.applied[axis];
         } else {
             self.target[axis] += value;
         }
@@ -97,9 +98,9 @@ impl Coordinates {
             let affected = programmed[main].is_some() || (couples && coupled[main]);
             if let (Some(axis), true) = (self.main[main], affected) {
                 if programmed[main].unwrap_or(absolute) {
-                    self.applied[axis] = self.active_offset(axis);
+                    self.active.applied[axis] = self.active_offset(axis);
                 }
-                self.target[axis] = q[main] + self.applied[axis];
+                self.target[axis] = q[main] + self.active.applied[axis];
             }
         }
     }

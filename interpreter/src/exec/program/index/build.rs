@@ -3,12 +3,13 @@
 mod control;
 
 use super::LABEL_MAX;
+use super::entry::{Entry, EntryId};
 use super::head::{
     Head, SAYING, blank, ends_program, head, is_command, name_of, real_time_cycle, says_nothing,
     word,
 };
 use super::keyword::Keyword;
-use super::{Entry, EntryId, Index, LabelPlace, Section};
+use super::{Index, LabelPlace, Section};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::options::SkipLevels;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};

@@ -4,8 +4,9 @@
 //! partners are found again by scanning the statements around them: this works for the usual structure, which ends a
 //! few statements later. Where it does not, as in a long loop or after a fault, the whole entry is kept separately.
 
+use super::entry::{Entry, EntryId};
+use super::keyword::Keyword;
 use super::packed::{Bytes, GROUP, Numbers};
-use super::{Entry, EntryId, Keyword};
 use crate::source::Position;
 use smallvec::SmallVec;
 use std::collections::BTreeMap;

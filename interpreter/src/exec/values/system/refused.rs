@@ -1,6 +1,7 @@
 //! Variables refused individually with a reason, and names that are in no list.
 
-use super::{ROWS, written};
+use super::path::written;
+use super::rows::ROWS;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;

@@ -2,7 +2,7 @@
 //!
 //! Where a simulator without a control has no such value, kontur chooses one.
 
-use super::Path;
+use super::path::Path;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;

@@ -1,6 +1,8 @@
 //! Writing to system variables.
 
-use super::{Path, find, indices_fit, is_kinematic, kinematic, unknown, written};
+use super::path::{Path, written};
+use super::refused::unknown;
+use super::{find, indices_fit, is_kinematic, kinematic};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

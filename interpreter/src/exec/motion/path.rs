@@ -1,0 +1,327 @@
+//! A motion on the path: targets, path, feed and limits become a block for the planner.
+
+use super::cutting;
+use super::feed;
+use super::plane::InPlane;
+use crate::diag::Condition;
+use crate::exec::block::choice::{Compensation, FeedType, PathMode};
+use crate::exec::block::collected::Words;
+use crate::exec::block::groups::{Act, Group};
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::{FeedCourse, Motion};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::state::MotionState;
+use crate::exec::report::{Report, Subject};
+use crate::machine::table::tool;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::{Block, Feed, SlopeKind};
+use kontur_motion::path::{LinePath, Path};
+
+impl Modal {
+    /// Whether braking to a lower feed rate may begin after the end of this block: G901 without G09 (source: TF5200 programming
+    /// manual, G08/G09/G900/G901).
+    fn brakes_late(&self, early_once: bool, span: Span, report: &mut Report) -> bool {
+        let late = self.late_braking && !early_once;
+        if late && self.commanded.slope.kind == SlopeKind::Hsc {
+            let text = "G901 has no effect with the slope HSC";
+            report.note_once(Subject::G(901), Fault::new(Condition::Ignored, text, span));
+        }
+        late
+    }
+}
+
+impl Geometry {
+    /// 120180: a point of a spline must move a main axis.
+    fn spline_leads(&self, path: &Path, span: Span) -> Outcome<()> {
+        let moves = |axis: usize| {
+            path.extent(axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
+        };
+        let mut main = (0..3).filter_map(|i| self.coordinates.main_axis(i));
+        if main.any(moves) {
+            return Ok(());
+        }
+        let text = "spline point without motion of a main axis";
+        Err(Fault::new(Condition::SplineWithoutMainAxis, text, span))
+    }
+}
+
+impl MotionState {
+    /// 120566: the feed rate of contoured motions refers to the main axes.
+    ///
+    /// Source: TF5200 diagnosis 265098635.
+    fn contouring_fits(&self, coordinates: &Coordinates, span: Span) -> Outcome<()> {
+        if self.feeds_main_axes(coordinates) {
+            return Ok(());
+        }
+        let text = "contouring, but the feed axes (#FGROUP, P-CHAN-00011) are not the main axes";
+        Err(Fault::new(Condition::ContouringFeedGroup, text, span))
+    }
+
+    /// Whether the feed rate refers to the main axes.
+    fn feeds_main_axes(&self, coordinates: &Coordinates) -> bool {
+        let is_main = |axis: usize| coordinates.main_index(axis).is_some();
+        self.limits.feed_axes().iter().enumerate().all(|(axis, member)| *member == is_main(axis))
+    }
+}
+
+impl Decoder {
+    pub(super) fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+        let Some(path) = self.path_of_block(words, is_arc, span)? else { return Ok(()) };
+        self.join_for(&path);
+        let at = words.axes.first().map_or(span, |(_, _, at)| *at);
+        let feed = self.feed_of(&path, at)?;
+        let end_velocity_mm_s = match words.end_feed {
+            Some(end) => self.modal.end_velocity(end, feed, &self.machine, &path)?,
+            None => None,
+        };
+        let rapid = feed == Feed::Rapid;
+        let full = words.has(Act::FullOverride);
+        let feed_ratio = if full { 1.0 } else { self.override_of(&path, rapid) };
+        let rounds = self.rounds_corner(words, span);
+        let early_once = words.has(Act::EarlyBrakingOnce);
+        let late_braking = self.modal.brakes_late(early_once, span, &mut self.report);
+        self.group_fits_corner(rounds, span)?;
+        let course = self.feed_course(words, &path, feed, rounds, span)?;
+        let hsc = (self.contour.hsc.contour(), self.contour.hsc.spline());
+        let shaped = rounds || hsc.0.is_some() || hsc.1.is_some() || self.contour.akima.selected;
+        self.motion.areas.fit(shaped, &self.names, span)?;
+        let in_plane = self.in_plane(span)?;
+        if self.contour.akima.selected {
+            self.spline_fits(rapid, rounds, span)?;
+            self.geometry.spline_leads(&path, span)?;
+        }
+        // a block with an error causes no motion; conditions reported before it are still output
+        if self.report.failed() && !self.checking {
+            return Ok(());
+        }
+        let (contour, spline) = hsc;
+        let block = Box::new(Block {
+            seq: 0,
+            path,
+            feed,
+            feed_ratio,
+            full_override: full,
+            end_velocity_mm_s,
+            late_braking,
+            slope: self.modal.commanded.slope,
+            dynamics: self.motion.dynamics_of_block(&self.machine, &self.modal, rapid),
+            tolerance: self.shaping.tolerance(),
+            contour: if rounds { Some(self.contour.contouring.settings()) } else { contour },
+            spline,
+            tangential: false,
+        });
+        feed::check_time(&block, at, &mut self.report);
+        let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
+        if per_revolution && self.motion.cutting.speed.is_some() {
+            return self.send_pieces(&block, &in_plane, span);
+        }
+        self.send(block, in_plane, course, span);
+        Ok(())
+    }
+
+    /// The path of a block to its targets, checked as far as it is known; `None` if it does not travel or belongs to a control area.
+    fn path_of_block(
+        &mut self,
+        words: &Words<'_>,
+        is_arc: bool,
+        span: Span,
+    ) -> Outcome<Option<Path>> {
+        let left = std::mem::take(&mut self.motion.left_contour);
+        if left && (is_arc || self.modal.path == PathMode::ArcInSpace) {
+            let text = "an arc after G40 with G239: its start is not where it was programmed";
+            return Err(Fault::new(Condition::CompensationInArc, text, span));
+        }
+        self.join_named(words);
+        let before = self.geometry.coordinates.programmed_point();
+        let start = self.program_targets(words)?;
+        if let Some(axis) = self.geometry.turned_offset() {
+            let text = format!(
+                "length and offset of the tool along {} are those of the machine axis in a turned coordinate system",
+                self.names.name(axis)
+            );
+            let fault =
+                Fault::new(Condition::Fallback, text, span).with(|d| d.parameter(tool::FIXED));
+            self.report.note_once("tool_fixed", fault.hint("as with wz[i].tool_fixed 1"));
+        }
+        let path = if self.modal.path == PathMode::ArcInSpace {
+            Some(self.arc_in_space(start, before, words, span)?)
+        } else if is_arc {
+            Some(self.arc(start, words, span)?)
+        } else {
+            self.line_of_block(start, words)
+        };
+        if self.motion.areas.is_defining() {
+            return self.area_block(path.as_ref(), words, span).map(|()| None);
+        }
+        // a block without travel needs no feed rate
+        let Some(path) = path else { return Ok(None) };
+        let begins = self.modal.compensation != Compensation::Off && !self.contour.compensates();
+        if begins && self.motion.wear.on && !path.is_straight() {
+            let text = "tool radius compensation starts with an arc while #OTC is on";
+            return Err(Fault::new(Condition::WearSelectedInArc, text, span));
+        }
+        // the path with tool radius compensation is known only later
+        if self.modal.compensation == Compensation::Off {
+            let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
+            self.check_limits(&path, place, span);
+        }
+        Ok(Some(path))
+    }
+
+    /// The straight path to the targets; `None` without travel. Words of arcs are noted.
+    fn line_of_block(&mut self, start: AxisVec, words: &Words<'_>) -> Option<Path> {
+        let end = self.geometry.coordinates.target().clone();
+        if let Some((_, at)) = words.centre.iter().flatten().next()
+            && words.group(Group::Insertion).is_none()
+        {
+            let text = "I, J and K have no meaning in a straight motion";
+            self.report.note(Fault::new(Condition::Odd, text, *at).warning());
+        }
+        if let Some((radius, at)) = words.radius {
+            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
+            // in a block with an error, such as a cycle of another control, a complaint about R would only distract
+            if !self.report.failed() {
+                let text = "R has no meaning in a straight motion: it is kept for the next arc";
+                self.report.note(Fault::new(Condition::Odd, text, at).warning());
+            }
+        }
+        let independent = &self.motion.independent;
+        let (start, end) = (independent.on_path(start), independent.on_path(end));
+        LinePath::new(start, end, self.motion.limits.feed_axes()).map(Path::Line)
+    }
+
+    /// The override of the axes that move.
+    fn override_of(&self, path: &Path, rapid: bool) -> f64 {
+        let moves = |axis: &usize| {
+            path.extent(*axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
+        };
+        let moved = (0..self.motion.limits.feed_axes().len()).filter(moves);
+        self.motion.overrides.ratio(rapid, moved)
+    }
+
+    /// Whether the corner at the end of the block is rounded by contouring. What an exact stop or contouring does to HSC is noted.
+    fn rounds_corner(&mut self, words: &Words<'_>, span: Span) -> bool {
+        let stops = self.modal.exact_stop || words.has(Act::ExactStopOnce);
+        let rounds = !stops && (self.modal.contouring || words.has(Act::ContourOnce));
+        if stops {
+            self.spline_stops(span);
+        }
+        if rounds && self.contour.hsc.contour().is_some() {
+            let text = "G61, G261 and #HSC [OPMODE=1] at once: the corner is rounded by #CONTOUR MODE, not within CONTERROR";
+            let fault = Fault::new(Condition::Fallback, text, span);
+            self.report
+                .note_once("CONTERROR", fault.hint("switch one of the two off: G260 or #HSC OFF"));
+        }
+        rounds
+    }
+
+    /// Whether the feed group permits contouring and B-splines.
+    fn group_fits_corner(&self, rounds: bool, span: Span) -> Outcome<()> {
+        if rounds {
+            self.motion.contouring_fits(&self.geometry.coordinates, span)?;
+        }
+        if self.contour.hsc.spline().is_some()
+            && !self.machine.channel.spline_feed_of_group
+            && !self.motion.feeds_main_axes(&self.geometry.coordinates)
+        {
+            let what = "a feed group other than the main axes on a B-spline (P-CHAN-00240 = 0)";
+            return Err(Fault::unsupported(what, span));
+        }
+        Ok(())
+    }
+
+    /// Functions that cannot be combined with splines.
+    fn spline_fits(&self, rapid: bool, rounds: bool, span: Span) -> Outcome<()> {
+        if self.contour.hsc.spline().is_some() {
+            let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
+            return Err(Fault::new(Condition::SplineInSurface, text, span));
+        }
+        if rounds || self.contour.hsc.contour().is_some() {
+            let text = "a spline (G151) combined with contouring or #HSC";
+            return Err(Fault::new(Condition::SplineWithContouring, text, span));
+        }
+        let what = if rapid {
+            "G00 in a spline"
+        } else if self.modal.compensation != Compensation::Off {
+            "a spline with tool radius compensation"
+        } else if !self.geometry.coordinates.frame().only_shifts() {
+            "a spline in a rotated or mirrored system"
+        } else if self.modal.feed_type == FeedType::PerRevolution
+            && self.motion.cutting.speed.is_some()
+        {
+            "a spline with G95 under G96"
+        } else {
+            return Ok(());
+        };
+        Err(Fault::unsupported(what, span))
+    }
+
+    /// A motion with G95 under G96: its feed rate changes with the speed of the spindle.
+    fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
+        if in_plane.compensation.is_some() {
+            let what = "G95 under G96 with tool radius compensation";
+            return Err(Fault::unsupported(what, span));
+        }
+        let Some(cutting) = self.motion.cutting.speed else { return Ok(()) };
+        for (path, rpm) in
+            cutting::pieces(cutting, &block.path, self.motion.limits.feed_axes(), span)?
+        {
+            let feed = self.modal.feed_per_revolution(&self.machine, &path, rpm);
+            let block = Box::new(Block { path, feed, ..block.clone() });
+            let InPlane { plane, tilt, .. } = in_plane;
+            let in_plane = InPlane { plane: *plane, tilt: tilt.clone(), compensation: None };
+            self.send(block, in_plane, None, span);
+        }
+        Ok(())
+    }
+
+    /// Passes a motion on.
+    pub(super) fn send(
+        &mut self,
+        block: Box<Block>,
+        in_plane: InPlane,
+        course: Option<FeedCourse>,
+        span: Span,
+    ) {
+        let InPlane { plane, tilt, compensation } = in_plane;
+        let akima = self.contour.akima.selected && block.path.is_straight();
+        let watch =
+            self.motion.areas.watch(&self.geometry, &self.motion.independent.way, &self.names);
+        let motion = Box::new(Motion {
+            block,
+            course,
+            source: self.report.source,
+            events: self.contour.take_events(),
+            plane,
+            tilt,
+            local: false,
+            compensation,
+            engaged: None,
+            tangential: std::mem::take(&mut self.contour.tangential),
+            akima,
+            watch,
+            span,
+        });
+        self.moved = true;
+        for fault in self.contour.motion(motion) {
+            self.report.note(Box::new(fault));
+        }
+        for fault in self.limits_of_compensated() {
+            self.report.note(Box::new(fault));
+        }
+    }
+    /// An exact stop ends a B-spline: K-0111 unless AUTO_OFF_G60 asks for it.
+    pub(super) fn spline_stops(&mut self, span: Span) {
+        if self.contour.hsc.off_at_stop || self.contour.hsc.spline().is_none() {
+            return;
+        }
+        let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
+        let fault = Fault::new(Condition::Fallback, text, span)
+            .hint("without this key, the default, it does not end the spline of the control");
+        self.report.note_once("AUTO_OFF_G60", fault);
+    }
+}
