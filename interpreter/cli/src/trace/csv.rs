@@ -20,6 +20,7 @@ pub(crate) struct Rows {
     files: FileNames,
     last_line: Repeating,
     last_block: Repeating,
+    last_limit: Repeating,
 }
 
 /// A column that is not a number, and the numeric columns after it: the data read for every row.
@@ -53,6 +54,7 @@ impl Rows {
             files: facts.files.clone(),
             last_line: Repeating::default(),
             last_block: Repeating::default(),
+            last_limit: Repeating::default(),
         }
     }
 
@@ -88,19 +90,20 @@ impl Rows {
             match content {
                 Content::Time => out.push_seconds(head.k.saturating_mul(self.cycle_us)),
                 Content::Line => out.push_integer(u64::from(head.line), &mut self.last_line),
-                Content::Block => {
-                    if let Some(n) = head.block {
-                        out.push_integer(n, &mut self.last_block);
-                    }
-                }
+                Content::Block => match head.block {
+                    Some(n) => out.push_integer(n, &mut self.last_block),
+                    None => out.push_comma(),
+                },
                 Content::File => {
                     out.push_bytes(quoted(&self.files.name(head.file)).as_bytes());
+                    out.push_comma();
                 }
-                Content::Limit => out.push_bytes(head.limit.name().as_bytes()),
+                Content::Limit => {
+                    out.push_name(head.limit as u64, head.limit.name(), &mut self.last_limit);
+                }
                 // handled as the numbers after a column
                 Content::Axis(..) | Content::Path(_) => {}
             }
-            out.push_comma();
             self.numbers.push(out, row, from..numbers_to);
             from = numbers_to;
         }

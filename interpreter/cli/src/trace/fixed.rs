@@ -4,10 +4,12 @@
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the rounding error of
 //! the product only matters if the product is a tie, and then a fused multiply-add gives its sign.
 //!
-//! The numbers of a column are rounded and divided at their decimal points together ([`NumberTable`]), several per
-//! instruction; ties and numbers that are too large are left to [`Cells::push_fixed`]. Each number is then written to
-//! its final place, in words of a fixed length whose last bytes the next number overwrites. Digits assembled elsewhere
-//! could only be copied after all of them have been stored, which stalls the processor.
+//! The numbers of a column are rounded together ([`NumberTable`]), several per instruction, and written as texts of a
+//! fixed length, from which the lines are assembled. A number mostly has the sign and integer part of the row before,
+//! so only its fraction is converted. Ties and numbers that are too large are left to [`Cells::push_fixed`].
+//!
+//! Bytes of a text that have just been stored in pieces could only be copied after all of them have reached the cache,
+//! which stalls the processor; so the texts of many rows are made before the first line is assembled.
 
 mod table;
 
@@ -32,9 +34,6 @@ const POWERS: [u64; MOST_DECIMALS + 1] =
 /// Largest number of decimals that is not left to the standard library.
 const MOST_DECIMALS: usize = 7;
 
-/// Zero with the largest number of decimals.
-const ZERO: [u8; 16] = *b"0.00000000000000";
-
 /// Products below this have room for a tie bit: `2^52`.
 const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 
@@ -48,31 +47,24 @@ struct Divided {
 }
 
 impl Divided {
-    /// Writes the number and a comma to the beginning of a cell; returns its length without the comma.
+    /// Writes the number to the beginning of a cell; returns its length.
     #[inline]
     fn put(self, cell: &mut Cell, decimals: u8) -> usize {
-        let after_point = if decimals > 0 { 1 + usize::from(decimals) } else { 0 };
-        let length = if self.whole == 0 && self.part == 0 {
-            // an axis at rest, or an unused column
-            store(cell, 0, ZERO);
-            1 + after_point
-        } else {
-            cell[0] = b'-';
-            let at = put_whole(cell, usize::from(self.negative), self.whole);
-            put_part(cell, at, self.part);
-            at + after_point
-        };
-        cell[length] = b',';
-        length
+        cell[0] = b'-';
+        // zero has no sign
+        let signed = self.negative && (self.whole != 0 || self.part != 0);
+        let at = put_whole(cell, usize::from(signed), self.whole);
+        put_part(cell, at, self.part);
+        at + if decimals > 0 { 1 + usize::from(decimals) } else { 0 }
     }
 }
 
-/// An integer that mostly is the same as in the row before, with its text.
+/// A cell that mostly is the same as in the row before, with its text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Repeating {
-    n: u64,
+    key: u64,
     text: [u8; 24],
-    /// 0 before the first one.
+    /// With the comma; 0 before the first one.
     length: usize,
 }
 
@@ -83,6 +75,9 @@ pub(crate) struct Cells {
     bytes: Vec<u8>,
     end: usize,
 }
+
+/// A short number with its comma, and spare bytes.
+type Text = [u8; 16];
 
 /// Room for any number except those of [`Cells::push_slow`]: 20 digits, sign, point, decimals, comma, and one word.
 type Cell = [u8; 48];
@@ -154,25 +149,32 @@ impl Cells {
         }
     }
 
-    /// Appends what `put` writes into a cell for each item; stops at the first item for which it writes nothing, and
-    /// returns that item.
+    /// Appends the text of each item, given with its length; stops at the first item whose length is 0, and returns that
+    /// item.
     #[inline]
-    fn push_cells<'a, T>(
+    fn push_texts<'a, T>(
         &mut self,
         items: &mut std::slice::Iter<'a, T>,
-        put: impl Fn(&T, &mut Cell) -> Option<usize>,
+        text_of: impl Fn(&T) -> (Text, u8),
     ) -> Option<&'a T> {
-        let room = items.len() * size_of::<Cell>();
+        let room = (items.len() + 1) * size_of::<Text>();
         if self.bytes.len() - self.end < room {
             self.grow(room);
         }
-        let Self { bytes, end } = self;
-        items.find(|item| {
-            let cell = bytes.get_mut(*end..).and_then(<[u8]>::first_chunk_mut);
-            let length = cell.and_then(|cell| put(item, cell));
-            *end += length.unwrap_or_default();
-            length.is_none()
-        })
+        let all = self.bytes.len();
+        let mut rest = &mut self.bytes[self.end..];
+        let found = items.find(|item| {
+            let (text, length) = text_of(item);
+            if let Some(place) = rest.first_chunk_mut() {
+                *place = text;
+                // for the compiler: not longer than the text
+                let used = usize::from(length) % size_of::<Text>();
+                rest = &mut std::mem::take(&mut rest)[used..];
+            }
+            length == 0
+        });
+        self.end = all - rest.len();
+        found
     }
 
     /// Appends `value` with `decimals` digits after the point, rounded half away from zero.
@@ -204,14 +206,35 @@ impl Cells {
         }
     }
 
-    /// Appends an unsigned integer; `last` belongs to its column.
+    /// Appends an unsigned integer and a comma; `last` belongs to its column.
     #[inline]
     pub(crate) fn push_integer(&mut self, n: u64, last: &mut Repeating) {
+        self.push_repeating(n, last, |cell| put_whole(cell, 0, n));
+    }
+
+    /// Appends the name with the number `key`, of at most 23 bytes, and a comma; `last` belongs to its column.
+    #[inline]
+    pub(crate) fn push_name(&mut self, key: u64, name: &str, last: &mut Repeating) {
+        self.push_repeating(key, last, |cell| {
+            cell[..name.len()].copy_from_slice(name.as_bytes());
+            name.len()
+        });
+    }
+
+    /// Appends what `put` writes for a key, and a comma; `put` returns the number of bytes.
+    #[inline]
+    fn push_repeating(
+        &mut self,
+        key: u64,
+        last: &mut Repeating,
+        put: impl FnOnce(&mut Cell) -> usize,
+    ) {
         self.push_cell(|cell| {
-            if last.length == 0 || last.n != n {
-                let length = put_whole(cell, 0, n);
+            if last.length == 0 || last.key != key {
+                let length = put(cell);
+                cell[length] = b',';
                 let text = cell.first_chunk().copied().unwrap_or_default();
-                *last = Repeating { n, text, length };
+                *last = Repeating { key, text, length: length + 1 };
             } else {
                 store(cell, 0, last.text);
             }
@@ -219,32 +242,38 @@ impl Cells {
         });
     }
 
-    /// Appends microseconds as seconds with six decimals, exactly.
+    /// Appends microseconds as seconds with six decimals, exactly, and a comma.
     #[inline]
     pub(crate) fn push_seconds(&mut self, micros: u64) {
         self.push_cell(|cell| {
             let at = put_whole(cell, 0, micros / 1_000_000);
             put_part(cell, at, (micros % 1_000_000 * 10) as u32);
-            at + 7
+            cell[at + 7] = b',';
+            at + 8
         });
     }
 }
 
-/// Writes a point and the seven digits of `part / 10^7`. The word is assembled in a register: bytes stored one by one
-/// could not be read back as a word before all of them are stored.
+/// Writes a point and the seven digits of `part / 10^7`.
 #[inline]
 fn put_part(cell: &mut Cell, at: usize, part: u32) {
-    let (first, rest) = (part / 1_000_000, part % 1_000_000);
-    let begin = u32::from(b'.') | (u32::from(b'0') + first) << 8;
-    let middle = u64::from(TRIPLES[(rest / 1000) as usize]) << 16;
-    let end = u64::from(TRIPLES[(rest % 1000) as usize]) << 40;
-    store(cell, at, (u64::from(begin) | middle | end).to_le_bytes());
+    store(cell, at, (u64::from(b'.') | fraction(part) << 8).to_le_bytes());
 }
 
-/// Writes a word, but nothing beyond the end of the cell, which numbers do not reach.
+/// The seven digits of `part / 10^7`, the first one in the lowest byte; the highest byte is 0.
 #[inline]
-fn store<const N: usize>(cell: &mut Cell, at: usize, word: [u8; N]) {
-    if let Some(place) = cell.get_mut(at..).and_then(<[u8]>::first_chunk_mut) {
+fn fraction(part: u32) -> u64 {
+    let (first, rest) = (part / 1_000_000, part % 1_000_000);
+    let begin = u64::from(b'0') + u64::from(first);
+    let middle = u64::from(TRIPLES[(rest / 1000) as usize]) << 8;
+    let end = u64::from(TRIPLES[(rest % 1000) as usize]) << 32;
+    begin | middle | end
+}
+
+/// Writes a word, but nothing beyond the end of a cell or text, which numbers do not reach.
+#[inline]
+fn store<const N: usize>(text: &mut [u8], at: usize, word: [u8; N]) {
+    if let Some(place) = text.get_mut(at..).and_then(<[u8]>::first_chunk_mut) {
         *place = word;
     }
 }
@@ -364,6 +393,47 @@ mod tests {
         }
     }
 
+    /// Columns of which most rows repeat the digits before the point of the row above, or the whole number, and some do
+    /// not: numbers that wander across whole numbers and zero, with ties, and with numbers of any size among them.
+    #[test]
+    fn columns_are_written_as_their_numbers_are() {
+        let mut random = Random::new(2);
+        let decimals = [0, 2, 4, 6, 7, 9];
+        let mut numbers = NumberTable::new(&decimals);
+        let mut at = [0.3; 6];
+        for _ in 0..400 {
+            let rows = 1 + (random.bits() % NumberTable::ROWS as u64) as usize;
+            let mut columns = vec![Vec::new(); decimals.len()];
+            for (column, at) in columns.iter_mut().zip(&mut at) {
+                let reach = [0.0, 1e-7, 0.01, 0.7, 300.0][(random.bits() % 5) as usize];
+                for _ in 0..rows {
+                    *at += reach * (2.0 * random.ratio() - 1.0);
+                    column.push(match random.bits() % 64 {
+                        0 => (*at * 256.0).round() / 256.0,
+                        1 => at.round(),
+                        2 => -*at,
+                        3 => *at * 1e6,
+                        4 => f64::from_bits(random.bits()),
+                        _ => *at,
+                    });
+                }
+                *at %= 1000.0;
+            }
+            numbers.take(&columns, 0..rows);
+            for row in 0..rows {
+                let (mut together, mut alone) = (Cells::default(), Cells::default());
+                numbers.push(&mut together, row, 0..decimals.len());
+                for (column, decimals) in columns.iter().zip(decimals) {
+                    alone.push_fixed(column[row], decimals);
+                    alone.push_comma();
+                }
+                let [together, alone] = [together, alone]
+                    .map(|cells| String::from_utf8(cells.as_bytes().to_vec()).unwrap());
+                assert_eq!(together, alone);
+            }
+        }
+    }
+
     #[test]
     fn edges() {
         assert_eq!(fixed(0.0, 7), "0.0000000");
@@ -388,12 +458,10 @@ mod tests {
         let mut out = Cells::default();
         for micros in [0, 1_834_000, 10_000_000_000_062] {
             out.push_seconds(micros);
-            out.push_comma();
         }
         let mut last = Repeating::default();
         for n in [0, 7, 7, 10, 999, 1000, 20_034, u64::MAX, u64::MAX, 0] {
             out.push_integer(n, &mut last);
-            out.push_comma();
         }
         assert_eq!(
             std::str::from_utf8(out.as_bytes()).unwrap(),
