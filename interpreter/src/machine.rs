@@ -20,6 +20,7 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
+mod external;
 mod gears;
 mod hints;
 mod inert;
@@ -57,6 +58,7 @@ pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 pub(crate) use tools::INCH_MM;
+pub(crate) use external::{ExternalKind, ExternalVariables};
 pub(crate) use tools::{SpindleLimits, Tool, ToolKind, ZeroOffsets};
 
 use kontur_filters::control::monitor::ExactStopConfig;
@@ -82,6 +84,8 @@ pub struct Machine {
     pub(crate) tools: BTreeMap<u32, Tool>,
     /// Zero offsets (P-STUP-00011).
     pub(crate) zero_offsets: ZeroOffsets,
+    /// External variables (P-STUP-00146).
+    pub(crate) external: ExternalVariables,
 }
 
 /// Whether a position in mm (deg) is outside software limits. A position closer to a limit than half of the increment in

@@ -308,6 +308,11 @@ impl Contour {
         }
     }
 
+    /// Whether the corner after the last motion is to be rounded by contouring.
+    pub(super) fn has_contoured_corner(&self) -> bool {
+        matches!(self.corner(), Passing::Contoured)
+    }
+
     /// The corner after the last motion is not rounded.
     pub(super) fn keep_corner(&mut self) {
         if let Some(held) = &mut self.held {

@@ -73,7 +73,7 @@ impl Decoder {
                 machine.channel.dynamics.constant_ramp_time,
             ),
             dialect: Seen::default(),
-            values: Values::new(options.external),
+            values: Values::new(&machine.external),
             geometry: Geometry::new(&machine, start),
             contour: Contour::start(machine.channel.spline),
             motion: MotionState::new(&machine, options.techno_times),
@@ -97,6 +97,7 @@ impl Decoder {
             known(&of_several) || (forced && known(&of_forced))
         };
         decoder.report.unplaced.extend(diagnostics.into_iter().filter(told));
+        decoder.start_external(options.external);
         decoder
     }
 
