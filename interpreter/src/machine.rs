@@ -48,6 +48,7 @@ pub(crate) use channel::couplings::{DefaultCoupling, PAIRS_MAX};
 pub(crate) use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
 pub(crate) use channel::path::ArcCentre;
 pub(crate) use channel::running::RapidOverride;
+pub(crate) use external::{ExternalKind, ExternalVariables};
 pub(crate) use inert::instead_of;
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
@@ -58,7 +59,6 @@ pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 pub(crate) use tools::INCH_MM;
-pub(crate) use external::{ExternalKind, ExternalVariables};
 pub(crate) use tools::{SpindleLimits, Tool, ToolKind, ZeroOffsets};
 
 use kontur_filters::control::monitor::ExactStopConfig;

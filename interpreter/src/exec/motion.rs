@@ -311,6 +311,7 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
+        self.motion.contours_once = rounds && !self.modal.contouring;
         if stops {
             self.spline_stops(span);
         }

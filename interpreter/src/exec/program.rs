@@ -3,7 +3,6 @@
 //! Owns the open files, their indices and the levels of the program. It hands blocks to the decoder, and reads from the
 //! state of the decoder only the values of conditions and the results of a call.
 
-
 pub(super) mod ahead;
 pub(super) mod calls;
 pub(super) mod check;

@@ -50,9 +50,8 @@ pub(crate) struct ExternalVariables {
 impl ExternalVariables {
     /// The variables of a list: up to P-EXTV-00010, and up to the first one with an unknown type (20088).
     pub(super) fn new(list: &Parameters, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let entries = |param: Place| {
-            list.settings().filter(move |(_, setting)| setting.row == param.row)
-        };
+        let entries =
+            |param: Place| list.settings().filter(move |(_, setting)| setting.row == param.row);
         let mut variables: Vec<ExternalVariable> = Vec::new();
         let count = list.get(of::COUNT);
         let mut more = entries(of::NAME.place()).filter(|([i, _], _)| *i >= count);
@@ -72,13 +71,17 @@ impl ExternalVariables {
             let kind = match kind(list, i, &type_name) {
                 Ok(Some(kind)) => kind,
                 Ok(None) => {
-                    let text = format!("external variable {name}: structures are not simulated, it does not exist");
+                    let text = format!(
+                        "external variable {name}: structures are not simulated, it does not exist"
+                    );
                     let about = Diagnostic::new(Condition::Unsupported, text);
                     diagnostics.push(at(about.severity(Severity::Warning), setting));
                     continue;
                 }
                 Err(()) => {
-                    let text = format!("external variable {name}: unknown type {type_name}; this one and those after it do not exist");
+                    let text = format!(
+                        "external variable {name}: unknown type {type_name}; this one and those after it do not exist"
+                    );
                     let about = Diagnostic::new(Condition::ExternalType, text)
                         .value(ValueKind::Current, i, "-")
                         .parameter(of::KIND);
@@ -87,7 +90,9 @@ impl ExternalVariables {
                 }
             };
             if variables.iter().any(|v| v.name == name) {
-                let text = format!("external variable {name} is defined before, the second definition has no effect");
+                let text = format!(
+                    "external variable {name} is defined before, the second definition has no effect"
+                );
                 diagnostics.push(at(Diagnostic::new(Condition::ListNoEffect, text), setting));
                 continue;
             }

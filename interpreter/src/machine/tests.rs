@@ -389,8 +389,7 @@ fn lists_of_external_variables() {
         assert_eq!(ids, ["K-0075", "K-0074", "K-0019", "K-0075"], "{messages:?}");
         let known: Vec<(&str, ExternalKind, u32)> =
             machine.external.variables.iter().map(|v| (&*v.name, v.kind, v.elements)).collect();
-        let expected =
-            [("A", ExternalKind::Number("SGN16"), 10), ("B", ExternalKind::Text(20), 0)];
+        let expected = [("A", ExternalKind::Number("SGN16"), 10), ("B", ExternalKind::Text(20), 0)];
         assert_eq!(known, expected);
         assert_eq!(machine.external.asynchronous(), [String::from("A")].into());
         let init: Vec<&str> = machine.external.init.iter().map(|(text, _)| &**text).collect();

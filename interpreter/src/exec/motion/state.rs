@@ -61,6 +61,8 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) threads: Threads,
     pub(in crate::exec) measuring: Measuring,
     pub(in crate::exec) contour_line: ContourLines,
+    /// Whether contouring ends with the last motion block that has it (G61).
+    pub(in crate::exec) contours_once: bool,
     /// `#CORNER PARAM`.
     pub(in crate::exec) corner: Option<Corner>,
     /// F word before the current block.
@@ -101,6 +103,7 @@ impl MotionState {
             threads: Threads::new(&machine.channel),
             measuring: Measuring::new(&machine.channel, n),
             contour_line: ContourLines::default(),
+            contours_once: false,
             corner: None,
             feed_before: None,
             left_contour: false,

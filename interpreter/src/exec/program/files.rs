@@ -1,9 +1,9 @@
 //! Open program files: text, structure, and the parsed blocks that run more than once.
 
-use super::reads::Reads;
 use super::ahead::Opened;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
 use super::places::whole_block;
+use super::reads::Reads;
 use super::state::Numbers;
 use super::unusable::{FileError, is_foreign};
 use crate::diag::{Condition, Diagnostic, Location};

@@ -21,7 +21,7 @@ use crate::source::RawBlock;
 use crate::suggest;
 use crate::syntax::Parser;
 use crate::syntax::ast::{
-    Assign, Body, Expr, ExprKind, Place, PlaceKind, Segment, Span, WordKind,
+    Assign, Body, Expr, ExprKind, Place, PlaceKind, Segment, Span, Word, WordKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -228,50 +228,66 @@ impl Decoder {
         self.report.unplaced.extend(rounded);
     }
 
-    /// Executes an assignment of the list (P-EXTV-00013).
+    /// Executes an assignment of the list (P-EXTV-00013); one that fails leaves its variable at 0.
     fn initialise(&mut self, text: &str) -> Result<(), Box<Diagnostic>> {
-        let refused = |why: &str| {
-            let text = format!("init {text}: {why}; the variable is 0");
-            Box::new(Diagnostic::new(Condition::ExternalNotInitialised, text))
+        let refused = |condition, why: &str| {
+            Box::new(Diagnostic::new(condition, format!("init {text}: {why}")))
         };
+        let no_assignment = "no assignment to a variable of the list, no effect";
         let mut found = Vec::new();
         let raw = RawBlock::from_line(text);
         let block = Parser::new([]).block(&raw, &Arc::from("init"), &mut found);
         if let Some(error) = found.iter().find(|d| d.is_error()) {
-            return Err(refused(&error.text));
+            return Err(refused(Condition::ExternalNotInitialised, &error.text));
         }
-        let assign = match &block.body {
-            Body::Words(words) => match &words[..] {
-                [word] => match &word.kind {
-                    WordKind::Assign(assign) if is_external(&assign.target) => assign,
-                    _ => return Err(refused("no assignment to an external variable")),
-                },
-                _ => return Err(refused("one assignment is expected")),
-            },
-            _ => return Err(refused("no assignment to an external variable")),
+        let words = match &block.body {
+            Body::Words(words) => &words[..],
+            _ => &[],
         };
-        if let Some(other) = other_variable(assign) {
-            let text = format!("init {text}: {other} is no external variable; the variable is 0");
-            return Err(Box::new(Diagnostic::new(Condition::ExternalInitVariable, text)));
-        }
-        let outcome = self.external_name_of(&assign.target).and_then(|name| {
-            let value = self.value(&assign.value)?;
-            let externals = &mut self.values.variables.external;
-            if externals.declared(&name, assign.target.span)?.is_none() {
-                return Err(undefined(&format!("V.E.{name}"), assign.target.span));
+        let assign = match words {
+            [Word { kind: WordKind::Assign(assign), .. }]
+                if assign.operator.is_none() && is_external(&assign.target) =>
+            {
+                assign
             }
-            externals.store(name, value, assign.value.span, &mut self.report)
+            _ => return Err(refused(Condition::ExternalNotInitialised, no_assignment)),
+        };
+        let span = assign.target.span;
+        let name = self.external_name_of(&assign.target).ok().filter(|name| {
+            let externals = &self.values.variables.external;
+            externals.declared(name, span).is_ok_and(|declared| declared.is_some())
         });
-        outcome.map_err(|fault| refused(&fault.diagnostic.text))
+        let Some(name) = name else {
+            return Err(refused(Condition::ExternalNotInitialised, no_assignment));
+        };
+        let failed = match other_variable(assign) {
+            Some(other) => {
+                let why = format!("{other} is no external variable, the variable is 0");
+                refused(Condition::ExternalInitVariable, &why)
+            }
+            None => {
+                let outcome = self.value(&assign.value).and_then(|value| {
+                    let externals = &mut self.values.variables.external;
+                    externals.store(name.clone(), value, assign.value.span, &mut self.report)
+                });
+                let Err(fault) = outcome else { return Ok(()) };
+                let why = format!("{}, the variable is 0", fault.diagnostic.text);
+                refused(Condition::ExternalNotInitialised, &why)
+            }
+        };
+        self.values.variables.external.values.remove(&name);
+        Err(failed)
     }
 
     /// Empties the channel before a block reads a synchronous external variable: an implicit `#FLUSH WAIT`.
     ///
     /// # Errors
     /// 20651 where that is not permitted: under tool radius compensation, contouring, `#HSC` and Akima splines; 90050 between
-    /// G40 and the motion that ends the compensation; 21909 between two contour lines.
+    /// G40 and the motion that ends the compensation; 21909 between two contour lines. K-0111 if G260 has ended contouring
+    /// and the corner before it would still be rounded.
     pub(in crate::exec) fn flush_for_external(&mut self, read: Span) -> Outcome<()> {
-        let contouring = self.modal.contouring || self.contour.has_contoured_corner();
+        let corner = self.contour.has_contoured_corner();
+        let contouring = self.modal.contouring || corner && self.motion.contours_once;
         let active = if self.modal.compensation != Compensation::Off {
             Some(("tool radius compensation is", "G40"))
         } else if contouring {
@@ -284,8 +300,12 @@ impl Decoder {
             None
         };
         if let Some((active, end)) = active {
-            let text = format!("reading an external variable empties the channel, which is not permitted while {active} active");
-            let hint = format!("read it into a P parameter before, or write {end} first; variables that the list of the machine declares with synchronisation FALSE are read without a stop");
+            let text = format!(
+                "reading an external variable empties the channel, which is not permitted while {active} active"
+            );
+            let hint = format!(
+                "read it into a P parameter before, or write {end} first; variables that the list of the machine declares with synchronisation FALSE are read without a stop"
+            );
             return Err(Fault::new(Condition::FlushWithCompensation, text, read).hint(hint));
         }
         if self.contour.awaits_departure() {
@@ -296,6 +316,9 @@ impl Decoder {
         if self.motion.contour_line.is_open() {
             let text = "external variable read between the two blocks of a contour line (#ANG)";
             return Err(Fault::new(Condition::FlushInContourLine, text, read));
+        }
+        if corner {
+            self.note_lost_corner();
         }
         self.sync(Sync::FlushWait);
         Ok(())
