@@ -259,7 +259,7 @@ fn overrides_that_name_nothing_are_errors() {
     for (text, hint) in [
         (
             "Q.getriebe[0].kv=1",
-            "use X, Y, S (several separated by commas), * for every path axis, channel, start_up, tool, zero or kontur",
+            "use X, Y, S (several separated by commas), * for every path axis, channel, start_up, tool, zero, external or kontur",
         ),
         // one mistake is reported once, for any number of axes
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
