@@ -47,7 +47,7 @@ use super::values::number::LARGEST_MM;
 use crate::diag::Condition;
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
-use crate::exec::motion::state::MotionState;
+use crate::exec::motion::state::{Contouring, MotionState};
 use crate::exec::report::{Report, Subject};
 use crate::machine::table::tool;
 use crate::syntax::ast::Span;
@@ -311,7 +311,10 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
-        self.motion.contours_once = rounds && !self.modal.contouring;
+        if rounds {
+            self.motion.contouring =
+                if self.modal.contouring { Contouring::Modal } else { Contouring::Once };
+        }
         if stops {
             self.spline_stops(span);
         }

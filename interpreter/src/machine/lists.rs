@@ -229,9 +229,10 @@ impl Reader<'_> {
                     .hint(hint),
             );
         }
-        let indices = match row.repeated {
-            true => [self.list.keys().filter(|(key, _)| *key == row.key).count() as u32, 0],
-            false => indices,
+        let indices = if row.repeated {
+            [self.list.keys().filter(|(key, _)| *key == row.key).count() as u32, 0]
+        } else {
+            indices
         };
         let value = match value::read(row.raw, written) {
             Ok(value) => value,

@@ -12,6 +12,7 @@ use crate::diag::{Condition, Diagnostic, ValueKind};
 use crate::exec::block::choice::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::state::Contouring;
 use crate::exec::options::{Access, External, Value};
 use crate::exec::report::Report;
 use crate::exec::step::Sync;
@@ -260,20 +261,17 @@ impl Decoder {
         let Some(name) = name else {
             return Err(refused(Condition::ExternalNotInitialised, no_assignment));
         };
-        let failed = match other_variable(assign) {
-            Some(other) => {
-                let why = format!("{other} is no external variable, the variable is 0");
-                refused(Condition::ExternalInitVariable, &why)
-            }
-            None => {
-                let outcome = self.value(&assign.value).and_then(|value| {
-                    let externals = &mut self.values.variables.external;
-                    externals.store(name.clone(), value, assign.value.span, &mut self.report)
-                });
-                let Err(fault) = outcome else { return Ok(()) };
-                let why = format!("{}, the variable is 0", fault.diagnostic.text);
-                refused(Condition::ExternalNotInitialised, &why)
-            }
+        let failed = if let Some(other) = other_variable(assign) {
+            let why = format!("{other} is no external variable, the variable is 0");
+            refused(Condition::ExternalInitVariable, &why)
+        } else {
+            let outcome = self.value(&assign.value).and_then(|value| {
+                let externals = &mut self.values.variables.external;
+                externals.store(name.clone(), value, assign.value.span, &mut self.report)
+            });
+            let Err(fault) = outcome else { return Ok(()) };
+            let why = format!("{}, the variable is 0", fault.diagnostic.text);
+            refused(Condition::ExternalNotInitialised, &why)
         };
         self.values.variables.external.values.remove(&name);
         Err(failed)
@@ -287,7 +285,8 @@ impl Decoder {
     /// and the corner before it would still be rounded.
     pub(in crate::exec) fn flush_for_external(&mut self, read: Span) -> Outcome<()> {
         let corner = self.contour.has_contoured_corner();
-        let contouring = self.modal.contouring || corner && self.motion.contours_once;
+        let contouring =
+            self.modal.contouring || corner && self.motion.contouring == Contouring::Once;
         let active = if self.modal.compensation != Compensation::Off {
             Some(("tool radius compensation is", "G40"))
         } else if contouring {
