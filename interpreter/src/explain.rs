@@ -87,6 +87,7 @@ fn key_of(thing: &str) -> Option<&'static Row> {
         ListKind::StartUp,
         ListKind::Tool,
         ListKind::Zero,
+        ListKind::External,
         ListKind::Kontur,
     ];
     kinds.iter().find_map(|kind| table::by_key(*kind, &key.shape))
@@ -200,6 +201,7 @@ fn list_name(list: ListKind) -> &'static str {
         ListKind::Axis => "axis list",
         ListKind::Tool => "tool list",
         ListKind::Zero => "zero offset list",
+        ListKind::External => "list of external variables",
         ListKind::Kontur => "kontur.lis",
     }
 }

@@ -20,6 +20,7 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
+mod external;
 mod gears;
 mod hints;
 mod inert;
@@ -47,6 +48,7 @@ pub(crate) use channel::couplings::{DefaultCoupling, PAIRS_MAX};
 pub(crate) use channel::functions::{Acknowledged, SpindleMoment, SpindleWaits};
 pub(crate) use channel::path::ArcCentre;
 pub(crate) use channel::running::RapidOverride;
+pub(crate) use external::{ExternalKind, ExternalVariables};
 pub(crate) use inert::instead_of;
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
@@ -82,6 +84,8 @@ pub struct Machine {
     pub(crate) tools: BTreeMap<u32, Tool>,
     /// Zero offsets (P-STUP-00011).
     pub(crate) zero_offsets: ZeroOffsets,
+    /// External variables (P-STUP-00146).
+    pub(crate) external: ExternalVariables,
 }
 
 /// Whether a position in mm (deg) is outside software limits. A position closer to a limit than half of the increment in

@@ -34,7 +34,7 @@ fn axis(name: &str, list_of: &str, (channel, index): (u32, u32)) -> String {
 fn channel(names: &str) -> String {
     format!(
         "<Channel><ItemName>Channel 1</ItemName><ChnPara><SdaMds><![CDATA[{names}]]></SdaMds>\
-         <NullpD><![CDATA[# nothing]]></NullpD><VeD><![CDATA[anzahl_belegt 1]]></VeD></ChnPara></Channel>\n"
+         <NullpD><![CDATA[# nothing]]></NullpD><VeD><![CDATA[anzahl_belegt 1]]></VeD><PzvD><![CDATA[pzv 1]]></PzvD></ChnPara></Channel>\n"
     )
 }
 
@@ -131,7 +131,7 @@ fn a_project_moves_as_its_lists_do() {
             said.contains("K-0140") && said.contains("cycle 1000 us of the GEO task"),
             "{said}"
         );
-        assert!(said.contains("X (1), Y (2), Z (3)") && said.contains("not read: VeD"), "{said}");
+        assert!(said.contains("X (1), Y (2), Z (3)") && said.contains("not read: PzvD"), "{said}");
         assert!(said.contains("and the spindles S (4)"), "{said}");
     }
 }

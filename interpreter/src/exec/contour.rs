@@ -296,11 +296,6 @@ impl Contour {
         }
     }
 
-    /// Whether G61 rounds the corner after the last motion.
-    pub(super) fn contours_once(&self) -> bool {
-        !self.hsc.on && self.corner() == Passing::Contoured
-    }
-
     /// What is to become of the corner after the last motion.
     fn corner(&self) -> Passing {
         match &self.held {
@@ -311,6 +306,11 @@ impl Contour {
             Some(_) => Passing::Sharp,
             None => self.waits_at,
         }
+    }
+
+    /// Whether the corner after the last motion is to be rounded by contouring.
+    pub(super) fn has_contoured_corner(&self) -> bool {
+        matches!(self.corner(), Passing::Contoured)
     }
 
     /// The corner after the last motion is not rounded.

@@ -73,7 +73,7 @@ impl Decoder {
                 machine.channel.dynamics.constant_ramp_time,
             ),
             dialect: Seen::default(),
-            values: Values::new(options.external),
+            values: Values::new(&machine.external),
             geometry: Geometry::new(&machine, start),
             contour: Contour::start(machine.channel.spline),
             motion: MotionState::new(&machine, options.techno_times),
@@ -97,6 +97,7 @@ impl Decoder {
             known(&of_several) || (forced && known(&of_forced))
         };
         decoder.report.unplaced.extend(diagnostics.into_iter().filter(told));
+        decoder.start_external(options.external);
         decoder
     }
 
@@ -120,11 +121,16 @@ impl Decoder {
     /// Stops the path after the last motion, with K-0111 once if that keeps a corner which would be rounded.
     pub(super) fn stop_contour(&mut self, what: Sync) -> Vec<Fault> {
         if self.contour.loses_corner(&what) {
-            let text = "the path stops here, so that the corner before it is not rounded";
-            let fault = Fault::new(Condition::Fallback, text, Span::default());
-            self.report.note_once("corner", fault);
+            self.note_lost_corner();
         }
         self.contour.sync(what, self.report.source)
+    }
+
+    /// K-0111 once: the stop that follows keeps a corner which would be rounded.
+    pub(super) fn note_lost_corner(&mut self) {
+        let text = "the path stops here, so that the corner before it is not rounded";
+        let fault = Fault::new(Condition::Fallback, text, Span::default());
+        self.report.note_once("corner", fault);
     }
 
     /// Sets the axes to their real positions; all of them if none is named. The setpoint moves back by the following error,

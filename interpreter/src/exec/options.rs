@@ -139,7 +139,8 @@ pub struct Options {
     /// Whether the path waits for durations of M, H and S functions declared in the lists (P-CHAN-00026, 00040, 00042 to 00048,
     /// 00080).
     pub techno_times: bool,
-    /// External variables by their name after `V.E.`.
+    /// External variables by their name after `V.E.`, as the PLC sets them: with the types of the machine's list, whatever
+    /// the access rights it gives to programs.
     pub external: BTreeMap<String, External>,
     /// Vibration Guard that replaces that of lists and program.
     pub guard: Option<ForcedGuard>,

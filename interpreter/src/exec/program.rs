@@ -3,7 +3,6 @@
 //! Owns the open files, their indices and the levels of the program. It hands blocks to the decoder, and reads from the
 //! state of the decoder only the values of conditions and the results of a call.
 
-mod actual;
 pub(super) mod ahead;
 pub(super) mod calls;
 pub(super) mod check;
@@ -17,6 +16,7 @@ mod jumps;
 mod levels;
 pub(super) mod places;
 mod reached;
+mod reads;
 pub(super) mod sequence;
 pub(super) mod state;
 pub(super) mod unreached;

@@ -117,7 +117,7 @@ pub(crate) enum Sync {
         /// Time in s, above 0.
         seconds: f64,
     },
-    /// `#FLUSH WAIT`, `#CHANNEL INIT [CMDPOS]`: waits until the axes have arrived.
+    /// `#FLUSH WAIT`, `#CHANNEL INIT [CMDPOS]`, reading an external variable: waits until the axes have arrived.
     FlushWait,
     /// `INDP_SYN`, `#WAIT INDP`: waits until the setpoints of these independent axes have arrived.
     Independent {

@@ -11,7 +11,7 @@ pub(super) mod system;
 pub(super) mod timers;
 pub(super) mod variables;
 
-use super::options::External;
+use crate::machine::ExternalVariables;
 use std::collections::BTreeMap;
 use variables::scopes::Variables;
 
@@ -27,7 +27,7 @@ pub(super) struct Values {
 
 impl Values {
     /// State at program start.
-    pub(super) fn new(external: BTreeMap<String, External>) -> Self {
+    pub(super) fn new(external: &ExternalVariables) -> Self {
         let variables = Variables::new(external);
         Self { variables, kinematics: BTreeMap::new(), tool_life: [1.0; 2] }
     }

@@ -91,7 +91,7 @@ const LIMITS: &[Word] = &[
         meaning: "the path waits at G60, G360 until the actual positions are inside the window (--times)",
         facts: &[("helps", "P-AXIS-00236, P-AXIS-00099, feedforward G135")], related: &["P-AXIS-00236", "G60"] },
     Word { name: "flush",
-        meaning: "the path waits until the set positions have arrived: #FLUSH WAIT, independent axes, a change of filters (--times)",
+        meaning: "the path waits until the set positions have arrived: #FLUSH WAIT, reading an external variable, independent axes, a change of filters (--times)",
         facts: &[], related: &["#FLUSH"] },
     Word { name: "spindle",
         meaning: "a thread waits until its spindle stops, or has reached its speed and passes its zero mark (--times)",

@@ -181,7 +181,8 @@ impl Axis {
             | ListKind::Channel
             | ListKind::StartUp
             | ListKind::Tool
-            | ListKind::Zero => self.parameters.get(gears::param_of(self.stage, param)),
+            | ListKind::Zero
+            | ListKind::External => self.parameters.get(gears::param_of(self.stage, param)),
         }
     }
 

@@ -215,7 +215,12 @@ impl Chain<'_> {
         self.override_list(&mut own, "kontur", overrides);
         let tools = self.data(&start_up, ListKind::Tool, stup::TOOL_LIST, ("tool", overrides));
         let zero = self.data(&start_up, ListKind::Zero, stup::ZERO_LIST, ("zero", overrides));
-        Some(Settled { start_up, channel, axes, own, tools, zero })
+        let named = [stup::EXTERNAL_LIST, stup::OLD_EXTERNAL_LIST]
+            .into_iter()
+            .find(|list| start_up.get(*list).is_some_and(|name| !name.is_empty()));
+        let named = named.unwrap_or(stup::EXTERNAL_LIST);
+        let external = self.data(&start_up, ListKind::External, named, ("external", overrides));
+        Some(Settled { start_up, channel, axes, own, tools, zero, external })
     }
 
     /// A list of channel data, which may be absent, with the changes made by `--set`.
@@ -268,7 +273,7 @@ impl Chain<'_> {
 
     fn override_all(&mut self, settled: &mut Settled, names: &link::Names, overrides: &[Override]) {
         for wanted in overrides {
-            if ["start_up", "channel", "kontur", "tool", "zero"]
+            if ["start_up", "channel", "kontur", "tool", "zero", "external"]
                 .iter()
                 .any(|t| wanted.target().eq_ignore_ascii_case(t))
             {
@@ -306,11 +311,13 @@ impl Chain<'_> {
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
         plausible::check(&mut settled.tools, cycle, None, diagnostics);
         plausible::check(&mut settled.zero, cycle, None, diagnostics);
+        plausible::check(&mut settled.external, cycle, None, diagnostics);
         plausible::channel::check(&mut settled.channel, diagnostics);
         diagnostics.append(&mut default_couplings(&settled.channel).1);
         inert::check(&settled.start_up, None, diagnostics);
         inert::check(&settled.channel, None, diagnostics);
         inert::check(&settled.tools, None, diagnostics);
+        inert::check(&settled.external, None, diagnostics);
         for axis in &mut settled.axes {
             let number = logical_number(&axis.parameters);
             let name = names.name(number).unwrap_or_default().to_owned();

@@ -72,6 +72,7 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00654", "the whole look-ahead is computed in every cycle"),
     ("P-CHAN-00761", "the spindle follows the set positions of the axes of G63"),
     ("P-CHAN-00834", "the axes of G33 follow the set position of the spindle"),
+    ("P-EXTV-00002", "every variable has a memory of its own, also where addresses overlap"),
 ];
 
 /// What is done instead of the function of a parameter that is not simulated.

@@ -5,6 +5,7 @@ mod gantry;
 use super::Machine;
 use super::axis::Axis;
 use super::channel::Channel;
+use super::external::ExternalVariables;
 use super::kind::{AxisKind, kind_of, logical_number};
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
@@ -212,7 +213,7 @@ pub(super) fn machine(
     if diagnostics.iter().skip(before).any(Diagnostic::is_error) {
         return None;
     }
-    let Settled { start_up, channel, axes: lists, own, tools, zero } = settled;
+    let Settled { start_up, channel, axes: lists, own, tools, zero, external } = settled;
     let mut lists: Vec<Option<Parameters>> =
         lists.into_iter().map(|l| Some(l.parameters)).collect();
     let mut take = |number: u32| -> Option<Parameters> {
@@ -264,6 +265,7 @@ pub(super) fn machine(
         channel,
         tools,
         zero_offsets,
+        external: ExternalVariables::new(&external, diagnostics),
     })
 }
 

@@ -229,6 +229,11 @@ impl Reader<'_> {
                     .hint(hint),
             );
         }
+        let indices = if row.repeated {
+            [self.list.keys().filter(|(key, _)| *key == row.key).count() as u32, 0]
+        } else {
+            indices
+        };
         let value = match value::read(row.raw, written) {
             Ok(value) => value,
             Err(bad) => {

@@ -89,6 +89,7 @@ impl Override {
             "kontur" => ListKind::Kontur,
             "tool" => ListKind::Tool,
             "zero" => ListKind::Zero,
+            "external" => ListKind::External,
             _ => ListKind::Axis,
         };
         self.resolve(kind).ok().map(|(row, _)| row)
@@ -128,7 +129,7 @@ impl Override {
     pub(super) fn unknown_target(&self, target: &str, names: &[&str]) -> Diagnostic {
         let message = format!("`{target}` is not an axis of the machine");
         let hint = format!(
-            "use {} (several separated by commas), * for every path axis, channel, start_up, tool, zero or kontur",
+            "use {} (several separated by commas), * for every path axis, channel, start_up, tool, zero, external or kontur",
             names.join(", ")
         );
         Diagnostic::new(Condition::Setting, message).at(self.location(target)).hint(hint)

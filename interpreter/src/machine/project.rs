@@ -199,6 +199,8 @@ impl<'a> Project<'a> {
             "sda_mds[",
             "werkz_data[",
             "nullp_data[",
+            "ve_var[",
+            "ext_var[",
         ];
         start_up.replace(&own, &entries);
         self.lists.insert(self.start_up.clone(), start_up.placed());
@@ -244,6 +246,7 @@ impl<'a> Project<'a> {
             ("sda_mds[0]", Some(&first.list)),
             ("werkz_data[0]", first.tools.as_ref()),
             ("nullp_data[0]", first.zero_offsets.as_ref()),
+            ("ve_var[0]", first.external.as_ref()),
         ];
         for (key, list) in channel_lists {
             if let Some(list) = list {

@@ -12,6 +12,7 @@ pub(super) struct Settled {
     pub(super) own: Parameters,
     pub(super) tools: Parameters,
     pub(super) zero: Parameters,
+    pub(super) external: Parameters,
 }
 
 /// One axis list.

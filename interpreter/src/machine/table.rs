@@ -22,6 +22,7 @@ pub(crate) mod axis_general;
 pub(crate) mod axis_guard;
 pub(crate) mod channel;
 pub(crate) mod channel_hsc;
+pub(crate) mod external;
 mod indices;
 pub(crate) mod kontur;
 mod lookup;

@@ -259,7 +259,7 @@ fn overrides_that_name_nothing_are_errors() {
     for (text, hint) in [
         (
             "Q.getriebe[0].kv=1",
-            "use X, Y, S (several separated by commas), * for every path axis, channel, start_up, tool, zero or kontur",
+            "use X, Y, S (several separated by commas), * for every path axis, channel, start_up, tool, zero, external or kontur",
         ),
         // one mistake is reported once, for any number of axes
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
@@ -371,4 +371,32 @@ fn lists_of_zero_offsets() {
     let set = files.load(&["zero.default_index=1"]).unwrap().0;
     assert_eq!(set.zero_offsets.start_group, 1);
     assert_eq!(files.ids(&["zero.default_index=97"]), ["20585"]);
+}
+
+/// TF5200 external variables: the older syntax with its keys, P-EXTV-00010, P-EXTV-00013 and 20088.
+#[test]
+fn lists_of_external_variables() {
+    let list = "anzahl_belegt 4\nvar[0].name A (first)\nvar[0].index 0\nvar[0].type SGN16\nvar[0].synchronisation FALSE\n\
+        var[0].array_size 10\nvar[1].name P\nvar[1].type POINT\nstruct[0].name POINT\nvar[2].name B\nvar[2].type STRING\n\
+        var[3].name A\nvar[4].name C\ninit V.E.A[1] = 2\ninit V.E.B = \"x\"\ninit V.E.A[2] = V.E.A[1]\n";
+    for key in ["ve_var[0]", "ext_var[0]"] {
+        let mut files = Memory::machine();
+        files.add("m/hochlauf.lis", &format!("{key} lists/external.lis\n"));
+        files.put("m/lists/external.lis", list);
+        let (machine, messages) = files.load(&[]).unwrap();
+        let ids: Vec<String> = messages.iter().map(|d| d.id.to_string()).collect();
+        // addresses, the variable beyond the count, the structure, the second A
+        assert_eq!(ids, ["K-0075", "K-0074", "K-0019", "K-0075"], "{messages:?}");
+        let known: Vec<(&str, ExternalKind, u32)> =
+            machine.external.variables.iter().map(|v| (&*v.name, v.kind, v.elements)).collect();
+        let expected = [("A", ExternalKind::Number("SGN16"), 10), ("B", ExternalKind::Text(20), 0)];
+        assert_eq!(known, expected);
+        assert_eq!(machine.external.asynchronous(), [String::from("A")].into());
+        let init: Vec<&str> = machine.external.init.iter().map(|(text, _)| &**text).collect();
+        assert_eq!(init, ["V.E.A[1] = 2", "V.E.B = \"x\"", "V.E.A[2] = V.E.A[1]"]);
+        // those after an unknown type do not exist either
+        let (machine, messages) = files.load(&["external.var[0].type=INT"]).unwrap();
+        assert!(machine.external.variables.is_empty());
+        assert!(messages.iter().any(|d| d.id == Condition::ExternalType), "{messages:?}");
+    }
 }

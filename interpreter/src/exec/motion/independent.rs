@@ -274,7 +274,7 @@ impl Decoder {
     pub(super) fn moves_outside_curves(&self, axis: usize, span: Span) -> Outcome<()> {
         let condition = if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
             Condition::IndependentInSpline
-        } else if self.modal.contouring || self.contour.contours_once() {
+        } else if self.is_contouring() {
             Condition::IndependentInContouring
         } else {
             return Ok(());

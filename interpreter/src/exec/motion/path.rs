@@ -13,7 +13,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
-use crate::exec::motion::state::MotionState;
+use crate::exec::motion::state::{Contouring, MotionState};
 use crate::exec::report::{Report, Subject};
 use crate::machine::table::tool;
 use crate::syntax::ast::Span;
@@ -69,6 +69,12 @@ impl MotionState {
 }
 
 impl Decoder {
+    /// Whether polynomial contouring is active: G261, or G61 at the corner after the last motion.
+    pub(in crate::exec) fn is_contouring(&self) -> bool {
+        let once = self.motion.contouring == Contouring::Once;
+        self.modal.contouring || once && self.contour.has_contoured_corner()
+    }
+
     pub(super) fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let Some(path) = self.path_of_block(words, is_arc, span)? else { return Ok(()) };
         self.join_for(&path);
@@ -207,6 +213,10 @@ impl Decoder {
     fn rounds_corner(&mut self, words: &Words<'_>, span: Span) -> bool {
         let stops = self.modal.exact_stop || words.has(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || words.has(Act::ContourOnce));
+        if rounds {
+            self.motion.contouring =
+                if self.modal.contouring { Contouring::Modal } else { Contouring::Once };
+        }
         if stops {
             self.spline_stops(span);
         }

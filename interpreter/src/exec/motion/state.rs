@@ -42,6 +42,15 @@ impl Feedforward {
     }
 }
 
+/// The way contouring is selected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Contouring {
+    /// G61, for the end of one block.
+    Once,
+    /// G261.
+    Modal,
+}
+
 /// State that the motions own.
 #[derive(Debug)]
 pub(in crate::exec) struct MotionState {
@@ -54,6 +63,8 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) threads: Threads,
     pub(in crate::exec) measuring: Measuring,
     pub(in crate::exec) contour_line: ContourLines,
+    /// How the last motion block with contouring has selected it.
+    pub(in crate::exec) contouring: Contouring,
     /// `#CORNER PARAM`.
     pub(in crate::exec) corner: Option<Corner>,
     /// F word before the current block.
@@ -90,6 +101,7 @@ impl MotionState {
             threads: Threads::new(&machine.channel),
             measuring: Measuring::new(&machine.channel, n),
             contour_line: ContourLines::default(),
+            contouring: Contouring::Modal,
             corner: None,
             feed_before: None,
             left_contour: false,

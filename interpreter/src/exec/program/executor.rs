@@ -96,11 +96,12 @@ impl Executor {
         let mut decoder = Decoder::new(machine, options, &start);
         decoder.checking = checking;
         let names = decoder.long_names();
+        let asynchronous = decoder.machine.external.asynchronous();
         let mut executor = Self {
             parser: Parser::new(names.iter().map(String::as_str)),
             decoder,
             sources,
-            files: Files::new(),
+            files: Files::new(asynchronous),
             levels: Vec::new(),
             sequences: Sequences::default(),
             skip,

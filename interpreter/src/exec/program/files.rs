@@ -1,13 +1,14 @@
 //! Open program files: text, structure, and the parsed blocks that run more than once.
 
-use super::actual::needs_actual;
 use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
 use super::places::whole_block;
+use super::reads::Reads;
 use super::state::Numbers;
 use super::unusable::{FileError, is_foreign};
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::options::SkipLevels;
-use crate::exec::step::{Opened, Sync};
+use crate::exec::step::Opened;
+use crate::exec::values::variables::external;
 use crate::source::{BlockReader, Position, RawBlock, Sources};
 use crate::syntax::ast::{Block, LabelKind, Span};
 use crate::syntax::macros;
@@ -27,8 +28,8 @@ const TWICE_MAX: usize = 10_000;
 #[derive(Debug)]
 pub(in crate::exec) struct Parsed {
     pub(in crate::exec::program) block: Block,
-    /// The event for which the block waits before it reads actual positions.
-    pub(in crate::exec::program) needs_actual: Option<Sync>,
+    /// What it reads of the machine.
+    pub(in crate::exec::program) reads: Reads,
     /// Whether its text has an error.
     pub(in crate::exec::program) faulty: bool,
 }
@@ -103,10 +104,12 @@ pub(in crate::exec) struct Files {
     plain: Plain,
     /// Files by the name written in a program of a file.
     resolved: BTreeMap<(usize, Box<str>), usize>,
+    /// External variables that are read without a stop.
+    asynchronous: external::Names,
 }
 
 impl Files {
-    pub(in crate::exec) fn new() -> Self {
+    pub(in crate::exec) fn new(asynchronous: external::Names) -> Self {
         Self {
             open: Vec::new(),
             names: Vec::new(),
@@ -114,7 +117,13 @@ impl Files {
             cached: 0,
             plain: Plain::default(),
             resolved: BTreeMap::new(),
+            asynchronous,
         }
+    }
+
+    /// External variables that are read without a stop.
+    pub(in crate::exec::program) fn asynchronous(&self) -> &external::Names {
+        &self.asynchronous
     }
 
     /// The block to which [`Fetched::Plain`] refers.
@@ -210,7 +219,7 @@ impl Files {
         table: &Macros,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> io::Result<Option<(Fetched, Position)>> {
-        let Self { open, plain, .. } = self;
+        let Self { open, plain, asynchronous, .. } = self;
         let ProgramFile { name, reader, cache, .. } = &mut open[file];
         if reading.keep
             && let Some((parsed, next)) = cache.get(&position.offset)
@@ -227,7 +236,7 @@ impl Files {
         let block = parse(&raw, name, reading.declaration, parser, table, diagnostics);
         let faulty = diagnostics[before..].iter().any(Diagnostic::is_error);
         let next = reader.position();
-        let parsed = Parsed { needs_actual: needs_actual(&block), block, faulty };
+        let parsed = Parsed { reads: Reads::of(&block, asynchronous), block, faulty };
         if !reading.keep || self.cached >= CACHED_MAX {
             return Ok(Some((Fetched::Tree(Tree::Once(parsed)), next)));
         }

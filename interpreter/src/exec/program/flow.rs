@@ -7,6 +7,7 @@ mod loops;
 
 use super::executor::Executor;
 use super::index::{EntryId, Keyword};
+use super::reads::Reads;
 use super::state::{Counter, Frame};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
@@ -26,7 +27,10 @@ impl Executor {
         let outcome = match &control.kind {
             ControlKind::If { condition, goto: Some(label) } => {
                 if self.test(condition) {
-                    self.goto(label);
+                    let reads = Reads::of_jump(label, self.files.asynchronous());
+                    if self.rests_before(reads.external) {
+                        self.goto(label);
+                    }
                 }
                 Ok(())
             }
@@ -167,6 +171,9 @@ impl Executor {
             let taken = match (&parsed.block.body, keyword) {
                 (Body::Control(control), Keyword::ElseIf) => match &control.kind {
                     ControlKind::ElseIf(condition) => {
+                        if !self.rests_before(parsed.reads.external) {
+                            return Ok(());
+                        }
                         let here = std::mem::replace(&mut self.position, position);
                         let outcome = self.decoder.condition(condition);
                         match outcome {
@@ -263,6 +270,9 @@ impl Executor {
                     };
                     let Body::Control(control) = &parsed.block.body else { continue };
                     let ControlKind::Case(case) = &control.kind else { continue };
+                    if !self.rests_before(parsed.reads.external) {
+                        return Ok(());
+                    }
                     let here = std::mem::replace(&mut self.position, entry.position);
                     let equal = matches(&value, &self.decoder.value(case)?);
                     self.position = here;

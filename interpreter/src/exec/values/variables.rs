@@ -10,6 +10,7 @@
 mod access;
 mod cycle;
 mod declare;
+pub(in crate::exec) mod external;
 mod resolve;
 pub(super) mod scopes;
 mod storage;

@@ -53,6 +53,8 @@ pub(super) struct ChannelItem {
     pub(super) tools: Option<ListText>,
     /// List of zero offsets.
     pub(super) zero_offsets: Option<ListText>,
+    /// List of external variables.
+    pub(super) external: Option<ListText>,
     /// Elements with entries that are not read here.
     pub(super) unread: Vec<&'static str>,
 }
@@ -305,6 +307,7 @@ fn channel(part: &Part, node: Node<'_, '_>, count: usize) -> ChannelItem {
         disabled: is_disabled(node),
         tools: beside("WerkzD"),
         zero_offsets: beside("NullpD"),
-        unread: ["PzvD", "VeD"].into_iter().filter(|tag| beside(tag).is_some()).collect(),
+        external: beside("VeD"),
+        unread: ["PzvD"].into_iter().filter(|tag| beside(tag).is_some()).collect(),
     }
 }

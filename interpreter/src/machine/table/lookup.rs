@@ -2,8 +2,8 @@
 
 use super::{
     ListKind, Row, axis_compensation, axis_control, axis_drive, axis_dynamics, axis_filters,
-    axis_functions, axis_general, axis_guard, channel, channel_hsc, kontur, start_up, tool,
-    with_indices, zero,
+    axis_functions, axis_general, axis_guard, channel, channel_hsc, external, kontur, start_up,
+    tool, with_indices, zero,
 };
 use crate::suggest::edit_distance;
 use std::collections::HashMap;
@@ -24,19 +24,24 @@ const FAMILIES: &[&[Row]] = &[
     axis_functions::ROWS,
     tool::ROWS,
     zero::ROWS,
+    external::ROWS,
     kontur::ROWS,
 ];
 
 /// Other spellings of a key that mean the same parameter, with `[]` for every index.
 ///
 /// Source: the channel manual's older edition (`syn_chk.fehler_*`); the overview of the start-up
-/// manual (`wrkz_data`); its pages 1238935151133070859 and 829047947 (`interpolator.parameter`); TF5200 Improved Position Control: builds with one
+/// manual (`wrkz_data`); its pages 1238935151133070859 and 829047947 (`interpolator.parameter`); the older
+/// syntax of external variables (3070356591133215627); TF5200 Improved Position Control: builds with one
 /// filter per stage write `filter.`, newer ones `filter[k].`.
 const ALIASES: &[(&str, &str)] = &[
     ("suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("lr_param.suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("getriebe[].suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("wrkz_data[]", "werkz_data[i]"),
+    ("anzahl_belegt", "number_used_variables"),
+    ("var[].index", "var[i].byte_offset"),
+    ("var[].array_size", "var[i].array_elements"),
     (
         "configuration.channel[].interpolator.parameter",
         "configuration.channel[i].interpolator.number_blocks_lah",

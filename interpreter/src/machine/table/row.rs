@@ -15,6 +15,8 @@ pub enum ListKind {
     Tool,
     /// Zero offsets (P-ZERO).
     Zero,
+    /// External variables (P-EXTV).
+    External,
     /// kontur's own settings, `kontur.lis`.
     Kontur,
 }
@@ -240,6 +242,8 @@ pub struct Row {
     pub above: OutOfRange,
     /// The range is checked where the function is set up, since it depends on other words.
     pub at_setup: bool,
+    /// The key may occur several times in a list; its entries are numbered in their order.
+    pub repeated: bool,
     /// Source document.
     pub source: &'static str,
 }
@@ -273,6 +277,7 @@ const fn row(
         below: UNDOCUMENTED,
         above: UNDOCUMENTED,
         at_setup: false,
+        repeated: false,
         source: "",
     }
 }
@@ -310,6 +315,18 @@ pub(super) const fn tool(id: &'static str, key: &'static str, raw: Raw, text: &'
 pub(super) const fn zero(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
     let mut r = row(ListKind::Zero, id, key, raw, text);
     r.source = "TF5200 zero offsets";
+    r
+}
+
+/// A row of a list of external variables.
+pub(super) const fn external(
+    id: &'static str,
+    key: &'static str,
+    raw: Raw,
+    text: &'static str,
+) -> Row {
+    let mut r = row(ListKind::External, id, key, raw, text);
+    r.source = "TF5200 external variables 562826251";
     r
 }
 
@@ -398,6 +415,12 @@ impl Row {
     /// The range is checked where the function is set up.
     pub(super) const fn at_setup(mut self) -> Self {
         self.at_setup = true;
+        self
+    }
+
+    /// The key may occur several times.
+    pub(super) const fn repeated(mut self) -> Self {
+        self.repeated = true;
         self
     }
 

@@ -35,6 +35,10 @@ parameters! {
     stup("P-STUP-00009", "sda_mds[i]", Raw::Text, "channel list of channel i, i = 0..11"), as CHANNEL_LIST: Text;
     stup("P-STUP-00010", "werkz_data[i]", Raw::Text, "tool list of channel i, i = 0..11"), as TOOL_LIST: Text;
     stup("P-STUP-00011", "nullp_data[i]", Raw::Text, "zero offset list of channel i, i = 0..11"), as ZERO_LIST: Text;
+    stup("P-STUP-00146", "ve_var[i]", Raw::Text, "list of external variables of channel i, i = 0..11")
+        .source("TF5200 start-up list 123614347"), as EXTERNAL_LIST: Text;
+    stup("P-STUP-00038", "ext_var[i]", Raw::Text, "list of external variables of channel i in older builds, i = 0..11; without effect if ve_var[i] is given")
+        .source("start-up list 15280811403"), as OLD_EXTERNAL_LIST: Text;
     stup("P-STUP-00014", "zahl_mds", Raw::Uns16, "number of axis lists")
         .range(Bound::At(0.0), Bound::At(32.0)), as AXIS_LIST_COUNT: Optional;
     stup("P-STUP-00015", "achs_mds[i]", Raw::Text, "axis list, i = 0..31; more files than zahl_mds are ignored, a missing file aborts start-up"), as AXIS_LIST: Text;

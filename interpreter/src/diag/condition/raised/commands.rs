@@ -160,6 +160,8 @@ macro_rules! commands {
     AreaFunction = Vendor 21793: Error ProgramAbort 3 1, "G function not allowed in the definition of a control area", cause "G41 between #CONTROL AREA BEGIN and END", hint "write G40 before the definition";
     AreaAxes = Vendor 21797: Error ProgramAbort 3 1, "more than two axes in the contour of a control area", cause "X0 Y100 Z100", hint "MIN_EXCUR and MAX_EXCUR bound the third axis";
     FileNameTwice = Vendor 21823: Error ProgramAbort 3 1, "key of #FILE NAME given twice", hint "remove one of the two";
+    ExternalNotInitialised = Vendor 21840: Warning None 3 6, "external variable cannot be initialised", cause "init V.E.A = 1/0", hint "correct the assignment in the list of external variables", parameter "P-EXTV-00013";
+    ExternalInitVariable = Vendor 21841: Warning None 3 1, "initialisation of an external variable by another variable", cause "init V.E.A = V.G.FEEDRATE", hint "use numbers, texts and other external variables only", parameter "P-EXTV-00013";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, OVERRIDE as the first word, G130=, G135, G136=, G137 belong in a spindle bracket";
     FaceKeyTwice = Vendor 21872: Error ProgramAbort 3 1, "key of #FACE given twice", hint "remove one of the two";
     PositiveLimitTooLow = Vendor 21878: Error ProgramAbort 3 1, "positive software limit not above the negative one", cause "G99 X-600 with the negative limit -500", hint "lower the negative limit first, with G98";

@@ -25,6 +25,7 @@ macro_rules! words {
     CentreTooFar = Vendor 20054: Error ProgramAbort 3 1, "arc centre computed from the radius outside the data format", cause "G02 X1 R1000000", hint "the limit of centre coordinates is 214748.3647 mm: use a straight line instead";
     TwoFaceTurningAxes = Vendor 20064: Error ProgramAbort 3 1, "two face turning axes in one plane", hint "set the bit 0x40 of P-AXIS-00015 for one axis of the plane only", parameter "P-AXIS-00015";
     ToolRadiusTwice = Vendor 20083: Error ProgramAbort 3 1, "tool radius written in the block of a D word", cause "D1 V.G.WZ_AKT.R=3", hint "write the radius in a later block";
+    ExternalType = Vendor 20088: Warning None 3 0, "unknown type of an external variable", cause "var[0].type INT", hint "write BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64, STRING or VSTRING", parameter "P-EXTV-00003";
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "the variable is write-only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of class V.P, V.L or V.S";
     BlockNumberBehindWords = Vendor 20105: Error ProgramAbort 3 1, "second block number in one block", cause "N20 X10 N30", hint "remove one of the two";
@@ -180,7 +181,7 @@ macro_rules! words {
     PositioningWithCuttingSpeed = Vendor 20642: Error ProgramAbort 3 1, "M19 with constant cutting speed", cause "M19 under G96", hint "write G97 before it";
     PositioningWithMaximum = Vendor 20643: Error ProgramAbort 3 1, "M19 in a block with G196", cause "G196 S2000 M19", hint "write M19 in a separate block";
     MacroCommand = Vendor 20644: Error ProgramAbort 3 1, "other words beside a macro whose command must be alone in its block", cause "\"M\" G01 X10 with \"M\"=\"#FLUSH WAIT\"", hint "write the macro in a separate block";
-    FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
+    FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush during tool radius compensation, contouring, #HSC or a spline", cause "#FLUSH WAIT, or reading a V.E variable, between G41 and G40", hint "switch the compensation off with G40 first";
     FunctionInSystem = Vendor 20663: Error ProgramAbort 3 1, "G function not allowed in a coordinate system", cause "#CS ON, then G98 X-500", hint "write it before #CS ON or after #CS OFF";
     FunctionInTransformation = Vendor 20664: Error ProgramAbort 3 1, "G function not allowed under a kinematic transformation", cause "#TRAFO ON, then G98 X-500", hint "write it before #TRAFO ON, or #TRAFO OFF before it";
     LengthWithCompensation = Vendor 20671: Error ProgramAbort 3 1, "tool length compensation selected while tool radius compensation is active", cause "#TLC ON between G41 or G42 and G40", hint "write #TLC ON before G41 or after G40";

@@ -10,6 +10,7 @@ use crate::exec::fault::Fault;
 use crate::exec::motion::straight::StraightWords;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
+use crate::exec::program::reads::Reads;
 use crate::exec::program::state::Closing;
 use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::exec::values::number::whole;
@@ -50,11 +51,12 @@ impl Executor {
             return;
         }
         let Some((fetched, next)) = self.read(file, at) else { return };
-        let (needs_actual, faulty) = match &fetched {
-            Fetched::Plain => (None, false),
-            Fetched::Tree(tree) => (tree.needs_actual.clone(), tree.faulty),
+        let (reads, faulty) = match &fetched {
+            Fetched::Plain => (Reads::default(), false),
+            Fetched::Tree(tree) if self.skips(&tree.block) => (Reads::default(), tree.faulty),
+            Fetched::Tree(tree) => (tree.reads.clone(), tree.faulty),
         };
-        if let Some(wait) = needs_actual
+        if let Some(wait) = reads.actual
             && !actual_known
         {
             self.wait_for_actual(wait, at);
@@ -81,9 +83,11 @@ impl Executor {
             Fetched::Tree(tree) => {
                 let number = self.block_number(&tree.block);
                 self.source_of(file, at, number);
-                self.execute(&tree.block, entry);
-                self.behind_real_time_cycle(entry);
-                self.search_file();
+                if self.rests_before(reads.external) {
+                    self.execute(&tree.block, entry);
+                    self.behind_real_time_cycle(entry);
+                    self.search_file();
+                }
             }
         }
         if self.decoder.contour.waiting() >= EVENTS_MAX {
@@ -170,7 +174,7 @@ impl Executor {
             Fetched::Tree(tree) => tree,
             Fetched::Plain => {
                 let block = self.files.plain().tree();
-                Tree::Once(Parsed { block, needs_actual: None, faulty: false })
+                Tree::Once(Parsed { block, reads: Reads::default(), faulty: false })
             }
         };
         Some((tree, next))
@@ -207,6 +211,14 @@ impl Executor {
                 None
             }
         }
+    }
+
+    /// Empties the channel before an external variable is read; false if an error ends the program.
+    pub(in crate::exec::program) fn rests_before(&mut self, external: Option<Span>) -> bool {
+        let Some(read) = external else { return true };
+        let outcome = self.decoder.flush_for_external(read);
+        self.decoder.report.keep(outcome);
+        self.decoder.checking || !self.decoder.report.failed()
     }
 
     fn wait_for_actual(&mut self, wait: Sync, at: Position) {
@@ -301,9 +313,14 @@ impl Executor {
         }
     }
 
+    /// Whether the block is skipped (`/`).
+    fn skips(&self, block: &Block) -> bool {
+        block.skip.is_some_and(|level| self.skip.contains(level))
+    }
+
     /// Executes the content of a block.
     fn execute(&mut self, block: &Block, entry: Option<EntryId>) {
-        if block.skip.is_some_and(|level| self.skip.contains(level)) {
+        if self.skips(block) {
             return;
         }
         match &block.body {

@@ -6,6 +6,7 @@ use crate::exec::options::Value;
 use crate::exec::program::executor::Executor;
 use crate::exec::program::index::EntryId;
 use crate::exec::program::index::Keyword;
+use crate::exec::program::reads::Reads;
 use crate::exec::program::state::Counter;
 use crate::syntax::ast::{Expr, Place, PlaceKind, Span};
 
@@ -71,6 +72,10 @@ impl Executor {
         let open = level.index.entry(id).open;
         let frame = level.frames.iter().rfind(|f| Some(f.open) == open);
         let Some(counter) = frame.and_then(|f| f.counter.clone()) else { return Ok(()) };
+        let reads = Reads::of_place(&counter.place, self.files.asynchronous());
+        if !self.rests_before(reads.external) {
+            return Ok(());
+        }
         let value = match self.decoder.read(&counter.place) {
             Ok(Value::Number(x)) => x + counter.step,
             Ok(Value::Text(_)) => f64::NAN,

@@ -1,12 +1,12 @@
 //! Reading, writing and deleting a variable of the program.
 
 use super::note_rounded;
-use super::resolve::{Target, undefined, undefined_parameter};
+use super::resolve::{Target, undefined_parameter};
 use super::scopes::{Class, Variables};
 use super::storage::{Owner, Variable};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::options::{Access, External, Value};
+use crate::exec::options::Value;
 use crate::exec::report::Report;
 use crate::exec::values::number::as_number;
 use crate::machine::Channel;
@@ -35,28 +35,9 @@ impl Variables {
                 Some(variable) => variable.get(subscripts, Owner::Variable, span),
                 None => Err(self.unknown(*class, name, "has no value", span)),
             },
-            Target::External(name) => self.read_external(name, span),
+            Target::External(name) => self.external.read(name, span),
             Target::Cycle(name) => {
                 self.cycle_parameter(name, channel.variables.creates_cycle_parameters, span)
-            }
-        }
-    }
-
-    fn read_external(&self, name: &str, span: Span) -> Outcome<Value> {
-        match self.external.get(name) {
-            Some(External { access: Access::WriteOnly, .. }) => Err(Fault::new(
-                Condition::VariableNotReadable,
-                format!("V.E.{name} may not be read"),
-                span,
-            )),
-            Some(external) => Ok(external.value.clone()),
-            None => {
-                let known = self.external.keys().map(String::as_str);
-                let fault = undefined(&format!("V.E.{name}"), span);
-                Err(match suggest::hint(name, known) {
-                    Some(hint) => fault.hint(hint),
-                    None => fault.hint("set the values of external variables with --external"),
-                })
             }
         }
     }
@@ -102,41 +83,8 @@ impl Variables {
                 }
                 Ok(())
             }
-            Target::External(name) => self.write_external(name, value, span, report),
+            Target::External(name) => self.external.write(name, value, span, report),
             Target::Cycle(name) => self.set_cycle_parameter(name, value, span),
-        }
-    }
-
-    fn write_external(
-        &mut self,
-        name: String,
-        value: Value,
-        span: Span,
-        report: &mut Report,
-    ) -> Outcome<()> {
-        match self.external.get_mut(&name) {
-            Some(External { access: Access::ReadOnly, .. }) => Err(Fault::new(
-                Condition::VariableNotWritable,
-                format!("V.E.{name} may not be written"),
-                span,
-            )),
-            Some(external) => {
-                external.value = match (&external.value, &value) {
-                    (Value::Number(_), Value::Text(_)) => Value::Number(as_number(&value, span)?),
-                    (Value::Text(_), Value::Number(_)) => {
-                        let text = format!("V.E.{name} holds a text");
-                        return Err(Fault::new(Condition::TextExpected, text, span));
-                    }
-                    _ => value,
-                };
-                Ok(())
-            }
-            None => {
-                let text = format!("V.E.{name} is not configured and was created by the program");
-                report.note(Fault::new(Condition::ExternalCreated, text, span));
-                self.external.insert(name, External { value, access: Access::ReadWrite });
-                Ok(())
-            }
         }
     }
 
@@ -154,7 +102,7 @@ impl Variables {
             Target::Own(class, name, subscripts) => {
                 has(self.find(*class, name), subscripts, Owner::Variable)
             }
-            Target::External(name) => self.external.contains_key(name),
+            Target::External(name) => self.external.exists(name, span),
             Target::Cycle(name) => self.passed(name).unwrap_or(false),
         }
     }
@@ -164,7 +112,8 @@ impl Variables {
         let found = match target {
             Target::Parameter(index, _) => self.parameters().get(index),
             Target::Own(class, name, _) => self.find(*class, name),
-            Target::External(_) | Target::Cycle(_) => None,
+            Target::External(name) => return self.external.dimensions(name),
+            Target::Cycle(_) => None,
         };
         found.map(|v| v.sizes.to_vec()).unwrap_or_default()
     }

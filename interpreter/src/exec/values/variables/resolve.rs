@@ -70,6 +70,18 @@ fn variable<'a>(decoder: &Decoder, segments: &'a [Segment]) -> Outcome<Resolved<
     Ok(Resolved::Variable(Target::Own(class, Cow::Owned(name), subscripts)))
 }
 
+impl Decoder {
+    /// The name of an external variable with its indices; empty for other places.
+    pub(super) fn external_name_of(&self, place: &Place) -> Outcome<String> {
+        match &place.kind {
+            PlaceKind::Variable(segments) => {
+                external_name(self, segments.get(1..).unwrap_or_default())
+            }
+            PlaceKind::Parameter { .. } | PlaceKind::Cycle(_) => Ok(String::new()),
+        }
+    }
+}
+
 fn external_name(decoder: &Decoder, segments: &[Segment]) -> Outcome<String> {
     use std::fmt::Write as _;
     let mut name = String::new();

@@ -1,10 +1,11 @@
 //! The variables that exist at a position in the program: by class, level and cycle.
 
+use super::external::Externals;
 use super::storage::Variable;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::options::{External, Value};
-use crate::suggest;
+use crate::exec::options::Value;
+use crate::machine::ExternalVariables;
 use crate::syntax::ast::Span;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,7 +32,7 @@ pub(in crate::exec) struct Variables {
     /// The same for V.CYC, which any program may declare. Source: TF5200 programming manual, cycle variables.
     cycle: Vec<Table>,
     pub(super) cycles: Vec<CycleScope>,
-    pub(super) external: BTreeMap<String, External>,
+    pub(super) external: Externals,
     /// External variables named by the program, in an expression or as a target.
     named: RefCell<BTreeSet<String>>,
     pub(super) elements: usize,
@@ -41,9 +42,9 @@ pub(in crate::exec) struct Variables {
 }
 
 impl Variables {
-    pub(in crate::exec) fn new(external: BTreeMap<String, External>) -> Self {
+    pub(in crate::exec) fn new(external: &ExternalVariables) -> Self {
         let (locals, cycle) = (vec![Table::new()], vec![Table::new()]);
-        Self { locals, cycle, external, ..Self::default() }
+        Self { locals, cycle, external: Externals::new(external), ..Self::default() }
     }
 
     /// Records that the program names an external variable.
@@ -54,13 +55,10 @@ impl Variables {
         }
     }
 
-    /// External variables not named by the program, each with a similar name that the program does use.
+    /// External variables given by the user and not named by the program, each with a similar name that the program does
+    /// use.
     pub(in crate::exec) fn unused_external(&self) -> Vec<(String, Option<String>)> {
-        let named = self.named.borrow();
-        let unused = self.external.keys().filter(|name| !named.contains(*name));
-        unused
-            .map(|name| (name.clone(), suggest::hint(name, named.iter().map(String::as_str))))
-            .collect()
+        self.external.unused(&self.named.borrow())
     }
 
     /// Enters a program level.
