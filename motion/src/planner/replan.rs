@@ -522,8 +522,8 @@ fn goes_on(rest: &[Segment], v: f64) -> bool {
     })
 }
 
-/// Whether a profile passes boundaries, given by their distance from its start in mm, at permitted speeds. The look-ahead
-/// plans across a boundary whose speed is out of reach from the start.
+/// Whether a profile passes boundaries, given by their distance from its start in mm, at permitted speeds. The
+/// look-ahead plans across a boundary whose speed is out of reach from the start.
 fn keeps_caps<'a>(profile: &Profile, mut ends: impl Iterator<Item = (f64, &'a Cap)>) -> bool {
     ends.all(|(s, cap)| speed_after(profile, s) <= cap.v_mm_s * (1.0 + SLACK) + ROUNDING_MM_S)
 }
