@@ -83,8 +83,8 @@ fn braking_way(v: f64, d: f64, target: f64) -> f64 {
 }
 
 /// A line of 30 mm that ends with E 20 mm/s, braked from 100, and an override in any cycle of the braking: the end is
-/// passed with at most the larger one of both E speeds, with TRAPEZ exactly with a higher one where the way is long
-/// enough for it. Braking at once to a lower one takes a longer way than there is.
+/// passed with at most the larger one of both E speeds, and with TRAPEZ exactly with a higher one where the way is long
+/// enough for it.
 #[test]
 fn an_override_while_the_path_brakes_to_an_end_velocity() {
     const E: f64 = 20.0;
