@@ -151,7 +151,7 @@ impl Plan {
         let cap = |i: usize| {
             let own = self.segments.get(i).map_or(Cap::new(0.0, end), |s| s.cap);
             match i.checked_sub(1) {
-                Some(before) => own.lower(Cap::new(window[before].end_mm_s, SpeedLimit::Feed)),
+                Some(before) => own.lower(window[before].end_cap()),
                 None => own,
             }
         };

@@ -15,7 +15,7 @@
 //! ```
 
 use crate::block::{Block, Feed, SlopeKind};
-use crate::cap::Cap;
+use crate::cap::{Cap, SpeedLimit};
 use crate::junction::{Ends, kink_velocity};
 use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::path::{Ball, Path};
@@ -141,6 +141,11 @@ impl Queued {
         } else {
             Arc::new(Self { velocity, ceiling, end_mm_s, ..Self::clone(self) })
         }
+    }
+
+    /// Limit of the E word at the end of the block.
+    pub(crate) fn end_cap(&self) -> Cap {
+        Cap::new(self.end_mm_s, SpeedLimit::Feed)
     }
 
     /// The remainder of the block from `s` mm after its present start on.

@@ -61,6 +61,70 @@ fn lower_override_in_the_middle() {
     }
 }
 
+/// Way in mm from `v` and the deceleration `d` to `target` with zero acceleration, at 1000 mm/s2 with ramps of 50 ms;
+/// infinite where reducing the deceleration at once already leads below.
+fn braking_way(v: f64, d: f64, target: f64) -> f64 {
+    const D: f64 = 1000.0;
+    const J: f64 = D / 0.05;
+    let fall = v - target;
+    let peak = (J * fall + 0.5 * d * d).sqrt().min(D);
+    if peak < d {
+        return f64::INFINITY;
+    }
+    let plateau = fall - (peak * peak - d * d) / (2.0 * J) - peak * peak / (2.0 * J);
+    let phases = [((peak - d) / J, J), (plateau / peak, 0.0), (peak / J, -J)];
+    let (mut s, mut v, mut d) = (0.0, v, d);
+    for (t, j) in phases {
+        s += v * t - d * t * t / 2.0 - j * t * t * t / 6.0;
+        v -= d * t + j * t * t / 2.0;
+        d += j * t;
+    }
+    s
+}
+
+/// A line of 30 mm that ends with E 20 mm/s, braked from 100, and an override in any cycle of the braking: the end is
+/// passed with at most the larger one of both E speeds, and with TRAPEZ exactly with a higher one where the way is long
+/// enough for it.
+#[test]
+fn an_override_while_the_path_brakes_to_an_end_velocity() {
+    const E: f64 = 20.0;
+    for kind in [Step, Trapez, Sin2, Hsc] {
+        let job = Job::new(0.0, kind);
+        let run = |events: &[(u64, Event)]| {
+            let points = [[0.0, 0.0], [30.0, 0.0], [60.0, 0.0]];
+            let lines = points.windows(2).zip(0..);
+            let mut blocks: Vec<_> =
+                lines.map(|(ends, i)| line(&job, i, &ends[0], &ends[1], 100.0)).collect();
+            blocks[0].end_velocity_mm_s = Some(E);
+            drive(&job, &[0.0, 0.0], blocks, events).unwrap()
+        };
+        let at_end = |out: &[Setpoint]| {
+            let i = out.iter().position(|p| p.position[0] >= 30.0).unwrap();
+            out[i - 1].v_mm_s.min(out[i].v_mm_s)
+        };
+        // within one cycle of full acceleration
+        let slack = 1.0;
+        let free = run(&[]);
+        assert!((at_end(&free) - E).abs() <= slack, "{kind:?} {}", at_end(&free));
+        let brakes = |k: &usize| free[*k].position[0] < 29.99 && free[*k].a_mm_s2 < 0.0;
+        let mut reached = 0;
+        for k in (1..free.len()).filter(brakes).step_by(3) {
+            for ratio in [2.0, 1.5, 0.9, 0.5, 0.1] {
+                let out = run(&[(k as u64, Event::Override(ratio))]);
+                let v = at_end(&out);
+                assert!(v <= E * f64::max(ratio, 1.0) + slack, "{kind:?} {k} {ratio}: {v}");
+                let now = &free[k];
+                let way = braking_way(now.v_mm_s, -now.a_mm_s2, E * ratio);
+                if kind == Trapez && ratio > 1.0 && way < 30.0 - now.position[0] {
+                    reached += 1;
+                    assert!((v - E * ratio).abs() <= slack, "{k} {ratio}: {v}");
+                }
+            }
+        }
+        assert!(kind != Trapez || reached > 20, "{reached}");
+    }
+}
+
 /// Braking from 100 mm/s: `v^2 / 2a + v t / 2`.
 #[test]
 fn feedhold_distances() {

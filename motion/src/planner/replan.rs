@@ -5,9 +5,9 @@
 //! 2. at the present cycle or, if that fails, 1, 2, 4, ... cycles later in the same span or at the end of a span, a
 //!    *leg* takes the path from its velocity and acceleration to the new velocity with zero acceleration. It uses the
 //!    limits of the block, reduced to those of the weakest block it crosses. A braking leg is only accepted if it is
-//!    nowhere faster than the old plan, an accelerating one only if no cap or block velocity is exceeded, and both only
-//!    if the look-ahead finds a plan after it. If the speed already approaches a permitted one with constant jerk, the
-//!    look-ahead continues from the present acceleration, without a leg;
+//!    nowhere faster than the old plan, an accelerating one only if no cap, E word or block velocity is exceeded, and
+//!    both only if the look-ahead finds a plan after it that keeps them. If the speed already approaches a permitted one
+//!    with constant jerk, the look-ahead continues from the present acceleration, without a leg;
 //! 3. the path after the leg goes back into the queue, the block in which the leg ends as its remainder.
 //!
 //! Every state that is output therefore still has a stop ahead of it. Until its leg begins the path follows the old
@@ -43,6 +43,8 @@ use std::sync::Arc;
 
 /// Relative slack of comparisons of velocities.
 const SLACK: f64 = 1e-9;
+/// Velocity in mm/s that counts as zero at the end of a profile.
+const ROUNDING_MM_S: f64 = 1e-6;
 
 /// Parts of a block whose ends are closer together than this, in mm, end at the same point.
 pub(super) const SAME_END_MM: f64 = 1e-9;
@@ -260,6 +262,9 @@ impl Planner {
         // the old plan keeps the tolerance, and so does any slower speed; a faster one has to be examined first
         let monitored =
             self.kernels.any() && rest.iter().any(|s| s.queued.block.tolerance.ax_dev_mm.is_some());
+        // where the way to the speed of an E word is too short for two changes of speed
+        let (ends_slower, to_end) =
+            (first.end_mm_s < target.min(settled), Aim::Brake(first.end_mm_s));
         let aims: &[Aim] = if steady {
             if spot.v <= target { &[Aim::Stay] } else { &[Aim::Brake(target)] }
         } else if spot.a > 0.0 {
@@ -271,9 +276,11 @@ impl Planner {
                 &[Aim::Brake(target)]
             }
         } else if settled >= target {
-            &[Aim::Brake(target)]
+            if ends_slower { &[Aim::Brake(target), to_end] } else { &[Aim::Brake(target)] }
         } else if monitored {
             return None;
+        } else if ends_slower {
+            &[Aim::Settle, to_end]
         } else {
             &[Aim::Settle]
         };
@@ -309,6 +316,7 @@ impl Planner {
             crossed.push(reach);
             reach += queued.length;
         };
+        let length: f64 = leg.iter().map(Profile::length).sum();
         let v_end = leg.last().map_or(spot.v, |c| c.end().v_mm_s);
         let falls = matches!(aim, Aim::Brake(_));
         if falls {
@@ -329,13 +337,15 @@ impl Planner {
                     not_faster(s, c.end().v_mm_s)
                 })
         } else {
-            crossed.iter().zip(&rest[1..]).all(|(s, Segment { queued, cap, .. })| {
+            let ends_there = length >= reach * (1.0 - SAME_LENGTH);
+            let passed = crossed.iter().chain(ends_there.then_some(&reach));
+            passed.zip(rest.windows(2)).all(|(s, pair)| {
+                let (Segment { queued, .. }, cap) = (&pair[1], cap_between(&pair[0], &pair[1]));
                 let v = speed_in(&leg, *s);
                 v <= cap.v_mm_s * (1.0 + SLACK)
                     && v.max(v_end) <= queued.velocity.v_mm_s * (1.0 + SLACK)
             })
         };
-        let length = leg.iter().map(Profile::length).sum();
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
@@ -390,9 +400,21 @@ impl Planner {
             return Outcome::Exceeds;
         }
         let Some(way_out) = self.way_out() else { return Outcome::NoWay };
-        if way_out.is_empty() && !at_rest {
-            // a barred block: the path cannot continue at any speed
-            return Outcome::NoWay;
+        if !at_rest {
+            let caps: Vec<Cap> = self
+                .plan
+                .segments
+                .iter()
+                .zip(self.plan.segments.iter().skip(1))
+                .map(|(before, next)| cap_between(before, next))
+                .collect();
+            // without an entry, a barred block: the path cannot continue at any speed
+            let keeps = way_out.first().is_some_and(|entry| {
+                keeps_caps(&entry.profile, entry.blocks.iter().map(|block| block.1).zip(&caps))
+            });
+            if !keeps {
+                return Outcome::NoWay;
+            }
         }
         self.plan.reserve = way_out.into();
         if at_rest {
@@ -449,11 +471,16 @@ fn profiles(aim: Aim, spot: &Spot, slope: &SlopeLimits) -> Option<Leg> {
     })
 }
 
+/// Speed limit between two segments: that of the corner and that of an E word.
+fn cap_between(before: &Segment, next: &Segment) -> Cap {
+    next.cap.lower(before.queued.end_cap())
+}
+
 /// Velocity of a leg after `s` mm.
 fn speed_in(leg: &[Profile], mut s: f64) -> f64 {
     let mut v = 0.0;
     for profile in leg {
-        v = profile.at(profile.time_at(s)).v_mm_s;
+        v = speed_after(profile, s);
         if s <= profile.length() {
             break;
         }
@@ -465,27 +492,43 @@ fn speed_in(leg: &[Profile], mut s: f64) -> f64 {
 /// Velocity of the old plan at a path length of the program.
 fn speed_at(old: &[Entry], s: f64) -> f64 {
     let i = old.partition_point(|e| e.s0 <= s).max(1) - 1;
-    old.get(i).map_or(0.0, |e| e.profile.at(e.profile.time_at(s - e.s0)).v_mm_s)
+    old.get(i).map_or(0.0, |e| speed_after(&e.profile, s - e.s0))
 }
 
 /// Whether the look-ahead finds a plan that starts with `v`.
 fn goes_on(rest: &[Segment], v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
-    for Segment { queued, cap, .. } in rest.iter().take_while(|s| s.queued.velocity.v_mm_s > 0.0) {
-        feeds.push(queued.velocity);
-        blocks.push(Arc::clone(queued));
-        caps.push(*cap);
+    for segment in rest.iter().take_while(|s| s.queued.velocity.v_mm_s > 0.0) {
+        feeds.push(segment.queued.velocity);
+        blocks.push(Arc::clone(&segment.queued));
+        caps.push(
+            caps.len().checked_sub(1).map_or(segment.cap, |i| cap_between(&rest[i], segment)),
+        );
     }
     caps.push(Cap::STOP);
     let free = vec![false; caps.len()];
-    !blocks.is_empty()
-        && plan(
-            &blocks,
-            &feeds,
-            &caps,
-            &free,
-            (Cap::new(v, SpeedLimit::Feed), 0.0),
-            SpeedLimit::Stop,
-        )
-        .is_ok()
+    if blocks.is_empty() {
+        return false;
+    }
+    let start = (Cap::new(v, SpeedLimit::Feed), 0.0);
+    let spans = plan(&blocks, &feeds, &caps, &free, start, SpeedLimit::Stop);
+    spans.is_ok_and(|spans| {
+        let mut s = 0.0;
+        let ends = blocks[..spans[0].end].iter().map(|q| {
+            s += q.length;
+            s
+        });
+        keeps_caps(&spans[0].profile, ends.zip(&caps[1..blocks.len()]))
+    })
+}
+
+/// Whether a profile passes boundaries, given by their distance from its start in mm, at permitted speeds. The
+/// look-ahead plans across a boundary whose speed is out of reach from the start.
+fn keeps_caps<'a>(profile: &Profile, mut ends: impl Iterator<Item = (f64, &'a Cap)>) -> bool {
+    ends.all(|(s, cap)| speed_after(profile, s) <= cap.v_mm_s * (1.0 + SLACK) + ROUNDING_MM_S)
+}
+
+/// Velocity of a profile after `s` mm.
+fn speed_after(profile: &Profile, s: f64) -> f64 {
+    profile.at(profile.time_at(s)).v_mm_s
 }
