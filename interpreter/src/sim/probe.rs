@@ -84,6 +84,8 @@ impl Simulation {
         let stopped = self.probing.as_ref().is_some_and(Probing::holds);
         if stopped {
             self.planner.drop_ahead();
+            let s_mm = self.planner.setpoint().s_mm;
+            self.progress.cut(s_mm, &self.smoothing.changed);
         }
         stopped
     }

@@ -139,6 +139,13 @@ impl Progress {
         self.current = Programmed { blocks, ..Programmed::default() };
     }
 
+    /// Ends the current motion at a path length before its programmed end.
+    pub(super) fn cut(&mut self, s_mm: f64, changed: &Changed) {
+        let (blocks, done_s) = self.up_to(s_mm, changed);
+        (self.done_s, self.from_mm) = (done_s, s_mm);
+        self.current = Programmed { blocks, ..Programmed::default() };
+    }
+
     /// Blocks, and the ideal time in s, up to a path length.
     pub(super) fn up_to(&self, s_mm: f64, changed: &Changed) -> (u64, f64) {
         let Self { done_s, current, from_mm } = self;
@@ -163,7 +170,7 @@ pub struct Totals {
     pub blocks: u64,
     /// Path length / programmed feed rate for feed blocks, and the way of the slowest axis at its rapid velocity for
     /// rapid blocks, in s: without ramps, corners and limits. Dwells and technology times are not included. A motion in
-    /// which the run was stopped counts by its share of the path.
+    /// which the run was stopped, or that ends at a probe signal, counts by its share of the path.
     pub ideal_duration_s: f64,
     /// Parts that the duration does not include (M functions, tool changes, spindle run-up).
     pub not_counted: Vec<String>,
