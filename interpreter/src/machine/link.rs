@@ -307,6 +307,7 @@ fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic
 
 fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
     let number_at = |p: &Parameters| p.set_by(axis_general::NUMBER).and_then(|s| s.at.clone());
+    let mut unnumbered = false;
     for (i, list) in settled.axes.iter().enumerate() {
         let number = logical_number(&list.parameters);
         let earlier = &settled.axes[..i];
@@ -314,10 +315,18 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             let message =
                 format!("{}: axis number {number} is already used by {}", list.file, first.file);
             let at = number_at(&list.parameters);
-            diagnostics
-                .push(error(Condition::ListLink, message, at).parameter(axis_general::NUMBER));
+            let mut diagnostic = error(Condition::ListLink, message, at);
+            if list.parameters.set_by(axis_general::NUMBER).is_none() {
+                unnumbered = true;
+                let hint =
+                    format!("{} has no kopf.achs_nr, which is {number} by default", list.file);
+                diagnostic = diagnostic.hint(hint);
+            }
+            diagnostics.push(diagnostic.parameter(axis_general::NUMBER));
         }
     }
+    // an axis may belong to a list that could not be read or has no number
+    let is_explained = unnumbered || diagnostics.iter().any(|d| d.id == Condition::NoList);
     for (i, named) in names.named.iter().enumerate() {
         let earlier = &names.named[..i];
         let Named { name, number, .. } = named;
@@ -338,7 +347,9 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
                 Condition::PathAxisNameTwice
             };
             Some(format!("the name {name} occurs twice in the channel list"))
-        } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {
+        } else if !is_explained
+            && !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number)
+        {
             Some(format!("{name}: axis list with kopf.achs_nr {number} not found"))
         } else {
             None

@@ -231,6 +231,15 @@ fn check_together(
     };
     let number = |p: &Parameters, param: Param<Number>| p.listed(param).unwrap_or_default();
 
+    // P-AXIS-00018: a number without a type
+    let kind = parameters.get(axis_general::KIND);
+    if !matches!(kind, 1 | 2 | 4) {
+        let text = format!(
+            "kenngr.achs_typ: {kind} is no axis type, ACHSTYP_TRANSLATOR (a linear axis) is used"
+        );
+        put(parameters, Condition::ListRange, axis_general::KIND.place(), text, 1.0);
+    }
+
     // P-AXIS-00177, P-AXIS-00178: an empty range
     let (lower, upper) = (axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT);
     let (low, high) = (number(parameters, lower), number(parameters, upper));

@@ -126,9 +126,7 @@ impl MotionState {
             return self.dynamics(machine, modal, rapid);
         }
         let weights = self.weights.of_velocities();
-        let (mut dynamics, _) = channel_dynamics(machine, &weights, modal, self.vector[0]);
-        dynamics.feed_axes.clone_from(&self.feed_axes);
-        self.couplings.limit(&mut dynamics.axes);
+        let mut dynamics = self.limited(machine, &weights, modal, self.vector[0]);
         dynamics.axes.iter_mut().for_each(AxisDynamics::use_rapid);
         Arc::new(dynamics)
     }
@@ -144,11 +142,27 @@ impl MotionState {
         if let Some(dynamics) = &self.dynamics[mode] {
             return Arc::clone(dynamics);
         }
-        let (mut dynamics, _) = channel_dynamics(machine, &self.weights, modal, self.vector[mode]);
-        dynamics.feed_axes.clone_from(&self.feed_axes);
-        self.couplings.limit(&mut dynamics.axes);
+        let dynamics = self.limited(machine, &self.weights, modal, self.vector[mode]);
         let dynamics = Arc::new(dynamics);
         self.dynamics[mode] = Some(Arc::clone(&dynamics));
+        dynamics
+    }
+
+    /// Limits of the channel with those of axes in manual mode and of coupled axes.
+    fn limited(
+        &self,
+        machine: &Machine,
+        weights: &Weights,
+        modal: &Modal,
+        vector: VectorLimits,
+    ) -> ChannelDynamics {
+        let (mut dynamics, _) = channel_dynamics(machine, weights, modal, vector);
+        dynamics.feed_axes.clone_from(&self.feed_axes);
+        let axes = machine.axes.iter().zip(&mut dynamics.axes).zip(&self.manual);
+        for ((axis, limits), _) in axes.filter(|(_, manual)| **manual) {
+            axis.limit_beside_manual_mode(limits);
+        }
+        self.couplings.limit(&mut dynamics.axes);
         dynamics
     }
 

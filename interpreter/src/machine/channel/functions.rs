@@ -145,6 +145,8 @@ pub(crate) struct FunctionEntries {
     pub(crate) spindle_durations_s: Vec<SpindleDurations>,
     /// The functions of each spindle for which the path waits, in the order of the list.
     pub(crate) spindle_waits: Vec<SpindleWaits>,
+    /// M function of the main spindle at program start: 3 or 4, otherwise it is at rest (P-CHAN-00064).
+    pub(crate) spindle_at_start: u32,
 }
 
 impl FunctionEntries {
@@ -155,6 +157,7 @@ impl FunctionEntries {
                 .collect()
         };
         Self {
+            spindle_at_start: p.get(of::M_GROUP),
             m_durations_s: p.array(of::M_DURATION).collect(),
             h_durations_s: p.array(of::H_DURATION).collect(),
             m_outputs: p

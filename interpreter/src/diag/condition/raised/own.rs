@@ -114,6 +114,7 @@ macro_rules! own {
     SplineTooShort = Kontur 151 "K-SPLINE-SHORT": Error ProgramAbort 3 0, "Akima spline of two points with automatic tangents (no vendor ID known)", cause "G151, G01 X20 Y5, G150", hint "program a third point, or both tangents by #AKIMA TRANS [START=TANGENTIAL END=TANGENTIAL]";
     TimeNotKept = Kontur 152 "K-TIME-NOT-KEPT": Warning None 1 1, "time of a motion exceeded by more than a tenth (no vendor ID known)", cause "G93 with a time that speeds, accelerations or corners do not permit; ramps are part of it", hint "write a longer F; v_limit of the trace shows what limits the speed";
     NoList = Kontur 153 "K-NOLIST": Error JobAbort 3 2, "list cannot be read", cause "a start-up list, or a list that it names, is missing", hint "-m takes a folder with a start-up list, the list itself or a TwinCAT project";
+    NotAlone = Kontur 157 "K-NOT-ALONE": Warning None 1 1, "another word beside a function that must be alone in its block (no vendor ID known)", cause "G04 X1 F100, G04 1 M5, G351 X-1 F100", hint "write it in a separate block";
         }
     };
 }
