@@ -62,6 +62,7 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00120", "an axis beyond a software limit is an error at program start"),
     ("P-CHAN-00131", "#HSC [BSPLINE] keeps distances of its own from corners"),
     ("P-CHAN-00132", "lines are not divided before a spline is fitted"),
+    ("P-CHAN-00137", "arcs are not divided under #HSC"),
     ("P-CHAN-00138", "arcs are not divided under #HSC"),
     ("P-CHAN-00141", "the jerk on curves is checked as with 1"),
     ("P-CHAN-00190", "the limits do not depend on the length of a motion"),

@@ -8,7 +8,7 @@ use super::channel::Channel;
 use super::kind::{AxisKind, kind_of, logical_number};
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
-use super::settled::Settled;
+use super::settled::{AxisList, Settled};
 use super::table::param::{Place, whole};
 use super::table::{ListKind, axis_general, channel as of, with_indices};
 use super::tools;
@@ -316,7 +316,8 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
                 format!("{}: axis number {number} is already used by {}", list.file, first.file);
             let at = number_at(&list.parameters);
             let mut diagnostic = error(Condition::ListLink, message, at);
-            if list.parameters.set_by(axis_general::NUMBER).is_none() {
+            let is_unnumbered = |l: &&AxisList| l.parameters.set_by(axis_general::NUMBER).is_none();
+            if let Some(list) = [first, list].into_iter().find(is_unnumbered) {
                 unnumbered = true;
                 let hint =
                     format!("{} has no kopf.achs_nr, which is {number} by default", list.file);

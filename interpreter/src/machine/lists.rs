@@ -325,13 +325,7 @@ pub(super) fn bad_value(
 ) -> Diagnostic {
     let instead = match &bad.instead {
         Some(value) => format!("{} is used", value::write(row.raw, value)),
-        None => match row.default {
-            table::Default::Number(x) => {
-                let default = value::write(row.raw, &Value::Number(x));
-                format!("an earlier value or the default {default} is used")
-            }
-            _ => "the earlier value is kept".to_owned(),
-        },
+        None => "the earlier value is kept".to_owned(),
     };
     let mut diagnostic =
         Diagnostic::new(Condition::ListNumber, format!("{entry}: {}, {instead}", bad.reason))

@@ -45,7 +45,7 @@ impl Value {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BadValue {
     /// The value used instead: 0 if the text is not a number, the nearest limit of the data type, or the default
-    /// (`None`) for an undefined word and for a name of a number that is never 0.
+    /// (`None`) for an undefined word.
     pub instead: Option<Value>,
     /// Description of the error.
     pub reason: String,
@@ -67,12 +67,6 @@ pub fn read(raw: Raw, text: &str) -> Result<Value, BadValue> {
         },
         Raw::Names(names) => match named(names, text) {
             Some(number) => Ok(Value::Number(f64::from(number))),
-            // 0 would be none of these
-            None if names.iter().all(|(_, number)| *number != 0) => integer(raw, text, Some(names))
-                .map_err(|bad| BadValue {
-                    instead: bad.instead.filter(|value| *value != Value::Number(0.0)),
-                    ..bad
-                }),
             None => integer(raw, text, Some(names)),
         },
         Raw::Flags(names) => {

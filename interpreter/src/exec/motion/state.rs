@@ -287,7 +287,7 @@ pub(in crate::exec) struct Technology {
     /// Whether the path waits for declared durations.
     pub(super) counted: bool,
     /// Functions to wait for: time in s, and whether before or after the motion.
-    pub(super) pending: Vec<(f64, Acknowledged)>,
+    pub(super) pending: Vec<(f64, Acknowledged, Function)>,
     /// Spindles that the path still has to wait for.
     pub(super) spindles: Vec<(usize, SpindleMoment)>,
     pub(super) named: BTreeSet<Function>,

@@ -43,8 +43,22 @@ pub(crate) const BEHIND_MOTION: u32 = 0x8;
 /// MNE_SNS: called by the signal of edge banding.
 pub(crate) const AT_SIGNAL: u32 = 0x20;
 
-/// Bits for which it waits elsewhere: MNE_SNS, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS.
-pub(crate) const ELSEWHERE: u32 = AT_SIGNAL | 0x4000 | 0x8000 | 0x100_0000 | 0x200_0000;
+/// Kinds with which the path of the control waits elsewhere, and where.
+pub(crate) const ELSEWHERE: [(u32, &str, &str); 5] = [
+    (AT_SIGNAL, "MNE_SNS", "after the signal of edge banding"),
+    (
+        0x4000,
+        "MVS_SLM",
+        "before the next G01, G02 or G03 block for what is left, or not at all up to the end of the program",
+    ),
+    (
+        0x8000,
+        "MVS_SLP",
+        "at the next #EXPL SYN for what is left, or not at all up to the end of the program",
+    ),
+    (0x100_0000, "MEP_SVS", "for what is left, since it gets the function early (m_pre_outp)"),
+    (0x200_0000, "MET_SVS", "for what is left, since it gets the function early (m_pre_outp)"),
+];
 
 /// Overrides of rapid blocks (P-CHAN-00181).
 const RAPID_OVERRIDES: &[(&str, u32)] =
@@ -93,7 +107,7 @@ parameters! {
         .source("TF5200 M and H functions 286205579"), as M_OUTPUT: Text;
     chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i is output; read and ignored, motion is not affected")
         .source("TF5200 M and H functions 286205579");
-    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i is output to the PLC and acknowledged; MNE_SNS is for G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
+    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i is output to the PLC and acknowledged; MNE_SNS is for G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS and MNE_SNS without G108 before the motion, unlike the control (K-0111); otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i is output to the PLC and acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
