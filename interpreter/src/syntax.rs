@@ -272,13 +272,20 @@ fn rest_of(mut builder: Builder<'_>, error: &Error<Rule>, masked: &str, mode: Mo
     let read = &masked[..end.unwrap_or(masked.len())];
     Grammar::parse(rule, read).map_or_else(|_| Block::default(), |pairs| builder.block(pairs))
 }
+/// Hint of a line between `#VAR` and `#ENDVAR` that does not begin like a declaration.
+pub(crate) const END_OF_DECLARATIONS: &str = "check whether #ENDVAR is missing before it";
 
 /// The problems of single characters: invalid ones, and the `(` of a remark that is not closed.
 fn characters(text: &str, masked: &scan::Masked) -> Vec<Problem> {
     // lines that begin with `%` are remarks in the programs of some post-processors
     let remark = masked.text.trim_ascii_start().starts_with('%');
     let severity = if remark { Severity::Warning } else { Severity::Error };
-    let invalid = masked.invalid.iter().map(|s| problem::invalid(text, *s).severity(severity));
+    // the end of `{..}` belongs to the mistake at its beginning
+    let brace = |s: &Span, brace: char| text[s.start as usize..].starts_with(brace);
+    let invalid = masked.invalid.iter().enumerate().filter(|(i, s)| {
+        !brace(s, '}') || !masked.invalid[..*i].iter().any(|before| brace(before, '{'))
+    });
+    let invalid = invalid.map(|(_, s)| problem::invalid(text, *s).severity(severity));
     invalid.chain(masked.open_remark.map(open_remark)).collect()
 }
 

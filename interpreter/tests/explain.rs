@@ -149,7 +149,7 @@ fn table_of_improved_position_control() {
 #[test]
 fn remarks_on_feedforward() {
     says("P-AXIS-00337", &["j Ta / Kv^2, the product"]);
-    says("P-AXIS-00513", &["block diagram of the additive variant", "meaning unknown"]);
+    says("P-AXIS-00513", &["setpoint before the delay filter", "110583", "K-0075"]);
     says("P-AXIS-00223", &["XERR (signal 25)", "NSOLL_B (signal 7)", "0x100"]);
     says("getriebe[0].kv", &["S-0-0104"]);
     says("S-0-0296", &["SERCOS", "have their own feedforward"]);

@@ -114,6 +114,7 @@ const ROWS: &[Row] = &[
     couplings::ENABLE_AX_LINK,
     unsupported("GANTRY"),
     unsupported("GEAR LINK"),
+    unsupported("KIN TCP DEF"),
     // frames
     run("ROTATION", frames::rotation),
     run("CS", frames::coordinate_system).several(),

@@ -79,7 +79,13 @@ impl Axis {
 
     /// Range of a modulo axis in deg (P-AXIS-00126, P-AXIS-00127).
     pub(crate) fn modulo_deg(&self) -> f64 {
-        self.get(axis_general::MODULO_UPPER) - self.get(axis_general::MODULO_LOWER)
+        let (lower, upper) = self.modulo_range_deg();
+        upper - lower
+    }
+
+    /// Lower and upper end of that range in deg.
+    pub(crate) fn modulo_range_deg(&self) -> (f64, f64) {
+        (self.get(axis_general::MODULO_LOWER), self.get(axis_general::MODULO_UPPER))
     }
 
     /// Whether its words may be diameters (P-AXIS-00015, bit 0x40).
@@ -113,11 +119,9 @@ impl Axis {
     }
 
     /// The part of an override of the channel that applies to independent motions of the axis (P-AXIS-00491): all of it
-    /// up to 100 % (the interface of the axis stays at that value), or none; limited by P-AXIS-00109 if the list states
-    /// it.
+    /// up to 100 % (the interface of the axis stays at that value), or none; limited by P-AXIS-00109, by default 100 %.
     pub(crate) fn independent_ratios(&self, channel: OverrideRatios) -> OverrideRatios {
-        let most = axis_general::MOST_OVERRIDE;
-        let most = self.parameters.set_by(most).map_or(f64::INFINITY, |_| self.get(most));
+        let most = self.get(axis_general::MOST_OVERRIDE);
         let of = |ratio: f64| match self.get(axis_general::INDEPENDENT_OVERRIDE) {
             0 => ratio.min(most),
             1 => ratio.min(most).min(1.0),
@@ -277,6 +281,33 @@ impl Axis {
             r_trans_ratio: self.get(of::TANGENTIAL_JERK_WEIGHT),
             j_trans_kink_mm_s3: self.get(of::KINK_JERK),
             j_trans_tangential_mm_s3: self.get(of::TANGENTIAL_JERK),
+        }
+    }
+
+    /// Limits the path under G201: P-AXIS-00095 per cent of the highest speed and P-AXIS-00094 per cent of the highest
+    /// acceleration (248646795). The rest is kept for the manual motion, whether or not it takes place.
+    ///
+    /// Assumption: a share of 0 leaves the lowest values of the lists, 1 um/s and 1 mm/s2.
+    pub(crate) fn limit_beside_manual_mode(&self, limits: &mut AxisDynamics) {
+        use axis_dynamics as of;
+        let speed = (self.get(of::SPEED_MAX) * self.get(of::PATH_SPEED_SHARE)).max(1e-3);
+        let acceleration = (self.get(of::ACC_MAX) * self.get(of::PATH_ACC_SHARE)).max(1.0);
+        for v in [&mut limits.v_max_mm_s, &mut limits.v_rapid_mm_s] {
+            *v = v.min(speed);
+        }
+        let (feed, hold) = (&mut limits.feed, &mut limits.feedhold);
+        let smooth = [
+            &mut limits.a_max_mm_s2,
+            &mut feed.acc_mm_s2,
+            &mut feed.dec_mm_s2,
+            &mut limits.rapid.acc_mm_s2,
+            &mut hold.dec_mm_s2,
+            &mut hold.step_dec_mm_s2,
+        ];
+        let steps = [&mut limits.step_feed, &mut limits.step_rapid].into_iter();
+        let stages = steps.flat_map(|s| s.acc_mm_s2.iter_mut().chain(&mut s.dec_mm_s2));
+        for a in smooth.into_iter().chain(stages) {
+            *a = a.min(acceleration);
         }
     }
 

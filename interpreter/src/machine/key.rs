@@ -107,6 +107,7 @@ const SIZES: &[(&str, u32)] = &[
     ("synchro_data.koppel_gruppe", 1),
     ("synchro_data.koppel_gruppe[i].paar", 15),
     ("prog_start.g_gruppe", 38),
+    ("prog_start.m_gruppe", 2),
     ("configuration.channel", 12),
 ];
 

@@ -9,7 +9,7 @@ use super::external::ExternalVariables;
 use super::kind::{AxisKind, kind_of, logical_number};
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
-use super::settled::Settled;
+use super::settled::{AxisList, Settled};
 use super::table::param::{Place, whole};
 use super::table::{ListKind, axis_general, channel as of, with_indices};
 use super::tools;
@@ -309,6 +309,7 @@ fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic
 
 fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
     let number_at = |p: &Parameters| p.set_by(axis_general::NUMBER).and_then(|s| s.at.clone());
+    let mut unnumbered = false;
     for (i, list) in settled.axes.iter().enumerate() {
         let number = logical_number(&list.parameters);
         let earlier = &settled.axes[..i];
@@ -316,10 +317,19 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             let message =
                 format!("{}: axis number {number} is already used by {}", list.file, first.file);
             let at = number_at(&list.parameters);
-            diagnostics
-                .push(error(Condition::ListLink, message, at).parameter(axis_general::NUMBER));
+            let mut diagnostic = error(Condition::ListLink, message, at);
+            let is_unnumbered = |l: &&AxisList| l.parameters.set_by(axis_general::NUMBER).is_none();
+            if let Some(list) = [first, list].into_iter().find(is_unnumbered) {
+                unnumbered = true;
+                let hint =
+                    format!("{} has no kopf.achs_nr, which is {number} by default", list.file);
+                diagnostic = diagnostic.hint(hint);
+            }
+            diagnostics.push(diagnostic.parameter(axis_general::NUMBER));
         }
     }
+    // an axis may belong to a list that could not be read or has no number
+    let is_explained = unnumbered || diagnostics.iter().any(|d| d.id == Condition::NoList);
     for (i, named) in names.named.iter().enumerate() {
         let earlier = &names.named[..i];
         let Named { name, number, .. } = named;
@@ -340,7 +350,9 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
                 Condition::PathAxisNameTwice
             };
             Some(format!("the name {name} occurs twice in the channel list"))
-        } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {
+        } else if !is_explained
+            && !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number)
+        {
             Some(format!("{name}: axis list with kopf.achs_nr {number} not found"))
         } else {
             None

@@ -24,6 +24,7 @@ use super::key::Key;
 use super::table::{self, Indices, ListKind, Raw, Row, with_indices};
 use super::value::{self, Value};
 use crate::diag::{Condition, Diagnostic, Id, Location, Severity, ValueKind};
+use crate::suggest;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -217,11 +218,11 @@ impl Reader<'_> {
         let value_at =
             if written.is_empty() { key_at.clone() } else { line.location(file, written) };
         if let Some(dropped) = parts.dropped {
-            let message = format!("`{dropped}` after the text of `{word}` is dropped");
-            let hint = if matches!(row.raw, Raw::Flags(_)) {
-                "join flags with |: VEL | ACC"
-            } else {
-                "put text with blanks in double quotes, start a comment with ("
+            let message = format!("`{dropped}` after the value of `{word}` is dropped");
+            let hint = match row.raw {
+                Raw::Flags(_) => "join flags with |: VEL | ACC",
+                Raw::Text => "put text with blanks in double quotes, start a comment with (",
+                _ => "write a number without blanks, start a comment with #",
             };
             self.say(
                 Diagnostic::new(Condition::ListString, message)
@@ -340,6 +341,14 @@ pub(super) fn bad_value(
     }
     if written == "=" {
         diagnostic = diagnostic.hint("write key, blank and value, without an equals sign");
+    } else if let Raw::Names(_) | Raw::Word(_) = row.raw {
+        let names: Vec<&str> = match row.raw {
+            Raw::Names(names) => names.iter().map(|(name, _)| *name).collect(),
+            Raw::Word(words) => words.to_vec(),
+            _ => Vec::new(),
+        };
+        let near = suggest::hint(written, names);
+        diagnostic = diagnostic.hint(near.unwrap_or_else(|| "write one of these names".to_owned()));
     }
     diagnostic.parameter(row)
 }

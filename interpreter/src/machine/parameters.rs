@@ -22,11 +22,11 @@ pub struct Setting {
 impl Setting {
     /// Whether it differs from the default of its row; a switch without a printed default is off.
     pub(super) fn is_changed(&self) -> bool {
-        let default = match self.row.default {
-            Default::Number(x) => x,
-            _ => 0.0,
-        };
-        self.value != Value::Number(default)
+        match (self.row.default, &self.value) {
+            (Default::Text(default), Value::Text(text)) => text != default,
+            (Default::Number(default), value) => *value != Value::Number(default),
+            (_, value) => *value != Value::Number(0.0),
+        }
     }
 }
 

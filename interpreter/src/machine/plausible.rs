@@ -213,6 +213,7 @@ fn check_together(
 ) {
     check_gear_stage(parameters, axis, diagnostics);
     let mut together = Together { parameters, axis, diagnostics };
+    together.axis_type();
     together.software_limits();
     together.modulo_range();
     together.speed_band();
@@ -246,6 +247,17 @@ impl Together<'_> {
 
     fn number(&self, param: Param<Number>) -> f64 {
         self.parameters.listed(param).unwrap_or_default()
+    }
+
+    /// P-AXIS-00018: a number without a type.
+    fn axis_type(&mut self) {
+        let kind = self.parameters.get(axis_general::KIND);
+        if !matches!(kind, 1 | 2 | 4) {
+            let text = format!(
+                "kenngr.achs_typ: {kind} is no axis type, ACHSTYP_TRANSLATOR (a linear axis) is used"
+            );
+            self.put(Condition::ListRange, axis_general::KIND.place(), text, 1.0);
+        }
     }
 
     /// P-AXIS-00177, P-AXIS-00178: an empty range.

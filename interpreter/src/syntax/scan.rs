@@ -137,8 +137,9 @@ fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
 
 /// Length of a `#` word that may occur among DIN words.
 fn hash_word(bytes: &[u8]) -> Option<usize> {
-    let length = 1 + run(&bytes[1..], |b| b.is_ascii_alphanumeric() || b == b'_');
-    let name = std::str::from_utf8(&bytes[1..length]).ok()?;
+    let start = 1 + run(&bytes[1..], |b| matches!(b, b' ' | b'\t'));
+    let length = start + run(&bytes[start..], |b| b.is_ascii_alphanumeric() || b == b'_');
+    let name = std::str::from_utf8(&bytes[start..length]).ok()?;
     HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(name)).then_some(length)
 }
 

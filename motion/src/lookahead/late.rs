@@ -8,8 +8,11 @@
 //! the next run is slower still, and the result is faster, the next run is joined to it and braking continues across
 //! the boundary to the feed rate of the next run.
 //!
-//! Source: TF5200 programming manual, G08/G09/G900/G901. Assumption: its exception, a path that is already at its
-//! velocity limit, refers to the limits of the slower block, which cap its entry speed.
+//! A path that already drives at its velocity limit brakes before the boundary: there G901 has no effect. The other
+//! limits of the slower block cap its entry speed. Assumption: a block drives at its limit if its feed rate, with the
+//! override, is at or above what its axes permit, whether or not it is long enough to reach it.
+//!
+//! Source: TF5200 programming manual 206238219, G08/G09/G900/G901.
 //!
 //! None of this is certain to be faster, so the fastest of three plans is used: with carried braking, without it, and
 //! without G901.
@@ -42,7 +45,9 @@ pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>>
 fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
     // a cap below the feed rate of the block (tolerance monitoring) is a limit
     let own = feeds[i].v_mm_s >= blocks[i].velocity.v_mm_s;
-    let late = own && blocks[i - 1].brakes_late_into(&blocks[i]);
+    let before = &blocks[i - 1];
+    let below_limit = before.velocity.v_mm_s < before.ceiling.v_mm_s;
+    let late = own && below_limit && before.brakes_late_into(&blocks[i]);
     if late && blocks[i].ceiling.v_mm_s > feeds[i].v_mm_s { blocks[i].ceiling } else { feeds[i] }
 }
 

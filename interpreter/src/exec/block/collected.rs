@@ -2,7 +2,9 @@
 
 use crate::diag::Condition;
 use crate::exec::block::groups::{Act, Group, Row};
+use crate::exec::fault::Fault;
 use crate::exec::options::Value;
+use crate::exec::report::Report;
 use crate::syntax::ast::{Bracket, Call, HashWord, Jump, Return, Sign, Span};
 use smallvec::SmallVec;
 
@@ -81,6 +83,24 @@ impl<'b> Words<'b> {
         self.g.iter().find(|g| {
             matches!(g.row.group, Group::Path | Group::Measuring) || g.row.act == Act::ExactStopOnce
         })
+    }
+
+    /// K-0157 for the first further function or word beside a function that must be alone in its block; its axis words, and for G04 the
+    /// S word, belong to it.
+    ///
+    /// Source: TF5200 programming manual 206132747 (G04), 206266379 (G351); the pages print no ID.
+    pub(in crate::exec) fn must_be_alone(&self, g: &GWord, report: &mut Report) {
+        let functions = self.g.iter().filter(|other| other.span != g.span).map(|other| other.span);
+        let codes = self.m.iter().chain(&self.h).map(|code| code.span);
+        let placed = [self.tool, self.tool_data, self.feed, self.end_feed, self.radius];
+        let placed = placed.into_iter().chain(self.centre).flatten().map(|(_, span)| span);
+        let speeds = self.speeds.iter().filter(|_| g.row.number != 4).map(|(_, _, span)| *span);
+        let brackets = self.brackets.iter().map(|bracket| bracket.group.span);
+        let others = functions.chain(codes).chain(placed).chain(speeds).chain(brackets);
+        if let Some(span) = others.min_by_key(|span| span.start) {
+            let text = format!("another word in the block of G{:02}", g.row.number);
+            report.note(Fault::new(Condition::NotAlone, text, span));
+        }
     }
 
     /// Whether the signal of a measuring run decides on the jump (G310).

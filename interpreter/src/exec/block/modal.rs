@@ -202,14 +202,19 @@ impl Modal {
                 | (25, 165)
                 | (32, 140)
                 | (21, _) => {}
-                (group, g) if groups::row(*g).is_none() => {
-                    let text = format!("prog_start.g_gruppe[{group}].nr {g} is no G function");
-                    let d = Diagnostic::new(Condition::PresetFunction, text).parameter(of::G_GROUP);
-                    unknown.push(d);
-                }
-                (group, g) => {
+                (0, 4) | (8, 51) | (22, 236) | (32, 141) => {
                     let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
                     let d = Diagnostic::new(Condition::Fallback, text).parameter(of::G_GROUP);
+                    unknown.push(d);
+                }
+                // 149290763, 252656267
+                (group, g) => {
+                    let what = match groups::row(*g) {
+                        Some(_) => "not permitted as a start value",
+                        None => "no G function",
+                    };
+                    let text = format!("prog_start.g_gruppe[{group}].nr {g} is {what}");
+                    let d = Diagnostic::new(Condition::PresetFunction, text).parameter(of::G_GROUP);
                     unknown.push(d);
                 }
             }

@@ -134,10 +134,15 @@ impl Decoder {
         Ok(())
     }
 
-    /// T.
+    /// T. With P-CHAN-00106 the channel is flushed before it. Assumption: by `#FLUSH WAIT`, as before D; the page of the parameter is
+    /// not public, that of P-CHAN-00271 (149002251) only names it.
     pub(in crate::exec) fn select_tool(&mut self, number: f64, span: Span) {
         /// Source: TF5200 diagnosis 250967691, 20166.
         const HIGHEST: u32 = i32::MAX.unsigned_abs();
+        if self.machine.channel.offsets.flush_before_tool {
+            let outcome = self.flush_before("T with P-CHAN-00106", span);
+            self.report.keep(outcome);
+        }
         if number > f64::from(HIGHEST) {
             let text = format!("T{number} is above {HIGHEST}");
             self.report.note(Fault::new(Condition::ToolNumberTooLarge, text, span));
@@ -151,8 +156,12 @@ impl Decoder {
         }
     }
 
-    /// D: tool data; the length applies along the third main axis of the plane.
+    /// D: tool data; the length applies along the third main axis of the plane. With P-CHAN-00271 the channel is flushed before it.
     pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
+        if self.machine.channel.offsets.flush_before_tool_data {
+            let outcome = self.flush_before("D with P-CHAN-00271", span);
+            self.report.keep(outcome);
+        }
         if self.report.keep(self.motion.couplings.keep_tool(span)).is_none() {
             return;
         }

@@ -79,10 +79,14 @@ fn named_group(decoder: &Decoder, call: &Call<'_>) -> Outcome<Option<u32>> {
     group_number(decoder, number, 0).map(Some)
 }
 
+/// Highest number of a group. Assumption: the 7 groups that a program can define (system parameters 877646603, 2.11) have the numbers
+/// 1 to 7, since that of the channel list is 0.
+const LAST_GROUP: u32 = 7;
+
 /// 20461 outside the range.
 fn group_number(decoder: &Decoder, number: &Expr, least: u32) -> Outcome<u32> {
     let written = decoder.number(number)?;
-    let most = u32::from(u16::MAX);
+    let most = LAST_GROUP;
     whole(written, least, most).ok_or_else(|| {
         let text = format!("coupling group {written} does not exist");
         Fault::new(Condition::CouplingGroupNumber, text, number.span).with(|d| {

@@ -360,8 +360,17 @@ fn rotary_surface(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     Err(Fault::new(condition, text, call.span()))
 }
 
+/// `#TRAFO [OFF]`, `#TRAFO [NONE]` (1133705483).
+fn is_off_in_brackets(call: &Call<'_>) -> bool {
+    let [group] = &call.command.groups[..] else { return false };
+    let [item] = &group.items[..] else { return false };
+    matches!(&item.kind, ItemKind::Flag(word) if word.is("OFF") || word.is("NONE"))
+        && call.name == "TRAFO"
+}
+
 /// `#TRAFO`, `#RTCP`, `#KIN ID`, `#PTP`, `#ORI MODE`: kinematics.
 pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let off = call.command.on == Some(false) || is_off_in_brackets(call);
     if call.name == "KIN ID" && decoder.geometry.transformation_on {
         let text = "#KIN ID under an active kinematic transformation";
         return Err(Fault::new(Condition::KinematicsWhileActive, text, call.span()));
@@ -373,7 +382,7 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
         let text = "#PTP while tool radius compensation is active";
         return Err(Fault::new(Condition::DirectWithCompensation, text, call.span()));
     }
-    if call.name == "TRAFO" && decoder.geometry.direct_on && call.command.on != Some(false) {
+    if call.name == "TRAFO" && decoder.geometry.direct_on && !off {
         let text = "#TRAFO ON while #PTP is active";
         return Err(Fault::new(Condition::TransformationInDirect, text, call.span()));
     }
@@ -381,15 +390,15 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
         orientation_has_direction(decoder, call)?;
     }
     if call.name == "PTP" {
-        decoder.geometry.direct_on = call.command.on != Some(false);
+        decoder.geometry.direct_on = !off;
     }
     if ["TRAFO", "RTCP"].contains(&call.name) {
-        if call.command.on != Some(false) {
+        if !off {
             decoder.none_independent(&call.title(), call.span())?;
         }
-        decoder.geometry.transformation_on = call.command.on != Some(false);
+        decoder.geometry.transformation_on = !off;
     }
-    if call.command.on == Some(false) {
+    if off {
         return Ok(());
     }
     if decoder.identity_trafo {

@@ -13,7 +13,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::TimerAct;
 use crate::exec::step::{Event, Sync};
 use crate::machine::table::axis_key;
-use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
+use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue, Span};
 
 /// Row of `#FLUSH`.
 pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
@@ -26,20 +26,39 @@ pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
 ///
 /// Source: TF5200 programming manual 207042443, diagnosis 264284811.
 pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
-    if decoder.contour.hsc.on && !decoder.contour.hsc.rounds_corners {
-        let text = format!("{} while #HSC [BSPLINE] is active", call.title());
-        return Err(Fault::new(Condition::FlushInSpline, text, call.span()));
+    decoder.may_flush(&call.title(), call.span())
+}
+
+impl Decoder {
+    fn may_flush(&self, what: &str, span: Span) -> Outcome<()> {
+        if self.contour.hsc.on && !self.contour.hsc.rounds_corners {
+            let text = format!("{what} while #HSC [BSPLINE] is active");
+            return Err(Fault::new(Condition::FlushInSpline, text, span));
+        }
+        Ok(())
     }
-    Ok(())
+
+    /// As above, and not between the two blocks of a contour line either.
+    fn may_flush_here(&self, what: &str, span: Span) -> Outcome<()> {
+        self.may_flush(what, span)?;
+        if self.motion.contour_line.is_open() {
+            let text = format!("{what} between the two blocks of a contour line (#ANG)");
+            return Err(Fault::new(Condition::FlushInContourLine, text, span));
+        }
+        Ok(())
+    }
+
+    /// The implicit `#FLUSH WAIT` of a word.
+    pub(in crate::exec) fn flush_before(&mut self, what: &str, span: Span) -> Outcome<()> {
+        self.may_flush_here(what, span)?;
+        self.sync(Sync::FlushWait);
+        Ok(())
+    }
 }
 
 /// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
 fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    may_flush(decoder, call)?;
-    if decoder.motion.contour_line.is_open() {
-        let text = "#FLUSH between the two blocks of a contour line (#ANG)";
-        return Err(Fault::new(Condition::FlushInContourLine, text, call.span()));
-    }
+    decoder.may_flush_here(&call.title(), call.span())?;
     match call.rest {
         [] => decoder.sync(Sync::Stop),
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),

@@ -18,7 +18,7 @@ use crate::syntax::ast::{ItemKind, ItemValue, Span};
 pub(super) const SPLINE: Row = Row::run("SPLINE", spline).bare()
     .form("#SPLINE ON|OFF")
     .meaning("a curve through the points of the following linear blocks, as G151 and G150")
-    .note("the curve begins at the last point before the command; arcs interrupt it tangentially; stops, G00 and tool radius compensation are not allowed")
+    .note("the curve begins at the last point before the command; arcs interrupt it tangentially; stops, G00 and tool radius compensation are not allowed; no other words in its block (20450): the vertex of #SPLINE ON X40 Y20 (207209611) belongs in the next block, or after G151")
     .example("#SPLINE ON")
     .related(&["#AKIMA TRANS", "#SPLINE TYPE"]);
 

@@ -12,6 +12,7 @@ const DWELL_MAX_S: f64 = 4294.967295;
 
 impl Decoder {
     pub(super) fn dwell(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        words.must_be_alone(g, &mut self.report);
         let main = self.geometry.coordinates.main_axis(0);
         let of_axis = words.axes.iter().find(|(axis, _, _)| Some(*axis) == main);
         let revolutions = words.speeds.first();

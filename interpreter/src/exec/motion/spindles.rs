@@ -204,6 +204,9 @@ pub(super) fn of_lists(machine: &Machine) -> Vec<Spindle> {
     }
     let main = listed_main(&spindles, machine);
     spindles.swap(0, main);
+    if spindles[0].index.is_some() {
+        spindles[0].turning = Turning::of(machine.channel.functions.spindle_at_start);
+    }
     spindles
 }
 

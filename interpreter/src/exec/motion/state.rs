@@ -10,7 +10,7 @@ pub(in crate::exec) mod wear;
 use self::areas::Areas;
 use self::coupling::Couplings;
 use self::cutting::Cutting;
-use self::limits::PathLimits;
+use self::limits::{Beside, PathLimits};
 use self::measuring::Measuring;
 use self::wear::OnlineCompensation;
 use super::overrides::Overrides;
@@ -124,7 +124,8 @@ impl MotionState {
         rapid: bool,
     ) -> Arc<ChannelDynamics> {
         if self.measuring.runs && !machine.channel.measuring.as_feed {
-            return Arc::new(self.limits.measuring(machine, modal, &self.couplings));
+            let beside = Beside { couplings: &self.couplings, manual: &self.manual };
+            return Arc::new(self.limits.measuring(machine, modal, beside));
         }
         self.dynamics(machine, modal, rapid)
     }
@@ -136,7 +137,8 @@ impl MotionState {
         modal: &Modal,
         rapid: bool,
     ) -> Arc<ChannelDynamics> {
-        self.limits.dynamics(machine, modal, &self.couplings, rapid)
+        let beside = Beside { couplings: &self.couplings, manual: &self.manual };
+        self.limits.dynamics(machine, modal, beside, rapid)
     }
 
     /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
@@ -246,7 +248,7 @@ pub(in crate::exec) struct Technology {
     /// Whether the path waits for declared durations.
     pub(super) counted: bool,
     /// Functions to wait for: time in s, and whether before or after the motion.
-    pub(super) pending: Vec<(f64, Acknowledged)>,
+    pub(super) pending: Vec<(f64, Acknowledged, Function)>,
     /// Spindles that the path still has to wait for.
     pub(super) spindles: Vec<(usize, SpindleMoment)>,
     pub(super) named: BTreeSet<Function>,

@@ -4,12 +4,15 @@
 //! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).
 
 use super::state::{Function, MotionState};
+use crate::diag::Condition;
 use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
+use crate::exec::fault::Fault;
 use crate::exec::step::{Event, SpindleState, Sync};
 use crate::machine::table::channel as of;
 use crate::machine::table::param::{Optional, Param};
 use crate::machine::{Acknowledged, Channel, SpindleMoment};
+use crate::syntax::ast::Span;
 
 impl MotionState {
     /// Passes a function to the machine: the path waits for its duration ([`Decoder::technology_wait`]), or the function is
@@ -28,7 +31,7 @@ impl MotionState {
         }
         let seconds = self.counted_time_s(function, channel, contour);
         if seconds > 0.0 {
-            self.technology.pending.push((seconds, until));
+            self.technology.pending.push((seconds, until, function));
         }
         self.technology.spindles.extend(waited_for(channel, function));
     }
@@ -62,14 +65,7 @@ impl MotionState {
         if (simulated && declared.is_none()) || !self.technology.named.insert(function) {
             return 0.0;
         }
-        let spindle = |i: usize| self.spindles.get(i).map_or("", |s| s.name.as_str());
-        let name = match function {
-            Function::M(number) => format!("M{number}"),
-            Function::H(number) => format!("H{number}"),
-            Function::Tool => "tool change (T)".to_owned(),
-            Function::Spindle { spindle: i, m } => format!("M{m} of {}", spindle(i)),
-            Function::Speed { spindle: i } => format!("S word of {}", spindle(i)),
-        };
+        let name = self.name_of(function);
         let function = match declared {
             Some((seconds, parameter)) => {
                 format!("{name} ({seconds} s each by {})", parameter.place().row.id)
@@ -79,6 +75,18 @@ impl MotionState {
         contour.event(Event::Uncounted { function });
         0.0
     }
+
+    /// A function in messages.
+    fn name_of(&self, function: Function) -> String {
+        let spindle = |i: usize| self.spindles.get(i).map_or("", |s| s.name.as_str());
+        match function {
+            Function::M(number) => format!("M{number}"),
+            Function::H(number) => format!("H{number}"),
+            Function::Tool => "tool change (T)".to_owned(),
+            Function::Spindle { spindle: i, m } => format!("M{m} of {}", spindle(i)),
+            Function::Speed { spindle: i } => format!("S word of {}", spindle(i)),
+        }
+    }
 }
 
 impl Decoder {
@@ -87,9 +95,18 @@ impl Decoder {
         // Assumption: the functions of a block are output to the machine together, so the longest one determines the wait
         let mut seconds = 0.0_f64;
         let pending = std::mem::take(&mut self.motion.technology.pending);
-        for (time_s, until) in pending {
+        for (time_s, until, function) in pending {
             match (until, now) {
                 (Acknowledged::Never, _) => {}
+                (Acknowledged::Elsewhere(kind, place), _) => {
+                    let name = self.motion.name_of(function);
+                    let text = format!(
+                        "{name} ({kind}): the path waits {time_s} s here; that of the control waits {place}"
+                    );
+                    let fault = Fault::new(Condition::Fallback, text, Span::default());
+                    self.report.note_once(name.as_str(), fault);
+                    seconds = seconds.max(time_s);
+                }
                 (Acknowledged::BeforeMotion, _)
                 | (Acknowledged::AfterMotion, SpindleMoment::AfterMotion) => {
                     seconds = seconds.max(time_s);
@@ -99,7 +116,7 @@ impl Decoder {
                     seconds = seconds.max(time_s - self.contour.time_of_s(self.report.source));
                 }
                 (_, SpindleMoment::BeforeMotion) => {
-                    self.motion.technology.pending.push((time_s, until));
+                    self.motion.technology.pending.push((time_s, until, function));
                 }
             }
         }
@@ -138,7 +155,7 @@ fn waited_for(channel: &Channel, function: Function) -> Option<(usize, SpindleMo
     };
     let moment = match acknowledged(channel, function)? {
         Acknowledged::Never => return None,
-        Acknowledged::BeforeMotion => SpindleMoment::BeforeMotion,
+        Acknowledged::BeforeMotion | Acknowledged::Elsewhere(..) => SpindleMoment::BeforeMotion,
         Acknowledged::DuringMotion | Acknowledged::AfterMotion => SpindleMoment::AfterMotion,
     };
     Some((spindle, moment))

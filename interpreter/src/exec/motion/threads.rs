@@ -13,11 +13,11 @@
 //!
 //! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33), settings for
 //! turning functions (`#TURN`); TF5200 turning functions, tapping (G331/G332), thread chain; P-CHAN-00836, P-CHAN-00837;
-//! 20007, 20032, 20635 to 20637, 21000, 21540.
+//! 20007, 20032, 20635 to 20637, 21000, 21540, 60303.
 
 mod tapping;
 
-use crate::diag::{Condition, rounded};
+use crate::diag::{Condition, ValueKind, rounded};
 use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
@@ -28,6 +28,7 @@ use crate::exec::motion::state::Threads;
 use crate::exec::names::AxisNames;
 use crate::exec::report::{Report, Subject};
 use crate::exec::step::{SpindleState, Sync};
+use crate::machine::Axis;
 use crate::syntax::ast::{ItemKind, Span};
 use kontur_filters::time::CycleTime;
 use kontur_motion::block::{Block, Feed};
@@ -282,6 +283,9 @@ impl Decoder {
         }
         let rpm = self.motion.spindles[0].rpm;
         let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
+        if let Some((_, deg, at)) = offset {
+            offset_fits(&self.machine.spindles[index], *deg, *at)?;
+        }
         if self.motion.threads.cutting {
             self.chain_fits(&block, rpm, pitch_mm, offset.map(|(_, _, at)| *at), span)?;
         } else if self.motion.threads.continues(&block) {
@@ -374,6 +378,22 @@ impl Decoder {
             tangential: false,
         })
     }
+}
+
+/// 60303 for an offset angle outside the modulo range of the spindle (259780491).
+fn offset_fits(spindle: &Axis, deg: f64, at: Span) -> Outcome<()> {
+    let (lower, upper) = spindle.modulo_range_deg();
+    if (lower..=upper).contains(&deg) {
+        return Ok(());
+    }
+    let name = spindle.name();
+    let text = format!("{name}.OFFSET: {deg} is outside {lower} to {upper} deg");
+    Err(Fault::new(Condition::ThreadOffsetRange, text, at).with(|d| {
+        d.axis(spindle.number(), name.to_owned())
+            .value(ValueKind::Current, deg * 1e4, "0.0001deg")
+            .value(ValueKind::LowerLimit, lower * 1e4, "0.0001deg")
+            .value(ValueKind::UpperLimit, upper * 1e4, "0.0001deg")
+    }))
 }
 
 /// G166 in the block.

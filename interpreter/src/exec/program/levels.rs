@@ -37,6 +37,7 @@ impl Executor {
             frames: Vec::new(),
             cycle: saved,
             declarations: false,
+            undeclared: false,
             optional: None,
             cut: false,
             again: None,
@@ -111,7 +112,7 @@ impl Executor {
             self.leave_level();
             return;
         }
-        let cut = self.levels.last().is_some_and(|level| level.cut);
+        let cut = self.levels.last().is_some_and(|level| level.cut || level.undeclared);
         if !cut && !self.end_program_called {
             let text = "the main program ends without M30 or M02";
             let mut diagnostic = Diagnostic::new(Condition::NoEnd, text);

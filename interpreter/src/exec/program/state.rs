@@ -28,6 +28,8 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec::program) cycle: Option<Box<BeforeCycle>>,
     /// Whether it is between `#VAR` and `#ENDVAR`.
     pub(in crate::exec::program) declarations: bool,
+    /// Whether a line in it was no declaration: a missing `#ENDVAR` is reported once.
+    pub(in crate::exec::program) undeclared: bool,
     /// Start of the present section between `#OPTIONAL EXECUTION ON` and `OFF`.
     pub(in crate::exec::program) optional: Option<(Position, Span)>,
     /// Whether a control block without an end covers the rest of the text.

@@ -24,9 +24,11 @@ pub(crate) enum SpindleMoment {
 pub(crate) enum Acknowledged {
     /// NO_SYNCH, MOS and purely informative kinds: the path does not wait.
     Never,
-    /// MVS_SVS: before the motion of the block. Assumption: also the kinds whose place is not simulated (MVS_SLM,
-    /// MVS_SLP, MEP_SVS, MET_SVS, MNE_SNS without edge banding).
+    /// MVS_SVS: before the motion of the block.
     BeforeMotion,
+    /// The kinds whose place is not simulated (MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS, MNE_SNS without edge banding): as before the
+    /// motion, with a note. Name of the kind, and where the control waits.
+    Elsewhere(&'static str, &'static str),
     /// MVS_SNS: called before the motion of the block; the path waits at its end for the remaining time.
     DuringMotion,
     /// MNS_SNS: called after the motion.
@@ -42,10 +44,9 @@ impl Acknowledged {
             Self::DuringMotion
         } else if is(of::BEHIND_MOTION) {
             Self::AfterMotion
-        } else if is(of::ELSEWHERE) {
-            Self::BeforeMotion
         } else {
-            Self::Never
+            let kind = of::ELSEWHERE.into_iter().find(|(kind, _, _)| is(*kind));
+            kind.map_or(Self::Never, |(_, name, place)| Self::Elsewhere(name, place))
         }
     }
 }
@@ -145,6 +146,8 @@ pub(crate) struct FunctionEntries {
     pub(crate) spindle_durations_s: Vec<SpindleDurations>,
     /// The functions of each spindle for which the path waits, in the order of the list.
     pub(crate) spindle_waits: Vec<SpindleWaits>,
+    /// M function of the main spindle at program start: 3 or 4, otherwise it is at rest (P-CHAN-00064).
+    pub(crate) spindle_at_start: u32,
 }
 
 impl FunctionEntries {
@@ -155,6 +158,7 @@ impl FunctionEntries {
                 .collect()
         };
         Self {
+            spindle_at_start: p.get(of::M_GROUP),
             m_durations_s: p.array(of::M_DURATION).collect(),
             h_durations_s: p.array(of::H_DURATION).collect(),
             m_outputs: p

@@ -62,6 +62,10 @@ pub(crate) struct OffsetEntries {
     pub(crate) tools_at_once: bool,
     /// T also selects the tool data of its number (P-CHAN-00014).
     pub(crate) tool_data_with_tool: bool,
+    /// The channel is flushed before T (P-CHAN-00106).
+    pub(crate) flush_before_tool: bool,
+    /// The channel is flushed before D (P-CHAN-00271).
+    pub(crate) flush_before_tool_data: bool,
 }
 
 impl OffsetEntries {
@@ -72,6 +76,8 @@ impl OffsetEntries {
             in_diameters: p.get(of::OFFSETS_IN_DIAMETERS),
             tools_at_once: p.get(of::TOOL_OFFSETS_AT_ONCE),
             tool_data_with_tool: p.get(of::TOOL_DATA_WITH_TOOL),
+            flush_before_tool: p.get(of::FLUSH_BEFORE_TOOL),
+            flush_before_tool_data: p.get(of::FLUSH_OF_TOOL_DATA).as_deref() == Some("FAW_D"),
         }
     }
 }

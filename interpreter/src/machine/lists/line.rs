@@ -65,7 +65,7 @@ impl Line<'_> {
 pub(super) struct Parts<'a> {
     /// The value without quotes; `None` if there is none.
     pub(super) value: Option<&'a str>,
-    /// Text after a text value that is not a comment.
+    /// Text after a text value, or a number after a number, that is not a comment.
     pub(super) dropped: Option<&'a str>,
 }
 
@@ -104,7 +104,12 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
         return Parts { value: Some(word), dropped: leftover(raw, tail) };
     }
     let end = word.find('#').unwrap_or(word.len());
-    Parts { value: Some(&word[..end]), dropped: None }
+    // nothing but numbers behind a number is no comment: `5 000`, but `5000 10 is 0.1/s`
+    let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+    let mut words = std::iter::once(word).chain(tail.split_whitespace());
+    let numbers = words.by_ref().take_while(|word| !is_comment(word)).all(number);
+    let next = tail.split_whitespace().next().filter(|next| numbers && !is_comment(next));
+    Parts { value: Some(&word[..end]), dropped: next }
 }
 
 /// NC code extends to the end of the line, including brackets and `#`.

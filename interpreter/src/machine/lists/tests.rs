@@ -64,12 +64,15 @@ fn the_listing_of_the_feedforward_manual_loads_without_a_message() {
 /// Conformance: A011, V053.
 #[test]
 fn every_rule_has_its_message() {
-    let cases: [(&str, &[&str], &str, Option<f64>); 10] = [
+    let cases: [(&str, &[&str], &str, Option<f64>); 13] = [
         ("vib_guard.ax_dev 0.01", &["1001119"], "vib_guard.ax_dev", None),
         ("getriebe[].kv 3000", &["K-0029"], "getriebe[0].kv", Some(3000.0)),
         ("getriebe[0].kv 3000\ngetriebe[0].kv 4000", &["K-0028"], "getriebe[0].kv", Some(4000.0)),
         ("getriebe[0].kv abc", &["1001138"], "getriebe[0].kv", Some(0.0)),
         ("getriebe[0].kv = 3000", &["1001138"], "getriebe[0].kv", Some(0.0)),
+        ("getriebe[0].kv 5 000", &["K-0030"], "getriebe[0].kv", Some(5.0)),
+        ("getriebe[0].kv 5 000 # gain", &["K-0030"], "getriebe[0].kv", Some(5.0)),
+        ("getriebe[0].kv 5000 1000 is 10/s", &[], "getriebe[0].kv", Some(5000.0)),
         ("kopf.achs_nr 70000", &["1001138"], "kopf.achs_nr", Some(65535.0)),
         ("getriebe[0].kv", &["K-0071"], "getriebe[0].kv", None),
         ("[head]", &["K-0071"], "getriebe[0].kv", None),

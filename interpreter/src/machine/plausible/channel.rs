@@ -129,7 +129,9 @@ fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnost
     // for spindle functions the path does wait
     let simulated = channel::BEFORE_MOTION | channel::DURING_MOTION | channel::BEHIND_MOTION;
     // edge banding has separate messages
-    let waiting = simulated | channel::ELSEWHERE & !channel::AT_SIGNAL;
+    let elsewhere = channel::ELSEWHERE.iter().map(|(kind, _, _)| kind);
+    let elsewhere = elsewhere.filter(|kind| **kind != channel::AT_SIGNAL);
+    let waiting = elsewhere.fold(simulated, |bits, kind| bits | kind);
     // a declared duration is waited for, or listed in the summary
     let is_missing = |(i, setting): &(Indices, &Setting)| {
         let mut rows = DURATIONS.iter();

@@ -80,8 +80,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("N", "Nm").drives(&[DriveType::Sercos, DriveType::Canopen]).source("TF5200 feedforward control"), as TORQUE_REFERENCE: Number;
     axis("P-AXIS-00405", "antr.encoder_coarsening_factor", Raw::Uns16, "low encoder bits dropped")
         .range(Bound::At(0.0), Bound::At(20.0)).default(0.0).drives(&[DriveType::Sercos, DriveType::Canopen]), as DROPPED_BITS: Whole;
-    axis("P-AXIS-00513", "", Raw::Uns32, "named in the block diagram of the additive variant only, meaning unknown")
-        .source("TF5200 feedforward control");
+    axis("P-AXIS-00513", "kenngr.delay_filter_only_position", Raw::Boolean, "1: the feedforward is computed from the setpoint before the delay filter (type 11, last of the axis filters, otherwise 110583), so that it leads; not simulated")
+        .default(0.0).source("TF5200 axis parameters 117579275");
     axis("P-AXIS-00514", "vorsteuer.feedforward_v_add_num", Raw::Uns32, "velocity-only weight numerator")
         .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::FeedforwardNumerator, Correction::Value(1.0)).source("TF5200 feedforward control"), as FF_SPEED_NUM: Number;
     axis("P-AXIS-00515", "vorsteuer.feedforward_v_add_denom", Raw::Uns32, "velocity-only weight denominator; 0 gives 110122/110123, both set to 1")

@@ -31,6 +31,14 @@ parameters! {
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(0.0).unit("mm/s2", "deg/s2").special(0.0), as FEEDHOLD_DEC: Number;
     axis("P-AXIS-00081", "getriebe[i].slope_profil.tr_feedh", Raw::Uns32, "feedhold ramp time, 0 = tr_grenz, only with P-CHAN-00097 = 1")
         .range(Bound::Of("P-AXIS-00201"), Bound::None).default(0.0).unit("us", "us").special(0.0), as FEEDHOLD_RAMP: Number;
+    axis("P-AXIS-00082", "handbetrieb.ipo.hb_proz_a_max", Raw::Uns16, "G201: share of the acceleration P-AXIS-00008 for manual mode; no effect here, nobody moves the axes by hand")
+        .range(Bound::At(0.0), Bound::At(100.0)).default(30.0).unit("%", "%").axes("TR").source("TF5200 axis parameters 118141195");
+    axis("P-AXIS-00083", "handbetrieb.ipo.hb_proz_v_max", Raw::Uns16, "G201: share of the speed P-AXIS-00212 for manual mode; no effect here, nobody moves the axes by hand")
+        .range(Bound::At(0.0), Bound::At(100.0)).default(30.0).unit("%", "%").axes("TR").source("TF5200 axis parameters 118138123");
+    axis("P-AXIS-00094", "handbetrieb.ipo.ipo_proz_a_max", Raw::Uns16, "G201: share of the acceleration P-AXIS-00008 that the path may use; 100 together with P-AXIS-00082")
+        .range(Bound::At(0.0), Bound::At(100.0)).default(70.0).unit("%", "%").axes("TR").source("TF5200 axis parameters 118142731"), as PATH_ACC_SHARE: Number;
+    axis("P-AXIS-00095", "handbetrieb.ipo.ipo_proz_v_max", Raw::Uns16, "G201: share of the speed P-AXIS-00212 that the path may use; 100 together with P-AXIS-00083")
+        .range(Bound::At(0.0), Bound::At(100.0)).default(70.0).unit("%", "%").axes("TR").source("TF5200 axis parameters 118139659"), as PATH_SPEED_SHARE: Number;
     axis("P-AXIS-00154", "getriebe[i].dynamik.r_trans_weight", Raw::Uns32, "weight of the jerk allowed at tangential linear/circular transitions (needs P-CHAN-00009)")
         .range(Bound::At(0.0), Bound::At(1000.0)).default(1000.0).unit("0.1%", "0.1%"), as TANGENTIAL_JERK_WEIGHT: Number;
     axis("P-AXIS-00195", "getriebe[i].slope_profil.tr_beschl_ab", Raw::Uns32, "ramp time for reducing acceleration")

@@ -85,6 +85,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0).axes("TR").source("TF5200 axis parameters"), as INDEPENDENT_OVERRIDE: Whole;
     axis("P-AXIS-00540", "kenngr.indp_feedhold_mode", Raw::Uns16, "feedhold of independent axes: 0 by channel and axis, 1 by the axis only, which is never active here")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0).axes("TR").source("TF5200 axis parameters"), as INDEPENDENT_FEEDHOLD: Switch;
+    axis("P-AXIS-00556", "kenngr.feedhold_deceleration_mode", Raw::Word(&["DEFAULT_DECELERATION", "FEEDHOLD_DECELERATION", "MIN_TOOL_ACC_FEEDHOLD_DECELERATION"]), "deceleration of independent axes and spindles under feedhold; the others are not simulated")
+        .default_is(Default::Text("DEFAULT_DECELERATION")).axes("TRS").source("TF5200 axis parameters 358850187");
     axis("P-AXIS-00520", "lr_param.check_pos_command_limit", Raw::Boolean, "monitor setpoints against the positive limit in the controller every cycle (70195)")
         .default(0.0).axes("T");
     axis("P-AXIS-00521", "", Raw::Boolean, "monitor setpoints against the negative limit in the controller every cycle")

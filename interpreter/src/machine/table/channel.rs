@@ -43,8 +43,22 @@ pub(crate) const BEHIND_MOTION: u32 = 0x8;
 /// MNE_SNS: called by the signal of edge banding.
 pub(crate) const AT_SIGNAL: u32 = 0x20;
 
-/// Bits for which it waits elsewhere: MNE_SNS, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS.
-pub(crate) const ELSEWHERE: u32 = AT_SIGNAL | 0x4000 | 0x8000 | 0x100_0000 | 0x200_0000;
+/// Kinds with which the path of the control waits elsewhere, and where.
+pub(crate) const ELSEWHERE: [(u32, &str, &str); 5] = [
+    (AT_SIGNAL, "MNE_SNS", "after the signal of edge banding"),
+    (
+        0x4000,
+        "MVS_SLM",
+        "before the next G01, G02 or G03 block for what is left, or not at all up to the end of the program",
+    ),
+    (
+        0x8000,
+        "MVS_SLP",
+        "at the next #EXPL SYN for what is left, or not at all up to the end of the program",
+    ),
+    (0x100_0000, "MEP_SVS", "for what is left, since it gets the function early (m_pre_outp)"),
+    (0x200_0000, "MET_SVS", "for what is left, since it gets the function early (m_pre_outp)"),
+];
 
 /// Overrides of rapid blocks (P-CHAN-00181).
 const RAPID_OVERRIDES: &[(&str, u32)] =
@@ -93,7 +107,7 @@ parameters! {
         .source("TF5200 M and H functions 286205579"), as M_OUTPUT: Text;
     chan("P-CHAN-00025", "h_default_outp_ax_name[i]", Raw::Text, "axis or spindle to which H function i is output; read and ignored, motion is not affected")
         .source("TF5200 M and H functions 286205579");
-    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i is output to the PLC and acknowledged; MNE_SNS is for G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
+    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i is output to the PLC and acknowledged; MNE_SNS is for G108; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never, MVS_SLM, MVS_SLP, MEP_SVS, MET_SVS and MNE_SNS without G108 before the motion, unlike the control (K-0111); otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00027", "h_synch[i]", Raw::Flags(SYNCHRONISATION), "when H function i is output to the PLC and acknowledged; with --techno-times MVS_SVS waits before the motion, MVS_SNS for the rest at its end, MNS_SNS after it, MOS and NO_SYNCH never; otherwise all are acknowledged at once here")
         .source("TF5200 channel parameters"), as H_SYNCHRONISATION: Optional;
@@ -137,6 +151,10 @@ parameters! {
         .source("TF5200 channel parameters"), as MACRO_CODE: Text;
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")
         .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
+    chan("P-CHAN-00064", "prog_start.m_gruppe[i].nr", Raw::Sgn16, "spindle function at program start (i = 0): 3, 4 or 5 for M3, M4, M5, -1: M5; the spindle turns from the first S word on")
+        .range(Bound::At(3.0), Bound::At(5.0)).default(-1.0).special(-1.0).outside(Condition::ListRange, Correction::Default).source("TF5200 channel parameters 149293835"), as M_GROUP: Whole;
+    chan("P-CHAN-00033", "prog_start.late_sync_ready", Raw::Boolean, "1: the end of the program waits for functions with late synchronisation (MVS_SLM, MVS_SLP); no effect here, --techno-times waits for them in their own block")
+        .default(0.0).source("TF5200 channel parameters 149306123");
     chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what a real-time override multiplies: 0 the velocity that feed, axes and curves allow, 1 the programmed feed, 2 as 0, but as 1 under a velocity of #VECTOR LIMIT; speeds at corners of the path are not changed; #OVERRIDE multiplies the programmed feed")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as OVERRIDE_MODE: Whole;
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters keep their values at program start; no effect here, a run starts without parameters")
@@ -180,7 +198,7 @@ parameters! {
         .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
     chan("P-CHAN-00172", "max_proz_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference relative to the radius; printed default 0.1")
         .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
-    chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED the feed override, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE the rapid override, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing")
+    chan("P-CHAN-00181", "g00_override_mode", Raw::Names(RAPID_OVERRIDES), "override in G00: 0 NOT_USED the feed override, 1 MINIMUM_OF_G0_G1 the smaller of both, 2 ACTIVE the rapid override, 3 ACTIVE_EXTENDED as 2, also in measuring runs and homing, which is not simulated (K-0075): they have the feed override")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as RAPID_OVERRIDE: Whole;
     chan("P-CHAN-00187", "g800_prog_file[i]", Raw::Text, "global subroutines called by G800 to G839")
         .source("TF5200 channel parameters 149419147"), as G800_PROGRAM: Text;
@@ -259,6 +277,14 @@ parameters! {
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
     chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T also selects the tool data with its number, like T5 D5")
         .default(0.0).source("TF5200 tool data"), as TOOL_DATA_WITH_TOOL: Switch;
+    chan("P-CHAN-00106", "t_with_implicit_flush", Raw::Boolean, "1: T and #TOOL PREP first wait as #FLUSH WAIT does")
+        .default(0.0).source("TF5200 channel parameters 149002251"), as FLUSH_BEFORE_TOOL: Switch;
+    chan("P-CHAN-00154", "ax_exchange_with_implicit_flush", Raw::Boolean, "1: #CALL AX, #SET AX and #AX DEF first wait as #FLUSH WAIT does; no effect here, every axis exchange waits")
+        .default(0.0).source("TF5200 channel parameters 149411467");
+    chan("P-CHAN-00271", "flush.d_cmd", Raw::Word(&["D", "FAW_D", "D_FAW"]), "FAW_D: D and #TOOL DATA first wait as #FLUSH WAIT does; D_FAW is not available on the control either")
+        .default_is(Default::Text("D")).source("TF5200 channel parameters 149002251"), as FLUSH_OF_TOOL_DATA: Text;
+    chan("P-CHAN-00321", "block_filter_tolerance", Raw::Real64, "deviation up to which short blocks are merged; not simulated")
+        .default(0.0).source("TF5200 channel parameters 149692939");
     chan("P-CHAN-00016", "ext_wzv_vorhanden", Raw::Boolean, "1: the tool data come from an external tool management; not simulated")
         .default(0.0).source("TF5200 channel parameters 147959819");
     chan("P-CHAN-00836", "thread_cutting.ignore_override", Raw::Boolean, "G33: 0 the override acts and changes the pitch, 1 it does not act")

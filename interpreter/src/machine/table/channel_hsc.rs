@@ -35,6 +35,8 @@ parameters! {
         .default(1000.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 149393035");
     chan("P-CHAN-00136", "hsc.gen.circular_secant_error", Raw::Boolean, "what P-CHAN-00138 states: 0 the secant error, 1 the length of the pieces of an arc; not simulated")
         .default(0.0).source("TF5200 channel parameters 149394571");
+    chan("P-CHAN-00137", "hsc.gen.circular_segmentation", Raw::Boolean, "1: arcs are divided under #HSC as P-CHAN-00136 and P-CHAN-00138 state; not simulated")
+        .default(0.0).source("TF5200 channel parameters 149396107");
     chan("P-CHAN-00138", "hsc.gen.circular_param", Raw::Uns32, "secant error or length of the pieces of an arc under #HSC (P-CHAN-00136); not simulated")
         .default(50.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 149397643");
     chan("P-CHAN-00217", "hsc.gen.on_delay_output_one_block", Raw::Boolean, "1: the first motion after #HSC ON is not part of the spline; not simulated")

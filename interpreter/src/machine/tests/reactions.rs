@@ -34,7 +34,9 @@ fn numbers_that_do_not_fit_together() {
     );
     let mut files = Memory::machine();
     files.0.remove("m/lists/y.lis");
-    assert_eq!(files.ids(&[]), ["K-0153", "K-0031"]);
+    assert_eq!(files.ids(&[]), ["K-0153"]);
+    // a list without a number
+    assert_eq!(broken("m/lists/x.lis", ""), ["K-0031"]);
     let errors = Memory::default().load(&[]).unwrap_err();
     assert_eq!(errors[0].id, Condition::NoList);
     // --path is for subroutines
@@ -151,6 +153,12 @@ fn rules_over_several_parameters() {
     let (x, ids) = check("kenngr.swe_neg 100\nkenngr.swe_pos 100\n");
     assert_eq!(ids, ["110110", "110110"]);
     assert_eq!(x.software_limits_mm(), Some((-10000.0, 10000.0)));
+    // an axis of no type is linear, and its axis list says so (P-AXIS-00018)
+    let (x, ids) = check("kenngr.achs_typ 3\n");
+    assert!(ids.len() == 1 && x.is_linear(), "{ids:?}");
+    let (x, ids) = check("kenngr.achs_typ ACHSTYP_ROTATO\n");
+    assert_eq!(ids, ["1001138", "K-0070"]);
+    assert_eq!(x.raw("kenngr.achs_typ"), Some(1.0));
     // the sampling time of the simulated drive is given and differs from the cycle
     let (_, ids) = check("antr.simu.zeitkonstante_z 1\nantr.simu.zeitkonstante_n 100\n");
     assert_eq!(ids, ["K-0032"]);
@@ -181,10 +189,20 @@ fn what_has_no_effect_is_said() {
     let mut files = Memory::machine();
     files.add("m/lists/channel.lis", "prog_start.g_gruppe[21].nr 135\n");
     assert_eq!(files.ids(&[]), ["K-0075"]);
-    for key in ["ext_wzv_vorhanden", "multi_path_configuration"] {
+    for key in ["ext_wzv_vorhanden", "multi_path_configuration", "block_filter_tolerance"] {
         let mut files = Memory::machine();
         files.add("m/lists/channel.lis", &format!("{key} 1\n"));
         assert_eq!(files.ids(&[]), ["K-0075"], "{key}");
+    }
+    let axis = [
+        ("kenngr.delay_filter_only_position 1", 1),
+        ("kenngr.feedhold_deceleration_mode FEEDHOLD_DECELERATION", 1),
+        ("kenngr.feedhold_deceleration_mode DEFAULT_DECELERATION", 0),
+    ];
+    for (line, messages) in axis {
+        let mut files = Memory::machine();
+        files.add("m/lists/x.lis", &format!("{line}\n"));
+        assert_eq!(files.ids(&[]), vec!["K-0075"; messages], "{line}");
     }
     let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "pfad[0].prg[0] ../subs\n");

@@ -16,6 +16,7 @@ impl Context {
         if content.starts_with('$') && !starts_with(content, "$GOTO") {
             Self::Control
         } else if let Some(name) = content.strip_prefix('#') {
+            let name = name.trim_start();
             let length = name.bytes().take_while(u8::is_ascii_alphanumeric).count();
             let among_words = HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
             if among_words { Self::Words } else { Self::Command }

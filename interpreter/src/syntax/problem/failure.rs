@@ -6,6 +6,7 @@ use super::expected::{BRACKET, VALUE, WORD, expected};
 use super::refine::refine;
 use super::{Problem, hints};
 use crate::diag::Condition;
+use crate::syntax::END_OF_DECLARATIONS;
 use crate::syntax::ast::{Function, Span};
 use crate::syntax::grammar::Rule;
 use crate::syntax::scan;
@@ -112,9 +113,7 @@ pub(in crate::syntax) fn of_declaration(found: Problem, masked: &str) -> Problem
     match masked.trim_ascii_start().as_bytes().first() {
         Some(b'R' | b'r') => found.of(Condition::RadiusArray),
         Some(b'V' | b'v' | b'P' | b'p' | b'@') => found.of(Condition::DeclarationCharacter),
-        _ => found
-            .of(Condition::DeclarationCharacter)
-            .hint("check whether #ENDVAR is missing before it"),
+        _ => found.of(Condition::DeclarationCharacter).hint(END_OF_DECLARATIONS),
     }
 }
 

@@ -33,6 +33,7 @@ macro_rules! motion {
     SpindleSlopeType = Vendor 60226: Warning None 1 0, "invalid slope type of a spindle", cause "P-AXIS-00270", hint "write 0 to 3 in getriebe[i].slope_type (P-AXIS-00270)";
     GearWhileMoving = Vendor 60285: Error ProgramAbort 6 6, "gear stage changed while the spindle is moving", cause "G112 S2 after M3", hint "write M5 in a block before G112";
     ToolLimitsInvalid = Vendor 60296: Error AllStop 6 0, "dynamic data of the tool are invalid as limits of its spindle", cause "P-TOOL-00014 or P-TOOL-00015 is 0", hint "set wz[i].vb_max and wz[i].a_max above 0, or wz[i].log_ax_nr_spdl to 0", parameter "P-TOOL-00014";
+    ThreadOffsetRange = Vendor 60303: Error AllStop 6 1, "offset angle of a thread outside the modulo range of the spindle", cause "G33 Z48 K1.5 S.OFFSET=500", hint "write an angle from 0 to 360", parameter "P-AXIS-00126";
     SpindleFilterTime = Vendor 60311: Error JobAbort 7 0, "filter time constant of a spindle not allowed", cause "as 50663", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
     ToolSpeed = Vendor 60312: Error ProgramAbort 6 0, "spindle speed outside the range of the tool", cause "P-AXIS-00474 = 1, S outside P-TOOL-00013 to P-TOOL-00014", hint "program another speed, or change the range in the tool list", parameter "P-AXIS-00474";
     ToolLeastSpeed = Vendor 60332: Warning None 1 1, "minimum speed of the tool outside its range, corrected", cause "P-TOOL-00013 negative or above P-TOOL-00014", hint "write 0 to wz[i].vb_max in wz[i].vb_min", parameter "P-TOOL-00013";

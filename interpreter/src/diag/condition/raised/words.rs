@@ -135,7 +135,7 @@ macro_rules! words {
     DefaultCouplingChain = Vendor 20442: Warning None 1 2, "default coupling group with an axis that is master and slave, second pair ignored", hint "choose a master that is not a slave of another pair", parameter "P-CHAN-00037";
     WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it to a separate block";
     CouplingWithCompensation = Vendor 20457: Error ProgramAbort 3 1, "coupling switched while tool radius compensation is active", cause "#ENABLE AX LINK [1] after G41", hint "switch couplings before G41 or after G40";
-    CouplingGroupNumber = Vendor 20461: Error ProgramAbort 3 1, "number of a coupling group out of range", cause "#SET AX LINK [100000, Y=X]", hint "use a group number from 1 to 65535; 0 is the group of the channel list";
+    CouplingGroupNumber = Vendor 20461: Error ProgramAbort 3 1, "number of a coupling group out of range", cause "#SET AX LINK [99, Y=X]", hint "use a group number from 1 to 7; 0 is the group of the channel list";
     SlaveIsMainAxis = Vendor 20467: Error ProgramAbort 3 1, "slave of a coupling is a main axis", cause "#ENABLE AX LINK [1] after #SET AX LINK [1, Y=X]", hint "use a slave axis with the index 3 or above: #CALL AX [C,3,3] assigns such an index";
     CoupledTypes = Vendor 20468: Error ProgramAbort 3 1, "coupled axes of different types", cause "a linear axis and a rotary one", hint "couple axes of the same type (P-AXIS-00018)";
     CoupledModes = Vendor 20469: Error ProgramAbort 3 1, "coupled axes of different modes", cause "a modulo axis and an axis that is not modulo", hint "couple axes of the same mode (P-AXIS-00015)";
@@ -214,7 +214,7 @@ macro_rules! words {
     InsertionTooLarge = Vendor 20800: Error ProgramAbort 3 1, "size of a chamfer or rounding outside the data format", cause "G301 I94967296", hint "the limit of sizes is 214748.3647 mm";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
     HomingOrder = Vendor 20816: Error ProgramAbort 3 1, "order of G74 outside the data format", cause "G74 X99999999999", hint "the numbers of G74 are the order of the axes: G74 X1 Y2";
-    PresetFunction = Vendor 20819: Warning None 1 2, "start value of a G group that is not a G function, ignored", cause "prog_start.g_gruppe[8].nr 77", hint "write a G function of the group, or -1", parameter "P-CHAN-00063";
+    PresetFunction = Vendor 20819: Warning None 1 2, "start value of a G group that is not permitted, ignored", cause "prog_start.g_gruppe[8].nr 77, prog_start.g_gruppe[3].nr 60", hint "write a G function that P-CHAN-00063 permits for the group, or -1", parameter "P-CHAN-00063";
     CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "store at most five systems, with numbers greater than 0";
     NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
     ActiveSystemDefined = Vendor 20825: Error ProgramAbort 3 1, "active coordinate system redefined", cause "#CS ON [1][..] while system 1 is active", hint "write #CS OFF before it, or use another number";

@@ -125,7 +125,10 @@ impl Decoder {
         let outcome = match g.row.act {
             Act::ZeroGroupAxes => self.geometry.zero_group_of_axes(&g, words),
             Act::Preset => self.preset(&g, words),
-            Act::MirrorAxes => self.geometry.mirror_axes(&g, words),
+            Act::MirrorAxes => {
+                words.must_be_alone(&g, &mut self.report);
+                self.geometry.mirror_axes(&g, words)
+            }
             Act::Rotate => self.rotate(&g, words),
             Act::SoftwareLimits(positive) => self.software_limits(&g, words, positive),
             Act::MeasuringOffsets(takes_in) => self.measuring_offsets(takes_in, &g, words),

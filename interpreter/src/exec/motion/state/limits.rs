@@ -9,6 +9,14 @@ use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{ChannelDynamics, VectorLimits};
 use std::sync::Arc;
 
+/// What else limits the axes of the path: slaves, and manual mode.
+#[derive(Clone, Copy)]
+pub(super) struct Beside<'a> {
+    pub(super) couplings: &'a Couplings,
+    /// Axes in manual mode (G201).
+    pub(super) manual: &'a [bool],
+}
+
 /// See the module; every change rebuilds the dynamics.
 #[derive(Debug)]
 pub(in crate::exec) struct PathLimits {
@@ -79,14 +87,14 @@ impl PathLimits {
         &mut self,
         machine: &Machine,
         modal: &Modal,
-        couplings: &Couplings,
+        beside: Beside<'_>,
         rapid: bool,
     ) -> Arc<ChannelDynamics> {
         let mode = usize::from(rapid && self.vector[0] != self.vector[1]);
         if let Some(dynamics) = &self.dynamics[mode] {
             return Arc::clone(dynamics);
         }
-        let dynamics = self.build(machine, modal, couplings, &self.weights, self.vector[mode]);
+        let dynamics = self.build(machine, modal, beside, &self.weights, self.vector[mode]);
         let dynamics = Arc::new(dynamics);
         self.dynamics[mode] = Some(Arc::clone(&dynamics));
         dynamics
@@ -97,10 +105,10 @@ impl PathLimits {
         &self,
         machine: &Machine,
         modal: &Modal,
-        couplings: &Couplings,
+        beside: Beside<'_>,
     ) -> ChannelDynamics {
         let weights = self.weights.of_velocities();
-        let mut dynamics = self.build(machine, modal, couplings, &weights, self.vector[0]);
+        let mut dynamics = self.build(machine, modal, beside, &weights, self.vector[0]);
         dynamics.axes.iter_mut().for_each(AxisDynamics::use_rapid);
         dynamics
     }
@@ -109,12 +117,16 @@ impl PathLimits {
         &self,
         machine: &Machine,
         modal: &Modal,
-        couplings: &Couplings,
+        Beside { couplings, manual }: Beside<'_>,
         weights: &Weights,
         vector: VectorLimits,
     ) -> ChannelDynamics {
         let (mut dynamics, _) = channel_dynamics(machine, weights, modal, vector);
         dynamics.feed_axes.clone_from(&self.feed_axes);
+        let axes = machine.axes.iter().zip(&mut dynamics.axes).zip(manual);
+        for ((axis, limits), _) in axes.filter(|(_, manual)| **manual) {
+            axis.limit_beside_manual_mode(limits);
+        }
         couplings.limit(&mut dynamics.axes);
         dynamics
     }

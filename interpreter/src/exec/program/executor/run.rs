@@ -15,8 +15,8 @@ use crate::exec::program::state::Closing;
 use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::exec::values::number::whole;
 use crate::source::Position;
-use crate::syntax::Parser;
 use crate::syntax::ast::{Block, BlockNumber, Body, Span};
+use crate::syntax::{END_OF_DECLARATIONS, Parser};
 use std::sync::Arc;
 
 /// Number of messages and functions between two motions up to which the path does not stop.
@@ -194,6 +194,12 @@ impl Executor {
             &self.decoder.calls.macros,
             &mut found,
         );
+        if let Some(level) = self.levels.last_mut().filter(|level| level.declarations) {
+            let known = level.undeclared;
+            let of_end = |d: &Diagnostic| d.hint.as_deref() == Some(END_OF_DECLARATIONS);
+            found.retain(|d| !known || !of_end(d));
+            level.undeclared |= found.iter().any(of_end);
+        }
         for diagnostic in found {
             self.report(diagnostic);
         }

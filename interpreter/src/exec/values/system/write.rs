@@ -14,6 +14,7 @@ use crate::exec::program::state::Calls;
 use crate::exec::report::{Report, Subject};
 use crate::exec::values::number::{as_number, is_true, whole};
 use crate::syntax::ast::{Segment, Span};
+use std::sync::Arc;
 
 /// Maximum number of kinematic parameters stored.
 const KINEMATICS_MAX: usize = 10_000;
@@ -51,6 +52,7 @@ pub(in crate::exec) fn write(
                 .coordinates
                 .set_zero_offset(axis, x()? * d.modal.axis_unit(&d.machine.axes[axis]));
         }
+        ["G", "NP_DEFAULT"] => write_default_group(d, x()?, span)?,
         ["G", "CYCLE_CHANGES_MODAL"] => {
             let stay = is_true(x()?);
             (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
@@ -115,6 +117,18 @@ fn write_kinematic(
     let text =
         "V.G.KIN: transformations are treated as the identity, their parameters have no effect";
     d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
+    Ok(())
+}
+
+/// `V.G.NP_DEFAULT` (206511627): the group of the next program start, stored without effect here.
+fn write_default_group(d: &mut Decoder, group: f64, span: Span) -> Outcome<()> {
+    let Some(number) = whole(group, 0, LAST_ZERO_GROUP) else {
+        let text = format!("V.G.NP_DEFAULT = {group}, allowed: 0 to {LAST_ZERO_GROUP}");
+        return Err(Fault::new(Condition::Range, text, span));
+    };
+    Arc::make_mut(&mut d.machine).zero_offsets.start_group = number;
+    let text = "V.G.NP_DEFAULT: the group is that of the next program start, no effect in this run";
+    d.report.note_once("V.G.NP_DEFAULT", Fault::new(Condition::Ignored, text, span));
     Ok(())
 }
 

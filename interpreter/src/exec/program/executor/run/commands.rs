@@ -19,6 +19,7 @@ impl Executor {
             }
             if let Some(level) = self.levels.last_mut() {
                 level.declarations = begins;
+                level.undeclared = false;
             }
             return;
         }
