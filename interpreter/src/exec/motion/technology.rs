@@ -76,6 +76,14 @@ impl MotionState {
         0.0
     }
 
+    /// M00, M01: the time until the operator continues is not counted.
+    pub(in crate::exec) fn waits_for_operator(&mut self, number: u32, contour: &mut Contour) {
+        if self.technology.named.insert(Function::M(number)) {
+            let function = format!("M{number:02} (until the operator continues)");
+            contour.event(Event::Uncounted { function });
+        }
+    }
+
     /// A function in messages.
     fn name_of(&self, function: Function) -> String {
         let spindle = |i: usize| self.spindles.get(i).map_or("", |s| s.name.as_str());

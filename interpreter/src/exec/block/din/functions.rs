@@ -124,11 +124,14 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::Plain => self.m_function(m),
                 // Assumption: waited for before the motion, as for every function; m_synch is not simulated
-                MKind::Stop { .. } => self.motion.takes_declared_time(
-                    Function::M(m.number),
-                    &self.machine.channel,
-                    &mut self.contour,
-                ),
+                MKind::Stop { .. } => {
+                    self.motion.takes_declared_time(
+                        Function::M(m.number),
+                        &self.machine.channel,
+                        &mut self.contour,
+                    );
+                    self.motion.waits_for_operator(m.number, &mut self.contour);
+                }
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
                 _ => {}
             }
