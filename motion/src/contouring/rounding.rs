@@ -120,8 +120,11 @@ fn bounds(settings: &ContourSettings) -> Result<Bounds, NoContour> {
     };
     let within = |dev: Option<f64>, dist: Option<f64>| {
         let dev = dev.map(deviation).transpose()?;
-        let dist = dist.filter(|dist| !(*dist < 0.0)).map(|dist| distance(dist, SMALLEST_MM));
-        let dist = dist.transpose()?.unwrap_or(f64::INFINITY);
+        let dist = match dist {
+            Some(dist) if dist < 0.0 => f64::INFINITY,
+            Some(dist) => distance(dist, SMALLEST_MM)?,
+            None => f64::INFINITY,
+        };
         Ok(Bounds { pre: dist, post: dist, dev, ..free })
     };
     match settings.mode {

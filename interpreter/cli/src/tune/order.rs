@@ -61,6 +61,9 @@ pub(super) fn answer(
         }
     }
     out.push_str(&table.text());
+    out.push_str(
+        "\n\nThe commands set the order of the filter that an axis list configures: filter_fir.type 1 or 2 (P-AXIS-00586).",
+    );
     console.print(&out)?;
     Ok(Answer { choices, command: None, exit: Exit::Finished })
 }
