@@ -197,8 +197,8 @@ impl<'a> Window<'a> {
                     continue;
                 }
                 let mut profile = s.profile(from.v_mm_s, to.v_mm_s)?;
-                if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.v_mm_s)
-                {
+                let across = blocks[s.first..s.end].iter().any(|b| b.plans_across());
+                if s.end - s.first > 1 && across && !s.is_above(from.v_mm_s) {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
                     let divides = |b| self.only_divides(b);
                     let mut steps = Vec::new();
